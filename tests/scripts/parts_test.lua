@@ -57,6 +57,28 @@ test("features under a paste are removed first", function()
     expect_whole((cleared:merge()))
 end)
 
+test("a part that is dragged is shown by drafts, and pasted well where it stays", function()
+    local ball, horn = horned()
+    local target = lissom.shapes.sphere{ segments = 24, radius = 2 }
+    local placement = { at = { 2, 0, 0 }, angle = 20, scale = 0.7 }
+    local function begun()
+        local paste = lissom.paste{ source = ball, region = horn, target = target, placement = placement }
+        paste:optimize()
+        return paste
+    end
+    local dragged, plain = begun(), begun()
+    for _, at in ipairs{ { 1.9, 0.4, 0.2 }, { 1.7, 0.8, 0.4 } } do
+        expect.truthy(dragged:move{ at = at } and plain:move{ at = at })
+        local shown, report = dragged:merge{ draft = true }
+        expect_whole(shown)
+        expect.truthy(report.paste.draft and not report.provenance)
+        expect.equal(report.seam.flipped, 0)
+    end
+    local mesh, report = dragged:merge()
+    expect.truthy(not report.paste.draft and report.provenance)
+    expect.equal(mesh:hash(), plain:merge():hash())
+end)
+
 test("a part is kept in a file with its regions", function()
     local ball, horn = horned()
     local colors = ball:add_attribute{ name = "color", domain = "vertex", width = 4 }

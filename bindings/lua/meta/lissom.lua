@@ -260,7 +260,7 @@
 ---@field seams lissom.Path[] The seams on the merged mesh.
 ---@field source lissom.Region The vertices of the merged mesh that are the source's.
 ---@field target lissom.Region Those that are the targets'.
----@field provenance lissom.Provenance Where every element comes from.
+---@field provenance lissom.Provenance|nil Where every element comes from; nil of the draft of a paste.
 ---@field free_vertices integer Vertices of the source that moved freely.
 ---@field displaced_vertices integer Degenerate vertices displaced.
 ---@field first_factor_seconds number Time to factor the first system.
@@ -315,6 +315,7 @@
 ---@field outline_near lissom.PasteDistortion|nil Near the outline of the region, were it the boundary.
 ---@field kept_outline boolean The outline was pasted along, since the surface there is distorted less.
 ---@field smooth boolean The boundary runs through faces.
+---@field draft boolean It is a draft: merged without that option its seam is better.
 ---@field euler_characteristic integer Of the result.
 ---@field expected_characteristic integer What those of the target and of the part make it.
 
@@ -1577,6 +1578,7 @@ function Paste:optimize(options) end
 ---@field intersections? boolean Looks for faces that run through one another and did not before. Default: true.
 ---@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or what the placement says. Default: "boundary".
 ---@field compare? boolean Pastes along the outline of the region as well, and takes that where the surface near the boundary is distorted less. Default: true.
+---@field draft? boolean For a part that is being dragged: the same place, boundary and part, but the seam is sewn and no more, whatever `smooth`, `collar` and `intersections` say, and the report has no provenance. Default: false.
 
 ---Opens the target along the loop's image and pastes the part inside the loop, deformed to fit, as a new mesh. Without `optimize` the loop is the outline of the region.
 ---@param options? lissom.Paste.MergeOptions
