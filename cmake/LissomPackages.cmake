@@ -31,19 +31,23 @@ lissom_package(program lissom graphics "modeling kernel for shapes with fine det
 lissom_package(lua lua-lissom interpreters "modeling kernel for shapes with fine detail (Lua modules)"
                "What require \"lissom\" loads in Lua 5.4 and in LuaJIT.")
 
-# What cannot be read from the binaries. Static libraries carry no dependencies; GLFW and OpenGL are loaded when they
-# are used.
+# What cannot be read from the binaries. Static libraries carry no dependencies; oneTBB, GLFW and OpenGL are loaded
+# when they are used.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "liblissom (= ${PROJECT_VERSION}), libeigen3-dev, libopenmesh-dev, libstdc++-dev | libstdc++-12-dev")
-if(LISSOM_TBB)
+    "liblissom (= ${PROJECT_VERSION}), libeigen3-dev, libstdc++-dev | libstdc++-12-dev")
+if(LISSOM_LINKS_TBB)
     string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libtbb-dev")
+elseif(LISSOM_TBB)
+    foreach(component LIBRARY PROGRAM LUA)
+        set(CPACK_DEBIAN_${component}_PACKAGE_DEPENDS "libtbb12")
+    endforeach()
 endif()
 if(LISSOM_GPL)
     string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libsuitesparse-dev")
 endif()
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "pkg-config | pkgconf, liblua5.4-dev, libepoxy-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "pkg-config | pkgconf, liblua5.4-dev, libtbb12, libepoxy0")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
-    "libglfw3, libegl1, libgl1, libegl-mesa0, libgl1-mesa-dri, fonts-dejavu-core")
+    "libglfw3, libepoxy0, libegl1, libgl1, libegl-mesa0, libgl1-mesa-dri, fonts-dejavu-core")
 set(CPACK_DEBIAN_LUA_PACKAGE_RECOMMENDS "lua5.4 | luajit | love")
 
 include(CPack)

@@ -1,10 +1,11 @@
 #include "kernel/mesh/region.h"
 
-#include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 #include <algorithm>
 #include <iterator>
 #include <numeric>
 #include <utility>
+
+#include "kernel/mesh/half_edges.h"
 
 namespace lissom {
 namespace {

@@ -1,11 +1,11 @@
 #include "kernel/mesh/topology.h"
 
-#include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 #include <algorithm>
 #include <numeric>
 #include <string>
 #include <utility>
 
+#include "kernel/mesh/half_edges.h"
 #include "kernel/mesh/topology_check.h"
 
 namespace lissom {

@@ -22,6 +22,7 @@ const std::vector<Rule>& rules() {
         {"kernel/core", {"kernel/core"}, {"Eigen", "TBB"}},
         {"kernel/core/large_pages.cpp", {"kernel/core"}, {"platform"}},
         {"kernel/core/machine_memory.cpp", {"kernel/core"}, {"platform"}},
+        {"kernel/core/tbb_functions.cpp", {"kernel/core"}, {"TBB", "platform"}},
         {"kernel/solve", {"kernel/core", "kernel/solve"}, {"Eigen", "CHOLMOD"}},
         {"kernel/mesh", {"kernel/core", "kernel/solve", "kernel/mesh"}, {"Eigen", "OpenMesh"}},
         {"kernel/deform",
@@ -204,7 +205,7 @@ std::vector<Include> includes_of(std::string_view source) {
 /// Headers of the kernel that are not installed, and so may show the libraries of their folder.
 bool is_private(std::string_view path) {
     return path.starts_with("kernel/io/gltf/") || path.starts_with("kernel/scene/file/") ||
-           path == "kernel/hair/growth/growth_lanes.h";
+           path == "kernel/hair/growth/growth_lanes.h" || path == "kernel/mesh/half_edges.h";
 }
 
 /// The room of `order` that the file at `path` lies in; nothing where it lies in none.

@@ -1,7 +1,6 @@
 #include "kernel/mesh/edit/subdivide.h"
 
 #include <Eigen/Geometry>
-#include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "kernel/core/memory_error.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/edit/triangulate.h"
+#include "kernel/mesh/half_edges.h"
 #include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {

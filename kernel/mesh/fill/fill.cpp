@@ -1,7 +1,6 @@
 #include "kernel/mesh/fill/fill.h"
 
 #include <Eigen/Geometry>
-#include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,6 +10,7 @@
 #include "kernel/mesh/fill/fairing.h"
 #include "kernel/mesh/fill/hole_patch.h"
 #include "kernel/mesh/fill/hole_triangulation.h"
+#include "kernel/mesh/half_edges.h"
 #include "kernel/mesh/measure/measures.h"
 
 namespace lissom {
