@@ -65,13 +65,14 @@ tidy() {
     printf '%s\n' "$units" | xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/asan
 }
 
-# unit_tests PRESET [OPTION...] : builds and runs the unit tests of a preset, without the real models, which
-# take long; the rest are options of ctest.
-unit_tests() {
-    local status=0
-    ./dev build "$1" tests/unit/all tests/arrows/all || return 1
-    cmake -S . -B "build/$1" -DLISSOM_TEST_DATA=/nonexistent >/dev/null || return 1
-    ./dev ctest "$1" -L unit "${@:2}" || status=1
-    ./dev summary "$1"
+# sanitized_tests MODULE... : builds and runs their unit tests with sanitizers, without the real models, which take
+# long.
+sanitized_tests() {
+    local status=0 names
+    names=$(printf '|%s' "$@")
+    ./dev build asan "${@/#/test_}" || return 1
+    cmake -S . -B build/asan -DLISSOM_TEST_DATA=/nonexistent >/dev/null || return 1
+    ./dev ctest asan -R "^unit_(${names#|})\$" || status=1
+    ./dev summary asan
     return $status
 }

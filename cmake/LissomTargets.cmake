@@ -162,11 +162,8 @@ function(lissom_unit_test module)
     add_executable(test_${module} ${ARGN} ${PROJECT_SOURCE_DIR}/tests/unit/main.cpp)
     lissom_target_defaults(test_${module})
     target_link_libraries(test_${module} PRIVATE doctest::doctest)
-    # Optimising the tests themselves takes longer than they run; with what sanitizers add, twice as long.
+    # Optimising the tests themselves takes longer than they run.
     target_compile_options(test_${module} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>)
-    if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
-        target_compile_options(test_${module} PRIVATE -O0)
-    endif()
     set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/unit/main.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     lissom_unity(test_${module})
     add_test(NAME unit_${module} COMMAND test_${module})

@@ -73,7 +73,8 @@ return lissom.tool{
         .. "numbers, tab, delete, f(inish).",
     params = {
         radius = { type = "number", default = 30, min = 1, max = 300, unit = "pixels", help = "brush" },
-        preview = { type = "boolean", default = true, help = "Drags are quick, and exact when they end." },
+        preview = { type = "choice", default = "large meshes", choices = { "large meshes", "always",
+            "never" }, help = "Drags are quick, with some shear, and exact when they end." },
         reach = { type = "number", default = 0, min = 0, max = 4, unit = "mesh sizes",
             group = "next handle", help = "How far around the first one it may move; 0: everywhere." },
         softness = { type = "number", default = 0, min = 0, max = 10, group = "next handle",
@@ -106,11 +107,7 @@ return lissom.tool{
         if self.brush.last then return paint(self, ev) end
         if not one or not self.grip.gizmo:part() then return end
         handles.follow(one, self.grip.before, self.grip:drag(ev))
-        if self.params.preview then
-            assert(one.edit:preview())
-        else
-            assert(one.edit:solve{ draft = true })
-        end
+        assert(handles.preview(one, self.params.preview))
     end,
     release = function(self, ev)
         local one = active(self, ev.scene)
@@ -134,8 +131,9 @@ return lissom.tool{
     draw = function(self, view)
         local at_gizmo, _, list = active(self, view.scene)
         for _, one in ipairs(list) do
-            view:region{ mesh = one.mesh, region = one.handle:region(), color = "#8860c8" }
-            if one ~= at_gizmo then view:handle{ at = one.at, color = "#8860c8" } end
+            local color = handles.is_one_of(self.state.pins, one.handle) and "#6f7b8c" or "#8860c8"
+            view:region{ mesh = one.mesh, region = one.handle:region(), color = color }
+            if one ~= at_gizmo then view:handle{ at = one.at, color = color } end
         end
         if at_gizmo then self.grip:draw(view) end
         local busy = at_gizmo and (self.grip.gizmo:part() or self.grip:is_under(view))

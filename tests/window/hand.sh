@@ -60,6 +60,8 @@ wait_for() { # TEXT : a line that begins so and was not told before
 open_view() { # ARGS...
     seen=0
     : >told
+    # What earlier windows did not save would be offered above what the hand clicks on.
+    case $* in *unsaved-*) ;; *) rm -f "$XDG_STATE_HOME"/lissom/unsaved-* ;; esac
     (
         if [ -n "${largest:-}" ]; then
             trap '' XFSZ

@@ -294,21 +294,21 @@ vec3 lit(vec3 color, vec3 normal, vec3 to_viewer, float open, float plain, vec3 
     return color * mix(light, vec3(0.92), plain) + shine * (1.0 - plain);
 }
 
-// Share of the fragment that the polygon's edges cover. Where triangles are hardly wider than lines,
-// edges fade, so that a fine mesh becomes darker but not black.
+// Share of the fragment that the polygon's edges cover. Where a triangle is hardly wider than lines,
+// all its edges fade, so that a fine mesh, or one that is seen from the side, becomes darker but not black.
 float edge_cover() {
     vec3 slope = vec3(length(vec2(dFdx(v_height.x), dFdy(v_height.x))),
                       length(vec2(dFdx(v_height.y), dFdy(v_height.y))),
                       length(vec2(dFdx(v_height.z), dFdy(v_height.z))));
+    float steepest = max(slope.x, max(slope.y, slope.z));
+    float fade = clamp(1.0 / (steepest * 5.0 * u_wire_width), 0.25, 1.0);
     float cover = 0.0;
     for (int i = 0; i < 3; ++i) {
         if ((v_flags & (1u << i)) == 0u) continue;
         float distance = v_height[i] / slope[i];
-        float fade = clamp(1.0 / (slope[i] * 5.0 * u_wire_width), 0.25, 1.0);
-        float line = clamp(0.5 * u_wire_width + 0.5 - distance, 0.0, 1.0);
-        cover = max(cover, fade * line);
+        cover = max(cover, clamp(0.5 * u_wire_width + 0.5 - distance, 0.0, 1.0));
     }
-    return cover;
+    return fade * cover;
 }
 
 // The place of a pixel in a block of 4 x 4, 0 to 1, in an order that is even at each share.

@@ -354,6 +354,8 @@ void ViewApp::take_tool_state(ToolState state) {
         state_.tell("history " + std::to_string(state.place) + " of " +
                     std::to_string(state.steps.size()));
     }
+    // What a person has set since then stays in the panel.
+    if (state.tool == known.tool && session_.has_setting()) state.parameters = known.parameters;
     known = std::move(state);
     state_.changes.owe_frames();
     if (known.hand) return see_played(*known.hand);

@@ -5,12 +5,11 @@
 
 #include "bindings/cli/repl/completion.h"
 #include "bindings/cli/repl/display.h"
+#include "bindings/cli/repl/help_function.h"
 #include "bindings/cli/repl/session_text.h"
 #include "bindings/cli/script.h"
 #include "bindings/cli/terminal/line_editor.h"
 #include "bindings/cli/verbs.h"
-#include "bindings/lua/reference/reference.h"
-#include "kernel/core/nearest.h"
 #include "kernel/core/version.h"
 
 namespace lissom::cli {
@@ -29,52 +28,6 @@ bool is_incomplete(lua_State* L) {
     constexpr const char* kMark = "<eof>";
     const std::size_t mark = std::strlen(kMark);
     return message && size >= mark && std::strcmp(message + size - mark, kMark) == 0;
-}
-
-// ---- help
-
-// Pushes the help of what `help` was asked about, with no C++ object alive afterwards.
-template <typename Compose>
-int push_help(lua_State* L, const Compose& compose) {
-    lua::Failure failure;
-    const bool composed = failure.guard([&] {
-        const std::string text = compose();
-        lua_pushlstring(L, text.data(), text.size());
-    });
-    if (!composed) lua_pushstring(L, failure.message);
-    return 1;
-}
-
-std::string general_help(const lua::Registry& registry) {
-    return lua::help_overview(registry) +
-           "\nhelp(mesh.save), help(\"save\") or help(\"Mesh\") tells more. Tab completes names "
-           "and "
-           "options; Ctrl-C gives up a line or stops what runs; Ctrl-D ends.";
-}
-
-std::string named_help(const lua::Registry& registry, const std::string& name) {
-    const std::string text = lua::help_for(registry, name);
-    if (!text.empty()) return text;
-    const std::vector<std::string> names = lua::help_names(registry);
-    const std::vector<std::string_view> views(names.begin(), names.end());
-    const std::string_view nearest = nearest_name(name, views);
-    return "there is no help for '" + name + "'" +
-           (nearest.empty() ? "; help() lists everything"
-                            : ", did you mean '" + std::string(nearest) + "'?");
-}
-
-// help(), help(function), help(object), help(name)
-int help(lua_State* L) {
-    const lua::Registry& registry = *lua::find_state(L)->registry;
-    const lua::Entry* entry = lua_isnone(L, 1) ? nullptr : lua::find_entry(L, 1);
-    const lua::Type* type = lua_isnone(L, 1) ? nullptr : lua::find_type(L, 1);
-    const char* name = lua_type(L, 1) == LUA_TSTRING ? lua_tostring(L, 1) : nullptr;
-    return push_help(L, [&] {
-        if (entry) return lua::help_text(*entry);
-        if (type) return lua::help_text(*type);
-        if (name) return named_help(registry, name);
-        return general_help(registry);
-    });
 }
 
 // ---- Reading
@@ -208,8 +161,7 @@ int repl(Program& program, const std::vector<std::string>& words) {
     lua_State* L = script.lua();
     lua::open(L, {});
     lua_setglobal(L, "lissom");
-    lua_pushcfunction(L, help);
-    lua_setglobal(L, "help");
+    provide_help(L);
     return evaluate_lines(program, script);
 }
 

@@ -20,7 +20,8 @@ function handles.list(scene)
     return list
 end
 
-local function is_one_of(list, handle)
+--- Whether a handle is in a list, which may be nil.
+function handles.is_one_of(list, handle)
     for _, one in ipairs(list or {}) do
         if one == handle then return true end
     end
@@ -32,7 +33,7 @@ function handles.number(list, chosen, pins)
     local number = 0
     for i, one in ipairs(list) do
         if one.handle == chosen then return i end
-        if not is_one_of(pins, one.handle) then number = i end
+        if not handles.is_one_of(pins, one.handle) then number = i end
     end
     return number
 end
@@ -57,6 +58,17 @@ function handles.follow(one, before, motion)
         one.handle:rotate{ axis = matrices.direction(back, motion.axis), angle = sign * motion.angle }
     end
     one.handle:set_matrix(matrices.product(back, motion.matrix, one.place, before))
+end
+
+-- Vertices that follow a drag at full quality.
+local most_exact = 60000
+
+--- What a drag shows of a deformation: its preview "always", "never", or for "large meshes"; nil, message,
+-- code where there is no solution.
+function handles.preview(one, of)
+    local quick = of == "always" or of == "large meshes" and #one.edit:region() > most_exact
+    if quick then return one.edit:preview() end
+    return one.edit:solve{ draft = true }
 end
 
 --- Takes a handle away. Without any the mesh keeps its shape, and the next one begins from there.

@@ -41,6 +41,13 @@ bool Frames::has_to_show() const {
     return !state_.is_icon() && (state_.window.is_exposed() || other_size);
 }
 
+// Whoever has changed them: another picture is to be seen.
+void Frames::see_settings() {
+    if (settings_ == state_.settings) return;
+    settings_ = state_.settings;
+    state_.changes.add();
+}
+
 void Frames::draw_picture() {
     const bool other_settings = stage_.has_other_settings();
     stage_.send();
@@ -85,6 +92,7 @@ PanelAnswers Frames::draw() {
     if (state_.is_icon()) return {};
     const auto start = Clock::now();
     const std::uint64_t before = state_.changes.drawn();
+    see_settings();
     try {
         draw_picture();
     } catch (const Error& error) {
@@ -94,13 +102,12 @@ PanelAnswers Frames::draw() {
     content.is_ortho = state_.camera.is_ortho();
     content.camera = state_.camera;
     content.picture_size = state_.view().size;
-    const DisplaySettings settings = state_.settings;
     PanelAnswers answers = state_.panel.make(content, state_.settings, state_.window.size(),
                                              seconds_since(std::exchange(last_, Clock::now())));
     show();
     if (count_++ == 0) state_.tell("first frame");
     if (state_.changes.drawn() != before) measure(seconds_since(start));
-    if (!(settings == state_.settings)) state_.changes.add();
+    see_settings();
     return answers;
 }
 

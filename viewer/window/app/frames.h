@@ -38,6 +38,7 @@ class Frames {
   private:
     template <typename Calls>
     void drawing(const Calls& calls);
+    void see_settings();
     void draw_picture();
     void show();
     void measure(double seconds);
@@ -47,6 +48,8 @@ class Frames {
     // The picture is so many times smaller than what it is shown on.
     int coarseness_ = 1;
     Canvas drawn_canvas_;
+    // Of the last frame.
+    DisplaySettings settings_;
     // What is in the window.
     gl::Extent shown_size_ = {};
     std::uint64_t shown_version_ = 0;

@@ -15,6 +15,7 @@ constexpr double kCopyEvery = 1.0;
 void Keeping::begin(const std::string& first) {
     first_ = first;
     saved_path_.clear();
+    if (opened_ != first_) opened_.clear();
 }
 
 void Keeping::copy() {
@@ -29,11 +30,16 @@ std::optional<std::string> Keeping::answer(const PanelAnswers& answers) {
     auto& all = state_.content.left;
     if (all.empty() || !(answers.open_left || answers.forget_left)) return std::nullopt;
     const std::filesystem::path left = all.front();
-    if (answers.open_left) return left.string();
-    Recovery::remove(left);
     all.erase(all.begin());
     state_.changes.owe_frames();
-    return std::nullopt;
+    if (answers.forget_left) Recovery::remove(left);
+    if (!answers.open_left) return std::nullopt;
+    opened_ = left;
+    return left.string();
+}
+
+void Keeping::forget_opened() {
+    if (!opened_.empty()) Recovery::remove(std::exchange(opened_, {}));
 }
 
 // A free name here: the scene of armadillo.obj is armadillo.lissom; that of a copy, which may go at
@@ -56,9 +62,12 @@ void Keeping::save() {
 }
 
 void Keeping::keep_unsaved() {
+    std::error_code error;
+    if (saved_ == change_ && std::filesystem::exists(saved_path_, error)) forget_opened();
     if (saved_ == change_) return;
     const std::filesystem::path kept = recovery_.keep();
     if (kept.empty()) return;
+    forget_opened();
     std::cerr << "lissom: the scene was not saved; lissom view " << kept.string() << " opens it"
               << std::endl;
 }
@@ -73,17 +82,17 @@ void Keeping::replace() {
 }
 
 void Keeping::offer() {
-    state_.content.left = Recovery::left_in(state_folder());
-    for (const std::filesystem::path& left : state_.content.left) {
-        std::string text = "A window was ended without being closed. lissom view " + left.string() +
-                           " opens what it showed";
-        const std::filesystem::path journal = Recovery::journal_of(left);
-        if (!journal.empty()) {
-            text += "; lissom run " + journal.string() + " does it again without a window";
-        }
-        state_.tell("line " + text);
-        state_.add_line(LineKind::warning, std::move(text));
-    }
+    const auto& all = state_.content.left = Recovery::left_in(state_folder());
+    if (all.empty()) return;
+    const std::filesystem::path& left = all.front();
+    std::string text =
+        "A scene of another window was not saved. lissom view " + left.string() + " opens it";
+    const std::filesystem::path journal = Recovery::journal_of(left);
+    if (!journal.empty())
+        text += "; lissom run " + journal.string() + " does it again without a window";
+    if (all.size() > 1) text += "; there are " + std::to_string(all.size() - 1) + " more beside it";
+    state_.tell("line " + text);
+    state_.add_line(LineKind::warning, std::move(text));
 }
 
 }  // namespace lissom::window

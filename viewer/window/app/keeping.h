@@ -26,7 +26,7 @@ class Keeping {
     /// Copies the scene where it has changed since it was copied last, at most once a second.
     void copy();
     void save();
-    /// At the start: offers what killed windows have left.
+    /// At the start: offers what other windows have not saved.
     void offer();
     /// At the end: keeps what was not saved, and tells it.
     void keep_unsaved();
@@ -35,6 +35,7 @@ class Keeping {
 
   private:
     std::string scene_path() const;
+    void forget_opened();
 
     ViewState& state_;
     Recovery recovery_{state_folder()};
@@ -43,6 +44,8 @@ class Keeping {
     std::uint64_t change_ = 0, copied_ = 0, saved_ = 0;
     Clock::time_point last_copy_ = Clock::now();
     std::string saved_path_;
+    // What another window left and was opened here: it goes when it is kept elsewhere.
+    std::filesystem::path opened_;
 };
 
 }  // namespace lissom::window

@@ -164,9 +164,9 @@ constexpr const char* kKeys =
     "left drag: turn; with a tool: the right button, or alt\n"
     "shift and drag, or the middle button: move\n"
     "wheel: nearer, towards the cursor; in a tool's drag: the tool's\n"
-    "1 to 7: sides   O: perspective\n"
-    "F or Home: what is selected, else all; with shift: all\n"
-    "W: wire   B: boundaries (without a tool)\n"
+    "Home: what is selected, else all; with shift: all\n"
+    "without a tool: 1 to 7: sides   O: perspective   F: as Home\n"
+    "    W: wire   B: boundaries\n"
     "Ctrl-Z, Ctrl-Shift-Z: undo, redo\n"
     "Ctrl-S: save the scene   F12: picture\n"
     "F5: run again   Esc: stop, or take back\n"
@@ -186,9 +186,8 @@ void draw_played(const PlayedPart& part) {
 
 void draw_left(const std::vector<std::filesystem::path>& left, PanelAnswers& answers) {
     if (left.empty()) return;
-    ImGui::TextWrapped(left.size() > 1
-                           ? "Windows were ended without being closed: the last one's scene"
-                           : "A window was ended without being closed: its scene");
+    ImGui::TextWrapped(left.size() > 1 ? "Scenes of other windows were not saved: the last"
+                                       : "A scene of another window was not saved");
     if (ImGui::Button("open it")) answers.open_left = true;
     ImGui::SameLine();
     if (ImGui::Button("forget it")) answers.forget_left = true;
@@ -277,7 +276,6 @@ Panel::Panel(PanelHost host) : state_(std::make_unique<State>(std::move(host))) 
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
-    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = key;
     io.ClipboardUserData = &state_->host;
     io.SetClipboardTextFn = [](void* from, const char* text) {

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace lissom::window {
@@ -15,6 +17,44 @@ constexpr std::size_t kLongestValue = 1024;
 // A value of a number with all digits that a person may want to see.
 const char* number_format(const lua::ScriptParameter& p) {
     return p.type == lua::ParameterType::integer ? "%.0f" : "%.4g";
+}
+
+// What is typed in a field and not entered yet, in ImGui's own storage, with all its bits.
+class TypedNumber {
+  public:
+    explicit TypedNumber(ImGuiID field) : storage_(*ImGui::GetStateStorage()), field_(field) {}
+
+    void set(double value) {
+        const auto halves = std::bit_cast<std::array<int, 2>>(value);
+        storage_.SetInt(field_ + 1, halves[0]);
+        storage_.SetInt(field_ + 2, halves[1]);
+        storage_.SetBool(field_, true);
+    }
+    // Forgets it.
+    std::optional<double> take() {
+        if (!storage_.GetBool(field_)) return std::nullopt;
+        storage_.SetBool(field_, false);
+        return std::bit_cast<double>(
+            std::array<int, 2>{storage_.GetInt(field_ + 1), storage_.GetInt(field_ + 2)});
+    }
+
+  private:
+    ImGuiStorage& storage_;
+    ImGuiID field_;
+};
+
+// What the last field, which was `before`, makes of its value: that of a slider holds while it is
+// dragged; what is typed, when it is entered or the field is left.
+double entered(double value, double before) {
+    TypedNumber typed(ImGui::GetID("##value"));
+    if (ImGui::IsItemActive() && ImGui::GetIO().WantTextInput) {
+        if (value != before) typed.set(value);
+        return before;
+    }
+    const std::optional<double> last = typed.take();
+    const bool is_left = last && value == before && ImGui::IsItemDeactivatedAfterEdit() &&
+                         !ImGui::IsKeyPressed(ImGuiKey_Escape);
+    return is_left ? *last : value;
 }
 
 bool edit_number(lua::ScriptParameter& p, double& value) {
@@ -29,6 +69,7 @@ bool edit_number(lua::ScriptParameter& p, double& value) {
         ImGui::DragScalar("##value", ImGuiDataType_Double, &value, static_cast<float>(step), &p.min,
                           &p.max, number_format(p), ImGuiSliderFlags_AlwaysClamp);
     }
+    value = entered(value, before);
     if (p.type == lua::ParameterType::integer) value = std::round(value);
     return value != before;
 }

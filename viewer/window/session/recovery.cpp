@@ -13,19 +13,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPrefix = "recovery-", kSuffix = ".lissom", kUnsaved = "unsaved.lissom";
+// recovery-PROCESS.lissom is the copy of a window's scene; what it did not save is kept as
+// unsaved-PROCESS.lissom and unsaved-PROCESS-2.lissom and so on.
+constexpr std::string_view kCopy = "recovery-", kUnsaved = "unsaved-", kSuffix = ".lissom";
 
-// The process whose copy a file is; 0 for other files.
+// The process whose scene a file is; 0 for other files.
 long owner_of(const fs::path& path) {
-    const std::string name = path.filename().string();
-    if (name.size() <= kPrefix.size() + kSuffix.size() || !name.starts_with(kPrefix) ||
-        !name.ends_with(kSuffix)) {
-        return 0;
-    }
+    std::string name = path.filename().string();
+    const bool is_unsaved = name.starts_with(kUnsaved);
+    if (!name.ends_with(kSuffix) || !(is_unsaved || name.starts_with(kCopy))) return 0;
+    name.resize(name.size() - kSuffix.size());
+    name.erase(0, is_unsaved ? kUnsaved.size() : kCopy.size());
     long number = 0;
-    const char* const end = name.data() + name.size() - kSuffix.size();
-    const auto [read, error] = std::from_chars(name.data() + kPrefix.size(), end, number);
-    return error == std::errc() && read == end ? number : 0;
+    const char* const end = name.data() + name.size();
+    const auto [read, error] = std::from_chars(name.data(), end, number);
+    return error == std::errc() && (read == end || (is_unsaved && *read == '-')) ? number : 0;
 }
 
 // The journal of a copy.
@@ -45,7 +47,7 @@ fs::path Recovery::file() const {
     std::error_code error;
     fs::create_directories(folder_, error);
     return folder_ /
-           (std::string(kPrefix) + std::to_string(cli::process_number()) + std::string(kSuffix));
+           (std::string(kCopy) + std::to_string(cli::process_number()) + std::string(kSuffix));
 }
 
 fs::path Recovery::journal() const {
@@ -53,11 +55,14 @@ fs::path Recovery::journal() const {
 }
 
 fs::path Recovery::keep() const {
-    const fs::path kept = folder_ / kUnsaved;
+    const std::string name = std::string(kUnsaved) + std::to_string(cli::process_number());
     std::error_code error;
+    fs::path kept = folder_ / (name + std::string(kSuffix));
+    for (int number = 2; fs::exists(kept, error); ++number) {
+        kept = folder_ / (name + "-" + std::to_string(number) + std::string(kSuffix));
+    }
     fs::rename(file(), kept, error);
     if (error) return {};
-    fs::remove(beside(kept), error);
     fs::rename(journal(), beside(kept), error);
     return kept;
 }

@@ -20,11 +20,11 @@ class Recovery {
     std::filesystem::path file() const;
     /// Where the journal belongs.
     std::filesystem::path journal() const;
-    /// Keeps both, where there is a copy, as what was not saved last, and answers the path of the
-    /// copy; empty where there is none.
+    /// Keeps both, where there is a copy, as a scene that was not saved, and answers the path of
+    /// the copy; empty where there is none.
     std::filesystem::path keep() const;
 
-    /// Copies that processes left which run no more, the newest first.
+    /// Copies and scenes that were not saved of processes which run no more, the newest first.
     static std::vector<std::filesystem::path> left_in(const std::filesystem::path& folder);
     /// The journal that was left with a copy; empty where there is none.
     static std::filesystem::path journal_of(const std::filesystem::path& copy);

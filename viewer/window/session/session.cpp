@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bindings/cli/repl/display.h"
+#include "bindings/cli/repl/help_function.h"
 #include "bindings/cli/repl/session_text.h"
 #include "bindings/cli/terminal/interrupt.h"
 #include "bindings/lua/core/failure.h"
@@ -57,11 +58,23 @@ int list_module_files(lua_State* L) {
     return 0;
 }
 
-// The variable `lissom`, for lines of the console, where the script has none. Runs inside
-// lua_pcall.
+bool has_global(lua_State* L, const char* name) {
+    lua_getglobal(L, name);
+    const bool has = !lua_isnil(L, -1);
+    lua_pop(L, 1);
+    return has;
+}
+
+// The variables `lissom` and `help`, for lines of the console, where the script has none. Runs
+// inside lua_pcall.
 int provide_library(lua_State* L) {
-    lua_getglobal(L, "lissom");
-    if (!lua_isnil(L, -1)) return 0;
+    if (!has_global(L, "help")) {
+        lua_getglobal(L, "require");
+        lua_pushliteral(L, "lissom");
+        lua_call(L, 1, 1);
+        cli::provide_help(L);
+    }
+    if (has_global(L, "lissom")) return 0;
     lua_getglobal(L, "require");
     lua_pushliteral(L, "lissom");
     lua_call(L, 1, 1);
@@ -160,7 +173,7 @@ void Session::open(const std::vector<std::string>& words) {
         news_.words = words;
         news_.parameters = std::vector<lua::ScriptParameter>();
     }
-    cancel();
+    give_up();
     post_only([this, words] { run(words); });
 }
 
@@ -173,7 +186,7 @@ void Session::run_again(const std::vector<std::string>& words) {
             news_.words.insert(news_.words.end(), words.begin(), words.end());
         }
     }
-    cancel();
+    give_up();
     post_only([this] {
         std::unique_lock lock(mutex_);
         const std::vector<std::string> now = news_.words;
@@ -195,6 +208,12 @@ void Session::cancel() {
     if (busy()) cli::Interrupt::press();
 }
 
+// Stops what runs, as something else takes its place: nobody has to be told.
+void Session::give_up() {
+    given_up_ = true;
+    cancel();
+}
+
 void Session::use_tool(const std::string& word) {
     post_job([this, word] {
         program_.forget_interrupt();
@@ -214,6 +233,7 @@ void Session::read_tool_again() {
 // Inputs keep their place among all that is asked for: those that follow another job wait for that.
 void Session::post(ToolInput input) {
     const std::lock_guard lock(mutex_);
+    news_.last_setting.reset();
     if (!news_.takes_inputs_last || news_.inputs.empty()) {
         news_.inputs.emplace_back();
         news_.takes_inputs_last = true;
@@ -225,6 +245,7 @@ void Session::post(ToolInput input) {
 void Session::post_job(Worker::Job job) {
     const std::lock_guard lock(mutex_);
     news_.takes_inputs_last = false;
+    news_.last_setting.reset();
     worker_.post(std::move(job));
 }
 
@@ -238,6 +259,7 @@ void Session::post_only(Worker::Job job) {
         }
     }
     worker_.post_only(std::move(job));
+    news_.last_setting.reset();
     news_.takes_inputs_last = !kept.empty();
     if (kept.empty()) return;
     news_.inputs.push_back(std::move(kept));
@@ -277,13 +299,33 @@ void Session::show_object(const std::string& name, bool visible) {
     });
 }
 
+// Where the last that waits sets the same parameter, the newer value takes its place.
 void Session::set_tool_parameter(const std::string& name, const lua::ParameterValue& value) {
-    post_job([this, name, value] {
-        if (!bench_ || !bench_->has_scene()) return;
-        program_.forget_interrupt();
-        succeeds(bench_->set(name, value));
-        show_scene(true);
-    });
+    const std::lock_guard lock(mutex_);
+    if (news_.last_setting && news_.last_setting->first == name) {
+        news_.last_setting->second = value;
+        return;
+    }
+    auto setting = std::make_shared<Setting>(name, value);
+    news_.takes_inputs_last = false;
+    news_.last_setting = setting;
+    worker_.post([this, setting] { set_parameter(setting); });
+}
+
+void Session::set_parameter(const std::shared_ptr<Setting>& setting) {
+    std::unique_lock lock(mutex_);
+    if (news_.last_setting == setting) news_.last_setting.reset();
+    const auto [name, value] = *setting;
+    lock.unlock();
+    if (!bench_ || !bench_->has_scene()) return;
+    program_.forget_interrupt();
+    succeeds(bench_->set(name, value));
+    show_scene(true);
+}
+
+bool Session::has_setting() const {
+    const std::lock_guard lock(mutex_);
+    return news_.last_setting != nullptr;
 }
 
 std::optional<Playback> Session::take_playback() {
@@ -349,7 +391,7 @@ bool Session::finish(double seconds) {
 
 void Session::run(const std::vector<std::string>& words) {
     program_.forget_interrupt();
-    plays_ = shows_hand_ = false;
+    given_up_ = plays_ = shows_hand_ = false;
     if (!is_script(words.front()) || is_recording(words.front())) {
         ran_.clear();
         kept_.clear();
@@ -520,7 +562,7 @@ std::string Session::told_path(const std::string& path) const {
 // Tells what went wrong; false then.
 bool Session::succeeds(const cli::ScriptResult& result) {
     if (result.status == cli::kSuccess) return true;
-    tell(LineKind::error, result.message);
+    if (!given_up_) tell(LineKind::error, result.message);
     recover();
     return false;
 }

@@ -124,6 +124,8 @@ class Session {
     void stop_playing();
 
     bool busy() const { return worker_.busy(); }
+    /// Whether a value of a parameter waits: what is told of the tool is older.
+    bool has_setting() const;
     /// What the running operation does, and the fraction done.
     std::pair<std::string, double> progress() const;
     /// What was finished since the last call.
@@ -161,6 +163,9 @@ class Session {
     void keep_tool(const std::string& word);
     void post_job(Worker::Job job);
     void post_only(Worker::Job job);
+    void give_up();
+    using Setting = std::pair<std::string, lua::ParameterValue>;
+    void set_parameter(const std::shared_ptr<Setting>& setting);
     void take_inputs();
     bool succeeds(const cli::ScriptResult& result);
     void recover();
@@ -190,6 +195,8 @@ class Session {
         // Each is taken by a job of its own; the last of them grows while no other job follows it.
         std::deque<std::vector<ToolInput>> inputs;
         bool takes_inputs_last = false;
+        // The last that waits, where it sets a parameter of the tool.
+        std::shared_ptr<Setting> last_setting;
         std::optional<ToolState> tool_state;
         std::optional<Completion> completion;
         std::optional<Playback> playback;
@@ -201,6 +208,8 @@ class Session {
     News news_;
 
     std::atomic<bool> plays_{false};
+    // What runs is stopped for something else.
+    std::atomic<bool> given_up_{false};
     std::atomic<std::size_t> events_played_{0};
 
     // The worker's own.

@@ -41,6 +41,60 @@ struct PanelFrames {
     DisplaySettings settings;
 };
 
+// One number of 0 to 100, in whose field the hand types from now on.
+struct TypedFrames : PanelFrames {
+    TypedFrames() {
+        lua::ScriptParameter size;
+        size.name = "size";
+        size.type = lua::ParameterType::number;
+        size.min = 0.0;
+        size.max = 100.0;
+        size.default_value = 5.0;
+        content.parameters = {size};
+        for (double y = 60.0; y < kWindow.height && !panel.wants_keys(); y += 6.0) {
+            click({140.0, y}, true);
+        }
+    }
+    void click(const Vec2& at, bool with_control = false) {
+        for (const auto kind : {Input::Kind::move, Input::Kind::press, Input::Kind::release}) {
+            Input input;
+            input.kind = kind;
+            input.at = at;
+            input.modifiers.ctrl = with_control;
+            panel.feed(input);
+            make();
+        }
+        make();
+    }
+    void type(const std::string& text) {
+        for (const char letter : text) {
+            Input input;
+            input.kind = Input::Kind::text;
+            input.character = static_cast<char32_t>(letter);
+            panel.feed(input);
+            make();
+        }
+    }
+    void press(Key key) {
+        Input input;
+        input.key = key;
+        for (const auto kind : {Input::Kind::key_down, Input::Kind::key_up}) {
+            input.kind = kind;
+            panel.feed(input);
+            make();
+        }
+        make();
+    }
+    void make() {
+        const PanelAnswers answers = panel.make(content, settings, kWindow, 0.02);
+        changes += answers.parameters_changed;
+        pressed += answers.run_again;
+    }
+    double value() const { return std::get<double>(content.parameters[0].value.value()); }
+
+    int changes = 0, pressed = 0;
+};
+
 void add_outline(PanelContent& content, double to) {
     content.tool.marks.outlines = {{{Vec2(10.0, 10.0), Vec2(to, 60.0)}, false, kWhite}};
 }
@@ -120,4 +174,58 @@ TEST_CASE("panel: what a tool draws lies over the picture, and can be drawn alon
     CHECK(bright(picture(over)) > 50);
     CHECK(bright(over) == bright(picture(over)));
     CHECK(bright(all) > 10 * bright(over));
+}
+
+TEST_CASE("panel: what is typed for a number holds when it is entered, not with every key") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    TypedFrames frames;
+    REQUIRE(frames.panel.wants_keys());
+    frames.type("7");
+    frames.type("5");
+    CHECK(frames.value() == 5.0);
+    CHECK(frames.changes == 0);
+    frames.press(Key::enter);
+    CHECK(frames.value() == 75.0);
+    CHECK(frames.changes == 1);
+    CHECK_FALSE(frames.panel.wants_keys());
+}
+
+TEST_CASE("panel: what is typed for a number holds when the field is left, Escape takes it back") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    {
+        TypedFrames frames;
+        REQUIRE(frames.panel.wants_keys());
+        frames.type("40");
+        frames.click({400.0, 200.0});
+        CHECK(frames.value() == 40.0);
+        CHECK(frames.changes == 1);
+    }
+    TypedFrames frames;
+    REQUIRE(frames.panel.wants_keys());
+    frames.type("40");
+    frames.press(Key::escape);
+    CHECK(frames.value() == 5.0);
+    frames.click({400.0, 200.0});
+    CHECK(frames.value() == 5.0);
+    CHECK(frames.changes == 0);
+}
+
+TEST_CASE("panel: keys over the picture move nothing in the panel") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    TypedFrames frames;
+    frames.press(Key::enter);
+    frames.feed(Input::Kind::move, {400.0, 200.0});
+    frames.settle();
+    for (const Key key : {Key::home, Key::space, Key::down, Key::enter}) {
+        frames.press(key);
+        CHECK_FALSE(frames.panel.wants_keys());
+    }
+    CHECK(frames.changes == 0);
+    CHECK(frames.pressed == 0);
 }

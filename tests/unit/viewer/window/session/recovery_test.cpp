@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "bindings/cli/process/process_number.h"
@@ -49,11 +50,27 @@ TEST_CASE("recovery: what was not saved is kept where the window is closed") {
         std::ofstream(own.journal()) << "calls";
         kept = own.keep();
         CHECK(std::filesystem::exists(Recovery::journal_of(kept)));
-        // The next one has no journal: that of the last does not stay beside it.
+        // The next one does not take its place.
         std::ofstream(own.file()) << "another scene";
-        CHECK(own.keep() == kept);
-        CHECK(Recovery::journal_of(kept).empty());
+        const std::filesystem::path next = own.keep();
+        CHECK(next != kept);
+        CHECK(std::filesystem::exists(next));
+        CHECK(Recovery::journal_of(next).empty());
     }
     CHECK(std::filesystem::exists(kept));
+    // As long as this process runs, what it shows is its own.
     CHECK(Recovery::left_in(place).empty());
+}
+
+TEST_CASE("recovery: what closed windows did not save is offered as what killed ones left") {
+    const test::ProgramFolder folder;
+    const std::filesystem::path place = folder.path("state");
+    const std::string first = folder.write("state/unsaved-999999999.lissom", "scene");
+    const std::string second = folder.write("state/unsaved-999999999-2.lissom", "scene");
+    folder.write("state/unsaved.lissom", "another file");
+    folder.write("state/recovery-999999999-2.lissom", "another file");
+    const auto left = Recovery::left_in(place);
+    REQUIRE(left.size() == 2);
+    CHECK(std::find(left.begin(), left.end(), first) != left.end());
+    CHECK(std::find(left.begin(), left.end(), second) != left.end());
 }
