@@ -26,7 +26,8 @@ int push_help(lua_State* L, const Compose& compose) {
 
 std::string general_help(const lua::Registry& registry) {
     return lua::help_overview(registry) +
-           "\nhelp(mesh.save), help(\"save\") or help(\"Mesh\") tells more. Tab completes names and options.";
+           "\nhelp(mesh.save), help(\"save\") or help(\"Mesh\") tells more. Tab completes names "
+           "and options.";
 }
 
 std::string named_help(const lua::Registry& registry, const std::string& name) {
@@ -36,7 +37,8 @@ std::string named_help(const lua::Registry& registry, const std::string& name) {
     const std::vector<std::string_view> views(names.begin(), names.end());
     const std::string_view nearest = nearest_name(name, views);
     return "there is no help for '" + name + "'" +
-           (nearest.empty() ? "; help() lists everything" : ", did you mean '" + std::string(nearest) + "'?");
+           (nearest.empty() ? "; help() lists everything"
+                            : ", did you mean '" + std::string(nearest) + "'?");
 }
 
 // help(), help(function), help(object), help(name)
