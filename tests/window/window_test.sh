@@ -228,7 +228,7 @@ if [ -n "${LISSOM_DROP_FILE:-}" ]; then
     wait_for "at rest"
     close_view 0
     if grep -q "lissom: the scene was not saved" told; then fail "a scene without changes is told as unsaved"; fi
-    open_view "$(ls state/lissom/unsaved-*.lissom | head -n 1)"
+    open_view "$(find state/lissom -name 'unsaved-*.lissom' | head -n 1)"
     wait_for "shown "
     close_view 0
 else
