@@ -209,8 +209,10 @@ std::vector<Parameter> paste_merge_parameters(const char* size) {
                "or what the placement says.")
             .defaults("boundary"),
         boolean("compare",
-                "Pastes along the outline of the region as well, and takes that where the "
-                "surface near the boundary is distorted less.")
+                "Tries what may distort the surface near the boundary less, and takes it where it "
+                "does: ARAP iterations of the part; the outline of the region; and, once "
+                "`optimize` was called and by nearest "
+                "points, a boundary that slides over the target to where the part draws it.")
             .defaults(true)};
 }
 
@@ -219,9 +221,10 @@ namespace {
 std::vector<Parameter> merge_parameters() {
     std::vector<Parameter> all = paste_merge_parameters("scale");
     all.push_back(boolean("draft",
-                          "For a part that is being dragged: the same place, boundary and part, "
-                          "but the seam is sewn and no more, whatever `smooth`, `collar` and "
-                          "`intersections` say, and the report has no provenance.")
+                          "For a part that is being dragged: the same place and boundary, but the "
+                          "part is not refined, nor does its boundary slide, the seam is sewn and "
+                          "no more, whatever `smooth`, `collar` and `intersections` say, and the "
+                          "report has no provenance.")
                       .defaults(false));
     return all;
 }

@@ -1070,7 +1070,7 @@ function Mesh:erase(region, options) end
 ---@field collar? boolean Makes faces anew beside the seam where one side is coarser. Default: true.
 ---@field intersections? boolean Looks for faces that run through one another and did not before. Default: true.
 ---@field size? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or what the placement says. Default: "boundary".
----@field compare? boolean Pastes along the outline of the region as well, and takes that where the surface near the boundary is distorted less. Default: true.
+---@field compare? boolean Tries what may distort the surface near the boundary less, and takes it where it does: ARAP iterations of the part; the outline of the region; and, once `optimize` was called and by nearest points, a boundary that slides over the target to where the part draws it. Default: true.
 
 ---A new mesh that has a feature of this one twice: it is pasted onto another place of the same mesh, along the loop around it that fits best (lissom.paste with itself as target).
 ---@param options lissom.Mesh.CloneOptions
@@ -1577,8 +1577,8 @@ function Paste:optimize(options) end
 ---@field collar? boolean Makes faces anew beside the seam where one side is coarser. Default: true.
 ---@field intersections? boolean Looks for faces that run through one another and did not before. Default: true.
 ---@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or what the placement says. Default: "boundary".
----@field compare? boolean Pastes along the outline of the region as well, and takes that where the surface near the boundary is distorted less. Default: true.
----@field draft? boolean For a part that is being dragged: the same place, boundary and part, but the seam is sewn and no more, whatever `smooth`, `collar` and `intersections` say, and the report has no provenance. Default: false.
+---@field compare? boolean Tries what may distort the surface near the boundary less, and takes it where it does: ARAP iterations of the part; the outline of the region; and, once `optimize` was called and by nearest points, a boundary that slides over the target to where the part draws it. Default: true.
+---@field draft? boolean For a part that is being dragged: the same place and boundary, but the part is not refined, nor does its boundary slide, the seam is sewn and no more, whatever `smooth`, `collar` and `intersections` say, and the report has no provenance. Default: false.
 
 ---Opens the target along the loop's image and pastes the part inside the loop, deformed to fit, as a new mesh. Without `optimize` the loop is the outline of the region.
 ---@param options? lissom.Paste.MergeOptions

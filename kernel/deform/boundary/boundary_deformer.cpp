@@ -7,6 +7,7 @@
 
 #include "kernel/core/clock.h"
 #include "kernel/deform/boundary/common_gradients.h"
+#include "kernel/deform/boundary/rigid_fit.h"
 #include "kernel/deform/holds/constraints.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/rotation/polar.h"
@@ -29,6 +30,9 @@ constexpr double kSameScale = 1e-12;
 // Weights of the harmonic interpolation are at least this, so that it never leaves the range of
 // what it interpolates.
 constexpr double kLeastWeight = 1e-3;
+// How far beyond the rotations that fit best a step of a refinement goes, in parts of the way to
+// them; smaller parts than the least count as none. A step that gains less is the last.
+constexpr double kFurther = 1.6, kLeastFurther = 0.3, kLeastGain = 1e-4;
 
 DeformOptions deform_options(const BoundaryDeformOptions& options) {
     DeformOptions result;
@@ -87,6 +91,10 @@ void require_values(std::span<const BoundaryValue> values, Index count) {
         if (!value.position.allFinite() || !value.rotation.allFinite()) {
             throw Error(ErrorCode::not_finite, "values of held vertices must be finite");
         }
+        if (!(value.slack >= 0.0) || !value.upright.allFinite()) {
+            throw Error(ErrorCode::invalid_argument,
+                        "the slack of a held vertex must be 0 or more");
+        }
         if (!(value.scale > 0.0) || !std::isfinite(value.scale)) {
             throw Error(ErrorCode::invalid_argument, "scales of held vertices must be above 0");
         }
@@ -144,22 +152,26 @@ struct BoundaryDeformer::State {
     template <typename System>
     void factor(System& system, const Context& context) const;
 
-    Base find_base(std::span<const BoundaryValue> values) const;
-    void place_held(std::span<const BoundaryValue> values, const Base& base);
+    Base find_base() const;
+    void place_held();
     void solve_first();
     void correct_first();
-    Mat3 gathered(Index v, const Mat3& base) const;
-    std::vector<Mat3> gradients_of(const Base& base, const Context& context) const;
+    Mat3 gathered(Index v) const;
+    std::vector<Mat3> gradients(const Context& context) const;
     void find_sizes(const Context& context);
-    void turn_features(const Base& base);
+    void turn_features();
     double harmonic_weight(Index entry) const;
     void factor_sizes(const Context& context);
     void interpolate_sizes(const Context& context);
     template <typename Use>
     void for_each_harmonic_entry(const Use& use) const;
-    void find_turns(const Base& base, const Context& context);
+    void find_turns(const Context& context);
     void solve_second(const Context& context);
-    BoundaryDeformation result(std::span<const BoundaryValue> values, const Base& base) const;
+    FittedTurns fitted(const Context& context) const;
+    bool step(FittedTurns& now, double& further, const Context& context);
+    std::vector<double> refine(int steps, const Context& context);
+    std::vector<Vec3> pulls() const;
+    BoundaryDeformation result() const;
 
     Region region, held;
     BoundaryDeformOptions asked;
@@ -181,7 +193,11 @@ struct BoundaryDeformer::State {
     Index harmonic_rows = 0;
     DeformStats stats;
 
-    /// Of the present solve, relative to the base: deviations of positions and of known gradients,
+    /// Of the present solve: what was asked for, how vertices may turn, and the base.
+    std::vector<BoundaryValue> values;
+    std::vector<TurnLimit> limits;
+    Base base;
+    /// Relative to the base: deviations of positions and of known gradients,
     /// scales, and transforms of the second system.
     std::vector<Vec3> deviation;
     std::vector<Mat3> known_turn;
@@ -298,9 +314,9 @@ void BoundaryDeformer::State::factor(const Context& context) {
 }
 
 // Where nothing else is fixed, the similarity that fits the values; else the rest shape itself.
-Base BoundaryDeformer::State::find_base(std::span<const BoundaryValue> values) const {
+Base BoundaryDeformer::State::find_base() const {
     if (surrounded) return {Mat3::Identity(), 1.0, normal_form.center, normal_form.unit};
-    Base base;
+    Base found;
     Vec3 sum = Vec3::Zero();
     double logs = 0.0;
     for (const BoundaryValue& value : values) {
@@ -308,20 +324,20 @@ Base BoundaryDeformer::State::find_base(std::span<const BoundaryValue> values) c
         logs += std::log(value.scale);
     }
     const double count = values.size();
-    base.center = values.front().position + sum / count;
-    base.scale = std::exp(logs / count);
-    base.length = base.scale * normal_form.unit;
+    found.center = values.front().position + sum / count;
+    found.scale = std::exp(logs / count);
+    found.length = found.scale * normal_form.unit;
     Mat3 products = Mat3::Zero();
     for (std::size_t i = 0; i < values.size(); ++i) {
         const Vec3 from = work.patch.rest[held_local[i]] + work.patch.origin;
-        products += (values[i].position - base.center) / base.length * from.transpose();
+        products += (values[i].position - found.center) / found.length * from.transpose();
         products += 1e-3 * values[i].rotation;
     }
-    base.rotation = nearest_rotation(products);
-    return base;
+    found.rotation = nearest_rotation(products);
+    return found;
 }
 
-void BoundaryDeformer::State::place_held(std::span<const BoundaryValue> values, const Base& base) {
+void BoundaryDeformer::State::place_held() {
     const std::size_t n = work.patch.vertex_count;
     deviation.assign(n, Vec3::Zero());
     known_turn.assign(n, Mat3::Zero());
@@ -368,13 +384,13 @@ void BoundaryDeformer::State::correct_first() {
     }
 }
 
-Mat3 BoundaryDeformer::State::gathered(Index v, const Mat3& base) const {
-    return known.gradient[v] ? Mat3(base + known_turn[v])
-                             : Mat3(base + stencils.gather(work.rings, deviation, v));
+Mat3 BoundaryDeformer::State::gathered(Index v) const {
+    return known.gradient[v] ? Mat3(base.rotation + known_turn[v])
+                             : Mat3(base.rotation + stencils.gather(work.rings, deviation, v));
 }
 
 // What the features turn and grow by in the second system, from M_i of the first.
-void BoundaryDeformer::State::turn_features(const Base& base) {
+void BoundaryDeformer::State::turn_features() {
     for (Index f = 0; f < common->size(); ++f) {
         const Index one = common->vertices(f).front();
         const Mat3 m = base.rotation + known_turn[one];
@@ -389,21 +405,20 @@ void BoundaryDeformer::State::turn_features(const Base& base) {
 }
 
 // M_i after the first system; where it does not exist, the mean of those around it.
-std::vector<Mat3> BoundaryDeformer::State::gradients_of(const Base& base,
-                                                        const Context& context) const {
+std::vector<Mat3> BoundaryDeformer::State::gradients(const Context& context) const {
     const auto exists = [&](Index v) { return known.gradient[v] || stencils.defined[v]; };
     std::vector<Mat3> m(work.patch.real_count, base.rotation);
     for_each_block(context, work.patch.real_count, [&](Index begin, Index end) {
         for (Index v = begin; v < end; ++v) {
             if (exists(v)) {
-                m[v] = gathered(v, base.rotation);
+                m[v] = gathered(v);
                 continue;
             }
             Mat3 sum = Mat3::Zero();
             int count = 0;
             for (const Index n : work.rings.ring(v)) {
                 if (!exists(n)) continue;
-                sum += gathered(n, base.rotation);
+                sum += gathered(n);
                 ++count;
             }
             if (count > 0) m[v] = sum / count;
@@ -483,10 +498,10 @@ void BoundaryDeformer::State::find_sizes(const Context& context) {
 }
 
 // S_i of the second system less the base's: rotations without shear, times the size.
-void BoundaryDeformer::State::find_turns(const Base& base, const Context& context) {
+void BoundaryDeformer::State::find_turns(const Context& context) {
     if (asked.size == SizeField::harmonic) find_sizes(context);
-    turn_features(base);
-    std::vector<Mat3> m = gradients_of(base, context);
+    turn_features();
+    std::vector<Mat3> m = gradients(context);
     if (asked.size == SizeField::gradient) {
         for (Index v = 0; v < work.patch.real_count; ++v) {
             if (!known.gradient[v]) size[v] = uniform_scale(m[v]);
@@ -508,8 +523,77 @@ void BoundaryDeformer::State::solve_second(const Context& context) {
     for (std::size_t v = 0; v < x.size(); ++v) deviation[v] = x[v].head<3>();
 }
 
-BoundaryDeformation BoundaryDeformer::State::result(std::span<const BoundaryValue> values,
-                                                    const Base& base) const {
+// The rotations that fit the present positions best.
+FittedTurns BoundaryDeformer::State::fitted(const Context& context) const {
+    std::vector<Vec4> x;
+    for (std::size_t v = 0; v < deviation.size(); ++v) {
+        x.push_back(padded(Vec3(base.rotation * work.patch.rest[v] + deviation[v])));
+    }
+    std::vector<Mat3> now;
+    for (const PaddedMat3& turn : turns) now.push_back(base.rotation + turn.topRows<3>());
+    return fitted_turns(second->energy(), x, now, size, limits, context);
+}
+
+// False where no step lowers the energy; then all is as it was. `further` is what served last.
+bool BoundaryDeformer::State::step(FittedTurns& now, double& further, const Context& context) {
+    const std::vector<PaddedMat3> turns_before = turns;
+    const std::vector<Vec3> deviation_before = deviation;
+    std::vector<Mat3> from;
+    for (const PaddedMat3& turn : turns) from.push_back(base.rotation + turn.topRows<3>());
+    for (;;) {
+        context.checkpoint();
+        const std::vector<Mat3> to = turned_beyond(from, now.transform, size, limits, further);
+        for (std::size_t v = 0; v < to.size(); ++v) {
+            if (limits[v].free) turns[v] = padded_columns(Mat3(to[v] - base.rotation));
+        }
+        solve_second(context);
+        FittedTurns next = fitted(context);
+        if (next.energy < (1.0 - kLeastGain) * now.energy) {
+            now = std::move(next);
+            return true;
+        }
+        turns = turns_before;
+        deviation = deviation_before;
+        if (further == 0.0) return false;
+        further = 0.5 * further < kLeastFurther ? 0.0 : 0.5 * further;
+    }
+}
+
+std::vector<double> BoundaryDeformer::State::refine(int steps, const Context& context) {
+    limits.assign(turns.size(), {});
+    for (std::size_t v = 0; v < limits.size(); ++v) limits[v].free = known.gradient[v] == 0;
+    for (std::size_t i = 0; i < held_local.size(); ++i) {
+        limits[at(held_local[i])] = {values[i].slack > 0.0, &values[i]};
+    }
+    FittedTurns now = fitted(context);
+    std::vector<double> energy{now.energy};
+    double further = kFurther;
+    for (int k = 0; k < steps && step(now, further, context); ++k) energy.push_back(now.energy);
+    return energy;
+}
+
+// What the edges at each held vertex would have it be, by the mean of them, less what it is.
+std::vector<Vec3> BoundaryDeformer::State::pulls() const {
+    const EnergyLoop loop = second->energy();
+    const auto transform = [&](Index v) { return Mat3(base.rotation + turns[v].topRows<3>()); };
+    std::vector<Vec3> result;
+    for (const Index v : held_local) {
+        Vec3 sum = Vec3::Zero();
+        double weight = 0.0;
+        for (Index e = loop.ring_begin[v]; e < loop.ring_begin[v + 1]; ++e) {
+            const Index u = loop.neighbor[e];
+            const Vec3 edge = work.patch.rest[v] - work.patch.rest[u];
+            const Vec3 is = base.rotation * edge + deviation[v] - deviation[u];
+            const Vec3 would = 0.5 * (transform(v) + transform(u)) * edge;
+            sum += loop.edge_weight[e] * (would - is);
+            weight += loop.edge_weight[e];
+        }
+        result.push_back(weight > 0.0 ? Vec3(base.length / weight * sum) : Vec3(Vec3::Zero()));
+    }
+    return result;
+}
+
+BoundaryDeformation BoundaryDeformer::State::result() const {
     BoundaryDeformation out;
     const Patch& patch = work.patch;
     for (const Index v : patch.of_region) {
@@ -521,8 +605,10 @@ BoundaryDeformation BoundaryDeformer::State::result(std::span<const BoundaryValu
     for (std::size_t i = 0; i < values.size(); ++i) {
         const auto row = std::lower_bound(ids.begin(), ids.end(), held.vertices()[i]) - ids.begin();
         out.positions[row] = values[i].position;
-        out.transforms[row] = values[i].scale * values[i].rotation;
+        // Those with slack have turned on in a refinement.
+        if (!(values[i].slack > 0.0)) out.transforms[row] = values[i].scale * values[i].rotation;
     }
+    out.pulls = pulls();
     return out;
 }
 
@@ -556,8 +642,9 @@ BoundaryDeformation BoundaryDeformer::solve(std::span<const BoundaryValue> value
                                             const Context& context) {
     State& state = *state_;
     require_values(values, state.held.size());
-    const Base base = state.find_base(values);
-    state.place_held(values, base);
+    state.values.assign(values.begin(), values.end());
+    state.base = state.find_base();
+    state.place_held();
     const bool has_free = !state.second->free_vertices().empty();
     BoundaryTimes seconds;
     auto start = Clock::now();
@@ -566,13 +653,27 @@ BoundaryDeformation BoundaryDeformer::solve(std::span<const BoundaryValue> value
     seconds.first = seconds_since(start);
     context.checkpoint();
     start = Clock::now();
-    state.find_turns(base, context);
+    state.find_turns(context);
     seconds.polar = seconds_since(start);
     start = Clock::now();
     if (has_free || state.common->size() > 0) state.solve_second(context);
     seconds.second = seconds_since(start);
-    BoundaryDeformation deformed = state.result(values, base);
+    BoundaryDeformation deformed = state.result();
     deformed.seconds = seconds;
+    return deformed;
+}
+
+BoundaryDeformation BoundaryDeformer::refine(int steps, const Context& context) {
+    State& state = *state_;
+    require(steps > 0, "a refinement takes at least one step");
+    require(!state.values.empty(), "solve must be called before refine");
+    const auto start = Clock::now();
+    const bool has_free = !state.second->free_vertices().empty();
+    std::vector<double> energy;
+    if (has_free) energy = state.refine(steps, context);
+    BoundaryDeformation deformed = state.result();
+    deformed.energy = std::move(energy);
+    deformed.seconds.second = seconds_since(start);
     return deformed;
 }
 

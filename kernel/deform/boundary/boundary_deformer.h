@@ -23,6 +23,10 @@ struct BoundaryValue {
     Vec3 position = Vec3::Zero();
     Mat3 rotation = Mat3::Identity();
     double scale = 1.0;
+    /// `refine` turns the surface at it on to what fits it best, within this angle, in radians, of
+    /// `upright`; 0 leaves it as `rotation` says.
+    double slack = 0.0;
+    Mat3 upright = Mat3::Identity();
 };
 
 /// How much details grow away from the held vertices: exp of the harmonic interpolation of log
@@ -63,6 +67,12 @@ struct BoundaryDeformation {
     std::vector<Vec3> positions;
     /// How the surface turned and grew at them: scale times rotation.
     std::vector<Mat3> transforms;
+    /// For each held vertex, in the order of `held().vertices()`, how far the edges at it would
+    /// draw it to be as long and turned as those around them are.
+    std::vector<Vec3> pulls;
+    /// What the second system minimises, at the rotations that fit the positions best, and after
+    /// each step of a refinement. In no unit: of the surface as it was brought to unit size.
+    std::vector<double> energy;
     BoundaryTimes seconds = {};
 };
 
@@ -88,9 +98,17 @@ class BoundaryDeformer {
     const DeformStats& stats() const;
 
     /// Solves both systems for one value a held vertex, in the order of `held().vertices()`.
-    /// Errors: invalid_argument where their number differs, or for a scale that is not above 0;
-    /// not_finite; cancelled.
+    /// Errors: invalid_argument where their number differs, or for a scale that is not above 0, or
+    /// a slack below it; not_finite; cancelled.
     BoundaryDeformation solve(std::span<const BoundaryValue> values, const Context& context = {});
+
+    /// Goes on from the last solution with at most `steps` ARAP iterations, at fixed sizes: the
+    /// rotations are fitted to the positions, and those are solved for again. A step goes as far
+    /// beyond the rotations that fit best as lowers the energy; where none does, there are no more.
+    /// What is held stays, but turns within its slack.
+    /// Errors: invalid_argument before the first `solve`, or for less than one step; cancelled, and
+    /// then `solve` must be called again.
+    BoundaryDeformation refine(int steps, const Context& context = {});
 
   private:
     struct State;

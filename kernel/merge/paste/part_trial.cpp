@@ -4,9 +4,16 @@
 #include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/merge/paste/placement/plane_line.h"
 
 namespace lissom {
 namespace {
+
+// ARAP iterations of a part, and times that its boundary slides, at most.
+constexpr int kRefinements = 20;
+constexpr int kSettlingRounds = 12;
+// How far a boundary slides where all of the way does not serve, at least.
+constexpr double kLeastSlide = 0.25;
 
 // The thesis scales Laplacian coordinates by one factor, that of the boundary (section 3.4.4).
 BoundaryDeformOptions paste_deformation(bool thesis) {
@@ -18,20 +25,54 @@ BoundaryDeformOptions paste_deformation(bool thesis) {
 
 }  // namespace
 
-void PartTrials::move(PartTrial& trial, const Context& context) const {
+PasteDistortion PartTrials::move(PartTrial& trial, const Context& context) const {
     const double crease = options.thesis ? 0.0 : options.crease;
     const std::vector<BoundaryValue> values =
         paste_values(trial.rim, trial.similarity, trial.scale, crease);
     trial.moved = trial.moving->moved(values, context);
-    trial.near = near_distortion(trial.part(), trial.moved.mesh, trial.scale);
+    const PasteDistortion plain = near_distortion(trial.part(), trial.moved.mesh, trial.scale);
+    trial.near = plain;
+    if (!refines) return plain;
+    MovedPart refined = trial.moving->refined(kRefinements, context);
+    const PasteDistortion near = near_distortion(trial.part(), refined.mesh, trial.scale);
+    if (near.energy < plain.energy) {
+        trial.moved = std::move(refined);
+        trial.near = near;
+    }
+    return plain;
+}
+
+// False where the boundary would cross itself or the part be distorted more.
+bool PartTrials::slide(PartTrial& trial, double part, const Context& context) const {
+    PartTrial next = trial;
+    std::vector<Vec2> outline;
+    for (std::size_t k = 0; k < next.rim.size(); ++k) {
+        ImagePoint& image = next.rim[k].image;
+        image = surface.map().nearest(image.position + part * trial.moved.pulls[k]);
+        outline.push_back(image.uv);
+    }
+    if (crosses_itself(outline)) return false;
+    move(next, context);
+    if (!(next.near.energy < trial.near.energy)) return false;
+    trial = std::move(next);
+    return true;
+}
+
+void PartTrials::settle(PartTrial& trial, const Context& context) const {
+    double part = 1.0;
+    for (int round = 0; round < kSettlingRounds && part >= kLeastSlide; ++round) {
+        context.checkpoint();
+        if (!slide(trial, part, context)) part *= 0.5;
+    }
 }
 
 PartTrial PartTrials::trial_of(std::shared_ptr<MovingPart> part, const PasteSimilarity& similarity,
                                const Context& context) const {
-    PartTrial trial{std::move(part), {}, similarity, 1.0, false, false, {}, {}};
+    PartTrial trial{std::move(part), {}, similarity, 1.0, false, false, {}, {}, {}};
     trial.scale = lock_scale ? placed.placement.scale : similarity.scale;
     trial.rim = rim_of(trial.part(), surface);
-    move(trial, context);
+    trial.plain = move(trial, context);
+    if (settles) settle(trial, context);
     return trial;
 }
 

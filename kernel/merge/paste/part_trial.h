@@ -30,6 +30,8 @@ struct PartTrial {
     bool smooth = false, outline = false;
     MovedPart moved;
     PasteDistortion near;
+    /// The same before the part was refined and its boundary slid over the target.
+    PasteDistortion plain;
 
     const PastePart& part() const { return moving->part(); }
 };
@@ -44,9 +46,13 @@ struct PartTrials {
     MovingParts& parts;
     /// The size that the placement asks for, in place of the boundary's.
     bool lock_scale = false;
+    /// Parts are refined where that lowers their distortion near the boundary.
+    bool refines = false;
+    /// Boundaries slide over the target to where the part draws them, as long as that lowers it.
+    bool settles = false;
 
-    /// Deforms the part of a trial to its rim.
-    void move(PartTrial& trial, const Context& context) const;
+    /// Deforms the part of a trial to its rim. Returns its distortion without a refinement.
+    PasteDistortion move(PartTrial& trial, const Context& context) const;
     PartTrial along_loop(const Context& context) const;
     /// Nothing without a boundary free of edges, or where the ring is too coarse to be divided.
     std::optional<PartTrial> along_line(const Context& context) const;
@@ -54,6 +60,8 @@ struct PartTrials {
     PartTrial along_outline(const Context& context) const;
 
   private:
+    bool slide(PartTrial& trial, double part, const Context& context) const;
+    void settle(PartTrial& trial, const Context& context) const;
     PartTrial trial_of(std::shared_ptr<MovingPart> part, const PasteSimilarity& similarity,
                        const Context& context) const;
     std::shared_ptr<MovingPart> inside(MovingParts::Boundary kind, std::span<const Index> loop,

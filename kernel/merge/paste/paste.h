@@ -63,14 +63,16 @@ struct PasteMergeOptions {
     bool find_intersections = true;
     /// The part keeps the size that its placement asks for, in place of that of its boundary.
     bool lock_scale = false;
-    /// Deforms the part inside the outline that was marked as well, and takes that where the
-    /// surface near the boundary is distorted less.
+    /// Tries what may distort the surface near the boundary less, and takes it where it does: ARAP
+    /// iterations of the part; the part inside the outline that was marked; and, once `optimize`
+    /// was called and by nearest points, a boundary that slides over the target to where the part
+    /// draws it.
     bool compare = true;
-    /// What is shown while a part is dragged, many times a second: placement, boundary and deformed
-    /// part are those of a merge that is no draft, and the result is watertight, but its seam is
-    /// sewn and no more. Nothing is smoothed, made anew or flipped beside it, whatever `smooth`,
-    /// `collar` and `find_intersections` say; a boundary at which faces turn over stays; and where
-    /// elements come from is not told.
+    /// What is shown while a part is dragged, many times a second: placement and boundary are those
+    /// of a merge that is no draft, and the result is watertight, but the part is not refined, nor
+    /// does its boundary slide, and the seam is sewn and no more. Nothing is smoothed, made anew or
+    /// flipped beside it, whatever `smooth`, `collar` and `find_intersections` say; a boundary at
+    /// which faces turn over stays; and where elements come from is not told.
     bool draft = false;
 };
 
@@ -88,7 +90,7 @@ struct PasteReport {
     PasteDistortion near, feature;
     /// Near the boundary once the part lies on the target as it was opened.
     PasteDistortion laid;
-    /// Near the outline that was marked, where that was compared.
+    /// Near the outline that was marked, where that was compared; of the part before iterations.
     std::optional<PasteDistortion> outline_near;
     /// The outline was used in place of the loop that was found.
     bool kept_outline = false;

@@ -124,8 +124,9 @@ MergeReport merge_report(const PasteSides& sides, const Sewn& sewn,
 // The outline where the maps alone put it.
 PartTrial outline_trial(const PartTrials& trials, const Context& context) {
     const RingSurface mapped(trials.surface.map(), trials.surface.ring(), trials.placed.mapped);
-    const PartTrials marked{trials.options, trials.regions, mapped,           trials.ring,
-                            trials.placed,  trials.parts,   trials.lock_scale};
+    PartTrials marked{trials.options,    trials.regions, mapped,
+                      trials.ring,       trials.placed,  trials.parts,
+                      trials.lock_scale, trials.refines, trials.settles};
     return marked.along_outline(context);
 }
 
@@ -136,7 +137,7 @@ PartTrial best_trial(const PartTrials& trials, bool compare, bool covered, Paste
     PartTrial best = found ? std::move(*found) : trials.along_loop(context);
     if (!compare || !covered) return best;
     PartTrial outline = outline_trial(trials, context);
-    report.outline_near = outline.near;
+    report.outline_near = outline.plain;
     return outline.near.energy < best.near.energy ? std::move(outline) : std::move(best);
 }
 
@@ -170,8 +171,11 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     const auto start = Clock::now();
     const PlacedFeature& placed = state.placed;
     const RingSurface surface(*state.map, *state.triangles, placed.images);
-    const PartTrials trials{state.options, state.regions, surface,           *state.ring,
-                            placed,        state.parts,   options.lock_scale};
+    const bool refines = options.compare && !state.options.thesis && !options.draft;
+    const bool settles =
+        refines && state.optimized && state.options.correspondence == PasteCorrespondence::closest;
+    const PartTrials trials{state.options, state.regions,      surface, *state.ring, placed,
+                            state.parts,   options.lock_scale, refines, settles};
     PasteReport report;
     report.search = placed.loop.report;
     report.source_map = state.source_map.quality();

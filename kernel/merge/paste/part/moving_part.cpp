@@ -27,8 +27,16 @@ MovingPart::MovingPart(PastePart part, const BoundaryDeformOptions& options, con
 MovedPart MovingPart::moved(std::span<const BoundaryValue> values, const Context& context) {
     std::vector<BoundaryValue> ordered(values.size());
     for (std::size_t k = 0; k < held_.size(); ++k) ordered[held_[k]] = values[k];
-    const BoundaryDeformation deformed = deformer_.solve(ordered, context);
-    MovedPart result{part_.mesh, deformer_.stats()};
+    return moved_by(deformer_.solve(ordered, context));
+}
+
+MovedPart MovingPart::refined(int steps, const Context& context) {
+    return moved_by(deformer_.refine(steps, context));
+}
+
+MovedPart MovingPart::moved_by(const BoundaryDeformation& deformed) const {
+    MovedPart result{part_.mesh, deformer_.stats(), {}};
+    for (const std::size_t place : held_) result.pulls.push_back(deformed.pulls[place]);
     std::vector<Vec3> positions(part_.mesh.positions().begin(), part_.mesh.positions().end());
     const std::vector<Index>& ids = deformer_.region().vertices();
     for (std::size_t row = 0; row < ids.size(); ++row) {

@@ -22,6 +22,8 @@ namespace lissom {
 struct MovedPart {
     Mesh mesh;
     DeformStats stats;
+    /// For each vertex of the part's loop, how far the part draws it.
+    std::vector<Vec3> pulls;
 };
 
 /// A part with its systems factored: to move it anew costs no more than to solve them.
@@ -33,8 +35,12 @@ class MovingPart {
     const PastePart& part() const { return part_; }
     /// `values` are of the part's loop, in its order. Errors: as BoundaryDeformer::solve.
     MovedPart moved(std::span<const BoundaryValue> values, const Context& context);
+    /// Goes on from that with ARAP iterations. Errors: as BoundaryDeformer::refine.
+    MovedPart refined(int steps, const Context& context);
 
   private:
+    MovedPart moved_by(const BoundaryDeformation& deformed) const;
+
     PastePart part_;
     BoundaryDeformer deformer_;
     /// The place among what is held of each vertex of the loop.

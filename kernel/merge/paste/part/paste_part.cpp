@@ -176,18 +176,14 @@ double tilt_share(std::span<const Eigen::Quaterniond> tilts, double crease) {
     return crease < angles[rank] ? 1.0 - crease / angles[rank] : 0.0;
 }
 
-}  // namespace
-
-std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
-                                        const PasteSimilarity& similarity, double scale,
-                                        double crease) {
-    const std::size_t n = rim.size();
-    const std::vector<Eigen::Quaterniond> tilts = tilts_of(rim, similarity.rotation);
-    const double share = tilt_share(tilts, crease);
+// Frames turned by a share of the tilts, averaged along the loop.
+std::vector<Mat3> tilted_frames(std::span<const Eigen::Quaterniond> tilts, double share,
+                                const Mat3& rotation) {
+    const std::size_t n = tilts.size();
     std::vector<Mat3> frames;
     for (const Eigen::Quaterniond& tilt : tilts) {
         const Eigen::Quaterniond part = Eigen::Quaterniond::Identity().slerp(share, tilt);
-        frames.push_back(part.toRotationMatrix() * similarity.rotation);
+        frames.push_back(part.toRotationMatrix() * rotation);
     }
     for (int round = 0; round < kFrameAverages; ++round) {
         std::vector<Mat3> next;
@@ -197,9 +193,21 @@ std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
         }
         frames = std::move(next);
     }
+    return frames;
+}
+
+}  // namespace
+
+std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
+                                        const PasteSimilarity& similarity, double scale,
+                                        double crease) {
+    const std::vector<Eigen::Quaterniond> tilts = tilts_of(rim, similarity.rotation);
+    const double share = tilt_share(tilts, crease);
+    const std::vector<Mat3> frames = tilted_frames(tilts, share, similarity.rotation);
+    const std::vector<Mat3> upright = tilted_frames(tilts, 1.0, similarity.rotation);
     std::vector<BoundaryValue> values;
-    for (std::size_t k = 0; k < n; ++k) {
-        values.push_back({rim[k].image.position, frames[k], scale});
+    for (std::size_t k = 0; k < rim.size(); ++k) {
+        values.push_back({rim[k].image.position, frames[k], scale, crease, upright[k]});
     }
     return values;
 }

@@ -43,7 +43,8 @@ std::vector<RingPoint> rim_of(const PastePart& part, const RingSurface& surface)
 
 /// Frames by the least rotation from the turned normals of the source to those of the target,
 /// averaged three times along the loop. All of these rotations are made smaller by one factor, so
-/// that `crease` is left of the larger ones.
+/// that `crease` is left of the larger ones; a refinement may turn each to within that of the whole
+/// rotation.
 std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
                                         const PasteSimilarity& similarity, double scale,
                                         double crease);

@@ -2,7 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -228,4 +231,160 @@ TEST_CASE("features keep their shape, each by a similarity of its own that is an
     CHECK_THROWS_AS(BoundaryDeformer(mesh, all, held, wrong), Error);
     wrong.features = {two_bumps(mesh)[0], two_bumps(mesh)[0]};
     CHECK_THROWS_AS(BoundaryDeformer(mesh, all, held, wrong), Error);
+}
+
+namespace {
+
+// Mean by area of (s1 - 1)^2 + (s2 - 1)^2, s1 and s2 the singular values of the faces' maps.
+double stretch_energy(const Mesh& rest, const std::vector<Vec3>& positions) {
+    double sum = 0.0, area = 0.0;
+    for (Index f = 0; f < rest.face_count(); ++f) {
+        const std::span<const Index> face = rest.topology().face(f);
+        for (std::size_t k = 1; k + 1 < face.size(); ++k) {
+            const auto flat = [&](const auto& at) {
+                const Vec3 u = at(face[k]) - at(face[0]), v = at(face[k + 1]) - at(face[0]);
+                Eigen::Matrix2d m;
+                m << u.norm(), u.dot(v) / u.norm(), 0.0, u.cross(v).norm() / u.norm();
+                return m;
+            };
+            const Eigen::Matrix2d before = flat([&](Index v) { return rest.position(v); });
+            const Eigen::Matrix2d after = flat([&](Index v) { return positions[at(v)]; });
+            const Eigen::Vector2d s = (after * before.inverse()).jacobiSvd().singularValues();
+            const double size = before.determinant();
+            sum += size * (std::pow(s[0] - 1.0, 2) + std::pow(s[1] - 1.0, 2));
+            area += size;
+        }
+    }
+    return sum / area;
+}
+
+// Values that turn the rim of the bowl by up to `angle` to either side, without growing it.
+std::vector<BoundaryValue> bent_alone(const Mesh& mesh, const Region& held, double angle) {
+    std::vector<BoundaryValue> values;
+    for (const Index v : held.vertices()) {
+        const Vec3& p = mesh.position(v);
+        const Affine turn = rotation(Vec3::UnitZ(), angle * p.x(), Vec3::Zero());
+        values.push_back({turn(p) + Vec3(0, 0.3 * p.z(), 0), turn.linear, 1.0});
+    }
+    return values;
+}
+
+void check_falls(const std::vector<double>& energy) {
+    for (std::size_t k = 1; k < energy.size(); ++k) CHECK(energy[k] < energy[k - 1]);
+}
+
+}  // namespace
+
+TEST_CASE("refined, the energy falls with every step, and the surface is stretched no more") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
+    BoundaryDeformer deformer(mesh, all, held);
+    for (const double angle : {0.1, 0.5, 1.5}) {
+        CAPTURE(angle);
+        const std::vector<BoundaryValue> values = bent_alone(mesh, held, angle);
+        const BoundaryDeformation plain = deformer.solve(values);
+        const BoundaryDeformation refined = deformer.refine(20);
+        CHECK(refined.energy.size() > 2);
+        check_falls(refined.energy);
+        CHECK(stretch_energy(mesh, refined.positions) < stretch_energy(mesh, plain.positions));
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            CHECK(refined.positions[at(held.vertices()[i])] == values[i].position);
+        }
+        // It goes on where it stopped, and begins anew with the next solution.
+        const BoundaryDeformation further = deformer.refine(20);
+        CHECK(further.energy.front() == refined.energy.back());
+        check_falls(further.energy);
+        deformer.solve(values);
+        CHECK(deformer.refine(20).positions == refined.positions);
+    }
+}
+
+TEST_CASE("refined, what was turned at random has less energy") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
+    BoundaryDeformer deformer(mesh, all, held);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> some(-1.0, 1.0);
+    for (int k = 0; k < 20; ++k) {
+        std::vector<BoundaryValue> values;
+        const double slack = k % 2 == 0 ? 0.0 : 0.3;
+        for (const Index v : held.vertices()) {
+            const Vec3 axis(some(random), some(random), some(random));
+            const Mat3 turn = rotation(axis.normalized(), 1.5 * some(random), Vec3::Zero()).linear;
+            const Vec3 shift(some(random), some(random), some(random));
+            values.push_back(
+                {mesh.position(v) + 0.2 * shift, turn, std::exp(0.5 * some(random)), slack, turn});
+        }
+        deformer.solve(values);
+        check_falls(deformer.refine(8).energy);
+    }
+}
+
+TEST_CASE("refined, a similarity stays one") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
+    BoundaryDeformer deformer(mesh, all, held);
+    const Affine map = similarity(3.0, Vec3(1, 2, -1), 2.8, Vec3(10, -3, 8));
+    deformer.solve(moved(mesh, held, map));
+    const BoundaryDeformation same = deformer.refine(6);
+    std::vector<Vec3> expected;
+    for (const Vec3& p : mesh.positions()) expected.push_back(map(p));
+    CHECK(greatest_difference(same.positions, expected) < 1e-8);
+    for (const Vec3& pull : same.pulls) CHECK(pull.norm() < 1e-8);
+}
+
+TEST_CASE("held vertices with slack turn to where there is less energy, within it") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
+    BoundaryDeformer deformer(mesh, all, held);
+    std::vector<BoundaryValue> values = bent_alone(mesh, held, 0.5);
+    deformer.solve(values);
+    const double firm = deformer.refine(6).energy.back();
+    const double slack = 0.2;
+    for (BoundaryValue& value : values) {
+        value.slack = slack;
+        value.upright = value.rotation;
+    }
+    deformer.solve(values);
+    const BoundaryDeformation result = deformer.refine(6);
+    CHECK(result.energy.back() < firm);
+    check_falls(result.energy);
+    double greatest = 0.0;
+    const std::vector<Index>& ids = held.vertices();
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        CHECK(result.positions[at(ids[i])] == values[i].position);
+        const Mat3 away = result.transforms[at(ids[i])] * values[i].rotation.transpose();
+        const double angle = std::acos(std::clamp(0.5 * (away.trace() - 1.0), -1.0, 1.0));
+        CHECK(angle < slack + 1e-6);
+        greatest = std::max(greatest, angle);
+    }
+    CHECK(greatest > 0.5 * slack);
+    values.front().slack = -1.0;
+    CHECK_THROWS_AS(deformer.solve(values), Error);
+}
+
+TEST_CASE("pulls of held vertices lead to where there is less energy") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
+    BoundaryDeformer deformer(mesh, all, held);
+    std::vector<BoundaryValue> values = bent_alone(mesh, held, 0.5);
+    double last = 1e9;
+    for (int round = 0; round < 4; ++round) {
+        deformer.solve(values);
+        const BoundaryDeformation result = deformer.refine(4);
+        CHECK(result.energy.back() < last);
+        last = result.energy.back();
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i].position += 0.25 * result.pulls[i];
+        }
+    }
+}
+
+TEST_CASE("a refinement follows a solution") {
+    const Mesh mesh = bowl();
+    const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
+    BoundaryDeformer deformer(mesh, all, held);
+    CHECK_THROWS_AS(deformer.refine(1), Error);
+    deformer.solve(bent_alone(mesh, held, 0.5));
+    CHECK_THROWS_AS(deformer.refine(0), Error);
 }

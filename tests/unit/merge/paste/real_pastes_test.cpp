@@ -66,8 +66,10 @@ TEST_CASE("real pastes: near the boundary no more distortion than the bounds") {
         CHECK(result.report.outline_near->energy ==
               doctest::Approx(marked.report.near.energy).epsilon(1e-6));
         CHECK(result.report.near.energy <= result.report.outline_near->energy);
-        CHECK(result.report.kept_outline ==
-              (result.report.near.energy == result.report.outline_near->energy));
+        // What is not better than the outline as it was marked is the outline.
+        if (result.report.near.energy == result.report.outline_near->energy) {
+            CHECK(result.report.kept_outline);
+        }
     }
 }
 
