@@ -1,6 +1,6 @@
 #include "kernel/mesh/edit/corner_twins.h"
 
-#include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
+#include "kernel/mesh/half_edges.h"
 
 namespace lissom {
 
