@@ -183,7 +183,8 @@ int ViewApp::end() {
     finishing_.stop();
     keeping_.keep_unsaved();
     if (session_.finish(1.0)) return cli::kSuccess;
-    std::cerr << "lissom: the script did not stop when the window was closed" << std::endl;
+    std::cerr << "lissom: what was running did not stop within a second, and was ended"
+              << std::endl;
     std::_Exit(cli::kFailure);
 }
 
