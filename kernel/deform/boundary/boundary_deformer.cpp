@@ -32,7 +32,7 @@ constexpr double kSameScale = 1e-12;
 constexpr double kLeastWeight = 1e-3;
 // How far beyond the rotations that fit best a step of a refinement goes, in parts of the way to
 // them; smaller parts than the least count as none. A step that gains less is the last.
-constexpr double kFurther = 1.6, kLeastFurther = 0.3, kLeastGain = 1e-4;
+constexpr double kMostFurther = 1.6, kLeastFurther = 0.3, kLeastGain = 1e-4;
 
 DeformOptions deform_options(const BoundaryDeformOptions& options) {
     DeformOptions result;
@@ -567,7 +567,7 @@ std::vector<double> BoundaryDeformer::State::refine(int steps, const Context& co
     }
     FittedTurns now = fitted(context);
     std::vector<double> energy{now.energy};
-    double further = kFurther;
+    double further = kMostFurther;
     for (int k = 0; k < steps && step(now, further, context); ++k) energy.push_back(now.energy);
     return energy;
 }

@@ -10,7 +10,7 @@ namespace lissom {
 namespace {
 
 // ARAP iterations of a part, and times that its boundary slides, at most.
-constexpr int kRefinements = 20;
+constexpr int kPartRefinements = 20;
 constexpr int kSettlingRounds = 12;
 // How far a boundary slides where all of the way does not serve, at least.
 constexpr double kLeastSlide = 0.25;
@@ -33,7 +33,7 @@ PasteDistortion PartTrials::move(PartTrial& trial, const Context& context) const
     const PasteDistortion plain = near_distortion(trial.part(), trial.moved.mesh, trial.scale);
     trial.near = plain;
     if (!refines) return plain;
-    MovedPart refined = trial.moving->refined(kRefinements, context);
+    MovedPart refined = trial.moving->refined(kPartRefinements, context);
     const PasteDistortion near = near_distortion(trial.part(), refined.mesh, trial.scale);
     if (near.energy < plain.energy) {
         trial.moved = std::move(refined);
