@@ -5,8 +5,28 @@
 
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 #include <cstddef>
+#include <ostream>
 
 namespace OpenMesh {
+
+// What assertions of its headers ask.
+inline bool ArrayKernel::is_valid_handle(VertexHandle v) const {
+    return v.idx() >= 0 && static_cast<std::size_t>(v.idx()) < n_vertices();
+}
+inline bool ArrayKernel::is_valid_handle(HalfedgeHandle h) const {
+    return h.idx() >= 0 && static_cast<std::size_t>(h.idx()) < n_halfedges();
+}
+inline bool ArrayKernel::is_valid_handle(EdgeHandle e) const {
+    return e.idx() >= 0 && static_cast<std::size_t>(e.idx()) < n_edges();
+}
+inline bool ArrayKernel::is_valid_handle(FaceHandle f) const {
+    return f.idx() >= 0 && static_cast<std::size_t>(f.idx()) < n_faces();
+}
+
+// Where this one is defined, the type of properties is, for whoever asks for it at run time.
+inline void BaseProperty::stats(std::ostream& out) const {
+    out << name() << '\n';
+}
 
 inline void ArrayKernel::init_bit_masks(BitMaskContainer& masks) {
     for (unsigned int bit = Attributes::UNUSED; bit != 0; bit <<= 1) masks.push_back(bit);

@@ -343,7 +343,7 @@ void run_hair(Report& report, Index count) {
 
 // ---- Tools: what a session does from an event to what is to be drawn, without a window
 
-// Milliseconds of all threads of this process; the one that waits sleeps.
+// Milliseconds of all threads of this process; the one that waits sleeps, and looks seldom.
 class ToolRun {
   public:
     ToolRun(const std::string& file, const std::string& tool)
@@ -401,7 +401,7 @@ class ToolRun {
 
   private:
     void wait() {
-        while (session_.busy()) std::this_thread::sleep_for(std::chrono::microseconds(300));
+        while (session_.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(3));
         if (const auto shown = session_.take_shown()) bounds_ = shown->bounds;
     }
 

@@ -285,11 +285,15 @@ bool SpatialTree::hides(const Vec3& point, const Vec3& towards, const HideOption
     double limit = options.eye;
     visit_along(ray, limit, [&](const Hit& hit) {
         if (!(hit.distance <= limit) || hit.distance <= options.slack) return;
-        if (!options.back_faces && area_normal(hit.triangle).dot(ray.direction) <= 0.0) return;
         const auto [a, b, c] = triangles_[hit.triangle];
-        const auto nearest =
-            nearest_on_triangle({positions_[a], positions_[b], positions_[c]}, point);
-        if (nearest.squared_distance <= touching * touching) return;
+        const std::array corners{positions_[a], positions_[b], positions_[c]};
+        // Of most points asked about it is a corner.
+        const auto touches = [&](const Vec3& p) {
+            return (p - point).squaredNorm() <= touching * touching;
+        };
+        if (std::any_of(corners.begin(), corners.end(), touches)) return;
+        if (!options.back_faces && area_normal(hit.triangle).dot(ray.direction) <= 0.0) return;
+        if (nearest_on_triangle(corners, point).squared_distance <= touching * touching) return;
         hidden = true;
         limit = -1.0;
     });
