@@ -235,7 +235,7 @@ class SurfaceSelection {
     std::vector<char> asked_;
     std::vector<Witness> witnesses_;
     // In the order in which they were found.
-    std::vector<Index> found_;
+    std::vector<Index> found_, unseen_;
 };
 
 void SurfaceSelection::collect(const Shape& shape) {
@@ -308,20 +308,29 @@ void SurfaceSelection::keep_visible() {
     });
     std::size_t count = 0;
     for (std::size_t i = 0; i < kept.size(); ++i) {
-        if (kept[i]) witnesses_[count++] = witnesses_[i];
+        if (kept[i]) {
+            witnesses_[count++] = witnesses_[i];
+        } else if (by_vertex()) {
+            unseen_.push_back(witnesses_[i].element);
+        }
     }
     witnesses_.resize(count);
 }
 
 Selected SurfaceSelection::result() const {
+    const auto region = [&](std::vector<Index> ids) {
+        std::sort(ids.begin(), ids.end());
+        return Region(surface_.shared_topology(), std::move(ids));
+    };
+    if (by_vertex()) return {object_, region(found_), {}, region(unseen_)};
     std::vector<Index> elements = found_, vertices;
     std::sort(elements.begin(), elements.end());
-    if (by_vertex()) return {object_, Region(surface_.shared_topology(), std::move(elements)), {}};
     for (const Index f : elements) {
         const auto corners = surface_.topology().face(f);
         vertices.insert(vertices.end(), corners.begin(), corners.end());
     }
-    return {object_, Region(surface_.shared_topology(), std::move(vertices)), std::move(elements)};
+    return {object_, Region(surface_.shared_topology(), std::move(vertices)), std::move(elements),
+            region({})};
 }
 
 void require_finite(std::span<const Vec2> pixels) {

@@ -40,6 +40,9 @@ struct Selected {
     Region vertices;
     /// The selected faces, ascending; empty where vertices were asked for.
     std::vector<Index> faces;
+    /// Vertices inside the shape that are not selected as they are not seen; empty where faces were
+    /// asked for. They may be among the known ones as long as neither camera nor surface moves.
+    Region unseen;
 };
 
 /// What is seen inside a shape, of every surface of the scene in their order. Pixels may lie

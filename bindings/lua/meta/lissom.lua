@@ -488,6 +488,7 @@
 ---@field mesh lissom.Mesh The mesh.
 ---@field region lissom.Region The selected vertices, or those of the selected faces.
 ---@field faces integer[] The selected faces; empty where vertices were asked for.
+---@field unseen lissom.Region Vertices inside the shape that are not seen; empty where faces were asked for.
 
 ---A line that a hand drew, at even steps.
 ---@class lissom.DrawnStroke
@@ -2769,7 +2770,7 @@ function Camera:pick_all(options) end
 ---@field what? "vertices"|"faces" Vertices that are seen inside; or faces of which the centroid of a triangle is, and under a brush also those that it touches. Default: "vertices".
 ---@field through? boolean Also what surfaces hide. Default: false.
 ---@field back_faces? boolean Faces that are seen from behind count; if not, neither they nor their vertices are selected, and they hide nothing. Default: true.
----@field known? lissom.Region[] Vertices that were found before, which are left out: a long stroke then costs only what is new under it.
+---@field known? lissom.Region[] Vertices that were found before, or found unseen by the same camera, which are left out: a long stroke then costs only what is new under it.
 
 ---What is seen in a rectangle, inside a lasso or under a brush. Pixels may lie outside the picture.
 ---@param options? lissom.Camera.SelectOptions

@@ -221,7 +221,9 @@ std::vector<Record> pick_records() {
          {{"string?", "object", "Its name in the scene, where one was given."},
           {"lissom.Mesh", "mesh", "The mesh."},
           {"lissom.Region", "region", "The selected vertices, or those of the selected faces."},
-          {"integer[]", "faces", "The selected faces; empty where vertices were asked for."}}}};
+          {"integer[]", "faces", "The selected faces; empty where vertices were asked for."},
+          {"lissom.Region", "unseen",
+           "Vertices inside the shape that are not seen; empty where faces were asked for."}}}};
 }
 
 }  // namespace lissom::lua

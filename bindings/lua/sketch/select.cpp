@@ -52,19 +52,24 @@ std::vector<const Region*> known_regions(const Call& call, const PickTargets& ta
     return known;
 }
 
-bool push_selected(Call& call, const PickTargets& targets, Selected& one) {
-    lua_createtable(call.lua(), 0, 4);
-    targets.push_fields(call, one.object);
-    call.set_field("faces", call.push_ids(one.faces));
+// Sets a field of the table on top of the stack.
+bool set_region(Call& call, const char* field, const std::shared_ptr<MeshObject>& mesh,
+                Region& vertices) {
     const auto region = call.create<RegionObject>();
-    const bool done = call.attempt_quick([&] {
-        region.set(
-            std::make_shared<RegionObject>(targets.mesh(one.object), std::move(one.vertices)));
-    });
+    const bool done = call.attempt_quick(
+        [&] { region.set(std::make_shared<RegionObject>(mesh, std::move(vertices))); });
     if (!done) return false;
     call.charge(region);
-    call.set_field("region");
+    call.set_field(field);
     return true;
+}
+
+bool push_selected(Call& call, const PickTargets& targets, Selected& one) {
+    lua_createtable(call.lua(), 0, 5);
+    targets.push_fields(call, one.object);
+    call.set_field("faces", call.push_ids(one.faces));
+    return set_region(call, "region", targets.mesh(one.object), one.vertices) &&
+           set_region(call, "unseen", targets.mesh(one.object), one.unseen);
 }
 
 int select_in_picture(Call& call) {
@@ -124,8 +129,8 @@ Function select_method_of_camera() {
                 "are selected, and they hide nothing.")
             .defaults(true),
         objects("known", "lissom.Region",
-                "Vertices that were found before, which are left out: a long stroke then costs "
-                "only what is new under it.")
+                "Vertices that were found before, or found unseen by the same camera, which are "
+                "left out: a long stroke then costs only what is new under it.")
             .optional()};
     fields.insert(fields.end(), more.begin(), more.end());
     return {.name = "select",
@@ -141,6 +146,7 @@ Function select_method_of_camera() {
 local camera = lissom.camera{ eye = { 0, 0, 5 } }
 local found = camera:select{ mesh = box, rectangle = { { 0, 0 }, { 1280, 480 } } }
 assert(#found[1].region == 2)               -- the upper front edge; what is behind it is hidden
+assert(#found[1].unseen == 2)
 local all = { mesh = box, rectangle = { { 0, 0 }, { 1280, 960 } }, known = { found[1].region } }
 assert(#camera:select(all)[1].region == 2)  -- the lower front edge)"};
 }

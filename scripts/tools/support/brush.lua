@@ -18,21 +18,28 @@ function brush:paint(ev, radius, options)
     return ev:select(search)
 end
 
---- All that the stroke has come over: a region for each mesh. What was found before is not looked for again.
+local function join(regions, mesh, region)
+    regions[mesh] = regions[mesh] and regions[mesh]:union(region) or region
+end
+
+--- All that the stroke has come over: a region for each mesh. What was found before, or found unseen by the
+-- same camera, is not looked for again.
 function brush:cover(ev, radius, options)
     self.covered = self.covered or {}
+    if not rawequal(self.camera, ev.camera) then self.unseen, self.camera = {}, ev.camera end
     local search = { known = {} }
     for key, value in pairs(options or {}) do search[key] = value end
     for _, region in pairs(self.covered) do table.insert(search.known, region) end
+    for _, region in pairs(self.unseen) do table.insert(search.known, region) end
     for _, one in ipairs(self:paint(ev, radius, search)) do
-        local old = self.covered[one.mesh]
-        self.covered[one.mesh] = old and old:union(one.region) or one.region
+        join(self.covered, one.mesh, one.region)
+        join(self.unseen, one.mesh, one.unseen)
     end
     return self.covered
 end
 
 --- The stroke has ended.
-function brush:lift() self.last, self.covered = nil, nil end
+function brush:lift() self.last, self.covered, self.unseen, self.camera = nil, nil, nil, nil end
 
 function brush:draw(view, radius)
     if self.x then view:circle{ at = { self.x, self.y }, radius = radius } end

@@ -125,20 +125,27 @@ TEST_CASE("what is known is left out, and nothing else: a stroke in pieces is th
                                 options);
         };
         const std::vector<Selected> whole = brushed(stroke, {});
-        std::vector<Region> found;
+        std::vector<Region> found, asked;
         for (const Selected& one : whole) found.push_back(Region::none(one.vertices.topology()));
+        asked = found;
         for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
             SelectOptions options;
             std::vector<const Region*> known(world.scene.objects().size(), nullptr);
-            for (std::size_t k = 0; k < whole.size(); ++k) known[at(whole[k].object)] = &found[k];
+            for (std::size_t k = 0; k < whole.size(); ++k) known[at(whole[k].object)] = &asked[k];
             options.known = known;
             const auto piece = brushed(std::span(stroke).subspan(i, 2), options);
             for (std::size_t k = 0; k < whole.size(); ++k) {
-                CHECK(piece[k].vertices.intersected(found[k]).empty());
+                const Region all = piece[k].vertices.united(piece[k].unseen);
+                CHECK(all.intersected(asked[k]).empty());
+                CHECK(piece[k].vertices.intersected(piece[k].unseen).empty());
                 found[k] = found[k].united(piece[k].vertices);
+                asked[k] = asked[k].united(all);
             }
         }
-        for (std::size_t k = 0; k < whole.size(); ++k) CHECK(found[k] == whole[k].vertices);
+        for (std::size_t k = 0; k < whole.size(); ++k) {
+            CHECK(found[k] == whole[k].vertices);
+            CHECK(asked[k] == whole[k].vertices.united(whole[k].unseen));
+        }
     }
 }
 
