@@ -16,6 +16,13 @@
 namespace lissom::lua {
 namespace {
 
+// Time enough on a machine that is slow, with sanitizers, and does other work.
+SandboxLimits patient() {
+    SandboxLimits limits;
+    limits.seconds = 1000.0;
+    return limits;
+}
+
 int run_text(Sandbox& sandbox, const std::string& text) {
     lua_State* L = sandbox.lua();
     lua_settop(L, 0);
@@ -25,7 +32,7 @@ int run_text(Sandbox& sandbox, const std::string& text) {
 
 TEST_CASE("sandbox: a script that does no harm runs as elsewhere") {
     std::string printed;
-    Sandbox sandbox({}, {}, [&](std::string_view text) { printed += text; });
+    Sandbox sandbox(patient(), {}, [&](std::string_view text) { printed += text; });
     CHECK(run_text(sandbox,
                    "local lissom = require 'lissom' local m = lissom.shapes.cactus() "
                    "assert(m:smooth{ iterations = 2 }) print('vertices', m:vertex_count() > 100) "
@@ -49,7 +56,7 @@ TEST_CASE("sandbox: instructions are counted, of each run") {
 }
 
 TEST_CASE("sandbox: memory is Lua's and the kernel's together") {
-    SandboxLimits limits;
+    SandboxLimits limits = patient();
     limits.memory_bytes = std::size_t{64} << 20;
     Sandbox sandbox(limits, {});
     CHECK(sandbox.memory()->limit() == limits.memory_bytes);
@@ -130,7 +137,7 @@ return bar:hash() .. " " .. merged:hash() .. " " .. hair:hash()
 )";
 
 std::string three_chapters() {
-    Sandbox sandbox({}, {});
+    Sandbox sandbox(patient(), {});
     lua_State* L = sandbox.lua();
     if (luaL_loadstring(L, kThreeChapters) != LUA_OK) return "no script";
     sandbox.call(0, 1);
@@ -157,7 +164,7 @@ TEST_CASE("sandbox: the account of the host is charged too, and holds") {
     HostOptions options;
     options.context.memory = account;
     {
-        Sandbox sandbox({}, options);
+        Sandbox sandbox(patient(), options);
         CHECK(account->used() == sandbox.memory()->used());
         CHECK(run_text(sandbox, "return ('x'):rep(40 * 2^20)") != LUA_OK);
         CHECK(run_text(sandbox, "kept = require('lissom').shapes.grid{ segments = 100 }") ==
@@ -169,7 +176,7 @@ TEST_CASE("sandbox: the account of the host is charged too, and holds") {
 }
 
 TEST_CASE("sandbox: objects that no script holds make room for others") {
-    SandboxLimits limits;
+    SandboxLimits limits = patient();
     limits.memory_bytes = std::size_t{32} << 20;
     Sandbox sandbox(limits, {});
     CHECK(
