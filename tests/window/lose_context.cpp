@@ -15,17 +15,21 @@ GLenum EPOXY_CALLSPEC status_once() {
     return GL_INNOCENT_CONTEXT_RESET;
 }
 
+// The program loads libepoxy when it first draws.
+void find_slot() {
+    void* const library = dlopen("libepoxy.so.0", RTLD_NOW | RTLD_NOLOAD);
+    if (library) slot = static_cast<Status*>(dlsym(library, "epoxy_glGetGraphicsResetStatus"));
+}
+
 void lose(int) {
+    find_slot();
     if (!slot) return;
     driver = *slot;
     *slot = &status_once;
 }
 
 struct Preloaded {
-    Preloaded() {
-        slot = static_cast<Status*>(dlsym(RTLD_DEFAULT, "epoxy_glGetGraphicsResetStatus"));
-        signal(SIGUSR1, lose);
-    }
+    Preloaded() { signal(SIGUSR1, lose); }
 } const preloaded;
 
 }  // namespace
