@@ -126,7 +126,9 @@ int evaluate_lines(Program& program, Script& script) {
     int status = kSuccess;
     Prompt prompt(program, script.lua());
     if (prompt.interactive()) {
-        std::cout << "lissom " LISSOM_VERSION ", " LUA_RELEASE "; help() tells what there is\n";
+        std::cout << "lissom " LISSOM_VERSION ", " LUA_RELEASE
+                     "; help() tells what there is, Ctrl-C gives up a line or stops what runs, "
+                     "Ctrl-D ends\n";
     }
     while (true) {
         program.wait_at_prompt(true);
