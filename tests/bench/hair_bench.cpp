@@ -178,7 +178,7 @@ void run_setup(Report& report, const Setup& setup, const Head& head, StrandGrowe
     // Every other stream is dragged in turn: the first frame of each drag against the later ones.
     std::size_t moved = 0;
     const Quotient first = quotient_of(
-        7, [&] { return style.frame(grower, strands, moved = (moved + 3) % style.streams()); },
+        15, [&] { return style.frame(grower, strands, moved = (moved + 3) % style.streams()); },
         [&] {
             style.frame(grower, strands, moved);
             return style.frame(grower, strands, moved);
@@ -187,7 +187,9 @@ void run_setup(Report& report, const Setup& setup, const Head& head, StrandGrowe
     report.add({setup.name + ": stream moved to 100K strands (thesis: several seconds)",
                 milliseconds(first.below), "ms"});
     report.add_ratio(setup.name + ": first frame of a drag / later frames", "later frames", first,
-                     1.3);
+                     1.3, Better::less,
+                     "the factor's rows behind those of the moved stream: products of panels 73 %, "
+                     "entries of the matrix 18, rows below a panel 9; growth takes the same");
     const auto grow = [&] { grower.grow(style.field, style.options, strands, context); };
     MemoryLimit memory;
     const Quotient growth = quotient_of(

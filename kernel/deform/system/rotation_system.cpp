@@ -244,7 +244,7 @@ void RotationSystem::solve(std::span<const PaddedMat3> transforms, std::span<Vec
                            Scratch& scratch, const Context& context) const {
     find_residual(transforms.data(), x, scratch.residual, scratch, context);
     find_correction(scratch, context);
-    add_correction(scratch, x);
+    add_correction(scratch, x, context);
     if (!draft) correct_further(x, scratch, context);
     if (ties_.has_hard()) enforce_ties(x, scratch.columns);
 }
@@ -256,19 +256,28 @@ void RotationSystem::finish_draft(std::span<Vec4> x, Scratch& scratch,
 
 void RotationSystem::correct_further(std::span<Vec4> x, Scratch& scratch,
                                      const Context& context) const {
+    if (corrections_ > 1) scratch.step.assign(vertex_count_, Vec4::Zero());
+    const auto count = count_of(free_);
     for (int pass = 1; pass < corrections_; ++pass) {
+        for_each_block(context, count, [&](Index begin, Index end) {
+            for (Index r = begin; r < end; ++r)
+                scratch.step[free_[r]] = padded(scratch.correction[r]);
+        });
         // What the last correction leaves of the residual.
-        scratch.step.assign(vertex_count_, Vec4::Zero());
-        add_correction(scratch, scratch.step);
         find_residual(nullptr, scratch.step, scratch.change, scratch, context);
-        for (std::size_t r = 0; r < free_.size(); ++r) scratch.residual[r] += scratch.change[r];
+        for_each_block(context, count, [&](Index begin, Index end) {
+            for (Index r = begin; r < end; ++r) scratch.residual[r] += scratch.change[r];
+        });
         find_correction(scratch, context);
-        add_correction(scratch, x);
+        add_correction(scratch, x, context);
     }
 }
 
-void RotationSystem::add_correction(const Scratch& scratch, std::span<Vec4> x) const {
-    for (std::size_t r = 0; r < free_.size(); ++r) x[free_[r]].head<3>() += scratch.correction[r];
+void RotationSystem::add_correction(const Scratch& scratch, std::span<Vec4> x,
+                                    const Context& context) const {
+    for_each_block(context, count_of(free_), [&](Index begin, Index end) {
+        for (Index r = begin; r < end; ++r) x[free_[r]].head<3>() += scratch.correction[r];
+    });
 }
 
 void RotationSystem::bend(const PaddedMat3* transforms, std::span<const Vec4> x,

@@ -111,7 +111,7 @@ class RotationSystem {
                        std::vector<Vec3>& residual, Scratch& scratch, const Context& context) const;
     void correct_further(std::span<Vec4> x, Scratch& scratch, const Context& context) const;
     void find_correction(Scratch& scratch, const Context& context) const;
-    void add_correction(const Scratch& scratch, std::span<Vec4> x) const;
+    void add_correction(const Scratch& scratch, std::span<Vec4> x, const Context& context) const;
     void enforce_ties(std::span<Vec4> x, std::vector<double>& columns) const;
     double measure_contraction(const Context& context) const;
 
