@@ -139,7 +139,11 @@ int run_file(Program& program, const lua::ScriptArguments& arguments,
     if (ended_well && !unclaimed.empty() && !state.parameters) {
         return refuse_words(program, arguments.script, unclaimed);
     }
-    return ended_well ? kSuccess : report(program, result);
+    if (!ended_well) return report(program, result);
+    if (text && is_recording(*text) && !program.json()) {
+        std::cout << arguments.script << ": done again, and the scene is as it was recorded\n";
+    }
+    return kSuccess;
 }
 
 // What is wrong with a limit, or "".

@@ -11,6 +11,7 @@
 #include "bindings/cli/help_guard.h"
 #include "bindings/cli/process/child_process.h"
 #include "bindings/cli/terminal/interrupt.h"
+#include "bindings/lua/core/call.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/io/stream/file.h"
 
@@ -115,12 +116,14 @@ bool names_a_chunk(lua_State* L, const char* message) {
     return false;
 }
 
+// Where a line of a script runs; the library's own Lua is none.
 void push_place(lua_State* L) {
     for (int level = 1; level < 100; ++level) {
         lua_Debug frame;
         if (!lua_getstack(L, level, &frame)) break;
         luaL_where(L, level);
-        if (lua_tostring(L, -1)[0] != '\0') return;
+        const char* place = lua_tostring(L, -1);
+        if (*place != '\0' && !starts_with(place, lua::kOwnLuaText)) return;
         lua_pop(L, 1);
     }
     lua_pushliteral(L, "");

@@ -53,6 +53,13 @@ bool calls_test(std::string_view text) {
     return has_word(text, "test");
 }
 
+bool is_recording(std::string_view text) {
+    while (text.starts_with("--") || text.starts_with("\n") || text.starts_with("\r\n")) {
+        text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    }
+    return text.starts_with("return (require(\"lissom\").replay{");
+}
+
 std::optional<std::string> script_text(const std::string& file) {
     const auto all_of = [](std::istream& stream) {
         return std::string(std::istreambuf_iterator<char>(stream), {});

@@ -20,6 +20,9 @@ ScriptTraits script_traits(std::string_view text);
 /// Whether it may call `test`: looks for the word, as script_traits does.
 bool calls_test(std::string_view text);
 
+/// Whether it is a recording of what was done with tools, as the window writes them.
+bool is_recording(std::string_view text);
+
 /// The text of a regular file, or of the standard input for "-"; nothing where it cannot be read.
 std::optional<std::string> script_text(const std::string& file);
 

@@ -53,7 +53,8 @@ Mesh& Mesh::operator=(const Mesh& other) {
     return *this = Mesh(other);
 }
 
-// As the compiler's own, but that attributes come with their account.
+// As the compiler's own, but that attributes come with their account, and that the revision is one
+// that this mesh has not had.
 Mesh& Mesh::operator=(Mesh&& other) noexcept {
     topology_ = std::move(other.topology_);
     hold_ = std::move(other.hold_);
@@ -63,7 +64,7 @@ Mesh& Mesh::operator=(Mesh&& other) noexcept {
     material_libraries_ = std::move(other.material_libraries_);
     asset_ = std::move(other.asset_);
     report_ = std::move(other.report_);
-    revision_ = other.revision_;
+    revision_ = std::max(revision_, other.revision_) + 1;
     return *this;
 }
 
@@ -102,9 +103,7 @@ std::span<Vec3> Mesh::edit_positions() {
 }
 
 void Mesh::replace_by(Mesh other) {
-    const std::uint64_t next = std::max(revision_, other.revision_) + 1;
     *this = std::move(other);
-    revision_ = next;
 }
 
 void Mesh::set_asset(std::shared_ptr<const Asset> asset) {

@@ -90,7 +90,9 @@ Region::Region(std::shared_ptr<const Topology> topology, std::vector<Index> vert
       hold_(topology_->account(), "a region"),
       vertices_(std::move(vertices)) {
     require_vertices(*topology_, vertices_);
-    std::sort(vertices_.begin(), vertices_.end());
+    if (!std::is_sorted(vertices_.begin(), vertices_.end())) {
+        std::sort(vertices_.begin(), vertices_.end());
+    }
     vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
     hold_.resize(vertices_.size() * sizeof(Index));
 }

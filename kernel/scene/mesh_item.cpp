@@ -65,9 +65,12 @@ Attribute form_of(const Attribute& attribute) {
 
 }  // namespace
 
-MeshContent::MeshContent(const Mesh& mesh, const MeshContent* last, ContentStore& store)
+MeshContent::MeshContent(const Mesh& mesh, const MeshContent* last, bool same_positions,
+                         ContentStore& store)
     : topology_(store.keep_counted(mesh.shared_topology(), mesh.topology().memory_bytes())),
-      positions_(std::as_bytes(mesh.positions()), last ? last->positions_ : SharedBlocks(), store),
+      positions_(same_positions ? last->positions_
+                                : SharedBlocks(std::as_bytes(mesh.positions()),
+                                               last ? last->positions_ : SharedBlocks(), store)),
       labels_(keep_equal(mesh.attributes().labels(), last ? &last->labels_ : nullptr, store)),
       regions_(keep_regions(mesh.regions(), last ? &last->regions_ : nullptr, store)),
       asset_(store.keep_counted(mesh.asset(), mesh.asset() ? mesh.asset()->memory_bytes() : 0)),
@@ -148,9 +151,14 @@ std::uint64_t MeshContent::compute_hash() const {
 std::shared_ptr<const ItemContent> MeshItem::capture(const std::shared_ptr<const ItemContent>& last,
                                                      ContentStore& store) const {
     const auto* before = dynamic_cast<const MeshContent*>(last.get());
-    auto content = std::make_shared<const MeshContent>(*mesh_, before, store);
-    if (before && *content == *before) return last;
-    return content;
+    const bool same_positions =
+        before && last == captured_.lock() && mesh_->revision() == revision_;
+    std::shared_ptr<const ItemContent> now = last;
+    auto content = std::make_shared<const MeshContent>(*mesh_, before, same_positions, store);
+    if (!before || !(*content == *before)) now = std::move(content);
+    captured_ = now;
+    revision_ = mesh_->revision();
+    return now;
 }
 
 void MeshItem::restore(const ItemContent& content, const ItemContent* present) {

@@ -26,8 +26,10 @@ namespace lissom {
 /// whole.
 class MeshContent : public ItemContent {
   public:
-    /// Shares with `last`, which may be null.
-    MeshContent(const Mesh& mesh, const MeshContent* last, ContentStore& store);
+    /// Shares with `last`, which may be null; positions that are known to be the same are not
+    /// compared.
+    MeshContent(const Mesh& mesh, const MeshContent* last, bool same_positions,
+                ContentStore& store);
 
     /// The mesh again, with all that it held.
     Mesh mesh() const;
@@ -61,6 +63,8 @@ class MeshContent : public ItemContent {
     std::vector<std::string> material_libraries_;
 };
 
+/// Positions are compared with those captured before only where the mesh's revision has grown:
+/// whoever writes through a span that edit_positions() gave long ago calls that again.
 class MeshItem : public SceneItem {
   public:
     explicit MeshItem(std::shared_ptr<Mesh> mesh) : mesh_(std::move(mesh)) {}
@@ -82,6 +86,9 @@ class MeshItem : public SceneItem {
     virtual void restored() {}
 
     std::shared_ptr<Mesh> mesh_;
+    // What was captured last, and the mesh's revision then.
+    mutable std::weak_ptr<const ItemContent> captured_;
+    mutable std::uint64_t revision_ = 0;
 };
 
 }  // namespace lissom

@@ -18,7 +18,7 @@ local axes = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
 -- The handle that the gizmo is at: none while there are but pinned ones; its number, and the list of all.
 local function active(self, scene)
     local list = handles.list(scene)
-    local number = handles.number(list, self.handle, self.state.pins)
+    local number = handles.number(list, self.handle)
     if list[number] then self.grip:place(list[number].at) end
     return list[number], number, list
 end
@@ -58,10 +58,7 @@ end
 
 local keys = {
     enter = function(self, scene) self.handle = add_handle(self, scene) end,
-    p = function(self, scene)
-        self.state.pins = self.state.pins or {}
-        table.insert(self.state.pins, add_handle(self, scene))
-    end,
+    p = function(self, scene) handles.pin(add_handle(self, scene)) end,
     tab = function(self, _, one, number, list) self.handle = one and list[number % #list + 1].handle end,
     delete = function(_, scene, one) if one then handles.remove(scene, one) end end,
     f = function(_, scene, one) if one then meshes.end_deformation(scene, one.mesh) end end,
@@ -131,7 +128,7 @@ return lissom.tool{
     draw = function(self, view)
         local at_gizmo, _, list = active(self, view.scene)
         for _, one in ipairs(list) do
-            local color = handles.is_one_of(self.state.pins, one.handle) and "#6f7b8c" or "#8860c8"
+            local color = one.pinned and "#6f7b8c" or "#8860c8"
             view:region{ mesh = one.mesh, region = one.handle:region(), color = color }
             if one ~= at_gizmo then view:handle{ at = one.at, color = color } end
         end

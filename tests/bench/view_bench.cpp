@@ -10,12 +10,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -343,11 +345,11 @@ void run_hair(Report& report, Index count) {
 
 // ---- Tools: what a session does from an event to what is to be drawn, without a window
 
-// Milliseconds of all threads of this process; the one that waits sleeps, and looks seldom.
+// Milliseconds of all threads of this process; the one that waits sleeps.
 class ToolRun {
   public:
     ToolRun(const std::string& file, const std::string& tool)
-        : session_(program_, [] {}, {.tool = tool}) {
+        : session_(program_, [this] { wake(); }, {.tool = tool}) {
         session_.open({file});
         wait();
         ToolInput look;
@@ -400,7 +402,18 @@ class ToolRun {
     }
 
   private:
+    void wake() {
+        const std::lock_guard lock(mutex_);
+        woken_ = true;
+        news_.notify_one();
+    }
+    // Sleeps until there is something new, and then until the work has ended that told it.
     void wait() {
+        {
+            std::unique_lock lock(mutex_);
+            news_.wait_for(lock, std::chrono::milliseconds(20), [&] { return woken_; });
+            woken_ = false;
+        }
         while (session_.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(3));
         if (const auto shown = session_.take_shown()) bounds_ = shown->bounds;
     }
@@ -411,6 +424,9 @@ class ToolRun {
         return parts;
     }();
     cli::Program program_{parts_};
+    std::mutex mutex_;
+    std::condition_variable news_;
+    bool woken_ = false;
     Session session_;
     Box bounds_;
     Camera camera_;

@@ -325,9 +325,10 @@ test("tab and clicks choose the handle, delete takes it away, f ends it with its
     h:click(high)
     drag_right(high, -1)
     expect.near(handles()[2]:center()[1], high[1] - 1, 1e-9)
-    local shape = h.scene:get("bar"):hash()
+    local shape = h.scene:get("bar"):copy()
+    shape:remove_region("pinned")
     h:key("f")
-    expect.equal(h.scene:get("bar"):hash(), shape)
+    expect.equal(h.scene:get("bar"):hash(), shape:hash())
     expect.equal(#h.scene, 1)
     h.host:undo()
     h:key("delete", "delete")
@@ -400,4 +401,26 @@ test("with open boundaries, far from the origin, and 40,000 faces", function()
     h:drag{ { at[1] + 0.6, at[2], -far }, { at[1] + 1.6, at[2], -far } }
     expect.near(handles("tube")[2]:center()[1], at[1] + 1, 1e-6)
     expect.near(tube:bounds().min[2], far - 2.5, 0.01)
+end)
+
+test("what is pinned stays so in a saved scene, until it is taken away or the work is finished", function()
+    local support = require "tools.support.handles"
+    local function pins(scene)
+        local numbers = {}
+        for i, one in ipairs(support.list(scene)) do
+            if one.pinned then table.insert(numbers, i) end
+        end
+        return numbers
+    end
+    hold()
+    expect.equal(pins(h.scene), { 1 })
+    local file = test.file("pinned.lissom")
+    h.scene:save(file)
+    local loaded = assert(lissom.load_scene(file))
+    expect.equal(pins(loaded), { 1 })
+    expect.equal(#support.list(loaded), 2)
+    support.remove(loaded, support.list(loaded)[1])
+    expect.equal(pins(loaded), {})
+    h:key("f")
+    expect.equal(h.scene:get("bar"):region("pinned"), nil)
 end)

@@ -329,6 +329,23 @@ test("a journal is a script of calls that comes to the same scene, without what 
     expect.equal(#other:history(), before)
 end)
 
+test("a journal tells two meshes apart that are alike", function()
+    local scene = ball_scene()
+    scene:add("twin", lissom.shapes.sphere())
+    -- The first move selects on one of them, all others on its twin.
+    local paint = lissom.tool{ name = "paint", drag = function(self, ev)
+        local mesh = ev.scene:get(self.turned and "twin" or "ball")
+        mesh:set_region("selected", mesh:region{ vertices = { 1, 2, 3 } })
+        self.turned = true
+    end }
+    local host = host_of(scene):keep_journal():use(paint)
+    drag(host, 3)
+    local other = ball_scene()
+    other:add("twin", lissom.shapes.sphere())
+    assert(load(host:journal_text()))(other)
+    expect.equal(other:hash(), scene:hash())
+end)
+
 test("a journal says what calls do not tell", function()
     local scene = ball_scene()
     local host = host_of(scene):keep_journal()

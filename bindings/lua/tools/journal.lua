@@ -31,6 +31,21 @@ local function untold(text) error(setmetatable({ text = text }, Untold), 0) end
 
 -- ---- Hearing calls
 
+-- Calls see(object) for the objects that a value holds; whether there is one.
+local function see_objects(value, see, depth)
+    if type(value) == "userdata" then
+        see(value)
+        return true
+    end
+    local any = false
+    if type(value) ~= "table" or depth > 6 then return any end
+    for _, item in next, value do
+        local kind = type(item)
+        if kind == "userdata" or kind == "table" then any = see_objects(item, see, depth + 1) or any end
+    end
+    return any
+end
+
 -- A table as it is now, with what `see` gives for the objects that it holds.
 local function copied(value, see, depth)
     if type(value) == "userdata" then return see(value) end
@@ -90,35 +105,33 @@ end
 
 function Journal:before(kind, name, ...)
     if not self.host.working or unheard[kind] or (kind == "lissom.Scene" and steps[name]) then return end
-    local call = { kind = kind, name = name, count = select("#", ...), arguments = {} }
-    local function see(object)
-        object = self:same(object)
-        self:see(object)
-        return object
-    end
-    for i = 1, call.count do call.arguments[i] = copied((select(i, ...)), see, 0) end
-    self.pending = call
+    see_objects({ ... }, function(object) self:see(self:same(object)) end, 0)
+    self.pending = { kind = kind, name = name, count = select("#", ...), given = { ... } }
 end
 
 function Journal:after(kind, name, ...)
     local call = self.pending
     if not call or call.kind ~= kind or call.name ~= name then return end
     self.pending = nil
-    call.results = { ... }
-    local first = call.arguments[1]
-    local itself = kind and type(first) == "userdata" and rawequal(first, self:same((...)))
-    call.shapes = shaping[kind] and shaping[kind][name] and self:same(first) or nil
+    local results = { ... }
+    local first = type(call.given[1]) == "userdata" and self:same(call.given[1])
+    local itself = kind and first and rawequal(first, self:same((...)))
+    call.shapes = shaping[kind] and shaping[kind][name] and first or nil
     call.changes = not call.shapes and (itself or (changing[kind] and changing[kind][name])) or false
-    local makes = false
-    for i, result in pairs(call.results) do
-        local function made(object)
-            makes, object = true, self:same(object)
-            if not itself then self.made[object] = self.made[object] or { call = call } end
-            return object
-        end
-        call.results[i] = copied(result, made, 0)
+    local makes = see_objects(results, function() end, 0)
+    if not (call.changes or call.shapes or makes) then return end
+    call.results, call.arguments = {}, {}
+    local function made(object)
+        object = self:same(object)
+        if not itself then self.made[object] = self.made[object] or { call = call } end
+        return object
     end
-    if call.changes or call.shapes or makes then table.insert(self.group, call) end
+    for i, result in pairs(results) do call.results[i] = copied(result, made, 0) end
+    for i = 1, call.count do
+        call.arguments[i] = copied(call.given[i], function(object) return self:same(object) end, 0)
+    end
+    call.given = nil
+    table.insert(self.group, call)
 end
 
 -- The calls of one function of the tool; those of a drag may be replaced by those of the next.
@@ -137,19 +150,32 @@ end
 
 -- ---- Leaving out what the next drag replaces
 
+-- A number of its own for each mesh, however alike two are.
+local numbers = setmetatable({}, { __mode = "k" })
+local last_number = 0
+
+local function number_of(mesh)
+    if not numbers[mesh] then
+        last_number = last_number + 1
+        numbers[mesh] = last_number
+    end
+    return numbers[mesh]
+end
+
+local function part_of(mesh, what, which) return number_of(mesh) .. " " .. what .. " " .. tostring(which) end
+
 local function target(call)
     local set = replacing[call.kind]
     if not (set and set[call.name]) then return nil end
     if call.kind == "lissom.Handle" then return call.arguments[1] end
     if call.kind == "lissom.Deformation" then return call.arguments[1] end
-    local what = call.name:match("region$") or call.name
-    return tostring(call.arguments[1]) .. " " .. what .. tostring(call.arguments[2])
+    return part_of(call.arguments[1], call.name:match("region$") or call.name, call.arguments[2])
 end
 
 -- What a call reads that another replaces: a region by its name.
 local function source(call)
     local reads = call.kind == "lissom.Mesh" and call.name == "region" and type(call.arguments[2]) == "string"
-    return reads and tostring(call.arguments[1]) .. " region" .. call.arguments[2] or nil
+    return reads and part_of(call.arguments[1], "region", call.arguments[2]) or nil
 end
 
 -- What each call of a group works on, where all of it is replaced first of all; and what of that is not read

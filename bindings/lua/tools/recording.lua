@@ -345,7 +345,13 @@ end
 -- Does an event; says where the scene differs then.
 local function play_event(host, recorded, i, tools, folder)
     local event = recorded.events[i]
-    player[event[1]](host, event, tools, folder)
+    local done, message = pcall(player[event[1]], host, event, tools, folder)
+    if not done and type(message) == "string" then
+        message = message:gsub("^lissom tools:%d+: ", "")
+        local place, text = message:match("^(%S-:%d+: )(.*)$")
+        message = (place or "") .. "event " .. i .. ", " .. event[1] .. ": " .. (text or message)
+    end
+    if not done then error(message, 0) end
     return difference(host.scene, event.hash, "at event " .. i .. ", " .. event[1])
 end
 

@@ -145,7 +145,7 @@ void LiveItems::put_back(Index number, ItemRecord& record) {
             auto& known = meshes_[at(number)];
             known = std::make_shared<const Mesh>(
                 mesh_of(std::move(record.mesh), context_, known->shared_topology()));
-            return item.restore(MeshContent(*known, nullptr, store), nullptr);
+            return item.restore(MeshContent(*known, nullptr, false, store), nullptr);
         }
         case ItemKind::strands:
             return item.restore(

@@ -5,35 +5,50 @@ local meshes = require "tools.support.meshes"
 
 local handles = {}
 
---- All handles on visible meshes: a list of { handle =, edit =, name =, mesh =, place =, at = }: name of the
--- deformation in the scene, the matrix from the mesh's own space to the world, the handle's middle there.
+--- All handles on visible meshes: a list of { handle =, edit =, name =, mesh =, place =, at =, pinned = }:
+-- name of the deformation in the scene, the matrix from the mesh's own space to the world, the handle's
+-- middle there, whether it only holds its place.
 function handles.list(scene)
     local list = {}
     for _, one in ipairs(meshes.visible(scene)) do
         local name, edit = meshes.deformation(scene, one.mesh)
+        local pinned = one.mesh:region("pinned")
         for _, handle in ipairs(edit and edit:handles() or {}) do
             local at = matrices.point(one.place, handle:center())
             table.insert(list,
-                { handle = handle, edit = edit, name = name, mesh = one.mesh, place = one.place, at = at })
+                { handle = handle, edit = edit, name = name, mesh = one.mesh, place = one.place, at = at,
+                    pinned = pinned and #handle:region():minus(pinned) == 0 })
         end
     end
     return list
 end
 
---- Whether a handle is in a list, which may be nil.
-function handles.is_one_of(list, handle)
-    for _, one in ipairs(list or {}) do
-        if one == handle then return true end
+--- Pins a handle: its vertices are in the mesh's region "pinned", which is saved with it.
+function handles.pin(handle)
+    for _, pin in ipairs{ handle, handle:mirrored() } do
+        local region = pin:region()
+        local before = region:mesh():region("pinned")
+        region:mesh():set_region("pinned", before and before:union(region) or region)
     end
-    return false
 end
 
---- Place in a list of the `chosen` handle, else of the last one that is not among the pins; 0 for none.
-function handles.number(list, chosen, pins)
+-- A handle, and its mirror image, are pinned no longer.
+local function unpin(handle)
+    for _, pin in ipairs{ handle, handle:mirrored() } do
+        local region = pin:region()
+        local mesh, before = region:mesh(), region:mesh():region("pinned")
+        local rest = before and before:minus(region)
+        if rest and #rest > 0 then mesh:set_region("pinned", rest) end
+        if rest and #rest == 0 then mesh:remove_region("pinned") end
+    end
+end
+
+--- Place in a list of the `chosen` handle, else of the last one that is not pinned; 0 for none.
+function handles.number(list, chosen)
     local number = 0
     for i, one in ipairs(list) do
         if one.handle == chosen then return i end
-        if not handles.is_one_of(pins, one.handle) then number = i end
+        if not one.pinned then number = i end
     end
     return number
 end
@@ -73,6 +88,7 @@ end
 
 --- Takes a handle away. Without any the mesh keeps its shape, and the next one begins from there.
 function handles.remove(scene, one)
+    unpin(one.handle)
     if #one.edit:handles() == (one.handle:mirrored() and 2 or 1) then
         meshes.end_deformation(scene, one.mesh)
     else

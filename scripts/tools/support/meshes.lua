@@ -15,16 +15,18 @@ end
 --- The visible meshes: a list of { name =, mesh =, place =, style = }. The place is the matrix from the
 -- mesh's own space to the world. A deformation without its mesh in the scene counts as its mesh.
 function meshes.visible(scene)
-    local list, seen = {}, {}
-    for _, kind in ipairs{ "mesh", "deformation" } do
-        for _, name in ipairs(scene:names()) do
-            local info, mesh = scene:info(name), meshes.get(scene, name)
-            if info.kind == kind and info.visible and not seen[mesh] then
-                seen[mesh] = true
-                table.insert(list, { name = name, mesh = mesh, place = info.transform, style = info.style })
-            end
-        end
+    local list, edits, seen = {}, {}, {}
+    local function add(name, info, mesh)
+        if seen[mesh] then return end
+        seen[mesh] = true
+        table.insert(list, { name = name, mesh = mesh, place = info.transform, style = info.style })
     end
+    for _, name in ipairs(scene:names()) do
+        local info = scene:info(name)
+        if info.visible and info.kind == "mesh" then add(name, info, scene:get(name)) end
+        if info.visible and info.kind == "deformation" then edits[#edits + 1] = { name, info } end
+    end
+    for _, edit in ipairs(edits) do add(edit[1], edit[2], scene:get(edit[1]):mesh()) end
     return list
 end
 
@@ -97,6 +99,7 @@ function meshes.end_deformation(scene, mesh)
     local name = meshes.deformation(scene, mesh)
     if not name then return end
     local info = scene:info(name)
+    if mesh:region("pinned") then mesh:remove_region("pinned") end
     scene:remove(name)
     for _, other in ipairs(scene:names()) do
         if rawequal(scene:get(other), mesh) then return end

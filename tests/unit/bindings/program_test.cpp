@@ -93,6 +93,39 @@ TEST_CASE("explain knows every code") {
           std::string::npos);
 }
 
+TEST_CASE("a recording that is run says that it went well, and where it did not") {
+    const Folder folder;
+    const std::string make = folder.write("make.lua", R"(local lissom = require "lissom"
+local ball = lissom.shapes.sphere()
+assert(ball:save(arg[1] .. "/ball.ply"))
+local scene = lissom.scene{}
+scene:add("ball", ball)
+local camera = lissom.camera{ eye = { 0, 0, 5 } }
+local host = lissom.tool_host{ scene = scene, camera = camera }:record{ "ball.ply" }
+host:use(lissom.load_tool(arg[2]), "tool.lua")
+host:click{ x = 640, y = 480 }
+io.open(arg[1] .. "/events.lua", "w"):write(host:recording()):close())");
+    const std::string tool = R"(return require("lissom").tool{ name = "mark",
+    press = function(_, ev) ev:hit().mesh:set_position(1, 0, 0, HEIGHT) end })";
+    const auto with_height = [&](const std::string& height) {
+        return folder.write("tool.lua", "local HEIGHT = " + height + "\n" + tool);
+    };
+    const Ended made = run({"run", make, folder.path(""), with_height("1.5")});
+    REQUIRE_MESSAGE(made.status == kSuccess, made.err);
+    const std::string events = folder.path("events.lua");
+    CHECK(run({"run", events}).out.find("the scene is as it was recorded") != std::string::npos);
+    with_height("2.5");
+    const Ended other = run({"run", events});
+    CHECK(other.status == kFailure);
+    CHECK(other.out.empty());
+    CHECK(other.err.find("the recording differs") != std::string::npos);
+    with_height("\"high\"");
+    const Ended failed = run({"run", events});
+    CAPTURE(failed.err);
+    CHECK(failed.err.find("tool.lua:3: event 3, press: ") != std::string::npos);
+    CHECK(failed.err.find("lissom tools") == std::string::npos);
+}
+
 TEST_CASE("a new tool runs as it is written, and nothing is overwritten") {
     const Folder folder;
     CHECK(run({"new", "tool", folder.path("bulge")}).status == kSuccess);

@@ -54,6 +54,11 @@ TEST_CASE("every change of positions makes the revision grow") {
     mesh.replace_by(make_box());
     CHECK(grown());
     CHECK(mesh.vertex_count() == 8);
+    mesh = make_box();
+    CHECK(grown());
+    const Mesh other = test::tetrahedron();
+    mesh = other;
+    CHECK(grown());
 }
 
 TEST_CASE("named regions belong to the mesh's topology") {

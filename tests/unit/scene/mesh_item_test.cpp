@@ -97,6 +97,14 @@ TEST_CASE("mesh item: each part of a mesh is seen to change, and comes back") {
     SUBCASE("everything") {
         mesh->replace_by(Mesh());
     }
+    SUBCASE("another mesh of the same topology, with as many changes") {
+        Mesh other = before;
+        REQUIRE(other.revision() == mesh->revision());
+        other.edit_positions()[5].x() += 1.0;
+        mesh->edit_positions();
+        capture.take(item);
+        *mesh = other;
+    }
 
     capture.take(item);
     CHECK(capture.content != first);

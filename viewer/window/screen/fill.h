@@ -11,10 +11,10 @@ namespace lissom::window {
 /// How many strands are drawn within a time, by how long the last ones took.
 class StrandPace {
   public:
-    /// Aims at `aim` seconds.
-    explicit StrandPace(double aim) : aim_(aim) {}
+    /// Aims at `aim` seconds, and begins with so many strands.
+    explicit StrandPace(double aim, Index first = 300) : aim_(aim), count_(first) {}
 
-    /// Few at first, then as many as take so long; never many times more than the last time.
+    /// Those it begins with, then as many as take so long; never many times more than the last time.
     Index count() const { return count_; }
     /// Strands in a second, as far as it is known.
     double rate() const { return rate_; }
@@ -23,7 +23,7 @@ class StrandPace {
 
   private:
     double aim_;
-    Index count_ = 300;
+    Index count_;
     double rate_ = 0.0;
 };
 

@@ -13,6 +13,8 @@ namespace {
 // Seconds of a moving picture that its strands may take, and of a slice.
 constexpr double kMovingAim = 0.012;
 constexpr double kSliceAim = 0.014;
+// With its first slice the driver makes its program, which takes as long as a slice.
+constexpr Index kFirstSlice = 25;
 constexpr int kFillSamples = 8;
 // However slow the driver is: fewer would be strips of paper.
 constexpr Index kFewestMoving = 800;
@@ -64,7 +66,7 @@ struct Screen::Filling {
     Fill fill;
 };
 
-Screen::Screen() : moving_pace_(kMovingAim), fill_pace_(kSliceAim) {
+Screen::Screen() : moving_pace_(kMovingAim), fill_pace_(kSliceAim, kFirstSlice) {
     GLint samples = 0;
     glGetIntegerv(GL_MAX_SAMPLES, &samples);
     most_samples_ = std::clamp(static_cast<int>(samples), 1, kFillSamples);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <utility>
 
 #include "bindings/cli/repl/display.h"
 #include "bindings/cli/repl/help_function.h"
 #include "bindings/cli/repl/session_text.h"
+#include "bindings/cli/script_text.h"
 #include "bindings/cli/terminal/interrupt.h"
 #include "bindings/lua/core/failure.h"
 #include "viewer/lua/shown_values.h"
@@ -123,14 +125,8 @@ bool is_script(const std::string& word) {
 
 bool is_recording(const std::string& word) {
     if (!is_script(word)) return false;
-    std::ifstream file(word);
-    std::string line;
-    constexpr int kMostComments = 20;
-    for (int i = 0; i < kMostComments && std::getline(file, line); ++i) {
-        if (line.empty() || line.starts_with("--")) continue;
-        return line.starts_with("return (require(\"lissom\").replay{");
-    }
-    return false;
+    const std::optional<std::string> text = cli::script_text(word);
+    return text && cli::is_recording(*text);
 }
 
 Session::Session(cli::Program& program, std::function<void()> wake, SessionOptions options)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 using namespace lissom;
@@ -107,6 +108,23 @@ TEST_CASE("fill: where all strands take too long the last picture has as many as
     CHECK(slices.back().is_last());
     CHECK(slices.back().of <= 61000);
     CHECK(slices.back().of >= 30000);
+}
+
+TEST_CASE("fill: a first slice of few strands leaves time for what is prepared with it") {
+    const double preparing = 0.024, each = 50e-6;
+    for (const Index first : {25, 300}) {
+        bool prepared = false;
+        StrandPace pace(0.014, first);
+        Fill fill(20000, 800, 60.0);
+        double longest = 0.0;
+        const auto slices = run(
+            fill, pace,
+            [&](Index) { return std::exchange(prepared, true) ? each : each + preparing; },
+            longest);
+        CHECK(slices.front().end == first);
+        CHECK(slices.back().end == 20000);
+        CHECK((longest < 0.030) == (first == 25));
+    }
 }
 
 TEST_CASE("fill: nothing is drawn where all is seen, and one strand where there is one") {
