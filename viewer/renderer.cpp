@@ -1,6 +1,7 @@
 #include "viewer/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <array>
 #include <utility>
 
@@ -113,6 +114,8 @@ void Renderer::require_valid(const RenderOptions& options) const {
     require(options.supersample >= 1 && options.supersample <= kMaximumSupersample,
             "supersample must be 1 to " + std::to_string(kMaximumSupersample),
             ErrorCode::out_of_range);
+    require(options.mark_scale > 0.0 && std::isfinite(options.mark_scale),
+            "mark_scale must be above 0", ErrorCode::out_of_range);
     require(options.occlusion >= 0.0 && options.occlusion <= 1.0, "occlusion must be 0 to 1",
             ErrorCode::out_of_range);
 }

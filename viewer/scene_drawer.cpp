@@ -188,7 +188,7 @@ void SceneDrawer::draw_surfaces(const Tile& tile) const {
     for (const auto& surface : scene_.surfaces()) {
         const MeshStyle& style = surface->drawn.style;
         const double wire_width = style.wire ? style.wire_width : 0.0;
-        program.set("u_wire_width", static_cast<float>(wire_width * options_.supersample));
+        program.set("u_wire_width", static_cast<float>(wire_width * mark_scale()));
         program.set("u_wire_color", linear(style.wire_color));
         draw_through(program, *surface);
     }
@@ -251,6 +251,10 @@ void SceneDrawer::draw_marks(const Tile& tile) const {
     glDisable(GL_BLEND);
 }
 
+double SceneDrawer::mark_scale() const {
+    return options_.mark_scale * options_.supersample;
+}
+
 void SceneDrawer::use_for_marks(const gl::Program& program, const Tile& tile) const {
     const int scale = options_.supersample;
     program.use();
@@ -261,7 +265,7 @@ void SceneDrawer::use_for_marks(const gl::Program& program, const Tile& tile) co
                                               (options_.height * scale)));
     program.set("u_perspective", view_.parameters.perspective ? 1.0f : 0.0f);
     program.set("u_near", static_cast<float>(view_.parameters.near));
-    program.set("u_scale", static_cast<float>(scale));
+    program.set("u_scale", static_cast<float>(mark_scale()));
 }
 
 void SceneDrawer::draw_output(const DrawTarget& target, const gl::Program& program) const {

@@ -87,6 +87,8 @@ class SceneDrawer {
     void use_hair(const gl::Program& program) const;
     void draw_through(const gl::Program& program, const GpuSurface& surface) const;
     void draw_marks(const Tile& tile) const;
+    // Pixels drawn for one that styles count in.
+    double mark_scale() const;
     void use_for_marks(const gl::Program& program, const Tile& tile) const;
     void finish(const DrawTarget& target, const gl::Program& output) const;
     void draw_output(const DrawTarget& target, const gl::Program& program) const;

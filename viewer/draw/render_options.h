@@ -19,6 +19,9 @@ struct RenderOptions {
     int samples = 4;
     /// Pixels that are drawn along each side of one in the picture, 1 to 4; 2 is for print.
     int supersample = 1;
+    /// Pixels of the picture for one that styles count widths of lines and points in: a coarse
+    /// picture that is shown enlarged has fewer. Above 0.
+    double mark_scale = 1.0;
     /// How much folds and contacts darken, 0 (not at all; quicker) to 1.
     double occlusion = 1.0;
 };

@@ -43,8 +43,8 @@ void tell_doubts(const Scalp& scalp, const ScalpOptions& options, const Context&
         std::ostringstream message;
         message.precision(3);
         message << "the unit of the head is not known: it is " << frame.width
-                << " wide, and hair is made as for an average head of 0.155 m; give the unit in "
-                   "metres: lissom.scalp(head, { unit = ... })";
+                << " wide, and hair is made as for an average head of 0.155 m; the option `unit`, "
+                   "metres for one unit of the head, says otherwise";
         context.log(LogLevel::warning, message.str());
     }
 }

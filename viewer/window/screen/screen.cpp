@@ -95,6 +95,7 @@ RenderOptions Screen::options_of(const Canvas& canvas, const Color& background,
     options.height = std::max(canvas.height / coarseness, 1);
     options.background = background;
     options.samples = 1;
+    options.mark_scale = 1.0 / coarseness;
     options.occlusion = 0.0;
     return options;
 }

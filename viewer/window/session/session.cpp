@@ -14,6 +14,7 @@
 #include "bindings/lua/core/failure.h"
 #include "viewer/lua/shown_values.h"
 #include "viewer/lua/viewer_library.h"
+#include "viewer/window/session/unlike_sizes.h"
 
 namespace lissom::window {
 namespace {
@@ -475,9 +476,18 @@ void Session::load_files(const std::vector<std::string>& paths) {
     auto script = std::exchange(script_, nullptr);
     auto bench = std::exchange(bench_, nullptr);
     open_script({});
-    if (succeeds(bench_->open(paths, options_.load))) return settle_scene(paths);
+    if (succeeds(bench_->open(paths, options_.load))) {
+        settle_scene(paths);
+        return tell_sizes();
+    }
     bench_ = std::move(bench);
     script_ = std::move(script);
+}
+
+void Session::tell_sizes() {
+    const Picture picture = bench_->picture();
+    const std::string hint = unlike_sizes(picture.meshes, bench_->names_of(picture));
+    if (!hint.empty()) tell(LineKind::warning, hint);
 }
 
 // ---- Recordings

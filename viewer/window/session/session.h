@@ -153,6 +153,7 @@ class Session {
     void run_script(const std::vector<std::string>& words);
     bool show_values();
     void load_files(const std::vector<std::string>& paths);
+    void tell_sizes();
     void open_recording(const std::string& path);
     void play(std::size_t event);
     void let_go();

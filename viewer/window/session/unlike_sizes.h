@@ -1,0 +1,17 @@
+/// unlike_sizes: a word about models that were made in different units.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "viewer/draw/drawing.h"
+
+namespace lissom::window {
+
+/// What to tell where the largest of some meshes, called `names`, is so many times as large as the
+/// smallest that this is hardly seen beside it; "" where all can be seen. Vertices that are not
+/// finite do not count.
+std::string unlike_sizes(std::span<const DrawnMesh> meshes, std::span<const std::string> names);
+
+}  // namespace lissom::window
