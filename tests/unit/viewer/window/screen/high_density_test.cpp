@@ -199,7 +199,7 @@ TEST_CASE("high density: the picture has the pixels of the screen, and shows the
     const auto seen = [&](const PixelScale& scale, int coarseness) {
         const MockWindow window(scale);
         DisplaySettings settings;
-        settings.scale = scale.panel() / coarseness;
+        settings.scale = scale.panel();
         Screen screen;
         screen.update(quick_snapshot(picture, settings));
         screen.draw(density_camera(), window.canvas(), kWhite, coarseness);
