@@ -14,7 +14,8 @@ class StrandPace {
     /// Aims at `aim` seconds, and begins with so many strands.
     explicit StrandPace(double aim, Index first = 300) : aim_(aim), count_(first) {}
 
-    /// Those it begins with, then as many as take so long; never many times more than the last time.
+    /// Those it begins with, then as many as take so long; never many times more than the last
+    /// time.
     Index count() const { return count_; }
     /// Strands in a second, as far as it is known.
     double rate() const { return rate_; }
