@@ -1,8 +1,8 @@
 #include "viewer/renderer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "kernel/core/error.h"

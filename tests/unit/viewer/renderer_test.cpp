@@ -207,8 +207,8 @@ TEST_CASE("lines have their width in pixels, are hidden by surfaces and cut at t
     CHECK(test::covered(line) == doctest::Approx(96.0 * 8.0).epsilon(0.01));
     RenderOptions coarse = small_options();
     coarse.mark_scale = 0.5;
-    const Image thin = renderer->render({.overlays = test::marks({.lines = {across}})},
-                                        front_camera(2.0), coarse);
+    const Image thin =
+        renderer->render({.overlays = test::marks({.lines = {across}})}, front_camera(2.0), coarse);
     CHECK(test::covered(thin) == doctest::Approx(96.0 * 4.0).epsilon(0.01));
 
     DrawnLine behind = across;
@@ -244,8 +244,8 @@ TEST_CASE("points have their radius in pixels and stand before the surface they 
     CHECK(test::covered(alone) == doctest::Approx(kPi * 100.0).epsilon(0.02));
     RenderOptions coarse = small_options();
     coarse.mark_scale = 0.5;
-    const Image small = renderer->render({.overlays = test::marks({.points = {point}})},
-                                         front_camera(2.0), coarse);
+    const Image small =
+        renderer->render({.overlays = test::marks({.points = {point}})}, front_camera(2.0), coarse);
     CHECK(test::covered(small) == doctest::Approx(kPi * 25.0).epsilon(0.04));
     const Image image = renderer->render(
         {.meshes = {{test::shared(square)}}, .overlays = test::marks({.points = {point}})},
