@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernel/core/error.h"
 #include "kernel/merge/provenance.h"
@@ -114,6 +115,24 @@ TEST_CASE("a mesh that is inside out is turned over") {
     MergeSide same = make_side(outward, {boundaries(outward)[0]}, "source");
     orient(same, {});
     CHECK(!same.flipped);
+}
+
+TEST_CASE("a mesh that is inside out is turned over however slender it is") {
+    for (const double width : {0.3, 0.03, 0.0005}) {
+        CAPTURE(width);
+        const Mesh outward = tube(24, 6, [&](double angle, double height) {
+            return Vec3(width * std::cos(angle), width * std::sin(angle), height);
+        });
+        Mesh inward = outward;
+        flip(inward);
+        for (const bool turned : {false, true}) {
+            const Mesh& mesh = turned ? inward : outward;
+            MergeSide side = make_side(mesh, {boundaries(mesh)[0]}, "source");
+            orient(side, {});
+            CHECK(side.flipped == turned);
+            CHECK(volume(side.mesh) == doctest::Approx(volume(outward)));
+        }
+    }
 }
 
 TEST_CASE("refinement at a loop: one level there, whole faces elsewhere, the same surface") {

@@ -1,5 +1,6 @@
 #include "kernel/hair/curve/stream_curve.h"
 
+#include <array>
 #include <map>
 
 #include "kernel/hair/curve/curve.h"
@@ -37,6 +38,29 @@ TEST_CASE("stream: corners of the cells along a straight curve take its directio
     }
     CHECK(std::is_sorted(all.begin(), all.end(),
                          [](const auto& p, const auto& q) { return p.point < q.point; }));
+}
+
+TEST_CASE("stream: a corner that is given several vectors takes their mean by trilinear weights") {
+    const GridLayout grid = unit_grid();
+    const std::array<Vec3, 2> at{Vec3(0.25, 0.125, 0.5), Vec3(0.625, 0.75, 0.25)};
+    const std::array<Vec3, 2> given{Vec3::UnitX(), Vec3::UnitY()};
+    VectorSplat splat(grid);
+    for (std::size_t k = 0; k < 2; ++k) {
+        CHECK(splat.add(grid.point(2, 3, 4) + grid.step * at[k], given[k], ConstraintKind::stream));
+    }
+    const std::vector<GridConstraint> all = splat.constraints(7.0);
+    REQUIRE(all.size() == 8);
+    for (const GridConstraint& c : all) {
+        const Vec3 corner = (place(grid, c.point) - grid.point(2, 3, 4)) / grid.step;
+        Vec3 sum = Vec3::Zero();
+        double weights = 0.0;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double weight = (Vec3::Ones() - (at[k] - corner).cwiseAbs()).prod();
+            sum += weight * given[k];
+            weights += weight;
+        }
+        CHECK((c.value - sum / weights).norm() < 1e-12);
+    }
 }
 
 TEST_CASE("stream: a curve and its reverse give opposite constraints at the same points") {

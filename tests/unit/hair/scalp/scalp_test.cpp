@@ -330,6 +330,24 @@ TEST_CASE("a given region is kept, and hair thins out towards its outline") {
     }
 }
 
+TEST_CASE("roots may lie on all faces that reach into a guessed region, and on no others") {
+    const Mesh mesh = egg();
+    for (const double softness : {0.003, 0.02, 0.06}) {
+        CAPTURE(softness);
+        ScalpOptions options = upright();
+        options.softness = softness;
+        const Scalp scalp(mesh, options);
+        REQUIRE(scalp.guessed());
+        std::vector<Index> reaching;
+        for (Index f = 0; f < mesh.face_count(); ++f) {
+            const auto face = mesh.topology().face(f);
+            const auto inside = [&](Index v) { return scalp.margins()[v] > 0.0; };
+            if (std::any_of(face.begin(), face.end(), inside)) reaching.push_back(f);
+        }
+        CHECK(scalp.root_faces() == reaching);
+    }
+}
+
 TEST_CASE("a higher hairline leaves a smaller scalp") {
     ScalpOptions high = upright(), low = upright();
     high.hairline = {{0.0, 60 * kDegree}};

@@ -200,3 +200,17 @@ TEST_CASE("a transform that cannot be is refused and changes nothing") {
     CHECK(code({1e60 * Mat3::Identity(), Vec3::Zero()}) == ErrorCode::not_finite);
     CHECK(hash(strands) == before);
 }
+
+TEST_CASE("a transform names the strand that would not fit 32-bit numbers, whichever it is") {
+    for (const Index far : {0, 4, 9}) {
+        CAPTURE(far);
+        Strands strands = random_hair(10);
+        strands.edit_points()[3 * static_cast<std::size_t>(strands.first_point(far)) + 1] = 1e30f;
+        const Error error = error_of([&] {
+            transform(strands, {1e20 * Mat3::Identity(), Vec3::Zero()});
+        });
+        CHECK(error.code() == ErrorCode::not_finite);
+        CHECK(error.elements().count == 1);
+        CHECK(error.elements().ids == std::vector<Index>{far});
+    }
+}
