@@ -35,6 +35,12 @@ gl::Texture make_colormap() {
     return texture;
 }
 
+// What is drawn next hides what lies where it does.
+void raise() {
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(-1.0f, -8.0f);
+}
+
 // Parts that cover a picture, none larger than `size`.
 std::vector<Tile> split(int width, int height, int size) {
     std::vector<Tile> tiles;
@@ -190,7 +196,9 @@ void SceneDrawer::draw_surfaces(const Tile& tile) const {
         const double wire_width = style.wire ? style.wire_width : 0.0;
         program.set("u_wire_width", static_cast<float>(wire_width * mark_scale()));
         program.set("u_wire_color", linear(style.wire_color));
+        if (style.raised) raise();
         draw_through(program, *surface);
+        if (style.raised) glDisable(GL_POLYGON_OFFSET_FILL);
     }
 }
 

@@ -1,17 +1,18 @@
 --- Puts a part onto another mesh: a nose, an ear, a horn.
 --
 -- The part is what is selected of a mesh, or a mesh with a region called "region", such as lissom.part.save
--- writes. Press on the target, or on the part and drag it there: the loop that it will be cut along follows
--- the cursor, with its energy beside it. While the button is down the wheel turns the part, with shift it
--- scales it. Let go: the best loop is sought, and the target has the part; that is one step. Where the part
--- does not fit it stays where it last did, and the reason is shown. Of one mesh alone a part is put onto
--- itself.
+-- writes. Press on the target, or on the part and drag it there: the part follows the cursor as it will stand
+-- there, with the loop that it is cut along and the energy of that. While the button is down the wheel turns
+-- it, with shift it scales it. Let go: the best loop is sought, and the target has the part; that is one step.
+-- Where the part does not fit it stays where it last did, and the reason is shown. Of one mesh alone a part is
+-- put onto itself.
 local lissom = require "lissom"
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
 local vectors = require "vectors"
 
 local turn, growth = 5, 1.05                    -- of a line of the wheel: degrees, and a factor
+local part_color = "#d9b38c"
 
 -- What is marked to be pasted of a mesh: its region and feature; nil where nothing is.
 local function marked(one)
@@ -71,7 +72,10 @@ local function follow(self, ev)
             self.paste, self.onto = there, onto
         end
     end
-    if there then self.at, self.angle, self.scale = at, self.params.angle, self.params.scale end
+    if there then
+        self.at, self.angle, self.scale = at, self.params.angle, self.params.scale
+        self.draft = nil
+    end
     self.trouble = not there and { at = matrices.point(onto.place, at), text = message } or nil
 end
 
@@ -90,11 +94,23 @@ local function commit(self, scene)
     scene:add(self.onto.name, mesh, { transform = self.onto.place, style = self.onto.style })
 end
 
-local function forget(self) self.paste, self.onto, self.at, self.trouble = nil, nil, nil, nil end
+-- The part as it stands now, made when it is first seen there; what does not fit has a reason instead.
+local function draft(self)
+    if not self.draft then
+        local mesh, boundary = self.paste:draft()
+        self.draft = mesh and { mesh = mesh, loop = boundary }
+            or { loop = select(2, self.paste:loop()), trouble = boundary }
+    end
+    return self.draft
+end
+
+local function forget(self)
+    self.paste, self.onto, self.at, self.trouble, self.draft = nil, nil, nil, nil, nil
+end
 
 return lissom.tool{
     name = "paste",
-    help = "Drag a part over another mesh; the wheel turns it, with shift it scales; let go to paste.",
+    help = "Drag a part over another mesh: it follows; the wheel turns it, with shift it scales; let go to paste.",
     params = {
         angle = { type = "number", default = 0, min = -3600, max = 3600, unit = "degrees",
             help = "Turns the part on the surface, counter-clockwise; the wheel." },
@@ -133,10 +149,16 @@ return lissom.tool{
     draw = function(self, view)
         if self.trouble then view:label(self.trouble) end
         if not self.paste then return end
-        local points, middle = select(2, self.paste:loop()):points(), { 0, 0, 0 }
+        local part, middle = draft(self), { 0, 0, 0 }
+        local points = part.loop:points()
         for i, point in ipairs(points) do
             points[i] = matrices.point(self.onto.place, point)
             middle = vectors.plus(middle, points[i], 1 / #points)
+        end
+        if part.mesh then
+            view:mesh{ mesh = part.mesh, transform = self.onto.place, color = part_color }
+        else
+            view:label{ at = points[1], text = part.trouble }
         end
         local search = self.paste:search()
         view:line{ points = points, closed = true, color = "#d06020", width = 4 }

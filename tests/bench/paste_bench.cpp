@@ -16,6 +16,7 @@
 #include "kernel/merge/paste/search/free_loop.h"
 #include "kernel/merge/paste/search/loop_search.h"
 #include "kernel/merge/paste/search/paste_energy.h"
+#include "kernel/mesh/edit/append.h"
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/fill/minimum_area.h"
@@ -145,6 +146,14 @@ SearchScene scene_of(double ring_vertices) {
     return SearchScene(static_cast<Index>(std::round(std::sqrt(ring_vertices / per_square))));
 }
 
+/// The same on a target that has a large ball beside it.
+SearchScene beside_a_ball(SearchScene scene) {
+    Mesh ball = make_sphere({1.0, 240, SphereKind::triangles});
+    for (Vec3& p : ball.edit_positions()) p.x() += 10.0;
+    append(scene.target, ball);
+    return scene;
+}
+
 void run_search(Report& report, double ring_vertices) {
     const SearchScene scene = scene_of(ring_vertices);
     const std::string name = "a ring of " + std::to_string(scene.ring_vertices()) + " vertices";
@@ -180,20 +189,56 @@ void run_search(Report& report, double ring_vertices) {
                 "ms"});
 }
 
-void run_move(Report& report, double ring_vertices) {
-    const SearchScene scene = scene_of(ring_vertices);
-    const std::string name = "a ring of " + std::to_string(scene.ring_vertices()) + " vertices";
-    report.title("a part that follows the mouse, " + name);
-    Paste paste(scene.source, scene.target, test::around_horn(scene.source), std::nullopt,
-                std::nullopt, kPlace);
-    paste.optimize();
+/// A paste whose part is moved to and fro.
+struct Drag {
+    const SearchScene& scene;
+    Paste paste;
     int step = 0;
-    const auto next = [&] {
+
+    explicit Drag(const SearchScene& of)
+        : scene(of),
+          paste(of.source, of.target, test::around_horn(of.source), std::nullopt, std::nullopt,
+                kPlace) {
+        paste.optimize();
+    }
+    PastePlacement next() {
         PastePlacement place = kPlace;
         ++step;
         place.at += 0.02 * Vec3(std::cos(step), std::sin(step), 0.0);
         return place;
+    }
+    std::string name() const {
+        return "a ring of " + std::to_string(scene.ring_vertices()) + " vertices on " +
+               std::to_string(scene.target.face_count()) + " faces";
+    }
+};
+
+/// What is shown while a part is dragged: the part alone.
+void run_drag(Report& report, const SearchScene& scene, double target) {
+    Drag drag(scene);
+    const auto row = [&](const std::string& what, double aim, const auto& run) {
+        report.add({what + ": " + drag.name(), 1e3 * median_seconds(21, run), "ms", aim});
     };
+    row("the part alone", -1.0, [&] { (void)drag.paste.draft(); });
+    row("placed, optimised and the part alone", target, [&] {
+        drag.paste.move(drag.next());
+        (void)drag.paste.draft();
+    });
+    row("placed, with the loop it had, and the part alone", -1.0, [&] {
+        drag.paste.slide(drag.next());
+        (void)drag.paste.draft();
+    });
+}
+
+void run_move(Report& report, double ring_vertices) {
+    const SearchScene scene = scene_of(ring_vertices);
+    Drag drag(scene);
+    Paste& paste = drag.paste;
+    const std::string name = drag.name();
+    report.title("a part that follows the mouse, " + name);
+    const auto next = [&] { return drag.next(); };
+    run_drag(report, scene, 30.0);
+    run_drag(report, beside_a_ball(scene), 30.0);
     PasteMergeOptions quick, draft;
     quick.find_intersections = quick.compare = false;
     draft.draft = true;

@@ -57,6 +57,23 @@ test("the part may be moved, and a move that fails leaves it where it was", func
     expect.truthy(paste:merge():is_closed())
 end)
 
+test("a part alone is that of a draft", function()
+    local paste = pasted()
+    paste:optimize()
+    expect.truthy(paste:move{ at = { 0.3, 1.9, 0.2 }, search = false })
+    local part, boundary, found = paste:draft()
+    local mesh, report = paste:merge{ draft = true }
+    expect.near(found.scale, report.paste.scale)
+    expect.near(found.laid.energy, report.paste.laid.energy)
+    expect.equal(found.kept_outline, report.paste.kept_outline)
+    for i = 1, #part do
+        local x, y, z = part:position(i)
+        expect.near(mesh:nearest(x, y, z).distance, 0, 1e-12)
+    end
+    expect.equal(#boundary:points(), #part:boundaries()[1]:points())
+    expect.near(select(3, paste:draft{ scale = "lock" }).scale, 0.8)
+end)
+
 test("regions that cannot be pasted are refused", function()
     local _, message, code = pasted{ feature = region }
     expect.equal(code, "boundary_conflict")

@@ -36,9 +36,16 @@ test("a part is dragged from its mesh onto another, in one step", function()
     local shown = h.host:draw()
     expect.equal(#shown.lines, 1)
     expect.truthy(shown.labels[1].text:find("energy", 1, true))
+    -- The part stands where it will, its edge is the line, and the scene has not got it.
+    local part = shown.meshes[1].mesh
+    expect.truthy(part:bounds().max[3] > 2)
+    expect.truthy(#part:boundaries() == 1 and #part:boundaries()[1]:points() == #shown.lines[1].points)
+    expect.truthy(rawequal(h.host:draw().meshes[1].mesh, part))
+    expect.equal(#h.scene, 2)
     h:release{ 2.2, 0.3, 1.5 }
     expect.equal(h:steps(), 1)
     expect.equal(#h.host:draw().lines, 0)
+    expect.equal(#h.host:draw().meshes, 0)
     local mesh = h.scene:get("target")
     expect.truthy(mesh:is_closed())
     expect.equal(mesh:components(), 1)
@@ -57,15 +64,36 @@ test("the loop follows, the wheel turns it, and shift and the wheel scale it", f
         end
         return sum
     end
-    local first = length()
+    local first, part = length(), h.host:draw().meshes[1].mesh
     h.host:wheel(h:at({ 2, 0, 1.6 }, { lines = 3 }))
     expect.equal(h.tool.params.angle, 15)
+    expect.truthy(h.host:draw().meshes[1].mesh:hash() ~= part:hash())
     h.host:wheel(h:at({ 2, 0, 1.6 }, { lines = -4, shift = true }))
     expect.near(h.tool.params.scale, 0.7 / 1.05 ^ 4)
     expect.truthy(length() < 0.9 * first)
     h:release{ 2, 0, 1.6 }
     expect.equal(h:steps(), 1)
     expect.truthy(h.scene:get("target"):is_closed())
+end)
+
+test("the part is shown where its target stands, and not where that is too coarse for it", function()
+    local coarse = lissom.shapes.sphere{ segments = 2, kind = "triangles", radius = 1.6 }
+    local place = { { 1, 0, 0, 2 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 0, 1 } }
+    h = hand.new("paste", { horn = horned(-3), target = egg() }, { ortho = 9.6, places = { target = place } })
+    h.host:set{ scale = 0.7 }
+    h:press{ 2, 0, 1.6 }
+    local shown = h.host:draw()
+    expect.near(shown.meshes[1].transform[1][4], 2)
+    expect.near(shown.meshes[1].mesh:bounds().center[1], 0, 0.3)
+    h.host:cancel()
+    h = hand.new("paste", { horn = horned(-3), target = coarse:transform{ translate = { 2, 0, 0 } } },
+        { ortho = 9.6 })
+    h.host:set{ scale = 0.1 }
+    h:press{ 2.1, 0.2, 1.6 }
+    shown = h.host:draw()
+    expect.equal(#shown.meshes, 0)
+    expect.truthy(shown.labels[1].text:find("coarse", 1, true) or shown.labels[1].text:find("no vertex", 1, true))
+    h.host:cancel()
 end)
 
 test("the result is that of lissom.paste", function()

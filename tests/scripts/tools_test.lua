@@ -160,12 +160,29 @@ test("draw answers what the tool shows, and refuses what is none", function()
     expect.equal(host:draw().points[1].color, "#ff0000")
     local bad = { { "points", { points = { { 1, 2 } } } }, { "line", {} },
         { "label", { at = { 1, 2, 3 }, txt = 3 } },
-        { "circle", { at = { 1, 2 }, radius = -1 } }, { "points", { points = {}, color = "red" } } }
+        { "circle", { at = { 1, 2 }, radius = -1 } }, { "points", { points = {}, color = "red" } },
+        { "mesh", {} }, { "mesh", { mesh = 3 } },
+        { "mesh", { mesh = lissom.shapes.box{}, transform = { { 1, 0, 0 } } } } }
     for _, one in ipairs(bad) do
         local tool = lissom.tool{ name = "bad", draw = function(_, view) view[one[1]](view, one[2]) end }
         local other = host_of(ball_scene(), tool)
         expect.equal(select(2, pcall(other.draw, other)):match("tools_test.lua") ~= nil, true)
     end
+end)
+
+test("a mesh that is not in the scene is drawn, and is not hit", function()
+    local box, hit = lissom.shapes.box{}:transform{ translate = { 0, 0, 1 } }, nil
+    local place = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0.5 }, { 0, 0, 0, 1 } }
+    local tool = lissom.tool{ name = "m", press = function(_, ev) hit = ev:hit() end,
+        draw = function(_, view) view:mesh{ mesh = box, transform = place, color = "#aa8866" } end }
+    local scene = ball_scene()
+    local host = host_of(scene, tool)
+    local drawn = host:draw().meshes[1]
+    expect.equal(rawequal(drawn.mesh, box), true)
+    expect.equal(drawn.transform[3][4], 0.5)
+    host:click(middle)
+    expect.equal(hit.object, "ball")
+    expect.equal(#scene, 1)
 end)
 
 test("a gizmo is drawn", function()

@@ -41,6 +41,8 @@ struct MeshStyle {
     /// 1: hides what is behind it, strands and lines too; below that they are seen through it, its
     /// own inside is not. Meshes of one picture that are seen through share the least.
     double opacity = 1.0;
+    /// Drawn a little nearer than it is, so that it hides the surface that it lies on.
+    bool raised = false;
 
     /// Draw the polygons' own edges.
     bool wire = false;

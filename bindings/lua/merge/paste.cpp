@@ -116,6 +116,24 @@ int merge_paste(Call& call) {
     return done ? push_paste_result(call, *result, setup->inputs) : call.fail();
 }
 
+int draft_paste(Call& call) {
+    const auto setup = call.self<PasteSetup>();
+    const PasteDraftOptions options{call.integer("scale") == 1, call.boolean("compare")};
+    auto& draft = call.hold<std::optional<PasteDraft>>();
+    const auto mesh = call.create<MeshObject>();
+    const auto boundary = call.create<PathObject>();
+    const bool done = call.attempt([&] {
+        draft = setup->paste().draft(options, call.context());
+        const auto part = std::make_shared<MeshObject>(std::move(draft->part));
+        boundary.set(std::make_shared<PathObject>(
+            part, Path(part->mesh.shared_topology(), std::move(draft->rim), true)));
+        mesh.set(part);
+    });
+    if (!done) return call.fail();
+    call.charge(mesh);
+    return 2 + push_paste_draft(call, *draft);
+}
+
 int move_paste(Call& call) {
     const auto setup = call.self<PasteSetup>();
     const bool seeks = call.boolean("search");
@@ -195,6 +213,17 @@ Parameter clear_parameter() {
         .optional("false");
 }
 
+namespace {
+
+Parameter size_parameter(const char* name) {
+    return choice(name, {"boundary", "lock"},
+                  "Size of the part: that of its boundary on the target, which depends on the "
+                  "loop, or what the placement says.")
+        .defaults("boundary");
+}
+
+}  // namespace
+
 std::vector<Parameter> paste_merge_parameters(const char* size) {
     return {
         integer("smooth", "Umbrella steps at the seam, at most, as in lissom.merge.")
@@ -204,10 +233,7 @@ std::vector<Parameter> paste_merge_parameters(const char* size) {
             .defaults(true),
         boolean("intersections", "Looks for faces that run through one another and did not before.")
             .defaults(true),
-        choice(size, {"boundary", "lock"},
-               "Size of the part: that of its boundary on the target, which depends on the loop, "
-               "or what the placement says.")
-            .defaults("boundary"),
+        size_parameter(size),
         boolean("compare",
                 "Tries what may distort the surface near the boundary less, and takes it where it "
                 "does: ARAP iterations of the part; the outline of the region; and, once "
@@ -227,6 +253,14 @@ std::vector<Parameter> merge_parameters() {
                           "report has no provenance.")
                       .defaults(false));
     return all;
+}
+
+std::vector<Parameter> draft_parameters() {
+    return {size_parameter("scale"),
+            boolean("compare",
+                    "Takes the outline of the region where the surface is distorted less near that "
+                    "than near the boundary that was found.")
+                .defaults(true)};
 }
 
 std::vector<Parameter> move_parameters() {
@@ -351,6 +385,23 @@ assert(loop:is_closed() and report.misfit[#report.misfit] <= report.misfit[1]))"
 local mesh, report = paste:merge()
 assert(mesh:is_closed() and mesh:genus() == 0)
 assert(report.paste.scale > 0.5))"},
+             {.name = "draft",
+              .body = draft_paste,
+              .summary =
+                  "The part as `merge` with `draft` has it, but alone and not sewn to the target: "
+                  "for a part that is shown many times a second while it is dragged. What that "
+                  "costs does not grow with the target.",
+              .options = draft_parameters(),
+              .results = {{"lissom.Mesh", "mesh",
+                           "The part inside the boundary, deformed onto the edge of its hole."},
+                          {"lissom.Path", "boundary", "Its boundary there."},
+                          {"lissom.PasteDraft", "report", "What was done."}},
+              .errors = {ErrorCode::boundary_conflict, ErrorCode::handle_removed,
+                         ErrorCode::memory_limit, ErrorCode::cancelled},
+              .example = horn + R"(paste:optimize()
+assert(paste:move{ at = { 0, 0, 2 }, angle = 30 })
+local part, boundary, report = paste:draft()
+assert(#part:boundaries() == 1 and boundary:is_closed() and report.scale > 0.5))"},
              {.name = "move",
               .body = move_paste,
               .summary =

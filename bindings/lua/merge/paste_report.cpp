@@ -86,6 +86,18 @@ int push_paste_report(const Call& call, const PasteReport& report) {
     return 1;
 }
 
+int push_paste_draft(const Call& call, const PasteDraft& draft) {
+    lua_createtable(call.lua(), 0, 5);
+    call.set_field("scale", call.push(draft.scale));
+    call.set_field("smooth", call.push(draft.smooth));
+    call.set_field("kept_outline", call.push(draft.kept_outline));
+    push_distortion(call, draft.near);
+    call.set_field("near");
+    push_distortion(call, draft.laid);
+    call.set_field("laid");
+    return 1;
+}
+
 std::vector<Record> paste_records() {
     return {
         {"lissom.PasteSearch",
@@ -118,6 +130,14 @@ std::vector<Record> paste_records() {
          {{"number", "anisotropy", "95th percentile of greatest over least stretch of a face."},
           {"number", "energy", "Mean squared difference of the stretches from 1, after scaling."},
           {"integer", "faces", "How many faces that is of."}}},
+        {"lissom.PasteDraft",
+         "What a draft of a paste found.",
+         {{"number", "scale", "How much the part grew."},
+          {"boolean", "smooth", "The boundary runs through faces."},
+          {"boolean", "kept_outline", "It is the outline, where the surface is distorted less."},
+          {"lissom.PasteDistortion", "near", "Within three rings of the boundary."},
+          {"lissom.PasteDistortion", "laid",
+           "The same once the part lies on the edge of its hole."}}},
         {"lissom.PasteReport",
          "What a paste found and did.",
          {{"lissom.PasteSearch", "search", "Of the boundary."},

@@ -76,7 +76,7 @@ std::vector<double> from_point(const Call& call, MeshObject& mesh, const Surface
         case DistanceMethod::edges:
             break;
     }
-    return edge_distances(mesh.mesh, point, call.context());
+    return edge_distances(mesh.mesh, point, kFar, call.context());
 }
 
 int distances(Call& call) {

@@ -458,6 +458,9 @@ std::vector<Record> tool_records() {
            "{at=, color=, radius=}: a ball to take hold of."},
           {"fun(self: any, gizmo: lissom.Gizmo)", "gizmo", "The gizmo as it is seen now."},
           {"fun(self: any, options: table)", "region", "{mesh=, region=, color=}: colours it."},
+          {"fun(self: any, options: table)", "mesh",
+           "{mesh=, transform=, color=}: one that is not in the scene, before what it lies on; it "
+           "must not change afterwards."},
           {"fun(self: any, options: table)", "outline",
            "{pixels=, color=, width=, closed=, opacity=}: a line in the picture, of {x, y}."},
           {"fun(self: any, options: table)", "circle",
@@ -472,7 +475,8 @@ std::vector<Record> tool_records() {
           {"table[]", "outlines", "Lines in the picture."},
           {"table[]", "circles", "Circles in the picture."},
           {"table[]", "regions", "Coloured vertices."},
-          {"table[]", "surfaces", "Surfaces between two lines."}}}};
+          {"table[]", "surfaces", "Surfaces between two lines."},
+          {"table[]", "meshes", "Meshes that are not in the scene."}}}};
 }
 
 }  // namespace lissom::lua

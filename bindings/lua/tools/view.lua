@@ -8,9 +8,10 @@ local view_fields = {
     circle = { at = "point", color = "color", radius = "number" },
     region = { mesh = "userdata", region = "userdata", color = "color" },
     surface = { from = "list", to = "list", color = "color", opacity = "number" },
+    mesh = { mesh = "userdata", transform = "matrix", color = "color" },
 }
 local needed = { points = "points", line = "points", label = "at", outline = "pixels", circle = "at",
-    region = "region", surface = "from" }
+    region = "region", surface = "from", mesh = "mesh" }
 
 local function is_point(value, count)
     if type(value) ~= "table" then return false end
@@ -27,6 +28,10 @@ local checks = {
     userdata = function(value) return type(value) == "userdata" end,
     color = function(value) return type(value) == "string" and value:match("^#%x%x%x%x%x%x$") ~= nil end,
     point = is_point,
+    matrix = function(value)
+        if type(value) ~= "table" then return false end
+        return is_point(value[1], 4) and is_point(value[2], 4) and is_point(value[3], 4)
+    end,
     list = function(value, count)
         if type(value) ~= "table" then return false end
         for _, point in ipairs(value) do
@@ -72,6 +77,7 @@ function View:surface(given)
 end
 
 function View:region(given) return put(self, "regions", "region", given) end
+function View:mesh(given) return put(self, "meshes", "mesh", given) end
 
 function View:handle(given)
     local point = { points = { given.at }, color = given.color or "#e8a33d", radius = given.radius or 7 }
@@ -130,7 +136,7 @@ function Host:draw()
     local view = setmetatable({ camera = self.camera, scene = self.scene, size = self.size,
         cursor = self.x and { self.x, self.y } or nil,
         list = { points = {}, lines = {}, labels = {}, outlines = {}, circles = {}, regions = {},
-            surfaces = {} } }, View)
+            surfaces = {}, meshes = {} } }, View)
     draw_hover(view, self)
     local draw = self.tool and self.tool.draw
     if not draw then return view.list end

@@ -72,20 +72,26 @@ std::unique_ptr<PasteMap> Paste::State::map_around(const PastePlacement& placeme
 }
 
 void Paste::State::use_map(std::unique_ptr<PasteMap> on) {
-    map = std::move(on);
-    piece.reset();
+    used = std::make_unique<TargetOnMap>(TargetOnMap{std::move(on)});
 }
 
 const TargetPiece& Paste::State::target_piece(const Context& context) {
+    std::optional<TargetPiece>& piece = used->piece;
     if (piece) return *piece;
+    const PasteChart& chart = used->map->target();
     // Weights of a part alone go on over all of the target.
     const bool global = skinned_side(target, source) == SeamSide::source;
     if (global) {
-        piece = TargetPiece::whole(target, map->target());
+        piece = TargetPiece::whole(target, chart);
     } else {
-        piece.emplace(target, map->target(), context);
+        piece.emplace(target, chart, context);
     }
     return *piece;
+}
+
+const PasteGround& Paste::State::ground(const Context& context) {
+    std::optional<PasteGround>& ground = used->ground;
+    return ground ? *ground : ground.emplace(target, used->map->target(), context);
 }
 
 // How well the outlines fit, a missing image counting as a full edge.
@@ -325,7 +331,7 @@ void Paste::State::begin_on(const Mesh& new_target, const std::optional<Region>&
     surfaces = std::make_unique<PasteSurfaces>(source, target);
     if (own_disk) return place_on_disk(placement, {}, {}, context);
     use_map(map_of(target_faces(target, *region, context), context));
-    placed = place(*map, placement, {}, {}, context);
+    placed = place(*used->map, placement, {}, {}, context);
 }
 
 bool Paste::State::covers(const PlacedFeature& place) const {
@@ -392,7 +398,7 @@ Path Paste::optimize(Index iterations, const Context& context) try {
     State& state = *state_;
     PastePlacement fixed = state.placed.placement;
     fixed.angle = state.placed.angle;
-    PlacedFeature placed = state.place(*state.map, fixed, {}, {iterations, true}, context);
+    PlacedFeature placed = state.place(*state.used->map, fixed, {}, {iterations, true}, context);
     placed.placement = state.placed.placement;
     placed.angle_chosen = state.placed.angle_chosen;
     state.placed = std::move(placed);
@@ -440,11 +446,11 @@ void Paste::State::move_to(const PastePlacement& placement, const PasteEffort& e
     const std::vector<Index> start = optimized ? placed.loop.vertices : std::vector<Index>();
     if (clears()) return place_on_cleared(placement, start, effort, context);
     if (!own_disk) {
-        placed = place(*map, placement, start, effort, context);
+        placed = place(*used->map, placement, start, effort, context);
         return;
     }
     try {
-        PlacedFeature next = place(*map, placement, start, effort, context);
+        PlacedFeature next = place(*used->map, placement, start, effort, context);
         if (covers(next)) {
             placed = std::move(next);
             return;

@@ -76,6 +76,25 @@ struct PasteMergeOptions {
     bool draft = false;
 };
 
+struct PasteDraftOptions {
+    /// As in PasteMergeOptions.
+    bool lock_scale = false, compare = true;
+};
+
+/// What is shown of a part that is dragged: the part as a draft of `merge` has it, but not sewn to
+/// the target.
+struct PasteDraft {
+    /// The part inside the boundary, deformed onto the edge of its hole in the target. Vertices of
+    /// the edge that are close to others are still there, which sewing drops.
+    Mesh part;
+    /// Its vertices on that edge, in the order of the boundary.
+    std::vector<Index> rim;
+    /// As in PasteReport.
+    double scale = 1.0;
+    bool smooth = false, kept_outline = false;
+    PasteDistortion near, laid;
+};
+
 /// What a paste found and did.
 struct PasteReport {
     PasteSearch search;
@@ -143,6 +162,11 @@ class Paste {
     /// is. Errors: boundary_conflict where the target is too coarse under the part or the boundary
     /// crosses itself; as `sew`; zero_area; skin_mismatch; memory_limit; cancelled.
     PasteResult merge(const PasteMergeOptions& options = {}, const Context& context = {});
+
+    /// The part of a draft of `merge` alone. What that costs depends on the part and on what is
+    /// under it, not on how large the target is. Errors: boundary_conflict, as merge; cancelled;
+    /// memory_limit.
+    PasteDraft draft(const PasteDraftOptions& options = {}, const Context& context = {});
 
     /// Places the part anew; where it was optimised, from the loop it had. After an error all is as
     /// before: the last good placement stays. Errors: as the constructor.

@@ -35,6 +35,13 @@ struct PlacedFeature {
     std::optional<FreeLoop> line;
 };
 
+/// A map of a region of the target, and what is made of that region when it is first asked for.
+struct TargetOnMap {
+    std::unique_ptr<PasteMap> map;
+    std::optional<TargetPiece> piece = std::nullopt;
+    std::optional<PasteGround> ground = std::nullopt;
+};
+
 /// How long a boundary is sought.
 struct PasteEffort {
     /// 0: the boundary stays where it starts.
@@ -54,9 +61,7 @@ struct Paste::State {
     std::unique_ptr<PasteSurfaces> surfaces;
     std::shared_ptr<const LoopSearch> ring;
     std::shared_ptr<const RingTriangles> triangles;
-    std::unique_ptr<PasteMap> map;
-    /// Of the target around the map's region; made when it is first asked for.
-    std::optional<TargetPiece> piece;
+    std::unique_ptr<TargetOnMap> used;
     /// Whether the target's region was chosen here.
     bool own_disk = false;
     bool optimized = false;
@@ -88,6 +93,7 @@ struct Paste::State {
                        const PasteEffort& effort, const Context& context);
     void use_map(std::unique_ptr<PasteMap> on);
     const TargetPiece& target_piece(const Context& context);
+    const PasteGround& ground(const Context& context);
     double misfit_at(const PasteMap& on, const std::vector<ImagePoint>& images) const;
     void choose_angle(const PasteMap& on, PlacedFeature& place, const Context& context) const;
     PlacedFeature place(const PasteMap& on, const PastePlacement& placement,

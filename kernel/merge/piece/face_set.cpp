@@ -79,13 +79,21 @@ bool FaceSet::is_bow_tie(Index vertex) const {
 }
 
 void FaceSet::grow_at_bow_ties(const FaceSet* bounds) {
+    std::vector<char> touched(at(topology_->vertex_count()), 0);
+    const auto touch = [&](Index f) {
+        for (const Index v : topology_->face(f)) touched[at(v)] = 1;
+    };
+    for (Index f = 0; f < topology_->face_count(); ++f) {
+        if (contains(f)) touch(f);
+    }
     for (bool changed = true; changed;) {
         changed = false;
         for (Index v = 0; v < topology_->vertex_count(); ++v) {
-            if (!is_bow_tie(v)) continue;
+            if (!touched[at(v)] || !is_bow_tie(v)) continue;
             for (const Index f : topology_->faces_around(v)) {
                 if (contains(f) || (bounds && !bounds->contains(f))) continue;
                 add(f);
+                touch(f);
                 changed = true;
             }
         }

@@ -54,27 +54,33 @@ Vec2 turned(const Vec2& v) {
     return {-v.y(), v.x()};
 }
 
+void require_edge_limit(double limit) {
+    if (limit >= 0.0) return;
+    throw Error(ErrorCode::invalid_argument, "the limit of a distance must be 0 or more");
+}
+
 }  // namespace
 
 std::vector<double> edge_distances(const Mesh& mesh, std::span<const Index> sources, double limit,
                                    const Context& context) {
     require_vertices(mesh.topology(), sources);
-    if (!(limit >= 0.0)) {
-        throw Error(ErrorCode::invalid_argument, "the limit of a distance must be 0 or more");
-    }
+    require_edge_limit(limit);
     return ShortestPaths(mesh).from(sources, limit, context);
 }
 
-std::vector<double> edge_distances(const Mesh& mesh, const SurfacePoint& point,
+std::vector<double> edge_distances(const Mesh& mesh, const SurfacePoint& point, double limit,
                                    const Context& context) {
     require_vertices(mesh.topology(), point.triangle);
+    require_edge_limit(limit);
     std::vector<double> shortest(mesh.vertex_count(), kInfinity);
     ShortestPaths paths(mesh);
     for (const Index corner : point.triangle) {
         const double first = (mesh.position(corner) - point.position).norm();
-        const std::vector<double>& further = paths.from(std::array{corner}, kInfinity, context);
+        if (first > limit) continue;
+        const std::vector<double>& further = paths.from(std::array{corner}, limit, context);
         for (std::size_t v = 0; v < shortest.size(); ++v) {
-            shortest[v] = std::min(shortest[v], first + further[v]);
+            const double way = first + further[v];
+            if (way <= limit) shortest[v] = std::min(shortest[v], way);
         }
     }
     return shortest;
@@ -280,7 +286,7 @@ std::vector<double> HeatDistances::from_point(const SurfacePoint& point,
         const std::size_t v = corners[k];
         constant += weights[k] * (distance[v] - straight(v));
     }
-    const std::vector<double> bound = edge_distances(state_->shape, point, context);
+    const std::vector<double> bound = edge_distances(state_->shape, point, kInfinity, context);
     for (std::size_t v = 0; v < distance.size(); ++v) {
         const bool out_of_reach = std::isinf(bound[v]);
         distance[v] = out_of_reach

@@ -23,6 +23,7 @@ std::vector<double> edge_distances(const Mesh& mesh, std::span<const Index> sour
 
 /// The same from a point of the surface: straight to a corner of its triangle, then along edges.
 std::vector<double> edge_distances(const Mesh& mesh, const SurfacePoint& point,
+                                   double limit = std::numeric_limits<double>::infinity(),
                                    const Context& context = {});
 
 /// Geodesic distances by the heat method (Crane, Weischedel and Wardetzky 2013), with its two

@@ -112,6 +112,27 @@ TEST_CASE("what is behind a mesh that is seen through shows: meshes, lines and s
           }).code() == ErrorCode::out_of_range);
 }
 
+TEST_CASE("a raised mesh hides what it lies on, whichever comes first") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    const Mesh square = test::make_square();
+    Snapshot drawing = drawing_of(square);
+    drawing.meshes.push_back(drawing.meshes[0]);
+    drawing.meshes[0].style.color = {0, 0, 1};
+    drawing.meshes[1].style.color = {1, 0, 0};
+    for (const bool first : {false, true}) {
+        drawing.meshes[first ? 0 : 1].style.raised = true;
+        drawing.meshes[first ? 1 : 0].style.raised = false;
+        Image image = renderer->render(drawing, front_camera(2.4), small_options());
+        for (int y = 30; y < 60; ++y) {
+            for (int x = 50; x < 80; ++x) {
+                const Color seen = image.color(x, y);
+                REQUIRE((first ? seen.b > 2.0 * seen.r : seen.r > 2.0 * seen.b));
+            }
+        }
+    }
+}
+
 TEST_CASE("the same input gives the same pixels, in any order") {
     const auto renderer = test::make_renderer();
     if (!renderer) return;

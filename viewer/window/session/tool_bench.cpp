@@ -94,6 +94,24 @@ Vec3 raw_point(lua_State* L, int index, const char* key, int count) {
     return point;
 }
 
+// Three rows of four numbers; the identity where there are none.
+Affine raw_transform(lua_State* L, int index, const char* key) {
+    Affine transform;
+    push_raw(L, index, key);
+    for (int row = 0; lua_istable(L, -1) && row < 3; ++row) {
+        lua_rawgeti(L, -1, row + 1);
+        for (int column = 0; lua_istable(L, -1) && column < 4; ++column) {
+            lua_rawgeti(L, -1, column + 1);
+            double& part = column < 3 ? transform.linear(row, column) : transform.translation[row];
+            part = lua_tonumber(L, -1);
+            lua_pop(L, 1);
+        }
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+    return transform;
+}
+
 // Calls `visit` with each entry of the list `key`, a table on top of the stack.
 template <typename Visit>
 void for_each_entry(lua_State* L, int table, const char* key, const Visit& visit) {
@@ -677,6 +695,24 @@ void ToolBench::paint_regions(Picture& picture) {
     });
 }
 
+// Meshes that the tool shows though they are not in the scene.
+void ToolBench::add_meshes(Picture& picture) {
+    lua_State* L = script_.lua();
+    for_each_entry(L, lua_gettop(L), "meshes", [&](int one) {
+        push_raw(L, one, "mesh");
+        lua::Holder* holder = lua::find_holder(L, -1, lua::MeshObject::kTypeName);
+        lua_pop(L, 1);
+        const auto object = holder ? std::static_pointer_cast<lua::MeshObject>(holder->object)
+                                   : std::shared_ptr<lua::MeshObject>();
+        if (!object || object->mesh.face_count() == 0) return;
+        DrawnMesh drawn{std::shared_ptr<const Mesh>(object, &object->mesh)};
+        drawn.transform = raw_transform(L, one, "transform");
+        drawn.style.color = raw_color(L, one, drawn.style.color);
+        drawn.style.raised = true;
+        picture.meshes.push_back(std::move(drawn));
+    });
+}
+
 Picture ToolBench::picture() {
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
@@ -686,6 +722,7 @@ Picture ToolBench::picture() {
     push_raw(L, top + 1, "drawn");
     picture.tool_marks = overlay_of(L, lua_gettop(L));
     paint_regions(picture);
+    add_meshes(picture);
     lua_settop(L, top);
     return picture;
 }

@@ -196,6 +196,7 @@ class ToolBench {
     void push_host() const;
     void push_tool() const;
     void paint_regions(Picture& picture);
+    void add_meshes(Picture& picture);
     void revive_scene();
 
     cli::Script& script_;

@@ -1,6 +1,7 @@
 #include "kernel/merge/paste/part/target_piece.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "kernel/merge/piece/put_back.h"
@@ -25,6 +26,24 @@ std::vector<Index> places_in_piece(std::span<const Index> sewn, std::span<const 
 }
 
 }  // namespace
+
+PasteGround::PasteGround(const Mesh& target, const PasteChart& chart, const Context& context)
+    : vertices(chart.map.vertex.size()) {
+    std::iota(vertices.begin(), vertices.end(), 0);
+    std::vector<Vec3> positions;
+    for (const Index v : chart.map.vertex) positions.push_back(target.position(v));
+    // A polygon is there once for each of its triangles, one after the other.
+    std::vector<Index> faces(chart.map.face.begin(), chart.map.face.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    FaceList list;
+    std::vector<Index> face;
+    for (const Index f : faces) {
+        face.clear();
+        for (const Index v : target.topology().face(f)) face.push_back(chart.place_of(v));
+        list.add(face);
+    }
+    mesh = Mesh(std::move(positions), std::move(list), context);
+}
 
 TargetPiece::TargetPiece(const Mesh& target, const PasteChart& chart, const Context& context)
     : target_(&target), part_(piece_around(target, chart.map.face, kPieceRings, context)) {

@@ -18,6 +18,16 @@
 
 namespace lissom {
 
+/// The faces of a chart alone, which is enough to open the target.
+struct PasteGround {
+    /// Without attributes.
+    Mesh mesh;
+    /// All of its vertices, which are those of the chart in their order.
+    std::vector<Index> vertices;
+
+    PasteGround(const Mesh& target, const PasteChart& chart, const Context& context);
+};
+
 /// What the elements of a paste are followed to, and whether they are.
 struct PasteOrigins {
     /// From the target to what it was made of, the target as given; itself where it is null.

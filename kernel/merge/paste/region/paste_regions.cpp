@@ -29,18 +29,23 @@ Elements faces_named(std::span<const Index> faces) {
     return elements;
 }
 
-void fill_islands(FaceSet& set, const FaceSet* bounds) {
-    const std::vector<std::vector<Index>> outside = set.outside_parts(bounds);
-    for (std::size_t k = 1; k < outside.size(); ++k) {
-        const bool beside = std::any_of(outside[k].begin(), outside[k].end(), [&](Index f) {
-            const std::span<const Index> face = set.topology().face(f);
-            return std::any_of(face.begin(), face.end(), [&](Index v) {
-                const auto around = set.topology().faces_around(v);
-                return std::any_of(around.begin(), around.end(),
-                                   [&](Index g) { return set.contains(g); });
-            });
+// Whether one of the faces meets the set.
+bool lies_beside(const FaceSet& set, std::span<const Index> faces) {
+    return std::any_of(faces.begin(), faces.end(), [&](Index f) {
+        const std::span<const Index> face = set.topology().face(f);
+        return std::any_of(face.begin(), face.end(), [&](Index v) {
+            const auto around = set.topology().faces_around(v);
+            return std::any_of(around.begin(), around.end(),
+                               [&](Index g) { return set.contains(g); });
         });
-        if (!beside) continue;
+    });
+}
+
+// Of what lies around the set the largest part is the rest of the surface.
+void fill_islands(FaceSet& set, const FaceSet* bounds) {
+    std::vector<std::vector<Index>> outside = set.outside_parts(bounds);
+    std::erase_if(outside, [&](const auto& part) { return !lies_beside(set, part); });
+    for (std::size_t k = 1; k < outside.size(); ++k) {
         for (const Index f : outside[k]) set.add(f);
     }
 }
@@ -220,9 +225,22 @@ void require_annulus(const FaceSet& ring) {
                 elements);
 }
 
+bool is_disk(const FaceSet& set) {
+    return set.loops().size() == 1 && set.euler_characteristic() == 1;
+}
+
+// Whether what lies around a connected set without bow-ties is certainly connected: beside its one
+// loop there are faces everywhere, which meet from each vertex of it to the next.
+bool has_no_islands(const FaceSet& set) {
+    const std::vector<std::vector<Index>> loops = set.loops();
+    return loops.size() == 1 && std::none_of(loops[0].begin(), loops[0].end(), [&](Index v) {
+               return set.topology().is_boundary(v);
+           });
+}
+
 void require_disk(const FaceSet& set) {
     const std::vector<std::vector<Index>> loops = set.loops();
-    if (loops.size() == 1 && set.euler_characteristic() == 1) return;
+    if (is_disk(set)) return;
     // What is closed has no boundary to name.
     const Elements elements =
         loops.empty() ? faces_named(set.faces()) : vertices_named(loops.back());
@@ -273,7 +291,7 @@ std::vector<Index> target_faces(const Mesh& target, const Region& onto, const Co
 
 std::vector<Index> disk_around(const Mesh& target, const SurfacePoint& point, double radius,
                                const Context& context) {
-    const std::vector<double> distance = edge_distances(target, point, context);
+    const std::vector<double> distance = edge_distances(target, point, radius, context);
     const Topology& topology = target.topology();
     for (int step = 0;; ++step, radius *= kShrink) {
         context.checkpoint();
@@ -289,8 +307,9 @@ std::vector<Index> disk_around(const Mesh& target, const SurfacePoint& point, do
         const Index seed[] = {point.face};
         keep_one_part(set, seed);
         set.grow_at_bow_ties(nullptr);
-        fill_islands(set, nullptr);
-        if (set.euler_characteristic() == 1 && set.loops().size() == 1) return set.faces();
+        // Far faces are not looked at where there is no need.
+        if (!has_no_islands(set)) fill_islands(set, nullptr);
+        if (is_disk(set)) return set.faces();
         if (step == kShrinks) require_disk(set);
     }
 }

@@ -359,7 +359,10 @@ RingPoint RingSurface::blend(std::span<const ElementMap::Source> vertices) const
 std::optional<RingPoint> RingSurface::locate(const Vec2& uv) const {
     const std::optional<UvPoint> found = ring_.grid.locate(uv);
     if (!found) return std::nullopt;
-    return point(ring_.triangles[at(found->triangle)], found->barycentric);
+    RingPoint result = point(ring_.triangles[at(found->triangle)], found->barycentric);
+    // Not rounded: a line that is carried stays the one that it was.
+    result.uv = uv;
+    return result;
 }
 
 std::optional<FreeLoop> free_loop(const RingSurface& surface, const PasteLoop& from,

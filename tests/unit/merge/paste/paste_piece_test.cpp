@@ -1,7 +1,11 @@
 // A paste works on a piece of the target, and leaves what a paste onto all of it would.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -153,6 +157,138 @@ TEST_CASE("paste: what is kept between moves changes no result") {
                 kThere);
     there.optimize();
     CHECK(hash(used.merge().merged.mesh) == hash(there.merge().merged.mesh));
+}
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+std::set<Point> points_of(const Mesh& mesh, const std::vector<Index>& vertices) {
+    std::set<Point> points;
+    for (const Index v : vertices) {
+        const Vec3& p = mesh.position(v);
+        points.insert({p.x(), p.y(), p.z()});
+    }
+    return points;
+}
+
+std::vector<Index> all_of(const Mesh& mesh) {
+    std::vector<Index> vertices(static_cast<std::size_t>(mesh.vertex_count()));
+    std::iota(vertices.begin(), vertices.end(), 0);
+    return vertices;
+}
+
+Vec3 triangle_middle(const Mesh& mesh, Index face) {
+    Vec3 sum = Vec3::Zero();
+    for (const Index v : mesh.topology().face(face)) sum += mesh.position(v) / 3.0;
+    return sum;
+}
+
+// Vertices of the merged faces that come from the source.
+std::vector<Index> of_source(const MergeResult& merged) {
+    std::set<Index> vertices;
+    for (Index f = 0; f < merged.mesh.face_count(); ++f) {
+        if (merged.side_of_face[static_cast<std::size_t>(f)] != SeamSide::source) continue;
+        const auto face = merged.mesh.topology().face(f);
+        vertices.insert(face.begin(), face.end());
+    }
+    return {vertices.begin(), vertices.end()};
+}
+
+// All of the part's vertices are the merged part's, to the bit, but for those of its boundary that
+// sewing drops; what the merged part has more lies in the seam.
+void check_part(Paste& paste, const PasteDraftOptions& options = {}) {
+    PasteMergeOptions how;
+    how.draft = true;
+    how.lock_scale = options.lock_scale;
+    how.compare = options.compare;
+    const PasteDraft draft = paste.draft(options);
+    const PasteResult whole = paste.merge(how);
+    const Mesh& mesh = whole.merged.mesh;
+    const std::set<Point> part = points_of(draft.part, all_of(draft.part));
+    const std::set<Point> merged = points_of(mesh, of_source(whole.merged));
+    const std::set<Point> rim = points_of(draft.part, draft.rim);
+    const std::set<Point> seam = points_of(mesh, whole.merged.seams.front());
+    CHECK(part.size() == static_cast<std::size_t>(draft.part.vertex_count()));
+    std::vector<Point> fewer, more;
+    std::set_difference(part.begin(), part.end(), merged.begin(), merged.end(),
+                        std::back_inserter(fewer));
+    CHECK(std::includes(rim.begin(), rim.end(), fewer.begin(), fewer.end()));
+    CHECK(count_of(fewer) == whole.merged.report.seam.collapsed);
+    std::set_difference(merged.begin(), merged.end(), part.begin(), part.end(),
+                        std::back_inserter(more));
+    CHECK(std::includes(seam.begin(), seam.end(), more.begin(), more.end()));
+    CHECK(draft.part.topology().boundary_loops().size() == 1);
+    CHECK(draft.scale == whole.report.scale);
+    CHECK(draft.smooth == whole.report.smooth);
+    CHECK(draft.kept_outline == whole.report.kept_outline);
+    CHECK(draft.near.energy == whole.report.near.energy);
+    CHECK(draft.laid.energy == whole.report.laid.energy);
+}
+
+}  // namespace
+
+TEST_CASE("paste: a part alone is that of a draft of the paste, to the bit") {
+    Mesh horn = horned_ball(), target = egg(40);
+    add_coordinates(horn);
+    for (const bool in_region : {false, true}) {
+        for (const bool optimized : {false, true}) {
+            Paste paste =
+                in_region ? horn_in_region(horn, target) : horn_on_egg(horn, target, kHere);
+            if (optimized) paste.optimize();
+            check_part(paste);
+            paste.slide(kThere);
+            check_part(paste);
+            paste.move(kThere);
+            check_part(paste);
+            // Onto another disk, where there is no region.
+            if (!in_region) paste.move({.at = {0.0, -1.0, -1.5}, .angle = 1.0, .scale = 0.5});
+            check_part(paste);
+            check_part(paste, {.lock_scale = true, .compare = false});
+        }
+    }
+}
+
+TEST_CASE(
+    "paste: a part alone on polygons, with a skin, along edges, by the thesis, and on a target "
+    "that is cleared") {
+    const Mesh horn = horned_ball();
+    Mesh polygons = make_sphere({1.5, 30, SphereKind::quads});
+    for (const bool skinned : {false, true}) {
+        Mesh source = horn;
+        if (skinned) add_skin(source);
+        Paste paste = horn_on_egg(source, polygons, {.at = {0, 1.5, 0}, .scale = 0.5});
+        paste.optimize();
+        check_part(paste);
+    }
+    PasteOptions mesh_loop, thesis, clear;
+    mesh_loop.loop = PasteBoundary::mesh;
+    thesis.thesis = true;
+    clear.clear = true;
+    for (const PasteOptions& options : {mesh_loop, thesis, clear}) {
+        Paste paste = horn_on_egg(horn, egg(40), kHere, options);
+        paste.optimize();
+        check_part(paste);
+        paste.move(kThere);
+        check_part(paste);
+    }
+}
+
+TEST_CASE("paste: a part alone is refused as the paste is, and stays where it was") {
+    const Mesh horn = horned_ball();
+    // No vertex lies under the part.
+    const Mesh coarse = egg(2);
+    Paste paste = horn_on_egg(horn, coarse, {.at = triangle_middle(coarse, 0), .scale = 0.1});
+    const Error alone = error_of([&] { paste.draft(); });
+    const Error whole = error_of([&] { paste.merge(); });
+    CHECK(alone.code() == ErrorCode::boundary_conflict);
+    CHECK(std::string(alone.what()) == whole.what());
+    const Mesh fine = egg(40);
+    Paste good = horn_on_egg(horn, fine, kHere);
+    const PasteDraft before = good.draft();
+    CHECK_THROWS_AS(good.move({.at = kHere.at, .scale = -1.0}), Error);
+    CHECK(points_of(good.draft().part, all_of(before.part)) ==
+          points_of(before.part, all_of(before.part)));
 }
 
 TEST_CASE("paste: a draft has the boundary of the paste, and is watertight") {

@@ -253,6 +253,33 @@ TEST_CASE("paste: bad input is refused by name, with ids, and the meshes stay as
     CHECK(hash(other) == before[2]);
 }
 
+TEST_CASE("paste: rounds of nearest points are kept where they distort less, and maps have none") {
+    const Mesh horn = horned_ball(), target = egg();
+    Index rounds = 0;
+    for (const Vec3& at : {Vec3(0, 2, 0), Vec3(1, 1.2, 0.8), Vec3(0, 0, 1.6)}) {
+        PasteOptions by_map, by_points;
+        by_map.loop = by_points.loop = PasteBoundary::mesh;
+        by_map.correspondence = PasteCorrespondence::map;
+        PasteMergeOptions plain;
+        plain.compare = false;
+        Paste map = horn_on_egg(horn, target, {.at = at, .angle = 0.3, .scale = 0.8}, by_map);
+        Paste points = horn_on_egg(horn, target, {.at = at, .angle = 0.3, .scale = 0.8}, by_points);
+        map.optimize();
+        points.optimize();
+        CHECK(map.search().closest_rounds == 0);
+        const double from_map = map.merge(plain).report.near.energy;
+        const double from_points = points.merge(plain).report.near.energy;
+        if (points.search().closest_rounds == 0) {
+            CHECK(from_points == from_map);
+        } else {
+            CHECK(from_points < from_map);
+            CHECK(points.search().energy.back() < map.search().energy.back());
+        }
+        rounds += points.search().closest_rounds;
+    }
+    CHECK(rounds > 0);
+}
+
 TEST_CASE("paste: the size can be locked; nearest points and the thesis's way work too") {
     const Mesh horn = horned_ball(), target = egg();
     Paste paste = horn_on_egg(horn, target, {.at = {0, 2, 0}, .scale = 0.7});

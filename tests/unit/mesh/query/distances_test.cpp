@@ -218,3 +218,17 @@ TEST_CASE("distances from a point of the surface that is no vertex") {
     CHECK(HeatDistances(two).from_point(on_grid).back() == test::kInfinity);
     CHECK(edge_distances(two, on_grid).back() == test::kInfinity);
 }
+
+TEST_CASE("distances from a point of the surface end at the limit, and are the same up to it") {
+    const Mesh mesh = make_sphere({1.0, 12, SphereKind::triangles});
+    const SurfacePoint point = SpatialTree(mesh).nearest({0.3, 0.8, 0.4});
+    const std::vector<double> all = edge_distances(mesh, point);
+    for (const double limit : {0.0, 0.05, 0.4, 1.0, 10.0}) {
+        const std::vector<double> some = edge_distances(mesh, point, limit);
+        for (std::size_t v = 0; v < all.size(); ++v) {
+            CHECK(some[v] == (all[v] <= limit ? all[v] : test::kInfinity));
+        }
+    }
+    CHECK(test::error_of([&] { (void)edge_distances(mesh, point, -1.0); }).code() ==
+          ErrorCode::invalid_argument);
+}

@@ -192,6 +192,7 @@ inline MockGl::MockGl() {
     STAND_IN(glGetUniformLocation);
     STAND_IN(glLinkProgram);
     STAND_IN(glPixelStorei);
+    STAND_IN(glPolygonOffset);
     STAND_IN(glReadPixels);
     STAND_IN(glRenderbufferStorageMultisample);
     STAND_IN(glShaderSource);

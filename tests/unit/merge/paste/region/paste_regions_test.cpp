@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/merge/piece/face_set.h"
+#include "kernel/mesh/edit/append.h"
 #include "kernel/mesh/edit/extract.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"
@@ -47,6 +48,21 @@ TEST_CASE("paste regions: specks go, islands are filled, parts of a feature are 
     const Region sides = select_sphere(mesh, {0.35, 0.95, 0}, 0.15)
                              .united(select_sphere(mesh, {-0.35, 0.95, 0}, 0.15));
     check_annulus(mesh, regions_of(mesh, region, sides));
+}
+
+TEST_CASE("paste regions: other parts of a mesh count as nothing, however large they are") {
+    Mesh beside = make_sphere({1.0, 60, SphereKind::triangles});
+    transform(beside, translation({10, 0, 0}));
+    Mesh source = horned_ball(), target = egg();
+    const std::vector<Index> disk =
+        disk_around(target, SpatialTree(target).nearest({0, 2, 0}), 0.8, {});
+    const PasteRegions alone = regions_of(source, around_horn(source));
+    append(source, beside);
+    append(target, beside);
+    CHECK(disk_around(target, SpatialTree(target).nearest({0, 2, 0}), 0.8, {}) == disk);
+    const PasteRegions both = regions_of(source, around_horn(source));
+    CHECK(both.region == alone.region);
+    CHECK(both.feature == alone.feature);
 }
 
 TEST_CASE("paste regions: bad ones are refused, with ids") {

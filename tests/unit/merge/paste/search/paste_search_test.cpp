@@ -5,8 +5,10 @@
 #include <random>
 #include <set>
 
+#include "kernel/merge/paste/placement/paste_map.h"
 #include "kernel/merge/paste/region/paste_regions.h"
 #include "kernel/merge/paste/search/loop_search.h"
+#include "kernel/merge/paste/search/paste_energy.h"
 #include "kernel/merge/paste/search/winding_graph.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/merge/paste/search/loop_force.h"
@@ -192,6 +194,65 @@ TEST_CASE("winding search: bounds leave nothing out, whether edges cross one ano
         }
         CHECK(found == doctest::Approx(least).epsilon(1e-12));
     }
+}
+
+TEST_CASE("paste search: what normals weigh more, the best loop has less of") {
+    const Mesh horn = horned_ball(), target = egg();
+    const PasteRegions regions = paste_regions(horn, around_horn(horn), std::nullopt, 0.5, {});
+    const PasteSurfaces surfaces(horn, target);
+    const Vec3 at(1, 1.2, 0.8);
+    const PasteMap map(
+        surfaces, source_chart(horn, regions, ParameterizeMethod::arap, {}),
+        target_chart(target, select_sphere(target, at, 1.2).faces(), ParameterizeMethod::arap, {}),
+        false);
+    const std::vector<ImagePoint> images = map.images(map.planar({.at = at, .scale = 0.8}, 0.3));
+    const LoopSearch ring(horn, regions, {});
+    PasteSimilarity similarity;
+    double last = std::numeric_limits<double>::infinity(), first = 0.0;
+    for (const double weight : {0.0, 0.1, 0.3, 3.0}) {
+        EnergyOptions options;
+        options.normals = weight;
+        PasteEnergy energy(ring_edges(map, ring, images), options);
+        const std::vector<Index> outline = energy.edges_of(ring, regions.inner);
+        REQUIRE(!outline.empty());
+        const PasteSimilarity start = energy.start(outline);
+        if (weight == 0.0) similarity = start;
+        // What both have in common is left when that of other weights is taken away.
+        const std::vector<Index> loop = ring.cheapest(energy.costs(similarity), {});
+        EnergyOptions alone, with;
+        with.normals = 1.0;
+        PasteEnergy plain(ring_edges(map, ring, images), alone);
+        PasteEnergy both(ring_edges(map, ring, images), with);
+        plain.fix_weights(similarity.scale);
+        both.fix_weights(similarity.scale);
+        const std::vector<Index> edges = both.edges_of(ring, loop);
+        const double turned = both.energy(edges, similarity) - plain.energy(edges, similarity);
+        CHECK(turned <= last * (1.0 + 1e-12));
+        if (weight == 0.0) first = turned;
+        last = turned;
+    }
+    CHECK(last < 0.95 * first);
+}
+
+TEST_CASE("paste search: one entry of the report for each iteration, as many as are wanted") {
+    const Mesh horn = horned_ball(), target = egg();
+    PasteOptions options;
+    options.correspondence = PasteCorrespondence::map;
+    Paste paste =
+        horn_on_egg(horn, target, {.at = {1, 1.2, 0.8}, .angle = 0.3, .scale = 0.8}, options);
+    paste.optimize();
+    const PasteSearch all = paste.search();
+    REQUIRE(all.energy.size() > 2);
+    CHECK(all.misfit.size() == all.energy.size());
+    for (Index wanted = 1; wanted < count_of(all.energy); ++wanted) {
+        paste.optimize(wanted);
+        const PasteSearch& some = paste.search();
+        REQUIRE(count_of(some.energy) == wanted + 1);
+        CHECK(std::equal(some.energy.begin(), some.energy.end(), all.energy.begin()));
+        CHECK(std::equal(some.misfit.begin(), some.misfit.end(), all.misfit.begin()));
+        if (wanted + 1 < count_of(all.energy)) CHECK(some.stop == PasteStop::iterations);
+    }
+    CHECK(error_of([&] { paste.optimize(0); }).code() == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("paste search: the energy never increases, at twelve angles") {

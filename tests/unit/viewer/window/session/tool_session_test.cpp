@@ -97,6 +97,17 @@ struct ToolHost : test::SessionHost {
     ToolState known;
 };
 
+constexpr const char* kGhost = R"(local lissom = require "lissom"
+local box = lissom.shapes.box()
+local place = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 3 }, { 0, 0, 0, 1 } }
+return lissom.tool{ name = "ghost",
+    press = function(self) self.held = true end,
+    release = function(self) self.held = false end,
+    draw = function(self, view)
+        if self.held then view:mesh{ mesh = box, transform = place, color = "#ff0000" } end
+    end }
+)";
+
 ToolInput played(std::size_t event) {
     ToolInput made;
     made.kind = Kind::play;
@@ -459,6 +470,27 @@ TEST_CASE("session: hovering shows nothing new where a tool draws the same") {
         host.wait();
     }
     CHECK_FALSE(host.session.take_shown());
+}
+
+TEST_CASE("session: a mesh that a tool draws is seen while it does, and is no object") {
+    ToolHost host;
+    host.open(host.folder.write("ghost.lua", kGhost));
+    host.session.take_shown();
+    host.session.post(input(Kind::press));
+    host.wait();
+    const auto held = host.session.take_shown();
+    REQUIRE(held);
+    REQUIRE(held->picture->meshes.size() == 2);
+    CHECK(held->picture->meshes[1].style.raised);
+    CHECK(held->picture->meshes[1].style.color.r == 1.0);
+    CHECK(held->picture->meshes[1].transform.translation == Vec3(0, 0, 3));
+    CHECK(!held->picture->meshes[0].style.raised);
+    CHECK(held->bounds.max.z() == doctest::Approx(3.5));
+    CHECK(host.state().objects.size() == 1);
+    host.session.post(input(Kind::release));
+    host.wait();
+    CHECK(host.shown().size() == static_cast<std::size_t>(make_sphere().vertex_count()));
+    CHECK(host.state().steps.empty());
 }
 
 TEST_CASE("session: what is recorded is a script that comes to the same scene") {

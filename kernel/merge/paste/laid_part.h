@@ -1,0 +1,49 @@
+/// A part inside the boundary that suits it best, on the target as that is opened for it; private
+/// to kernel/merge.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/merge/loop/loop_pair.h"
+#include "kernel/merge/paste/part/opened_target.h"
+#include "kernel/merge/paste/part_trial.h"
+#include "kernel/merge/paste/paste_options.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// The part inside the outline, where the maps alone put it.
+PartTrial outline_trial(const PartTrials& trials, const Context& context);
+
+struct BestTrial {
+    PartTrial trial;
+    /// Near the outline, of the part before iterations, where that was compared.
+    std::optional<PasteDistortion> outline_near;
+};
+
+/// The part inside the boundary that was found, or inside the outline where that is to be compared
+/// and distorts it less.
+BestTrial best_trial(const PartTrials& trials, bool with_outline, const Context& context);
+
+/// A part whose boundary lies on the edge of the hole that was cut for it.
+struct LaidPart {
+    PartTrial trial;
+    OpenedTarget opened;
+    LoopPair pair;
+    /// Near the boundary before it was laid on the edge.
+    PasteDistortion near;
+};
+
+/// `ground` has the faces of the target's chart, whose vertices are `chart_vertices` of it.
+/// Errors: as open_target.
+LaidPart laid_part(const PartTrials& trials, const Mesh& ground,
+                   std::span<const Index> chart_vertices, PartTrial trial, const Context& context);
+
+/// The part as sewing leaves it, with its boundary where that has its vertices; but those that
+/// sewing drops, since they are close to another of the part, are still there.
+Mesh part_at_seam(const LaidPart& laid);
+
+}  // namespace lissom
