@@ -301,6 +301,14 @@
 ---@field energy number Mean squared difference of the stretches from 1, after scaling.
 ---@field faces integer How many faces that is of.
 
+---What a draft of a paste found.
+---@class lissom.PasteDraft
+---@field scale number How much the part grew.
+---@field smooth boolean The boundary runs through faces.
+---@field kept_outline boolean It is the outline, where the surface is distorted less.
+---@field near lissom.PasteDistortion Within three rings of the boundary.
+---@field laid lissom.PasteDistortion The same once the part lies on the edge of its hole.
+
 ---What a paste found and did.
 ---@class lissom.PasteReport
 ---@field search lissom.PasteSearch Of the boundary.
@@ -639,6 +647,7 @@
 ---@field handle fun(self: any, options: table) {at=, color=, radius=}: a ball to take hold of.
 ---@field gizmo fun(self: any, gizmo: lissom.Gizmo) The gizmo as it is seen now.
 ---@field region fun(self: any, options: table) {mesh=, region=, color=}: colours it.
+---@field mesh fun(self: any, options: table) {mesh=, transform=, color=}: one that is not in the scene, before what it lies on; it must not change afterwards.
 ---@field outline fun(self: any, options: table) {pixels=, color=, width=, closed=, opacity=}: a line in the picture, of {x, y}.
 ---@field circle fun(self: any, options: table) {at={x, y}, radius=, color=}: in pixels of the picture.
 ---@field surface fun(self: any, options: table) {from=, to=, color=, opacity=}: seen through, between two lines of as many points.
@@ -652,6 +661,7 @@
 ---@field circles table[] Circles in the picture.
 ---@field regions table[] Coloured vertices.
 ---@field surfaces table[] Surfaces between two lines.
+---@field meshes table[] Meshes that are not in the scene.
 
 ---An oriented 2-manifold of polygons, with or without boundary. Vertices and faces count from 1.
 ---@class lissom.Mesh
@@ -1586,6 +1596,17 @@ function Paste:optimize(options) end
 ---@return lissom.Mesh mesh # The target with the feature.
 ---@return lissom.MergeReport report # As of lissom.merge; its field `paste` is a lissom.PasteReport.
 function Paste:merge(options) end
+
+---@class lissom.Paste.DraftOptions
+---@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or what the placement says. Default: "boundary".
+---@field compare? boolean Takes the outline of the region where the surface is distorted less near that than near the boundary that was found. Default: true.
+
+---The part as `merge` with `draft` has it, but alone and not sewn to the target: for a part that is shown many times a second while it is dragged. What that costs does not grow with the target.
+---@param options? lissom.Paste.DraftOptions
+---@return lissom.Mesh mesh # The part inside the boundary, deformed onto the edge of its hole.
+---@return lissom.Path boundary # Its boundary there.
+---@return lissom.PasteDraft report # What was done.
+function Paste:draft(options) end
 
 ---@class lissom.Paste.MoveOptions
 ---@field at? lissom.Vector The middle of the feature comes to lie on the point of the target that is nearest to this. Default: as it was.
