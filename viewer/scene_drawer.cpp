@@ -35,10 +35,11 @@ gl::Texture make_colormap() {
     return texture;
 }
 
-// What is drawn next hides what lies where it does.
+// What is drawn next hides what lies where it does. By as much everywhere: more where it is seen
+// from aside would bring its far side before its outline.
 void raise() {
     glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(-1.0f, -8.0f);
+    glPolygonOffset(0.0f, -32.0f);
 }
 
 // Parts that cover a picture, none larger than `size`.
