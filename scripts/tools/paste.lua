@@ -1,11 +1,11 @@
 --- Puts a part onto another mesh: a nose, an ear, a horn.
 --
--- The part is what is selected of a mesh, or a mesh with a region called "region", such as lissom.part.save
--- writes. Press on the target, or on the part and drag it there: the part follows the cursor as it will stand
--- there, with the loop that it is cut along and the energy of that. While the button is down the wheel turns
--- it, with shift it scales it. Let go: the best loop is sought, and the target has the part; that is one step.
--- Where the part does not fit it stays where it last did, and the reason is shown. Of one mesh alone a part is
--- put onto itself.
+-- The part is what is selected of a mesh, or a mesh with a region called "region", such as
+-- lissom.part.save writes. Press on the target, or on the part and drag it there: it follows the cursor as it
+-- will stand there, with the loop that it is cut along and the energy of that. While the button is down the
+-- wheel turns it, with shift it scales it. Let go: the best loop is sought, and the target has the part; that
+-- is one step. Where the part does not fit it stays where it last did, and the reason is shown. Of one mesh
+-- alone a part is put onto itself.
 local lissom = require "lissom"
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
@@ -110,7 +110,7 @@ end
 
 return lissom.tool{
     name = "paste",
-    help = "Drag a part over another mesh: it follows; the wheel turns it, with shift it scales; let go to paste.",
+    help = "Drag a part over another mesh; the wheel turns it, with shift it scales; let go to paste.",
     params = {
         angle = { type = "number", default = 0, min = -3600, max = 3600, unit = "degrees",
             help = "Turns the part on the surface, counter-clockwise; the wheel." },

@@ -17,6 +17,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "kernel/core/error.h"
 #include "kernel/io/mesh_file.h"
@@ -96,6 +97,7 @@ void add_rows(Report& report, const RealPaste& real, const PasteResult& result, 
         end = std::string(paste.near.energy <= target ? " reached" : " MISSED");
         end = "  target " + std::to_string(target).substr(0, 6) + end;
     }
+    const bool misses = target >= 0.0 && paste.near.energy > target;
     if (paste.kept_outline) end += ", keeps the outline";
     const double turn = result.merged.report.seam.after.greatest_dihedral * 180.0 / kPi;
     end += ", turns by " + std::to_string(static_cast<int>(std::lround(turn)));
@@ -105,7 +107,10 @@ void add_rows(Report& report, const RealPaste& real, const PasteResult& result, 
                   paste.feature.anisotropy, paste.scale, paste.smooth ? "faces" : "edges",
                   end.c_str());
     report.line(line);
-    report.add_to_json({"energy near the seam: " + name, paste.near.energy, "", target});
+    if (misses && !real.apart.empty()) report.line("      the target is of " + real.apart);
+    Row energy{"energy near the seam: " + name, paste.near.energy, "", target};
+    energy.bound_by = real.apart;
+    report.add_to_json(std::move(energy));
     report.add_to_json({"stretch near the seam: " + name, paste.near.anisotropy, ""});
     report.add_to_json({"energy in the feature: " + name, paste.feature.energy, ""});
     report.add_to_json({"greatest angle at the seam: " + name, turn, "degrees"});

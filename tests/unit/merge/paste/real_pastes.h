@@ -21,6 +21,8 @@ struct RealPaste {
     double energy = 0.0;
     /// What it should come to: the best that was found for this pair; below 0 where none was.
     double best = -1.0;
+    /// What is known of a best one that is not reached.
+    std::string apart = {};
 };
 
 const std::vector<RealPaste>& real_pastes();
