@@ -12,6 +12,17 @@ TEST_CASE("resampling by count gives as many points, evenly spaced on the old st
     for (Index k = 0; k < 5; ++k) CHECK(made.strand(0)(1, k) == doctest::Approx(k));
 }
 
+TEST_CASE("resampling by two points leaves roots and tips") {
+    const Strands strands = random_hair(10);
+    const Strands made = resample(strands, {2, 0.0});
+    for (Index s = 0; s < strands.size(); ++s) {
+        const StrandView old = strands.strand(s);
+        REQUIRE(made.point_count(s) == 2);
+        CHECK(made.strand(s).col(0) == old.col(0));
+        CHECK(made.strand(s).col(1) == old.col(old.cols() - 1));
+    }
+}
+
 TEST_CASE("resampling by step keeps roots and tips to the bit") {
     const Strands strands = rich_hair(50);
     const Strands made = resample(strands, {0, 0.004});
