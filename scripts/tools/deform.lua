@@ -66,8 +66,8 @@ local keys = {
 
 return lissom.tool{
     name = "deform",
-    help = "Drag over the surface, then Enter: a handle; p: pinned. Drag its gizmo. Keys: w e r, x y z, "
-        .. "numbers, tab, delete, f(inish).",
+    help = "Drag over the surface, then Enter: a handle; p: pinned. Drag its gizmo. Keys: w(move) e(turn) "
+        .. "r(scale), x y z, numbers, tab, delete, f(inish).",
     params = {
         radius = { type = "number", default = 30, min = 1, max = 300, unit = "pixels", help = "brush" },
         preview = { type = "choice", default = "large meshes", choices = { "large meshes", "always",

@@ -46,7 +46,8 @@ end
 -- The same; where it cannot be merged, that is told in the picture, and the clicks go on.
 local function try(self, scene, join)
     local done, message = pcall(show, self, scene, join)
-    self.trouble = not done and { at = join.target.position, text = message:gsub("^%S+:%d+: ", "") } or nil
+    message = not done and message:gsub("^%S+:%d+: ", ""):gsub(" %[[%l_]+%]$", "")
+    self.trouble = message and { at = join.target.position, text = message } or nil
 end
 
 -- The join that is shown, which undo changes too; nil where there is none.
@@ -95,7 +96,8 @@ return lissom.tool{
         self.open = nil
         while not in_progress(self, scene) do           -- after undo it may be: then keys are asked for
             self.source = nil
-            self.source = pick.boundary{ prompt = "Click the loop of the part that is moved" }
+            self.source = pick.boundary{
+                prompt = "Click the loop of the part that is moved (the box 'boundaries' shows all)" }
             self.result = nil
             local target = pick.boundary{ prompt = "Click the loop that it is joined to" }
             try(self, scene, { source = self.source, target = target, keys = {} })

@@ -95,7 +95,7 @@ return require("lissom").tool{
             error(self.said, 0)
         elseif one and self.drafts then
             self.state.viewpoint = hair.camera(ev.camera, one)
-            hair.advise(self, ev.scene, hair.is_guess(ev, one, self.pixels))
+            hair.advise(self, ev, hair.is_guess(ev, one, self.pixels))
         end
         let_go(self)
     end,
@@ -121,7 +121,7 @@ return require("lissom").tool{
         if self.support then hair_view.support(view, one, self.support) end
         if self.pixels and #self.pixels > 1 then view:outline{ pixels = self.pixels, width = 2 } end
         local resting = not self.pixels
-        local advice = resting and hair.advice(self, view.scene)
+        local advice = resting and hair.advice(self, view)
         hair_view.say(view, self.said or advice or resting and hair_view.warning(view, one, under) or nil)
     end,
     cancel = let_go,

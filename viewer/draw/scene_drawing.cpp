@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "kernel/hair/strands/strand_place.h"
@@ -15,6 +16,10 @@
 
 namespace lissom {
 namespace {
+
+// Of vertices that no face has: so many are drawn, of this radius in pixels.
+constexpr std::size_t kMostPoints = 50000;
+constexpr double kPointRadius = 2.0;
 
 Color color_of(const std::optional<Vec3>& rgb, const Color& usual) {
     return rgb ? Color{rgb->x(), rgb->y(), rgb->z()} : usual;
@@ -64,7 +69,8 @@ class SceneDraughtsman {
     void add(const NamedObject& object) {
         const SceneItem* item = object.item.get();
         if (const auto* mesh = dynamic_cast<const MeshItem*>(item)) {
-            if (mesh->mesh().face_count() > 0) add_mesh(object, mesh->shared_mesh());
+            if (mesh->mesh().face_count() == 0) return add_points(object, mesh->mesh());
+            add_mesh(object, mesh->shared_mesh());
         } else if (const auto* edit = dynamic_cast<const DeformItem*>(item)) {
             add_deformation(object, *edit);
         } else if (const auto* strands = dynamic_cast<const StrandsItem*>(item)) {
@@ -86,6 +92,16 @@ class SceneDraughtsman {
         drawing_.meshes.push_back(
             {std::move(mesh), std::move(style), object.look.transform, object.id.value});
         return drawing_.meshes.back();
+    }
+
+    void add_points(const NamedObject& object, const Mesh& mesh) {
+        const std::span<const Vec3> positions = mesh.positions();
+        const std::size_t stride = positions.size() / kMostPoints + 1;
+        const Color color = color_of(object.look.style.color, kWireColor);
+        for (std::size_t i = 0; i < positions.size(); i += stride) {
+            const Vec3 place = object.look.transform(positions[i]);
+            if (place.allFinite()) drawing_.points.push_back({place, color, kPointRadius});
+        }
     }
 
     DrawnMesh* find_mesh(const Mesh* mesh) {

@@ -14,14 +14,16 @@ struct SceneDrawing {
     std::vector<DrawnStrands> strands = {};
     /// Curves of hairstyles, and free curves.
     std::vector<DrawnLine> lines = {};
+    /// Vertices of meshes without faces: of very many an even choice.
+    std::vector<DrawnPoint> points = {};
     /// Fields and constraints of hairstyles, for who asks for them.
     NamedMarks field = {};
 };
 
 /// Draws each visible object where it stands, by its style. A deformation is its mesh with region
 /// and handles, also where the mesh is an object itself; hair takes its unit from the mesh that it
-/// is rooted on. Meshes without faces are left out. Shares meshes and strands with the scene, which
-/// must not change while they are drawn. Errors: those of style_lines.
+/// is rooted on. Meshes without faces are their vertices. Shares meshes and strands with the scene,
+/// which must not change while they are drawn. Errors: those of style_lines.
 SceneDrawing drawing_of(const ObjectList& objects);
 
 }  // namespace lissom

@@ -108,7 +108,9 @@ void add_scene(const Call& call, Picture& picture) {
         picture.strands.push_back({std::move(strands), std::nullopt});
     }
     picture.marks.lines = std::move(drawing.lines);
-    require(!picture.meshes.empty() || !picture.strands.empty() || !picture.marks.lines.empty(),
+    picture.marks.points = std::move(drawing.points);
+    require(!picture.meshes.empty() || !picture.strands.empty() || !picture.marks.lines.empty() ||
+                !picture.marks.points.empty(),
             "the scene shows nothing; add objects, or make some visible", ErrorCode::mesh_empty);
 }
 

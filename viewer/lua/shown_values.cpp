@@ -70,6 +70,7 @@ class ValueReader {
         for (DrawnMesh& mesh : drawing.meshes) picture_.meshes.push_back(std::move(mesh));
         for (DrawnStrands& strands : drawing.strands) placed_.push_back(std::move(strands));
         for (DrawnLine& line : drawing.lines) picture_.marks.lines.push_back(std::move(line));
+        for (const DrawnPoint& point : drawing.points) picture_.marks.points.push_back(point);
         picture_.field_marks = std::move(drawing.field);
     }
 

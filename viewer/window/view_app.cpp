@@ -377,7 +377,7 @@ void ViewApp::take_progress() {
     if (!session_.busy()) busy_since_.reset();
     if (session_.busy() && !busy_since_) busy_since_ = Clock::now();
     state_.content.busy = busy_since_ && seconds_since(*busy_since_) > kBusyAfter;
-    state_.content.stage = stage;
+    state_.content.stage = stage.empty() ? state_.content.tool.tool : stage;
     state_.content.fraction = fraction;
 }
 

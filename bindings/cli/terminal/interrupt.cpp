@@ -3,6 +3,9 @@
 #include <atomic>
 #include <csignal>
 #include <mutex>
+#include <string_view>
+
+#include "bindings/lua/core/call.h"
 
 namespace lissom::cli {
 namespace {
@@ -20,9 +23,33 @@ void set_running(lua_State* L) {
     running_thread.store(L);
 }
 
-// Stays armed until the host's call returns: pcall cannot swallow it for good.
+// Key of Lua's registry: what the first error of an interrupt says.
+const char kStopped = 0;
+
+// Where a line of a script runs; the library's own Lua is none.
+void push_place(lua_State* L) {
+    lua_Debug frame;
+    for (int level = 0; lua_getstack(L, level, &frame); ++level) {
+        luaL_where(L, level);
+        const std::string_view place = lua_tostring(L, -1);
+        if (!place.empty() && !place.starts_with(lua::kOwnLuaText)) return;
+        lua_pop(L, 1);
+    }
+    lua_pushliteral(L, "");
+}
+
+// Stays armed until the host's call returns: pcall cannot swallow it for good. All its errors name
+// the place of the first.
 void stop_script(lua_State* L, lua_Debug*) {
-    luaL_error(L, "cancelled");
+    if (lua_rawgetp(L, LUA_REGISTRYINDEX, &kStopped) != LUA_TSTRING) {
+        lua_pop(L, 1);
+        push_place(L);
+        lua_pushliteral(L, "cancelled");
+        lua_concat(L, 2);
+        lua_pushvalue(L, -1);
+        lua_rawsetp(L, LUA_REGISTRYINDEX, &kStopped);
+    }
+    lua_error(L);
 }
 
 void arm(lua_State* L) {
@@ -130,7 +157,11 @@ void Interrupt::clear() {
     const std::lock_guard lock(pressing);
     pressed_flag = 0;
     context_.clear_cancel();
-    if (lua_State* L = running_thread.load()) lua_sethook(L, nullptr, 0, 0);
+    lua_State* const L = running_thread.load();
+    if (!L) return;
+    lua_sethook(L, nullptr, 0, 0);
+    lua_pushnil(L);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &kStopped);
 }
 
 }  // namespace lissom::cli

@@ -139,13 +139,14 @@ function Host:draw()
             surfaces = {}, meshes = {} } }, View)
     draw_hover(view, self)
     local draw = self.tool and self.tool.draw
-    if not draw then return view.list end
-    self.working = true
+    -- One that was stopped from outside never came to its end: only another tool draws again.
+    if not draw or rawequal(self.draws, self.tool) then return view.list end
+    self.working, self.draws = true, self.tool
     local before = self.scene:depth()
     self.scene:begin("draw")
     local outer = guard(self.scene, before + 1)
     local done, message = pcall(draw, self.tool, view)
-    self.working = false
+    self.working, self.draws = false, nil
     guard(self.scene, outer)
     local whole = self.scene:depth() == before + 1
     local changed = whole and self.scene:commit()

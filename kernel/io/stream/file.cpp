@@ -313,6 +313,10 @@ void write_by_host(const fs::path& path, std::string_view bytes, const Context& 
 
 std::string missing_file_text(const fs::path& path) {
     std::error_code error;
+    if (fs::is_symlink(path, error)) {
+        return "is a link to '" + display_name(fs::read_symlink(path, error)) +
+               "', which is not there";
+    }
     const fs::path folder = path.parent_path();
     if (folder.empty() || fs::exists(folder, error)) {
         return "there is no such file" + nearest_in(path, false);

@@ -139,7 +139,7 @@ function calls.release(self, ev)
     if self.own.advise and self.curve and not self.advice then
         self.advice = self.own.advise(one, self.curve, ev.scene:get(one.name .. " hair"))
     end
-    hair.advise(self, ev.scene, self.advice)
+    hair.advise(self, ev, self.advice)
     forget(self)
 end
 
@@ -182,7 +182,7 @@ function calls.draw(self, view)
         view:outline{ pixels = self.pixels, color = own.color, width = 2 }
     end
     local resting = not self.pixels and not handle
-    local advice = resting and hair.advice(self, view.scene)
+    local advice = resting and hair.advice(self, view)
     hair_view.say(view, self.said or advice or resting and hair_view.warning(view, one, under) or nil)
 end
 

@@ -219,6 +219,12 @@ function hair.cut(one)
     return { point = one.scalp:from_metres(0, -one.cut, 0), normal = normal }
 end
 
+-- Metres: as wide as hair is where there are as many strands as hairs, and wider the fewer there are, so that
+-- they cover the head; not so wide that they look like ribbons.
+local function width_of(count)
+    return 75e-6 * math.max(1, math.min(8, (100000 / math.max(count, 1)) ^ (2 / 3)))
+end
+
 --- Grows the strands of a style, or a share of them while something is dragged, into the object
 -- "<name> hair", which is added where there is none, and removed where no curve is left.
 function hair.grow(scene, one, share)
@@ -231,8 +237,10 @@ function hair.grow(scene, one, share)
         if old then scene:remove(name) end
         return nil
     end
-    local strands = assert(one.style:grow{ count = math.floor(one.strands * (share or 1)),
-        length = one.length, cut = hair.cut(one), into = old })
+    local count = math.floor(one.strands * (share or 1))
+    local strands = assert(one.style:grow{ count = count, length = one.length, cut = hair.cut(one),
+        into = old })
+    strands:set_widths{ width = width_of(count) }
     if not old then scene:add(name, strands, { transform = one.place }) end
     return strands
 end
@@ -286,15 +294,21 @@ function hair.is_click(pixels)
     return true
 end
 
---- Keeps what a tool advises after the step that now ends.
-function hair.advise(tool, scene, text)
+--- Keeps what a tool advises after the step that now ends, where the hand is.
+function hair.advise(tool, ev, text)
     tool.advice = text
-    tool.advised = text and scene:history().place + 1 or nil
+    tool.advised = text and { step = ev.scene:history().place + 1, x = ev.x, y = ev.y } or nil
 end
 
---- The advice, until another step is done or this one undone; nil then.
-function hair.advice(tool, scene)
-    return tool.advice and scene:history().place == tool.advised and tool.advice or nil
+local advised_near = 60         -- pixels
+
+--- The advice, until another step is done or this one undone, or the hand goes elsewhere; nil then.
+function hair.advice(tool, view)
+    local advised, cursor = tool.advice and tool.advised, view.cursor
+    if not advised or not cursor or view.scene:history().place ~= advised.step then return nil end
+    local away = math.max(math.abs(cursor[1] - advised.x), math.abs(cursor[2] - advised.y))
+    if away > advised_near then tool.advice = nil end
+    return tool.advice
 end
 
 --- What tools say where nothing tells how deep a stroke is.
@@ -311,8 +325,8 @@ function hair.is_guess(ev, one, pixels)
     return hair.guessed
 end
 
---- What an error says, without its place in a script.
-function hair.message(text) return (tostring(text):gsub("^[^\n]-:%d+: ", "")) end
+--- What an error says, without its place in a script and its code.
+function hair.message(text) return (tostring(text):gsub("^[^\n]-:%d+: ", ""):gsub(" %[[%l_]+%]$", "")) end
 
 local seen_only = { field = true, surface = true, stop = true, reach = true, by = true, symmetric = true,
     lift = true }

@@ -13,6 +13,7 @@
 #include "kernel/core/error.h"
 #include "viewer/window/panel/parameter_widgets.h"
 #include "viewer/window/panel/prompt_completion.h"
+#include "viewer/window/panel/text_history.h"
 
 namespace lissom::window {
 namespace {
@@ -184,15 +185,18 @@ void draw_played(const PlayedPart& part) {
                        part.name.c_str());
 }
 
-void draw_left(const std::vector<std::filesystem::path>& left, PanelAnswers& answers) {
-    if (left.empty()) return;
-    ImGui::TextWrapped(left.size() > 1 ? "Scenes of other windows were not saved: the last"
-                                       : "A scene of another window was not saved");
+// In the console, where it moves no button.
+void draw_left(const PanelContent& content, PanelAnswers& answers) {
+    const std::vector<std::filesystem::path>& left = content.left;
+    if (left.empty() || content.playing) return;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(left.size() > 1 ? "Scenes of other windows were not saved: the last"
+                                           : "A scene of another window was not saved");
+    ImGui::SameLine();
     if (ImGui::Button("open it")) answers.open_left = true;
     ImGui::SameLine();
     if (ImGui::Button("forget it")) answers.forget_left = true;
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", left.front().string().c_str());
-    ImGui::Separator();
 }
 
 void draw_colors(const PanelContent& content, PanelAnswers& answers) {
@@ -408,8 +412,21 @@ void Panel::State::view_section(const PanelContent& content, DisplaySettings& se
     draw_colors(content, answers);
 }
 
+// A row of a list, whatever signs its text has.
+bool is_chosen_of_list(const std::string& text, bool is_present) {
+    constexpr std::size_t kMost = 40;
+    const ImVec2 begin = ImGui::GetCursorPos();
+    const std::string shown = text.size() > kMost ? text.substr(0, kMost) + "..." : text;
+    const ImVec2 size(ImGui::CalcTextSize(shown.c_str(), shown.c_str() + shown.size()).x, 0.0f);
+    const bool chosen = ImGui::Selectable("##row", is_present, 0, size);
+    ImGui::SetCursorPos(begin);
+    ImGui::TextUnformatted(shown.c_str(), shown.c_str() + shown.size());
+    return chosen;
+}
+
 // A list of what there is, a name, and what to do with it.
 void Panel::State::preset_row(const std::vector<std::string>& presets, PanelAnswers& answers) {
+    ImGui::PushID("presets");
     const ImGuiStyle& style = ImGui::GetStyle();
     const auto width = [&](const char* label) {
         return ImGui::CalcTextSize(label).x + 2.0f * style.FramePadding.x + style.ItemSpacing.x;
@@ -418,23 +435,29 @@ void Panel::State::preset_row(const std::vector<std::string>& presets, PanelAnsw
                             ImGui::GetFrameHeight() - style.ItemSpacing.x);
     std::array<char, kLongestText> name{};
     preset.copy(name.data(), name.size() - 1);
+    forget_unfit_history("##preset", name.data());
     ImGui::InputTextWithHint("##preset", "preset", name.data(), name.size());
     preset = name.data();
     ImGui::SameLine();
     if (ImGui::BeginCombo("##presets", "", ImGuiComboFlags_NoPreview)) {
-        for (const std::string& one : presets) {
-            if (!ImGui::Selectable(one.c_str(), one == preset)) continue;
-            answers.load_preset = preset = one;
+        for (std::size_t i = 0; i < presets.size(); ++i) {
+            ImGui::PushID(static_cast<int>(i));
+            if (is_chosen_of_list(presets[i], presets[i] == preset)) {
+                answers.load_preset = preset = presets[i];
+            }
+            ImGui::PopID();
         }
         if (presets.empty()) ImGui::TextDisabled("none yet: write a name and save");
         ImGui::EndCombo();
     }
     ImGui::SameLine();
-    if (ImGui::Button("save") && !preset.empty()) answers.save_preset = preset;
+    const bool has_name = preset.find_first_not_of(' ') != std::string::npos;
+    ImGui::BeginDisabled(!has_name);
+    if (ImGui::Button("save")) answers.save_preset = preset;
     ImGui::SameLine();
-    if (ImGui::Button("delete") && !preset.empty()) {
-        answers.remove_preset = std::exchange(preset, {});
-    }
+    if (ImGui::Button("delete")) answers.remove_preset = std::exchange(preset, {});
+    ImGui::EndDisabled();
+    ImGui::PopID();
 }
 
 void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelAnswers& answers,
@@ -473,7 +496,6 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
     }
     ImGui::Separator();
     ImGui::BeginDisabled(content.playing.has_value());
-    draw_left(content.left, answers);
     if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
         view_section(content, settings, answers);
     }
@@ -510,6 +532,7 @@ void replace_text(ImGuiInputTextCallbackData& data, const std::string& text, std
     data.InsertChars(0, text.c_str());
     data.CursorPos = static_cast<int>(cursor);
     data.ClearSelection();
+    forget_history_in_use();
 }
 
 // The arrows recall what was entered before.
@@ -593,6 +616,7 @@ void Panel::State::prompt(PanelContent& content, PanelAnswers& answers) {
     line.copy(text.data(), text.size() - 1);
     ImGui::SetNextItemWidth(-1.0f);
     if (goes_to_end) ImGui::SetKeyboardFocusHere();
+    forget_unfit_history("##prompt", text.data());
     PromptFrame frame{*this, content, answers};
     const auto callback = [](ImGuiInputTextCallbackData* data) {
         static_cast<PromptFrame*>(data->UserData)->take(*data);
@@ -646,6 +670,7 @@ void Panel::State::console(PanelContent& content, PanelAnswers& answers, gl::Ext
     ImGui::Begin("console", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
+    draw_left(content, answers);
     const float room = ImGui::GetFrameHeightWithSpacing();
     ImGui::BeginChild("lines", ImVec2(0.0f, -room));
     const std::size_t count = content.lines.size();

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "viewer/window/panel/text_history.h"
+
 namespace lissom::window {
 namespace {
 
@@ -89,6 +91,7 @@ bool edit_choice(const lua::ScriptParameter& p, std::string& value) {
 bool edit_text(std::string& value) {
     std::array<char, kLongestValue> text{};
     value.copy(text.data(), text.size() - 1);
+    forget_unfit_history("##value", text.data());
     ImGui::InputText("##value", text.data(), text.size());
     if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
     value = text.data();

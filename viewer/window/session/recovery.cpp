@@ -40,7 +40,7 @@ fs::path beside(fs::path copy) {
 Recovery::Recovery(fs::path folder) : folder_(std::move(folder)) {}
 
 Recovery::~Recovery() {
-    remove(file());
+    if (std::uncaught_exceptions() == exceptions_) remove(file());
 }
 
 fs::path Recovery::file() const {

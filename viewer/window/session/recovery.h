@@ -2,6 +2,7 @@
 /// and beside it a journal: the calls that made the scene, as a script.
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <vector>
 
@@ -11,7 +12,8 @@ class Recovery {
   public:
     /// The copy of this process, in `folder`, which is made when it is needed.
     explicit Recovery(std::filesystem::path folder);
-    /// Takes the copy away: the program has ended well.
+    /// Takes the copy away: the program has ended well. Where an error ends it the copy stays, for
+    /// the next one to offer.
     ~Recovery();
     Recovery(const Recovery&) = delete;
     Recovery& operator=(const Recovery&) = delete;
@@ -33,6 +35,8 @@ class Recovery {
 
   private:
     std::filesystem::path folder_;
+    // Of errors that were on their way when it was made.
+    int exceptions_ = std::uncaught_exceptions();
 };
 
 /// The folder for what a program keeps between runs: lissom in $XDG_STATE_HOME, in ~/.local/state,

@@ -24,6 +24,9 @@ namespace fs = std::filesystem;
 // Lines that are kept for a window that does not take them.
 constexpr std::size_t kMostLines = 10000;
 
+// Seconds after which what a tool does is stopped where its file changes.
+constexpr double kLongWork = 1.0;
+
 // os.exit, which would end the window and what it holds.
 int refuse_exit(lua_State* L) {
     return luaL_error(L, "os.exit does not end the window: return, or raise an error");
@@ -205,6 +208,15 @@ void Session::cancel() {
     if (busy()) cli::Interrupt::press();
 }
 
+// What follows is neither stopped by what has stopped the last, nor as far as that came.
+void Session::begin_work() {
+    program_.forget_interrupt();
+    const std::lock_guard lock(mutex_);
+    news_.stage.clear();
+    news_.fraction = 0.0;
+    news_.work_began = Clock::now();
+}
+
 // Stops what runs, as something else takes its place: nobody has to be told.
 void Session::give_up() {
     given_up_ = true;
@@ -213,15 +225,20 @@ void Session::give_up() {
 
 void Session::use_tool(const std::string& word) {
     post_job([this, word] {
-        program_.forget_interrupt();
+        begin_work();
         if (settle_tool(word)) options_.tool = word;
         show_scene(true);
     });
 }
 
+// What runs for long may be the tool that never returns, and for that was mended.
 void Session::read_tool_again() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (busy() && seconds_since(news_.work_began) > kLongWork) cancel();
+    }
     post_job([this] {
-        program_.forget_interrupt();
+        begin_work();
         settle_tool(options_.tool);
         show_scene(true);
     });
@@ -266,7 +283,7 @@ void Session::post_only(Worker::Job job) {
 void Session::copy_scene(const std::string& path, const std::string& journal) {
     post_job([this, path, journal] {
         if (!bench_ || !bench_->has_scene() || bench_->is_held()) return;
-        program_.forget_interrupt();
+        begin_work();
         std::string left_out;
         if (!succeeds(bench_->save(path, left_out)) || !options_.journal.empty()) return;
         const std::optional<std::string> text = bench_->text_of("journal_text");
@@ -279,7 +296,10 @@ void Session::copy_scene(const std::string& path, const std::string& journal) {
 void Session::save_scene(const std::string& path) {
     post_job([this, path] {
         if (!bench_ || !bench_->has_scene() || bench_->is_held()) return;
-        program_.forget_interrupt();
+        begin_work();
+        if (bench_->is_empty()) {
+            return tell(LineKind::warning, "the scene has no objects: nothing was saved");
+        }
         std::string left_out;
         if (!succeeds(bench_->save(path, left_out))) return;
         tell(LineKind::result, "saved " + path);
@@ -290,7 +310,7 @@ void Session::save_scene(const std::string& path) {
 void Session::show_object(const std::string& name, bool visible) {
     post_job([this, name, visible] {
         if (!bench_ || !bench_->has_scene()) return;
-        program_.forget_interrupt();
+        begin_work();
         succeeds(bench_->show(name, visible));
         show_scene(true);
     });
@@ -315,7 +335,7 @@ void Session::set_parameter(const std::shared_ptr<Setting>& setting) {
     const auto [name, value] = *setting;
     lock.unlock();
     if (!bench_ || !bench_->has_scene()) return;
-    program_.forget_interrupt();
+    begin_work();
     succeeds(bench_->set(name, value));
     show_scene(true);
 }
@@ -387,7 +407,7 @@ bool Session::finish(double seconds) {
 // ---- The worker's thread
 
 void Session::run(const std::vector<std::string>& words) {
-    program_.forget_interrupt();
+    begin_work();
     given_up_ = plays_ = shows_hand_ = false;
     if (!is_script(words.front()) || is_recording(words.front())) {
         ran_.clear();
@@ -431,6 +451,7 @@ void Session::run_script(const std::vector<std::string>& words) {
     const cli::ScriptResult result = script_->run_file(words[0]);
     publish_parameters();
     find_files();
+    tell_whether_mended(words[0], result.status == cli::kSuccess);
     if (!succeeds(result)) {
         lua_settop(L, 0);
         if (!bench || !bench->has_scene() || ran_ != words[0]) return;
@@ -450,6 +471,13 @@ void Session::run_script(const std::vector<std::string>& words) {
                                     "them");
     }
     lua_settop(L, 0);
+}
+
+// Red lines stay: a file that works again is told below them.
+void Session::tell_whether_mended(const std::string& file, bool works) {
+    if (works && broken_ == file) tell(LineKind::result, file + " works again");
+    if (!works) broken_ = file;
+    if (works) broken_.clear();
 }
 
 // Shows what is on the stack; false where that is nothing to be seen.
@@ -622,6 +650,7 @@ bool Session::settle_tool(const std::string& word) {
         return false;
     }
     const bool done = succeeds(bench_->use(word, word.ends_with(".lua") ? told_path(word) : word));
+    tell_whether_mended(word, done);
     const std::vector<fs::path> files = bench_->tool_files(word);
     const std::lock_guard lock(mutex_);
     news_.tool_files = files;
@@ -642,7 +671,7 @@ void Session::take_inputs() {
     const std::vector<ToolInput> inputs = std::move(news_.inputs.front());
     news_.inputs.pop_front();
     lock.unlock();
-    program_.forget_interrupt();
+    begin_work();
     bool only_looks = true;
     for (const ToolInput& input : inputs) {
         if (input.kind == ToolInput::Kind::look) look_ = input;
@@ -723,7 +752,7 @@ void Session::save_record(const char* what, const std::string& path, std::string
 
 // The state of the script, else one of its own, with the variable `lissom`.
 lua_State* Session::console_state() {
-    program_.forget_interrupt();
+    begin_work();
     if (!script_) open_script({});
     lua_State* L = script_->lua();
     lua_settop(L, 0);
@@ -760,7 +789,7 @@ void Session::evaluate_line(const std::string& line) {
         bench_->begin_outside();
         const cli::ScriptResult result = script_->call_function();
         const bool failed = result.status != cli::kSuccess;
-        program_.forget_interrupt();
+        begin_work();
         if (bench_->changed_outside(statement, failed)) {
             tell(LineKind::warning,
                  "the recording does not hold what the console does: it cannot be repeated");

@@ -16,6 +16,7 @@
 #include "bindings/cli/repl/completion.h"
 #include "bindings/cli/script.h"
 #include "bindings/lua/core/script_parameters.h"
+#include "kernel/core/clock.h"
 #include "kernel/io/mesh_file.h"
 #include "viewer/picture.h"
 #include "viewer/window/session/snapshot_bounds.h"
@@ -164,7 +165,9 @@ class Session {
     void keep_tool(const std::string& word);
     void post_job(Worker::Job job);
     void post_only(Worker::Job job);
+    void begin_work();
     void give_up();
+    void tell_whether_mended(const std::string& file, bool works);
     using Setting = std::pair<std::string, lua::ParameterValue>;
     void set_parameter(const std::shared_ptr<Setting>& setting);
     void take_inputs();
@@ -203,6 +206,7 @@ class Session {
         std::optional<Playback> playback;
         std::string stage;
         double fraction = 0.0;
+        Clock::time_point work_began;
         std::uint64_t number = 0;
     };
     mutable std::mutex mutex_;
@@ -222,6 +226,8 @@ class Session {
     std::unique_ptr<ToolBench> bench_;
     ToolInput look_;
     std::string recorded_, told_, draw_error_;
+    // The script or tool that failed last, as it was called.
+    std::string broken_;
     // The script whose scene there is, and what stays of it when it runs again.
     std::string ran_, kept_;
     std::uint64_t scene_number_ = 0;

@@ -727,6 +727,15 @@ Picture ToolBench::picture() {
     return picture;
 }
 
+bool ToolBench::is_empty() {
+    if (!has_scene_) return true;
+    lua_State* L = script_.lua();
+    push_host();
+    const auto* object = raw_object<lua::SceneObject>(L, -1, "scene");
+    lua_pop(L, 1);
+    return !object || object->scene.objects().empty();
+}
+
 std::vector<std::string> ToolBench::names_of(const Picture& picture) {
     lua_State* L = script_.lua();
     push_host();

@@ -122,6 +122,8 @@ class ToolBench {
     /// scene can hold. Without any there is no scene afterwards.
     cli::ScriptResult take_values(int first, int last);
     bool has_scene() const { return has_scene_; }
+    /// Whether there is no scene, or one without objects.
+    bool is_empty();
     /// Writes the scene to a file; `left_out` says what had no place there.
     cli::ScriptResult save(const std::string& path, std::string& left_out);
     /// Sets the global variable `scene`, for lines of a console.

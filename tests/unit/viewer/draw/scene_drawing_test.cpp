@@ -73,6 +73,25 @@ TEST_CASE("scene drawing: a deformation shows its handles, on its mesh once") {
     CHECK(s.drawing().meshes[0].style.handles.empty());
 }
 
+TEST_CASE("scene drawing: a mesh without faces is its vertices, an even choice of very many") {
+    const auto drawn = [](std::vector<Vec3> places) {
+        ObjectLook look;
+        look.transform = translation(Vec3(1, 2, 3));
+        Scene scene;
+        scene.add("cloud",
+                  std::make_shared<MeshItem>(std::make_shared<Mesh>(std::move(places), FaceList())),
+                  look);
+        return drawing_of(scene.objects());
+    };
+    const SceneDrawing few = drawn({Vec3(0, 0, 0), Vec3(1, 0, 0)});
+    CHECK(few.meshes.empty());
+    REQUIRE(few.points.size() == 2);
+    CHECK(few.points[1].position == Vec3(2, 2, 3));
+    const SceneDrawing many = drawn(std::vector<Vec3>(1000000, Vec3(1, 1, 1)));
+    CHECK(many.points.size() > 25000);
+    CHECK(many.points.size() <= 50000);
+}
+
 TEST_CASE("scene drawing: strands and free curves") {
     BarScene s;
     const auto hair = std::make_shared<Strands>(Strands({0, 0, 0, 0, 1, 0}, {0, 2}));

@@ -13,13 +13,21 @@ namespace {
 
 constexpr gl::Extent kWindow{700, 480};
 
+// A panel with a hand, and what was answered so far.
 struct PanelFrames {
     PanelFrames() {
         content.lines = {{LineKind::message, "a line"}};
         content.objects = {"ball"};
         for (int i = 0; i < 4; ++i) make();
     }
-    void make() { panel.make(content, settings, kWindow, 0.02); }
+    void make() {
+        const PanelAnswers answers = panel.make(content, settings, kWindow, 0.02);
+        changes += answers.parameters_changed;
+        pressed += answers.run_again;
+        saved += answers.save;
+        if (answers.save_preset) saved_presets.push_back(*answers.save_preset);
+        if (answers.line) entered.push_back(*answers.line);
+    }
     void feed(Input::Kind kind, const Vec2& at) {
         Input input;
         input.kind = kind;
@@ -35,10 +43,52 @@ struct PanelFrames {
         make();
         return panel.lists().beside_differs() || panel.lists().over_differs();
     }
+    void click(const Vec2& at, bool with_control = false) {
+        for (const auto kind : {Input::Kind::move, Input::Kind::press, Input::Kind::release}) {
+            Input input;
+            input.kind = kind;
+            input.at = at;
+            input.modifiers.ctrl = with_control;
+            panel.feed(input);
+            make();
+        }
+        make();
+    }
+    // Clicks at this distance from the left, from below upwards as what is closed moves what is
+    // below it, until a field has the keys; how low.
+    double click_a_field(double x, bool with_control = false) {
+        double y = kWindow.height;
+        while (y > 60.0 && !panel.wants_keys()) click({x, y -= 6.0}, with_control);
+        return y;
+    }
+    void type(const std::string& text) {
+        for (const char letter : text) {
+            Input input;
+            input.kind = Input::Kind::text;
+            input.character = static_cast<char32_t>(letter);
+            panel.feed(input);
+            make();
+        }
+    }
+    void press(Key key, char32_t character = 0, bool with_control = false) {
+        Input input;
+        input.key = key;
+        input.character = character;
+        input.modifiers.ctrl = with_control;
+        for (const auto kind : {Input::Kind::key_down, Input::Kind::key_up}) {
+            input.kind = kind;
+            panel.feed(input);
+            make();
+        }
+        make();
+    }
+    void take_back() { press(Key::character, U'Z', true); }
 
     Panel panel{PanelHost{}};
     PanelContent content;
     DisplaySettings settings;
+    int changes = 0, pressed = 0, saved = 0;
+    std::vector<std::string> saved_presets, entered;
 };
 
 // One number of 0 to 100, in whose field the hand types from now on.
@@ -51,48 +101,9 @@ struct TypedFrames : PanelFrames {
         size.max = 100.0;
         size.default_value = 5.0;
         content.parameters = {size};
-        for (double y = 60.0; y < kWindow.height && !panel.wants_keys(); y += 6.0) {
-            click({140.0, y}, true);
-        }
-    }
-    void click(const Vec2& at, bool with_control = false) {
-        for (const auto kind : {Input::Kind::move, Input::Kind::press, Input::Kind::release}) {
-            Input input;
-            input.kind = kind;
-            input.at = at;
-            input.modifiers.ctrl = with_control;
-            panel.feed(input);
-            make();
-        }
-        make();
-    }
-    void type(const std::string& text) {
-        for (const char letter : text) {
-            Input input;
-            input.kind = Input::Kind::text;
-            input.character = static_cast<char32_t>(letter);
-            panel.feed(input);
-            make();
-        }
-    }
-    void press(Key key) {
-        Input input;
-        input.key = key;
-        for (const auto kind : {Input::Kind::key_down, Input::Kind::key_up}) {
-            input.kind = kind;
-            panel.feed(input);
-            make();
-        }
-        make();
-    }
-    void make() {
-        const PanelAnswers answers = panel.make(content, settings, kWindow, 0.02);
-        changes += answers.parameters_changed;
-        pressed += answers.run_again;
+        click_a_field(140.0, true);
     }
     double value() const { return std::get<double>(content.parameters[0].value.value()); }
-
-    int changes = 0, pressed = 0;
 };
 
 void add_outline(PanelContent& content, double to) {
@@ -228,4 +239,60 @@ TEST_CASE("panel: keys over the picture move nothing in the panel") {
     }
     CHECK(frames.changes == 0);
     CHECK(frames.pressed == 0);
+}
+
+TEST_CASE("panel: Ctrl-Z in the console takes back what is typed, and not what was entered") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    PanelFrames frames;
+    frames.click({frames.panel.canvas(kWindow).x + 60.0, kWindow.height - 16.0});
+    REQUIRE(frames.panel.wants_keys());
+    const auto enter = [&](const std::string& text) {
+        frames.type(text);
+        frames.press(Key::enter);
+    };
+    enter("1+1");
+    for (int i = 0; i < 5; ++i) frames.take_back();
+    enter("a longer line");
+    frames.type("another long line");
+    frames.press(Key::up);
+    frames.press(Key::up);
+    for (int i = 0; i < 30; ++i) frames.take_back();
+    frames.press(Key::enter);
+    frames.type("ab");
+    for (int i = 0; i < 30; ++i) frames.take_back();
+    enter("c");
+    CHECK(frames.entered == std::vector<std::string>{"1+1", "a longer line", "1+1", "c"});
+}
+
+TEST_CASE("panel: a preset is saved beside the scene's own button, under a name that is one") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    PanelFrames frames;
+    frames.content.tool.has_scene = true;
+    frames.content.presets.emplace();
+    lua::ScriptParameter tall;
+    tall.name = "tall";
+    tall.type = lua::ParameterType::boolean;
+    tall.default_value = false;
+    frames.content.parameters = {tall};
+    const double y = frames.click_a_field(40.0);
+    REQUIRE(frames.panel.wants_keys());
+    const auto click_along = [&] {
+        const double right = frames.panel.canvas(kWindow).x;
+        for (double x = 0.5 * right; x < right && frames.saved_presets.empty(); x += 8.0) {
+            frames.click({x, y});
+        }
+    };
+    frames.type("  ");
+    click_along();
+    CHECK(frames.saved_presets.empty());
+    frames.click({40.0, y});
+    frames.type("tall##x");
+    click_along();
+    REQUIRE(frames.saved_presets.size() == 1);
+    CHECK(frames.saved_presets[0].ends_with("tall##x"));
+    CHECK(frames.saved == 0);
 }

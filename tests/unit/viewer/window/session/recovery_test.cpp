@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <stdexcept>
 
 #include "bindings/cli/process/process_number.h"
 #include "tests/unit/bindings/program_run.h"
@@ -21,6 +22,15 @@ TEST_CASE("recovery: the copy of a program that ended well goes, that of a kille
         std::ofstream(own.journal()) << "calls";
         CHECK(std::filesystem::exists(own.file()));
         CHECK(Recovery::left_in(place).empty());
+    }
+    CHECK(std::filesystem::is_empty(place));
+    try {
+        const Recovery own(place);
+        std::ofstream(own.file()) << "scene";
+        throw std::runtime_error("an error that ends the program");
+    } catch (const std::runtime_error&) {
+        const Recovery own(place);
+        CHECK(std::filesystem::exists(own.file()));
     }
     CHECK(std::filesystem::is_empty(place));
     // No process has such a number.

@@ -304,9 +304,60 @@ TEST_CASE("session: a tool that never returns is stopped, and works again") {
     CHECK(host.session.busy());
     host.session.cancel();
     host.wait(10.0);
+    bool has_place = false;
+    for (const ConsoleLine& line : host.lines) {
+        has_place = has_place || (line.text.find("pull.lua:") != std::string::npos &&
+                                  line.text.find(": cancelled") != std::string::npos);
+    }
+    CHECK(has_place);
     host.drag(2);
     CHECK(host.shown() != before);
     CHECK(host.state().steps.size() == 1);
+}
+
+TEST_CASE("session: a tool that draws without end is stopped once, and draws when it is mended") {
+    const std::string begin =
+        "local lissom = require 'lissom'\nreturn lissom.tool{ name = 'mark', "
+        "draw = function(_, view)\n    ";
+    const std::string mark =
+        "view:points{ points = { { 0, 0, 0 } } }\nend,\nkey = function() print 'key' end }";
+    ToolHost host;
+    const std::string file = host.folder.write("mark.lua", begin + mark);
+    host.open(file);
+    REQUIRE(host.state().overlay.points.size() == 1);
+    host.folder.write("mark.lua", begin + "while true do end\n" + mark);
+    host.session.read_tool_again();
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    REQUIRE(host.session.busy());
+    host.session.cancel();
+    host.wait(10.0);
+    CHECK(host.says(LineKind::error, "mark.lua:3: cancelled"));
+    host.session.post(key("a"));
+    host.wait(10.0);
+    CHECK(host.says(LineKind::message, "key"));
+    host.folder.write("mark.lua", begin + mark);
+    host.session.read_tool_again();
+    host.wait(10.0);
+    CHECK(host.state().overlay.points.size() == 1);
+}
+
+TEST_CASE("session: what hangs in a tool is given up where its file is mended") {
+    const std::string text =
+        "local lissom = require 'lissom'\nreturn lissom.tool{ name = 'loop', "
+        "key = function()\n    while HANGS do end\nend }";
+    const auto with = [&](const std::string& hangs) {
+        return "local HANGS = " + hangs + " " + text;
+    };
+    ToolHost host;
+    host.open(host.folder.write("loop.lua", with("true")));
+    host.session.post(key("a"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    REQUIRE(host.session.busy());
+    host.folder.write("loop.lua", with("false"));
+    host.session.read_tool_again();
+    host.session.post(key("a"));
+    host.wait(10.0);
+    CHECK(host.says(LineKind::error, "loop.lua:3: cancelled"));
 }
 
 TEST_CASE(
