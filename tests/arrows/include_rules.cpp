@@ -64,6 +64,7 @@ const std::vector<Rule>& rules() {
         {"viewer/window/panel/panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
         {"viewer/window/panel/tool_panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
         {"viewer/window/panel/parameter_widgets.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
+        {"viewer/window/panel/text_history.cpp", {"viewer"}, {"ImGui"}},
         {"examples", {"kernel", "bindings/c"}, {"printing", "platform"}},
         {"examples/engine", {"bindings/engine"}, {"OpenGL", "GLFW", "stb", "platform"}},
         {"tests/bench",

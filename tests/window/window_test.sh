@@ -276,8 +276,8 @@ journal=$(sed -n 's/.*lissom run \(.*lua\) does it again.*/\1/p' told)
 grep -q "smooth" "$journal" || fail "the journal of a killed window does not tell what was done"
 (cd / && "$program" run "$journal") || fail "the journal of a killed window does not come to its scene"
 shot offered
-# The button below the first row.
-xdotool mousemove --window "$window" 40 78 click 1
+# The first button of the console.
+xdotool mousemove --window "$window" 320 698 click 1
 wait_for "shown "
 wait_for "at rest"
 shot recovered
@@ -286,7 +286,7 @@ close_view 0
 open_view "$left"
 wait_for "shown "
 wait_for "at rest"
-xdotool mousemove --window "$window" 105 78 click 1
+xdotool mousemove --window "$window" 390 698 click 1
 sleep 0.5
 close_view 0
 [ ! -e "$left" ] || fail "a scene that is not wanted stays"

@@ -189,14 +189,14 @@ void draw_played(const PlayedPart& part) {
 void draw_left(const PanelContent& content, PanelAnswers& answers) {
     const std::vector<std::filesystem::path>& left = content.left;
     if (left.empty() || content.playing) return;
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(left.size() > 1 ? "Scenes of other windows were not saved: the last"
-                                           : "A scene of another window was not saved");
-    ImGui::SameLine();
     if (ImGui::Button("open it")) answers.open_left = true;
     ImGui::SameLine();
     if (ImGui::Button("forget it")) answers.forget_left = true;
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", left.front().string().c_str());
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(left.size() > 1 ? "the last of some scenes that were not saved"
+                                           : "the scene of another window that was not saved");
 }
 
 void draw_colors(const PanelContent& content, PanelAnswers& answers) {
