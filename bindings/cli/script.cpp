@@ -11,7 +11,7 @@
 #include "bindings/cli/help_guard.h"
 #include "bindings/cli/process/child_process.h"
 #include "bindings/cli/terminal/interrupt.h"
-#include "bindings/lua/core/call.h"
+#include "bindings/cli/terminal/script_place.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/io/stream/file.h"
 
@@ -116,19 +116,6 @@ bool names_a_chunk(lua_State* L, const char* message) {
     return false;
 }
 
-// Where a line of a script runs; the library's own Lua is none.
-void push_place(lua_State* L) {
-    for (int level = 1; level < 100; ++level) {
-        lua_Debug frame;
-        if (!lua_getstack(L, level, &frame)) break;
-        luaL_where(L, level);
-        const char* place = lua_tostring(L, -1);
-        if (*place != '\0' && !starts_with(place, lua::kOwnLuaText)) return;
-        lua_pop(L, 1);
-    }
-    lua_pushliteral(L, "");
-}
-
 // A list of name, shown name and line for each line of a script on the stack.
 void push_calls(lua_State* L) {
     lua_newtable(L);
@@ -166,7 +153,7 @@ std::vector<ScriptLine> calls_at_top(lua_State* L) {
 int explain_error(lua_State* L) {
     luaL_tolstring(L, 1, nullptr);
     if (!names_a_chunk(L, lua_tostring(L, -1))) {
-        push_place(L);
+        push_script_place(L, 1);
         lua_insert(L, -2);
         lua_concat(L, 2);
     }

@@ -3,9 +3,9 @@
 #include <atomic>
 #include <csignal>
 #include <mutex>
-#include <string_view>
 
-#include "bindings/lua/core/call.h"
+#include "bindings/cli/terminal/script_place.h"
+#include "bindings/lua/core/compat.h"
 
 namespace lissom::cli {
 namespace {
@@ -26,24 +26,12 @@ void set_running(lua_State* L) {
 // Key of Lua's registry: what the first error of an interrupt says.
 const char kStopped = 0;
 
-// Where a line of a script runs; the library's own Lua is none.
-void push_place(lua_State* L) {
-    lua_Debug frame;
-    for (int level = 0; lua_getstack(L, level, &frame); ++level) {
-        luaL_where(L, level);
-        const std::string_view place = lua_tostring(L, -1);
-        if (!place.empty() && !place.starts_with(lua::kOwnLuaText)) return;
-        lua_pop(L, 1);
-    }
-    lua_pushliteral(L, "");
-}
-
 // Stays armed until the host's call returns: pcall cannot swallow it for good. All its errors name
 // the place of the first.
 void stop_script(lua_State* L, lua_Debug*) {
     if (lua_rawgetp(L, LUA_REGISTRYINDEX, &kStopped) != LUA_TSTRING) {
         lua_pop(L, 1);
-        push_place(L);
+        push_script_place(L, 0);
         lua_pushliteral(L, "cancelled");
         lua_concat(L, 2);
         lua_pushvalue(L, -1);
