@@ -105,8 +105,9 @@ end
 
 function Journal:before(kind, name, ...)
     if not self.host.working or unheard[kind] or (kind == "lissom.Scene" and steps[name]) then return end
-    see_objects({ ... }, function(object) self:see(self:same(object)) end, 0)
-    self.pending = { kind = kind, name = name, count = select("#", ...), given = { ... } }
+    local given = { ... }
+    see_objects(given, function(object) self:see(self:same(object)) end, 0)
+    self.pending = { kind = kind, name = name, count = select("#", ...), given = given }
 end
 
 function Journal:after(kind, name, ...)

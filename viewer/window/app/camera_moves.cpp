@@ -44,7 +44,7 @@ void look_from(ViewState& state, StandardView side) {
 
 void place_camera(ViewState& state) {
     const Picture& picture = *state.shown->picture;
-    // Points without faces are not drawn: the camera waits for what is.
+    // Where nothing is to be seen the camera waits for what is.
     if (!picture.camera && state.shown->bounds.empty()) return;
     const double aspect = state.view().size.aspect();
     state.set_camera(picture.camera && !picture.camera->is_ortho()
