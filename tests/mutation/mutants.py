@@ -15,8 +15,8 @@ in any test, or stands in harmless.tsv with the reason why no test can tell it, 
 its place.
 
 Outcomes are written to build/mutation/results.tsv one by one, so that a run that was ended goes on where it
-stopped, as long as the kernel, its tests and the seed are the same; after tests were added, --again runs the
-survivors alone. The working tree is only read, at the beginning. Prints a line a mutant, a table and the survivors,
+stopped, as long as the kernel, its tests and the seed are the same; after tests were added or other lines changed,
+--again runs the survivors alone. The working tree is only read, at the beginning. Prints a line a mutant, a table and the survivors,
 each with its number, so that
     LISSOM_MUTANT=17 build/mutation/tree/build/release/tests/unit/deform/test_deform
 shows what a test makes of it; the exit status is 0 where at least 85 % are killed, 1 where fewer are, and 2
@@ -27,7 +27,6 @@ import hashlib
 import itertools
 import json
 import os
-import random
 import re
 import shlex
 import shutil
@@ -47,9 +46,10 @@ ROOT = Path(__file__).resolve().parents[2]
 WORK = ROOT / "build" / "mutation"
 TREE = WORK / "tree"
 RESULTS = WORK / "results.tsv"
+HARMLESS = "tests/mutation/harmless.tsv"
 REQUIRED = 0.85
 # Of so many mutants more than asked for, those take the place of what does not compile.
-SPARE = 1.15
+SPARE = 1.35
 KILLED = ("test", "crash", "time")
 # No test comes to the token; none comes to a place where the other gives another value; none fails.
 SURVIVED = ("unreached", "same", "survived")
@@ -63,7 +63,13 @@ class Mutant(NamedTuple):
     replacement: str
 
     def key(self):
-        return f"{self.name}@{self.offset}={self.replacement}"
+        """Names it by its line, and the place there: the same after other lines changed."""
+        text = source(self.name)
+        begin = text.rfind("\n", 0, self.offset) + 1
+        line = text[begin:text.find("\n", self.offset)]
+        shown, indent = line.strip(), len(line) - len(line.lstrip())
+        before = sum(other.strip() == shown for other in text[:begin].split("\n"))
+        return f"{self.name}:{shown}:{before}@{self.offset - begin - indent}={self.replacement}"
 
     def line(self):
         return source(self.name).count("\n", 0, self.offset) + 1
@@ -92,7 +98,7 @@ def source(name):
 @cache
 def harmless():
     """(source, line, change) of the mutants that no test can tell."""
-    lines = (ROOT / "tests/mutation/harmless.tsv").read_text().splitlines()
+    lines = (ROOT / HARMLESS).read_text().splitlines()
     return {tuple(line.split("\t")[:3]) for line in lines if line and not line.startswith("#")}
 
 
@@ -125,7 +131,7 @@ def copy_tree(modules):
     digests = {"kernel": hashlib.sha256(), "tests": hashlib.sha256()}
     for name in names:
         content = (ROOT / name).read_bytes()
-        if name.startswith(("kernel/", "tests/mutation/")):
+        if name.startswith(("kernel/", "tests/mutation/")) and name != HARMLESS:
             digests["kernel"].update(name.encode() + b"\0" + content)
         if name.startswith("tests/unit/"):
             digests["tests"].update(name.encode() + b"\0" + content)
@@ -161,12 +167,12 @@ def units():
 
 
 def choose(modules, seed):
-    """Mutants in the order in which they are tried, the modules in turn."""
+    """Mutants in the order in which they are tried, the modules in turn; other lines of a source leave it as it is."""
     queues, used = [], units()
     for module in modules:
         all_of = [Mutant(module, name, *change) for name in names_of(module) for change in candidates(source(name))
                   if name in used]
-        random.Random(f"{seed} {module}").shuffle(all_of)
+        all_of.sort(key=lambda mutant: hashlib.sha256(f"{seed} {mutant.key()}".encode()).digest())
         queues.append(all_of)
     return [mutant for turn in itertools.zip_longest(*queues) for mutant in turn if mutant]
 
@@ -261,14 +267,12 @@ class Code:
 # --- results ---------------------------------------------------------------------------------------------
 
 def known_results(state, again):
-    """Outcomes of an earlier run of the same kernel, seed and tests, or with `again` what any tests killed."""
+    """Outcomes of an earlier run of the same kernel, seed and tests, or with `again` what any run killed."""
     lines = (RESULTS.read_text() if RESULTS.exists() else "\n").splitlines() or [""]
     known = dict(line.split("\t")[:2] for line in lines[1:])
     if lines[0] == " ".join(state):
         return known
-    kernel, _, *choice = state
-    kept = again and [kernel, *choice] == [w for i, w in enumerate(lines[0].split()) if i != 1]
-    known = {key: outcome for key, outcome in known.items() if kept and outcome not in SURVIVED}
+    known = {key: outcome for key, outcome in known.items() if again and outcome not in SURVIVED}
     RESULTS.write_text("\n".join([" ".join(state), *("\t".join(item) for item in known.items())]) + "\n")
     return known
 
@@ -314,7 +318,7 @@ def arguments():
     parser.add_argument("--seconds", type=float, help="stop after so many, to go on another time")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--again", action="store_true", help="take what an earlier run killed as killed though tests "
-                        "differ: for after tests were added")
+                        "or other lines differ: for after tests were added")
     parser.add_argument("--first", type=int, default=1, help="number of the first mutant that counts: those "
                         "before it may have led to tests, and say nothing more about the others (default: 1)")
     parser.add_argument("--modules", default="deform,merge,hair,solve")

@@ -257,6 +257,10 @@ TEST_CASE("points: weights and vertices that are no point of a face are refused"
     CHECK(error_of([&] {
               face_point(scene.mesh.topology(), 0, std::array{0.5, 0.5});
           }).code() == ErrorCode::invalid_argument);
+    const Error few = error_of([&] { face_point(scene.mesh.topology(), 3, std::array{0.5, 0.5}); });
+    CHECK(few.elements().kind == ElementKind::face);
+    CHECK(few.elements().count == 1);
+    CHECK(few.elements().ids == std::vector<Index>{3});
     Deformer part(scene.mesh, scene.region(scene.high));
     CHECK(error_of([&] {
               part.constrain({edge_point(a, scene.mesh.topology().neighbors(a)[0], 0.5), p});

@@ -46,6 +46,22 @@ TEST_CASE("moments of a loop are those of its curve, however its vertices are sp
     CHECK(loop.length() == doctest::Approx(6.0 * kPi).epsilon(0.01));
 }
 
+TEST_CASE("parameters of a loop ascend, even where it runs to and fro at one place") {
+    for (const int width : {0, 10, 20}) {
+        // Of 64 vertices some are at two places in turn, so that smoothing brings them together.
+        const Mesh mesh = tube(64, 3, [=](double angle, double height) {
+            const int k = static_cast<int>(std::lround(angle * 32 / kPi));
+            const double a = k < width ? 0.0 : angle, r = k < width && k % 2 == 1 ? 9.0 : 1.0;
+            return Vec3(r * std::cos(a), r * std::sin(a), height);
+        });
+        const Loop loop(mesh, ascending(64));
+        const std::vector<double>& u = loop.parameters();
+        CHECK(u.front() == 0.0);
+        CHECK(u.back() < 1.0);
+        for (std::size_t k = 1; k < u.size(); ++k) CHECK(u[k] > u[k - 1]);
+    }
+}
+
 TEST_CASE("frames of a loop: along it, out of the surface, and the cross product of the two") {
     const Mesh mesh = round_tube(64, 5);
     const Loop loop(mesh, ascending(64));

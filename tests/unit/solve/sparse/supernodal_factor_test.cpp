@@ -80,6 +80,24 @@ TEST_CASE("supernodal factor: L L^T is the matrix, for every structure and proce
     }
 }
 
+TEST_CASE("supernodal factor: above the diagonal of every supernode stand zeros") {
+    for (const test::NamedMatrix& named : test::matrices()) {
+        const SymmetricMatrix& a = named.matrix;
+        CAPTURE(named.name);
+        if (a.size() > 3000) continue;
+        const Factored f = supernodal_factored(a, best_processor());
+        bool zero = true;
+        for (Index s = 0; s < f.nodes.count(); ++s) {
+            for (Index c = 0; c < f.nodes.columns(s); ++c) {
+                const double* column =
+                    f.value.data() + f.nodes.first_value[s] + c * f.nodes.height(s);
+                zero = zero && std::all_of(column, column + c, [](double v) { return v == 0.0; });
+            }
+        }
+        CHECK(zero);
+    }
+}
+
 TEST_CASE("supernodal factor: the paths for two processors agree") {
     for (const test::NamedMatrix& named : test::matrices()) {
         const SymmetricMatrix& a = named.matrix;

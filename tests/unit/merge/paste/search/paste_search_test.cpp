@@ -1,7 +1,9 @@
 // The search for a boundary: around the feature, simple, and never dearer than before.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -117,6 +119,87 @@ Annulus random_annulus(std::mt19937& random) {
 }
 
 }  // namespace
+
+TEST_CASE("loop search: two vertices are joined where a face of the ring has them side by side") {
+    std::mt19937 random(11);
+    for (int round = 0; round < 20; ++round) {
+        const Annulus annulus = random_annulus(random);
+        const LoopSearch search(annulus.mesh, annulus.regions, {});
+        std::set<std::pair<Index, Index>> sides;
+        for (const Index f : annulus.regions.ring) {
+            const std::span<const Index> face = annulus.mesh.topology().face(f);
+            for (std::size_t k = 0; k < face.size(); ++k) {
+                sides.insert(std::minmax(face[k], face[(k + 1) % face.size()]));
+            }
+        }
+        REQUIRE(search.edges().size() == sides.size());
+        for (Index a = 0; a < annulus.mesh.vertex_count(); ++a) {
+            for (Index b = 0; b < annulus.mesh.vertex_count(); ++b) {
+                const Index e = search.edge_between(a, b);
+                const std::pair<Index, Index> pair = std::minmax(a, b);
+                CHECK((e != kNoIndex) == sides.contains(pair));
+                if (e != kNoIndex) CHECK(search.edges()[at(e)] == pair);
+            }
+        }
+    }
+}
+
+namespace {
+
+Mat3 random_rotation(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    const Vec3 axis(normal(random), normal(random), normal(random));
+    return Eigen::AngleAxisd(1.1, axis.normalized()).toRotationMatrix();
+}
+
+// Edges that a similarity maps, but for every fourth, whose image is any other.
+std::vector<RingEdge> mapped_edges(const PasteSimilarity& similarity, std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    const auto draw = [&] { return Vec3(normal(random), normal(random), normal(random)); };
+    std::vector<RingEdge> edges(40);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        edges[k].inside = true;
+        edges[k].edge = draw();
+        edges[k].image = similarity.scale * similarity.rotation * edges[k].edge;
+        edges[k].source_normal = draw().normalized();
+        edges[k].target_normal = similarity.rotation * edges[k].source_normal;
+        if (k % 4 != 0) continue;
+        edges[k].image += 0.7 * similarity.scale * draw();
+        edges[k].target_normal = (edges[k].target_normal + 0.4 * draw()).normalized();
+    }
+    return edges;
+}
+
+double error_of(const PasteSimilarity& found, const PasteSimilarity& wanted) {
+    return (found.rotation - wanted.rotation).norm() + std::abs(found.scale / wanted.scale - 1.0);
+}
+
+}  // namespace
+
+TEST_CASE("paste energy: a few edges that do not fit do not turn the similarity of all others") {
+    std::mt19937 random(13);
+    for (const double scale : {0.01, 1.0, 30.0}) {
+        for (const double normals : {0.0, 0.3}) {
+            CAPTURE(scale);
+            CAPTURE(normals);
+            const PasteSimilarity wanted{random_rotation(random), scale};
+            EnergyOptions options;
+            options.normals = normals;
+            PasteEnergy energy(mapped_edges(wanted, random), options);
+            std::vector<Index> edges(40);
+            std::iota(edges.begin(), edges.end(), 0);
+            const PasteSimilarity first = energy.start(edges);
+            PasteSimilarity found = first;
+            for (int round = 0; round < 20; ++round) {
+                const PasteSimilarity next = energy.improved(edges, found);
+                CHECK(energy.energy(edges, next) <= energy.energy(edges, found));
+                found = next;
+            }
+            CHECK(error_of(first, wanted) > 0.02);
+            CHECK(error_of(found, wanted) < 0.02 * error_of(first, wanted));
+        }
+    }
+}
 
 TEST_CASE("loop search: equal to brute force on 4000 random annuli") {
     std::mt19937 random(3);
