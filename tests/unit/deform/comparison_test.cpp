@@ -187,6 +187,25 @@ TEST_CASE("comparison: a turned copy deforms alike where no rotation is linearis
     }
 }
 
+TEST_CASE("comparison: small and large copies deform alike") {
+    const Scene scene = compared_bar();
+    for (const double scale : {1e-7, 1e-3, 1e7}) {
+        const Affine map{scale * Mat3::Identity(), Vec3::Zero()};
+        Scene other = scene;
+        other.mesh = mapped(scene.mesh, map);
+        for (const DeformMethod method : kMethods) {
+            CAPTURE(scale);
+            CAPTURE(method_name(method));
+            Edit a = make_edit(scene, options_of(method)), b = make_edit(other, options_of(method));
+            const Affine move = bend(scene, a.deformer.handle_center(a.high));
+            a.deformer.set_transform(a.high, move);
+            b.deformer.set_transform(b.high, conjugated(move, map));
+            CHECK(greatest_distance(mapped(a.deformer.solve(), map), b.deformer.solve()) <
+                  1e-7 * scale * scene.size);
+        }
+    }
+}
+
 TEST_CASE("comparison: only the region moves, and what surrounds it holds it") {
     const Scene scene = compared_bar();
     const Box box = bounds(scene.mesh);

@@ -92,6 +92,35 @@ TEST_CASE("comb: the least change is no greater than bending or adding that expl
     if (added.after <= enough) CHECK(least.change <= added.change + 1e-9);
 }
 
+TEST_CASE("comb: of bending and adding that both explain a stroke, what changes less is taken") {
+    struct Slant {
+        double azimuth, by;
+        bool bends;
+    };
+    for (const Slant slant : {Slant{100.0, 20.0, true}, Slant{80.0, 10.0, false}}) {
+        const auto made = [&](CombBy by) {
+            Hairstyle style = test::small_style();
+            style.add(test::stream(down_the_side(style, slant.azimuth)));
+            std::vector<Vec3> stroke;
+            for (int i = 0; i <= 6; ++i) {
+                const double azimuth = slant.azimuth + slant.by * i / 6.0;
+                stroke.push_back(test::over(style, azimuth, 30 - 8 * i, 0.02));
+            }
+            CombOptions options;
+            options.by = by;
+            return comb(style, stroke, options);
+        };
+        const CombReport least = made(CombBy::least), bent = made(CombBy::bend),
+                         added = made(CombBy::add);
+        const double tolerance = CombOptions{}.tolerance;
+        REQUIRE((bent.after < tolerance && added.after < tolerance));
+        REQUIRE((bent.change < added.change) == slant.bends);
+        CHECK(least.bent == (slant.bends ? bent.bent : added.bent));
+        CHECK(least.added.has_value() == !slant.bends);
+        CHECK(least.change == doctest::Approx(std::min(bent.change, added.change)));
+    }
+}
+
 TEST_CASE("comb: what is refused leaves the style as it was") {
     Hairstyle style = test::small_style();
     style.add(test::stream(down_the_side(style, 90)));

@@ -360,6 +360,31 @@ TEST_CASE("ponytail: the outline holds hair in, and hair inside spreads") {
     CHECK(outside > 5);
 }
 
+TEST_CASE("ponytail: hair spreads on the first half of a tail, and no more behind it") {
+    PonytailOptions options;
+    options.radius = 0.03;
+    options.share = 1.0;
+    const auto spreading = ponytail_constraints(straight(), options);
+    options.spread = 0.0;
+    const auto plain = ponytail_constraints(straight(), options);
+    REQUIRE(plain.size() == spreading.size());
+    Index wider = 0, same = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        REQUIRE(plain[i].point == spreading[i].point);
+        const Vec3 from = test::place_of(test::ball().layout(), plain[i].point) - kTie;
+        const Vec3 away(from.x(), from.y(), 0.0);
+        if (-from.z() > 0.5 * 0.08) {
+            ++same;
+            CHECK((plain[i].value - spreading[i].value).norm() < 1e-12);
+        } else {
+            CHECK(spreading[i].value.dot(away) >= plain[i].value.dot(away) - 1e-12);
+            if (spreading[i].value.dot(away) > plain[i].value.dot(away) + 1e-6) ++wider;
+        }
+    }
+    CHECK(wider > 5);
+    CHECK(same > 5);
+}
+
 TEST_CASE("ponytail: a tail leaves the points next to the head to the hair there") {
     const std::vector<Vec3> spine = smooth_curve(falling(), 0.5 * ponytail_step());
     PonytailOptions options;

@@ -159,6 +159,34 @@ TEST_CASE("a scalp follows its head through scale, place and turn") {
     }
 }
 
+TEST_CASE("a generated head's guessed scalp follows it through scale, place and turn") {
+    Mesh head = make_head({.vertices = 3000});
+    const Mat3 turns[] = {mat3(Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitY()),
+                          mat3(-Vec3::UnitZ(), Vec3::UnitY(), Vec3::UnitX()), Mat3::Identity()};
+    const double scales[] = {0.1, 100.0, 1.0};
+    // As positions alone, so that the scalp has to be found.
+    FaceList faces;
+    for (Index f = 0; f < head.face_count(); ++f) faces.add(head.topology().face(f));
+    const Mesh plain({head.positions().begin(), head.positions().end()}, faces);
+    const Scalp scalp(plain);
+    CHECK(scalp.guessed());
+    for (std::size_t i = 0; i < std::size(turns); ++i) {
+        const double scale = scales[i];
+        const Affine map{scale * turns[i], scale * Vec3(3, -5, 2)};
+        const Scalp other(test::moved(plain, map));
+        CHECK(other.scale() == Approx(scale * scalp.scale()));
+        CHECK((other.frame().axes - turns[i] * scalp.frame().axes).norm() < 1e-9);
+        CHECK((other.frame().center - map(scalp.frame().center)).norm() < 1e-9 * scale);
+        CHECK(other.frame().confidence == Approx(scalp.frame().confidence));
+        CHECK(other.region().vertices() == scalp.region().vertices());
+        bool alike = true;
+        for (std::size_t v = 0; v < scalp.margins().size(); ++v) {
+            alike = alike && std::abs(other.margins()[v] - scalp.margins()[v]) < 1e-6;
+        }
+        CHECK(alike);
+    }
+}
+
 TEST_CASE("real heads: up, front, unit and the size of the scalp are guessed") {
     struct Head {
         const char* name;

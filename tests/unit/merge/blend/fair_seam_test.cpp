@@ -98,6 +98,25 @@ TEST_CASE("the result follows a similarity of the input") {
     }
 }
 
+TEST_CASE("a fairing does not depend on how vertices and faces are numbered") {
+    Sewn cone = test::revolution(32, 10, [](double angle, double z) {
+        return 1.0 + 0.5 * std::max(0.0, z) + 0.05 * std::sin(3.0 * angle + 2.0 * z);
+    });
+    const Index n = cone.mesh.vertex_count();
+    std::vector<std::vector<Index>> orders = {test::shuffled_numbers(n, 1),
+                                              test::shuffled_numbers(n, 2)};
+    // Those of the seam first.
+    std::vector<Index>& first = orders.emplace_back(static_cast<std::size_t>(n));
+    for (Index v = 0; v < n; ++v) first[v] = (v - cone.seams[0].front() + n) % n;
+    std::vector<Sewn> images;
+    for (const std::vector<Index>& to : orders) images.push_back(test::renumbered(cone, to));
+    fair(cone);
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+        fair(images[i]);
+        CHECK(test::greatest_move(cone.mesh, images[i].mesh, orders[i]) < 1e-9);
+    }
+}
+
 TEST_CASE("the result does not depend on the number of threads") {
     Sewn one = test::creased(), many = one;
     fair(one);

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
+#include <random>
 #include <utility>
+#include <vector>
 
 #include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/measure/measures.h"
@@ -67,6 +70,46 @@ inline Sewn revolution(Index around, Index rows,
 /// A cylinder that opens into a cone at the seam.
 inline Sewn creased(double slope = 0.6) {
     return revolution(64, 16, [=](double, double z) { return 1.0 + slope * std::max(0.0, z); });
+}
+
+/// The same surface with other numbers: vertex v becomes `to[v]`, faces come in the opposite order
+/// and begin elsewhere, as seams do.
+inline Sewn renumbered(const Sewn& old, const std::vector<Index>& to) {
+    Sewn result;
+    std::vector<Vec3> positions(to.size());
+    for (Index v = 0; v < old.mesh.vertex_count(); ++v) positions[to[v]] = old.mesh.position(v);
+    FaceList faces;
+    for (Index f = old.mesh.face_count(); f-- > 0;) {
+        std::vector<Index> face;
+        for (const Index v : old.mesh.topology().face(f)) face.push_back(to[v]);
+        std::rotate(face.begin(), face.begin() + 1, face.end());
+        faces.add(face);
+        result.side_of_face.push_back(old.side_of_face[f]);
+    }
+    result.mesh = Mesh(std::move(positions), std::move(faces));
+    for (std::vector<Index> seam : old.seams) {
+        for (Index& v : seam) v = to[v];
+        std::rotate(seam.begin(), seam.begin() + 5, seam.end());
+        result.seams.push_back(std::move(seam));
+    }
+    return result;
+}
+
+/// Every vertex number once, at random.
+inline std::vector<Index> shuffled_numbers(Index count, unsigned seed) {
+    std::vector<Index> to(static_cast<std::size_t>(count));
+    std::iota(to.begin(), to.end(), 0);
+    std::shuffle(to.begin(), to.end(), std::mt19937(seed));
+    return to;
+}
+
+/// Greatest distance between a vertex and the one that has its place in `to`.
+inline double greatest_move(const Mesh& a, const Mesh& b, const std::vector<Index>& to) {
+    double greatest = 0.0;
+    for (Index v = 0; v < a.vertex_count(); ++v) {
+        greatest = std::max(greatest, (a.position(v) - b.position(to[v])).norm());
+    }
+    return greatest;
 }
 
 /// Largest angle between faces at an edge that joins two vertices of `seams`, in degrees.

@@ -221,6 +221,21 @@ TEST_CASE("the result follows a similarity of the input, and not the threads") {
     CHECK(hash(threads.mesh) == hash(tube.mesh));
 }
 
+TEST_CASE("a transition does not depend on how vertices and faces are numbered") {
+    Sewn tube = bumpy();
+    const Index n = tube.mesh.vertex_count();
+    std::vector<std::vector<Index>> orders = {test::shuffled_numbers(n, 3)};
+    std::vector<Index>& first = orders.emplace_back(static_cast<std::size_t>(n));
+    for (Index v = 0; v < n; ++v) first[v] = (v - tube.seams[0].front() + n) % n;
+    std::vector<Sewn> images;
+    for (const std::vector<Index>& to : orders) images.push_back(test::renumbered(tube, to));
+    blend(tube);
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+        blend(images[i]);
+        CHECK(test::greatest_move(tube.mesh, images[i].mesh, orders[i]) < 1e-9);
+    }
+}
+
 TEST_CASE("bands stop where the surface has no more room") {
     SUBCASE("at half the way to another seam") {
         const Mesh torus = make_torus();
