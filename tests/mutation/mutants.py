@@ -16,8 +16,8 @@ its place.
 
 Outcomes are written to build/mutation/results.tsv one by one, so that a run that was ended goes on where it
 stopped, as long as the kernel, its tests and the seed are the same; after tests were added or other lines changed,
---again runs the survivors alone. The working tree is only read, at the beginning. Prints a line a mutant, a table and the survivors,
-each with its number, so that
+--again runs the survivors alone. The working tree is only read, at the beginning. Prints a line a mutant, a table
+and the survivors, each with its number, so that
     LISSOM_MUTANT=17 build/mutation/tree/build/release/tests/unit/deform/test_deform
 shows what a test makes of it; the exit status is 0 where at least 85 % are killed, 1 where fewer are, and 2
 where --seconds ended the run before.

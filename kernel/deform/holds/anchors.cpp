@@ -46,6 +46,7 @@ class AnchorBuilder {
             work_.stiffness.push_back(sum);
         }
         for (Index v = patch.real_count; v < patch.surface_count; ++v) {
+            // The ends of the edge that it splits are among them.
             double sum = 0.0;
             int count = 0;
             for (const Index n : work_.rings.ring(v)) {
@@ -53,7 +54,7 @@ class AnchorBuilder {
                 sum += work_.stiffness[n];
                 ++count;
             }
-            work_.stiffness.push_back(count > 0 ? sum / count : 1.0);
+            work_.stiffness.push_back(sum / count);
         }
         for (Index v = 0; v < patch.surface_count; ++v) {
             work_.laplacian.weight[v] *= work_.stiffness[v];

@@ -224,10 +224,9 @@ class Assembler {
                 const double f = a == i ? residual_self(a) : residual_neighbor(a, entry);
                 add_laplacian_term(i, a, f, row, gradient_row);
             }
-            if (gradients_.defined[a] && !known_.gradient[a]) {
-                const Vec3& g = a == i ? gradients_.self[a] : gradients_.neighbor[entry];
-                add_coherence_term(i, a, g, row, gradient_row);
-            }
+            // There are no such rows of vertices whose gradient is known or not defined.
+            const Vec3& g = a == i ? gradients_.self[a] : gradients_.neighbor[entry];
+            add_coherence_term(i, a, g, row, gradient_row);
         };
         for (Index r = begin; r < end; ++r) {
             const Index i = free[r];

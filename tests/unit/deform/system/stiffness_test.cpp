@@ -82,6 +82,36 @@ TEST_CASE("stiffness: of all vertices it changes nothing, and 1 is as usual") {
     CHECK(greatest_distance(plain.deformer.solve(), stiff.deformer.solve()) < 1e-9 * scene.size);
 }
 
+TEST_CASE(
+    "stiffness: of all vertices it changes nothing at corners with a single triangle either") {
+    const Mesh quads = make_grid({.size = {3.0, 1.0}, .segments = {18, 6}});
+    FaceList faces;
+    for (Index f = 0; f < quads.face_count(); ++f) {
+        const auto q = quads.topology().face(f);
+        faces.add({q[0], q[1], q[2]});
+        faces.add({q[0], q[2], q[3]});
+    }
+    Scene scene{Mesh({quads.positions().begin(), quads.positions().end()}, faces), {}, {}, 3.0, {}};
+    scene.across = Vec3::UnitZ();
+    Index corners = 0;
+    for (Index v = 0; v < scene.mesh.vertex_count(); ++v) {
+        const double x = scene.mesh.position(v).x();
+        if (x > -1.1 && x < -0.8) scene.low.push_back(v);
+        if (x > 0.8 && x < 1.1) scene.high.push_back(v);
+        if (scene.mesh.topology().neighbors(v).size() == 2) ++corners;
+    }
+    REQUIRE(corners == 2);
+    Edit plain = make_edit(scene), stiff = make_edit(scene);
+    const Affine move = bend(scene, plain.deformer.handle_center(plain.high));
+    plain.deformer.set_transform(plain.high, move);
+    stiff.deformer.set_transform(stiff.high, move);
+    for (const double stiffness : {0.2, 37.0}) {
+        stiff.deformer.set_stiffness(scene.all(), stiffness);
+        CHECK(greatest_distance(plain.deformer.solve(), stiff.deformer.solve()) <
+              1e-9 * scene.size);
+    }
+}
+
 TEST_CASE("stiffness: neither scale nor resolution changes what it does") {
     const double coarse = bent_middle(bar_scene(6), 20.0), fine = bent_middle(bar_scene(18), 20.0);
     CHECK(std::abs(bent_middle(bar_scene(6, 1e3), 20.0) - coarse) < 1e-9);
