@@ -18,8 +18,8 @@ NOT = re.compile(r"(?<=[( ])!(?=[\w(])")
 # Lines whose numbers and order no result depends on: how work is divided, progress, memory, costs, messages,
 # how often a cancel is asked for.
 NO_RESULT = re.compile(
-    r"[Gg]rain|parallel_for|progress|reserve\(|charge\(|memory|scratch|costs\.|stats\.|"
-    r"bytes_of|_bytes|\bbytes\b|sizeof\(|_seconds|Checkpoint|\.log\(|require\(|static_assert|^\s*(#|using |template)")
+    r"[Gg]rain|parallel_for|progress|reserve\(|charge\(|memory|scratch|costs\.|stats\.|_bytes|\bbytes\b|sizeof\(|_seconds|"
+    r"Checkpoint|\.log\(|require\(|static_assert|^\s*(#|using |template)")
 # Numbers between 0 and this stand for zero: half as much again is the same.
 LEAST_NUMBER = 1e-5
 

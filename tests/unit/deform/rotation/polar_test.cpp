@@ -70,6 +70,21 @@ TEST_CASE("nearest rotation: stretch along any axes does not turn") {
     }
 }
 
+TEST_CASE("nearest rotation: as exact as it is determined, however little that is") {
+    std::mt19937 generator(8);
+    for (const double gap : {1.0, 0.1, 0.03, 0.01, 0.003}) {
+        double worst = 0.0;
+        for (int i = 0; i < 400; ++i) {
+            const Mat3 u = reference(random_matrix(generator)),
+                       r = reference(random_matrix(generator));
+            const Vec3 sigma(1.0, 0.7 * gap, 0.3 * gap);
+            const Mat3 stretch = u * sigma.asDiagonal() * u.transpose();
+            worst = std::max(worst, (nearest_rotation(r * stretch) - r).norm());
+        }
+        CHECK(worst < 4e-15 / gap);
+    }
+}
+
 TEST_CASE("nearest rotation: where it is not unique it is still one of the nearest") {
     std::mt19937 generator(4);
     const auto closeness = [](const Mat3& m) {
