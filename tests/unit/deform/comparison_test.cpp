@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <numeric>
+#include <random>
 #include <string>
 
 #include "kernel/core/error.h"
@@ -202,6 +203,68 @@ TEST_CASE("comparison: small and large copies deform alike") {
             b.deformer.set_transform(b.high, conjugated(move, map));
             CHECK(greatest_distance(mapped(a.deformer.solve(), map), b.deformer.solve()) <
                   1e-7 * scale * scene.size);
+        }
+    }
+}
+
+TEST_CASE("comparison: handles that were removed, or hold no positions, hold nothing") {
+    const Scene scene = compared_bar();
+    for (const DeformMethod method : kMethods) {
+        CAPTURE(method_name(method));
+        Edit plain = make_edit(scene, options_of(method));
+        Deformer d(scene.mesh, scene.all(), options_of(method));
+        const HandleId gone = d.add_handle(scene.region({scene.between(0)}));
+        d.add_handle(scene.region(scene.low));
+        const HandleId high = d.add_handle(scene.region(scene.high));
+        d.remove_handle(gone);
+        const Affine move = bend(scene, d.handle_center(high));
+        d.set_transform(high, move);
+        plain.deformer.set_transform(plain.high, move);
+        CHECK(d.solve() == plain.deformer.solve());
+    }
+    // Nothing but points has a position.
+    for (const DeformMethod method : kExplicit) {
+        CAPTURE(method_name(method));
+        Deformer d(scene.mesh, scene.all(), options_of(method));
+        const HandleId all = d.add_handle(scene.region(scene.low), {false, true});
+        const Index v = scene.low[0];
+        d.set_transform(all, rotation({1, 2, 3}, 0.7, Vec3::Zero()));
+        d.constrain({scene.high[0], scene.mesh.position(scene.high[0]), {}});
+        d.solve();
+        CHECK(d.positions()[scene.high[0]] == scene.mesh.position(scene.high[0]));
+        CHECK((d.gradients()[v] - rotation({1, 2, 3}, 0.7, Vec3::Zero()).linear).norm() < 1e-9);
+    }
+}
+
+TEST_CASE("comparison: a flat strip that is pulled is drawn out evenly, whatever its triangles") {
+    const Mesh quads = make_grid({.size = {3.0, 1.0}, .segments = {18, 6}});
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    std::vector<Vec3> positions(quads.positions().begin(), quads.positions().end());
+    for (Index v = 0; v < quads.vertex_count(); ++v) {
+        if (quads.topology().is_boundary(v)) continue;
+        positions[v] += 0.035 * Vec3(unit(random), 0.0, unit(random));
+    }
+    FaceList faces;
+    for (Index f = 0; f < quads.face_count(); ++f) {
+        const auto q = quads.topology().face(f);
+        const std::size_t turn = unit(random) < 0.0 ? 0 : 1;
+        faces.add({q[turn], q[turn + 1], q[turn + 2]});
+        faces.add({q[turn], q[turn + 2], q[(turn + 3) % 4]});
+    }
+    Scene scene{Mesh(positions, faces), {}, {}, 3.0, {}};
+    for (Index v = 0; v < quads.vertex_count(); ++v) {
+        if (positions[v].x() < -1.499) scene.low.push_back(v);
+        if (positions[v].x() > 1.499) scene.high.push_back(v);
+    }
+    for (const DeformMethod method : {DeformMethod::geodesic, DeformMethod::harmonic}) {
+        Edit edit = make_edit(scene, options_of(method));
+        const Vec3 pull(0.6, 0.3, -0.2);
+        edit.deformer.set_transform(edit.high, translation(pull));
+        const std::vector<Vec3>& x = edit.deformer.solve();
+        for (Index v = 0; v < quads.vertex_count(); ++v) {
+            const Vec3 expected = positions[v] + (positions[v].x() + 1.5) / 3.0 * pull;
+            CHECK((x[v] - expected).norm() < 1e-9);
         }
     }
 }

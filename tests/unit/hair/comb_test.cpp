@@ -121,6 +121,22 @@ TEST_CASE("comb: of bending and adding that both explain a stroke, what changes 
     }
 }
 
+TEST_CASE("comb: what lies within reach of the stroke does not count as changed") {
+    double before = std::numeric_limits<double>::infinity();
+    for (const double reach : {0.02, 0.06, 0.12, 5.0}) {
+        Hairstyle style = test::small_style();
+        style.add(test::stream(down_the_side(style, 90)));
+        CombOptions options;
+        options.by = CombBy::add;
+        options.reach = reach;
+        const CombReport report = comb(style, to_the_back(style, 60, 120), options);
+        CHECK(report.added.has_value());
+        CHECK(report.change <= before);
+        before = report.change;
+    }
+    CHECK(before == 0.0);
+}
+
 TEST_CASE("comb: what is refused leaves the style as it was") {
     Hairstyle style = test::small_style();
     style.add(test::stream(down_the_side(style, 90)));

@@ -90,13 +90,35 @@ TEST_CASE("a boundary is refused wherever it meets itself, and only there, howev
     for (const double angle : {0.0, 0.7, 1.4, 2.5}) {
         for (const double size : {0.01, 1.0, 100.0}) {
             const Affine map = scaling(Vec3::Constant(size), Vec3::Zero()) *
-                               rotation(Vec3(1, 2, -1), angle, Vec3::Zero());
+                               rotation(Vec3(1, 2, -1), angle, Vec3::Zero()) *
+                               translation(Vec3(30, -20, 10));
             for (std::size_t begin = 0; begin < crossing.size(); ++begin) {
                 CHECK(refused(crossing, begin, map));
                 CHECK(refused(lying, begin, map));
                 CHECK(!refused(near, begin, map));
             }
         }
+    }
+}
+
+TEST_CASE("a boundary is trimmed where it turns by more than is allowed beyond a regular polygon") {
+    for (const Index count : {24, 48}) {
+        const Mesh mesh = tube(count, 12, [=](double angle, double height) {
+            const bool tooth = std::lround(angle * count / (2.0 * kPi)) % 2 == 1;
+            const double low = tooth && height == 0.0 ? 0.08 : 0.0;
+            return Vec3(std::cos(angle), std::sin(angle), 3.0 * height + low);
+        });
+        const Path jagged = boundaries(mesh)[0];
+        const auto trimmed = [&](double factor) {
+            MergeSide side = make_side(mesh, {jagged}, "source");
+            const double beyond = side.turns[0] - 2.0 * kPi / count;
+            REQUIRE(beyond > 0.1);
+            trim_jagged(side, factor * beyond, {});
+            CHECK(side.untrimmed.empty());
+            return side.trimmed[0] != 0;
+        };
+        CHECK(trimmed(0.97));
+        CHECK(!trimmed(1.03));
     }
 }
 

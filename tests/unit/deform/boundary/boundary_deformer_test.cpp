@@ -331,6 +331,7 @@ TEST_CASE("refined, a similarity stays one") {
     for (const Vec3& p : mesh.positions()) expected.push_back(map(p));
     CHECK(greatest_difference(same.positions, expected) < 1e-8);
     for (const Vec3& pull : same.pulls) CHECK(pull.norm() < 1e-8);
+    CHECK(same.energy.front() < 1e-12);
 }
 
 TEST_CASE("held vertices with slack turn to where there is less energy, within it") {

@@ -107,6 +107,23 @@ TEST_CASE("soft handles: similarities of everything are exact") {
     }
 }
 
+TEST_CASE("soft handles: a preview before a solution changes no bit of it") {
+    const Scene scene = soft_bar();
+    for (const int refine : {0, 2}) {
+        DeformOptions options;
+        options.refine = refine;
+        const auto solved = [&](bool preview) {
+            Deformer d(scene.mesh, scene.all(), options);
+            d.add_handle(scene.region(scene.low));
+            const HandleId high = d.add_handle(scene.region(scene.high), weighted(2.0));
+            d.set_transform(high, bend(scene, d.handle_center(high)));
+            if (preview) d.preview();
+            return d.solve();
+        };
+        CHECK(solved(false) == solved(true));
+    }
+}
+
 TEST_CASE("soft handles: the basis is the direct solution, and linear in their transforms") {
     const Scene scene = soft_bar();
     Deformer d(scene.mesh, scene.all());

@@ -136,6 +136,17 @@ TEST_CASE("nearest rotations: as one at a time, whatever stands beside a matrix"
     CHECK_THROWS_AS(nearest_rotations(m, std::span(r).first(3)), Error);
 }
 
+TEST_CASE("nearest rotations: nothing beyond the last one is read or written") {
+    std::mt19937 generator(9);
+    for (std::size_t count = 0; count < 13; ++count) {
+        std::vector<Mat3> m(count + 4, Mat3::Constant(7.0)), r = m;
+        for (std::size_t i = 0; i < count; ++i) m[i] = random_matrix(generator);
+        nearest_rotations(std::span(m).first(count), std::span(r).first(count));
+        for (std::size_t i = 0; i < count; ++i) CHECK(is_rotation(r[i]));
+        for (std::size_t i = count; i < r.size(); ++i) CHECK(r[i] == Mat3::Constant(7.0));
+    }
+}
+
 TEST_CASE("nearest quaternions: of unit length, and those of the nearest rotations") {
     std::mt19937 generator(7);
     std::vector<Mat3> m;

@@ -1,7 +1,9 @@
 #include "kernel/hair/curve/curve.h"
 
+#include <cmath>
 #include <limits>
 
+#include "kernel/hair/curve/curve_foot.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/hair/hair_support.h"
 
@@ -29,6 +31,24 @@ TEST_CASE("curve: resampled segments are equally long and keep the ends") {
     const std::vector<Vec3> straight{{0, 0, 0}, {0.1, 0, 0}, {0.1, 0, 0}, {5, 0, 0}};
     const std::vector<Vec3> even = resampled_curve(straight, 0.5);
     for (std::size_t i = 0; i < even.size(); ++i) CHECK(even[i].x() == Approx(0.5 * i));
+}
+
+TEST_CASE("curve: resampled points lie evenly along a curve, however its points lie") {
+    test::RandomPoints random(3);
+    for (int round = 0; round < 20; ++round) {
+        std::vector<Vec3> curve{Vec3::Zero()};
+        for (int k = 0; k < 30; ++k) {
+            const double step = std::pow(10.0, random.uniform(-4.0, 0.0));
+            const Vec3 way(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 1.0);
+            curve.push_back(curve.back() + step * way.normalized());
+        }
+        const std::vector<double> lengths = arc_lengths(curve);
+        const std::vector<Vec3> even = resampled_curve(curve, 0.03 * lengths.back());
+        for (std::size_t i = 0; i < even.size(); ++i) {
+            const double at = lengths.back() * static_cast<double>(i) / (even.size() - 1.0);
+            CHECK((even[i] - point_at_arc_length(curve, lengths, at)).norm() < 1e-12);
+        }
+    }
 }
 
 TEST_CASE("curve: a smooth one runs through its points, straight where they are") {

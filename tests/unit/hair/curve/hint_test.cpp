@@ -226,8 +226,11 @@ TEST_CASE("hint: bad strokes and options are refused") {
     CHECK(code_of(cut_curve, line(Vec3(0, -0.02, 0), Vec3(0, 0.02, 0))) ==
           ErrorCode::invalid_argument);
     CHECK(code_of(cut_curve, across, {.reach = -1.0}) == ErrorCode::invalid_argument);
-    CHECK(test::error_of([&] { hint_reading(curve(), across, 0.0); }).code() ==
-          ErrorCode::invalid_argument);
+    for (const double near : {0.0, -1.0, test::kNaN}) {
+        const Error error = test::error_of([&] { hint_reading(curve(), across, near); });
+        CHECK(error.code() == ErrorCode::invalid_argument);
+        CHECK(error.message().find("`near`") != std::string::npos);
+    }
     CHECK(code_of(concatenated_curve, across, {.join = test::kNaN}) == ErrorCode::invalid_argument);
     CHECK(test::error_of([&] { cut_curve(std::vector<Vec3>{}, across); }).code() ==
           ErrorCode::invalid_argument);

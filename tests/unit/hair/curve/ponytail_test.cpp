@@ -360,6 +360,48 @@ TEST_CASE("ponytail: the outline holds hair in, and hair inside spreads") {
     CHECK(outside > 5);
 }
 
+TEST_CASE("ponytail: outside a tail of one width, vectors lean in by grip for every step") {
+    PonytailOptions options;
+    options.radius = 0.02;
+    options.profiles[0] = {kTie + Vec3(0.02, 0, 0), kTie + Vec3(0.02, 0, -0.7 * 0.08)};
+    options.spread = options.tightness = 0.0;
+    const double d = ponytail_step();
+    for (const double grip : {0.0, 1.0, 4.0}) {
+        options.grip = grip;
+        Index outside = 0;
+        for (const GridConstraint& c : ponytail_constraints(straight(), options)) {
+            const Vec3 from = test::place_of(test::ball().layout(), c.point) - kTie;
+            if (-from.z() < d || -from.z() > 0.7 * 0.08 - d) continue;
+            const Vec3 away(from.x(), from.y(), 0.0);
+            const double beyond = std::max(0.0, away.norm() - 0.02);
+            const Vec3 expected = -Vec3::UnitZ() - grip * beyond / d / 0.02 * away;
+            CHECK((c.value.normalized() - expected.normalized()).norm() < 1e-6);
+            if (beyond > 0.1 * d) ++outside;
+        }
+        CHECK(outside > 5);
+    }
+}
+
+TEST_CASE("ponytail: with any grip points in front of the tie lead into it, without none do") {
+    PonytailOptions options;
+    options.radius = 0.03;
+    const auto in_front = [&](double grip) {
+        options.grip = grip;
+        std::vector<Index> points;
+        for (const GridConstraint& c : ponytail_constraints(straight(), options)) {
+            const Vec3 from = test::place_of(test::ball().layout(), c.point) - kTie;
+            if (from.z() <= 0.0 || from.head<2>().norm() > 0.02) continue;
+            points.push_back(c.point);
+            CHECK(c.value.dot(-Vec3::UnitZ()) > 0.0);
+        }
+        return points;
+    };
+    const auto usual = in_front(4.0);
+    CHECK(!usual.empty());
+    for (const double grip : {0.01, 0.5, 1.0}) CHECK(in_front(grip) == usual);
+    CHECK(in_front(0.0).empty());
+}
+
 TEST_CASE("ponytail: hair spreads on the first half of a tail, and no more behind it") {
     PonytailOptions options;
     options.radius = 0.03;

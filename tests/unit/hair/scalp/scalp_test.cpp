@@ -284,6 +284,20 @@ TEST_CASE("scalp: eyes tell which way a head that stands aslant looks") {
     CHECK(Scalp(upright_head).frame().axes == Mat3::Identity());
 }
 
+TEST_CASE("scalp: directions that are given are kept, whatever eyes say") {
+    const Mesh aslant = test::moved(with_eyes(make_head({.vertices = 3000})),
+                                    rotation(Vec3::UnitZ(), 0.6, Vec3::Zero()));
+    for (const Vec3& up : {Vec3(0, 1, 0), Vec3(0.1, 1, 0.05), Vec3(0.5, 1, 0)}) {
+        ScalpOptions options;
+        options.hints.up = up;
+        CHECK((Scalp(aslant, options).frame().up() - up.normalized()).norm() < 1e-9);
+        options.hints = {};
+        options.hints.front = Vec3(0.1 * up.x(), 0.0, 1.0);
+        CHECK((Scalp(aslant, options).frame().front() - options.hints.front->normalized()).norm() <
+              1e-9);
+    }
+}
+
 TEST_CASE("scalp: a unit that cannot be known says so") {
     const Mesh head = make_head();
     CHECK(Scalp(head).knows_unit());

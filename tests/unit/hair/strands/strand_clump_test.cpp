@@ -193,6 +193,19 @@ TEST_CASE("the frame of a guide is orthonormal and turns as little as it can") {
     }
 }
 
+TEST_CASE("a guide's key is its root, and how far its middle is from there") {
+    for (const double apart : {0.0, 0.5, 2.0}) {
+        // Straight strands with points at uneven places.
+        const Strands strands = strands_of(
+            {{{1, 2, 3}, {1.125, 2, 3}, {1.25, 2, 3}, {5, 2, 3}}, {{4, 5, 6}, {4, 9, 6}}});
+        GuideKey first, second;
+        first << 1, 2, 3, 2 * apart, 0, 0;
+        second << 4, 5, 6, 0, 2 * apart, 0;
+        CHECK((guide_key(strands.strand(0), apart) - first).norm() < 1e-6);
+        CHECK((guide_key(strands.strand(1), apart) - second).norm() < 1e-6);
+    }
+}
+
 TEST_CASE("the tree finds what a search of all keys finds") {
     std::vector<GuideKey> keys;
     const Strands strands = random_hair(300);

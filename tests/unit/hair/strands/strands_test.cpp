@@ -3,6 +3,29 @@
 using namespace lissom;
 using namespace lissom::test;
 
+TEST_CASE("strands: all that they hold counts as memory") {
+    const Strands rich = rich_hair(50);
+    Strands strands = random_hair(50);
+    std::size_t least = strands.memory_bytes();
+    const auto check_grown = [&](std::size_t by) {
+        least += by;
+        CHECK(strands.memory_bytes() >= least);
+        least = strands.memory_bytes();
+    };
+    strands.set_ids(rich.ids());
+    check_grown(50 * sizeof(std::uint32_t));
+    strands.set_colors(*rich.colors());
+    check_grown(static_cast<std::size_t>(rich.point_count()) * sizeof(Eigen::Vector3f));
+    strands.set_widths(rich.widths());
+    check_grown(50 * sizeof(float));
+    strands.set_roots(rich.roots());
+    check_grown(50 * (sizeof(Index) + 5 * sizeof(float)));
+    strands.set_groups(rich.groups(), rich.group_names());
+    check_grown(50 * sizeof(Index));
+    strands.set_transparency({0.0f, StrandDomain::strand, std::vector<float>(50, 0.5f)});
+    check_grown(50 * sizeof(float));
+}
+
 TEST_CASE("strands show their points without a copy") {
     Strands strands =
         strands_of({{{0, 0, 0}, {0, 1, 0}}, {{1, 0, 0}}, {{2, 0, 0}, {2, 1, 0}, {2, 2, 0}}});

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "kernel/mesh/measure/measures.h"
+#include "tests/unit/deform/interrupter.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"
 
@@ -148,6 +149,34 @@ TEST_CASE("scatter: more places do not change what was there, far vertices stay 
         return values;
     };
     CHECK(tips(few, 0) == tips(many, 0));
+}
+
+TEST_CASE("scatter: a place whose paste fails is refused with the reason, and the others stand") {
+    const Mesh horn = horned_ball(12), target = make_sphere({1.0, 24, SphereKind::triangles});
+    auto places = spiral(3, 0.18);
+    places[1].up = Vec3::Zero();
+    const ScatterResult result = scatter(horn, target, around_horn(horn), std::nullopt, places);
+    REQUIRE(result.refused.size() == 1);
+    CHECK(result.refused[0].place == 1);
+    CHECK(result.refused[0].code == ErrorCode::invalid_argument);
+    CHECK(!result.refused[0].message.empty());
+    CHECK(parts_in(result) == 2);
+    CHECK(result.mesh.topology().is_closed());
+}
+
+TEST_CASE("scatter: a cancel at any moment ends it, and refuses no place") {
+    const Mesh horn = horned_ball(12), target = make_sphere({1.0, 24, SphereKind::triangles});
+    const auto places = spiral(2, 0.18);
+    const auto pasted = [&](const Context& context) {
+        return scatter(horn, target, around_horn(horn), std::nullopt, places, {}, context);
+    };
+    const Interrupter whole(-1);
+    CHECK(pasted(whole.context()).refused.empty());
+    REQUIRE(whole.moments() > 10);
+    for (int part = 0; part < 4; ++part) {
+        const Interrupter host(part * (whole.moments() - 1) / 3);
+        CHECK(error_of([&] { pasted(host.context()); }).code() == ErrorCode::cancelled);
+    }
 }
 
 TEST_CASE("scatter: options and places that make no sense are refused") {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "kernel/io/mesh_file.h"
+#include "kernel/merge/sew/seam_skin.h"
 #include "kernel/merge/sew/sew.h"
 #include "tests/unit/merge/sew/seam_scenes.h"
 #include "tests/unit/support.h"
@@ -211,6 +212,23 @@ TEST_CASE("sew: skin weights are blended by joint and sum to 1") {
         const bool high = std::count(joints.begin(), joints.end(), 3.0) > 0;
         if (seam.contains(v)) CHECK((low && high));
         if (!seam.contains(v)) CHECK(low != high);
+    }
+}
+
+TEST_CASE("sew: a skin has joints and weights") {
+    SewScene scene = two_tubes(24, 31);
+    Mesh skinned = scene.source;
+    add_skin(skinned, 4, 7);
+    CHECK(skinned_side(scene.target, skinned) == SeamSide::source);
+    CHECK(skinned_side(skinned, scene.target) == SeamSide::target);
+    CHECK(!skinned_side(scene.target, scene.source));
+    CHECK(!skinned_side(skinned, skinned));
+    for (const char* missing : {"joints", "weights"}) {
+        Mesh half = skinned;
+        half.attributes().remove(missing);
+        CHECK(!skinned_side(scene.target, half));
+        CHECK(skinned_side(half, skinned) == SeamSide::source);
+        CHECK_NOTHROW(require_same_joints(half, skinned, scene.joins));
     }
 }
 

@@ -1,6 +1,8 @@
 #include "kernel/solve/sparse/sparse_system.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -124,6 +126,35 @@ TEST_CASE("factor: a component without a constraint is named") {
     CHECK(error.code() == ErrorCode::not_positive_definite);
     CHECK(error.elements().ids == std::vector<Index>{3, 4, 5});
     CHECK_FALSE(system.factored());
+}
+
+TEST_CASE("factor: the loose one of several components is named whole, wherever its rows stand") {
+    std::mt19937 random(4);
+    for (int round = 0; round < 30; ++round) {
+        // Four rings of five unknowns, one of which is not held, in any order.
+        std::vector<Index> place(20);
+        std::iota(place.begin(), place.end(), 0);
+        std::shuffle(place.begin(), place.end(), random);
+        const int loose = round % 4;
+        std::vector<Triplet> entries;
+        std::vector<Index> expected;
+        for (int c = 0; c < 4; ++c) {
+            for (int k = 0; k < 5; ++k) {
+                const Index a = place[5 * c + k], b = place[5 * c + (k + 1) % 5];
+                entries.push_back({a, a, k == 0 && c != loose ? 3.0 : 2.0});
+                entries.push_back({std::max(a, b), std::min(a, b), -1.0});
+                if (c == loose) expected.push_back(a);
+            }
+        }
+        std::sort(expected.begin(), expected.end());
+        const SymmetricMatrix matrix = symmetric_from_triplets(20, entries);
+        SparseSystem system;
+        system.analyze(matrix);
+        const Error error = test::error_of([&] { system.factor(matrix); });
+        CHECK(error.code() == ErrorCode::not_positive_definite);
+        CHECK(error.elements().kind == ElementKind::row);
+        CHECK(error.elements().ids == expected);
+    }
 }
 
 TEST_CASE("factor: an unconstrained large system is singular, not merely inaccurate") {
