@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/io/mesh_file.h"
+#include "kernel/io/stream/file.h"
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/edit/transform.h"
 
@@ -69,7 +70,7 @@ Part load_part(const std::filesystem::path& path, const Context& context) {
     const Region* region = mesh.find_region(kRegionName);
     if (!region) {
         throw Error(ErrorCode::unsupported,
-                    path.string() +
+                    display_name(path) +
                         " has no region called \"region\" around a feature; write "
                         "parts with lissom.part.save, or mark it and save the mesh");
     }

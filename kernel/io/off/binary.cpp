@@ -36,9 +36,9 @@ std::size_t binary_vertex_bytes(OffLayout layout) {
 // Moves over a number and as many numbers of four bytes; false where the data end before.
 bool skip_counted(ByteReader& data) {
     if (data.remaining() < 4) return false;
-    const std::size_t bytes = std::size_t{4} * data.read<std::uint32_t>();
-    if (data.remaining() < bytes) return false;
-    data.skip(bytes);
+    const std::size_t count = data.read<std::uint32_t>();
+    if (count > data.remaining() / 4) return false;
+    data.skip(4 * count);
     return true;
 }
 
@@ -46,9 +46,9 @@ bool skip_counted(ByteReader& data) {
 bool fits(std::string_view bytes, OffLayout layout, BinaryKind kind) {
     ByteReader data(bytes, kind.order);
     const BinaryCounts counts = read_binary_counts(data);
-    const std::size_t vertex_bytes = counts.vertices * binary_vertex_bytes(layout);
-    if (vertex_bytes > data.remaining()) return false;
-    data.skip(vertex_bytes);
+    const std::size_t vertex_bytes = binary_vertex_bytes(layout);
+    if (counts.vertices > data.remaining() / vertex_bytes) return false;
+    data.skip(counts.vertices * vertex_bytes);
     for (std::uint32_t f = 0; f < counts.faces; ++f) {
         if (!skip_counted(data) || (kind.has_color_counts && !skip_counted(data))) return false;
     }

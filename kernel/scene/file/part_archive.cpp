@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 
@@ -11,7 +12,7 @@ namespace lissom {
 namespace {
 
 constexpr std::size_t kRecord = 512;
-constexpr std::size_t kMostBytes = std::size_t{1} << 33;
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 33;
 
 // Fields of a header: where they begin and how long they are.
 struct Field {
@@ -67,12 +68,12 @@ std::string_view text_in(std::string_view header, Field field) {
     throw Error(ErrorCode::file_syntax, "this is no scene, or a damaged one");
 }
 
-std::size_t octal_in(std::string_view header, Field field) {
-    std::size_t value = 0;
+std::uint64_t octal_in(std::string_view header, Field field) {
+    std::uint64_t value = 0;
     for (const char digit : text_in(header, field)) {
         if (digit == ' ') break;
         if (digit < '0' || digit > '7') refuse_damaged();
-        value = 8 * value + static_cast<std::size_t>(digit - '0');
+        value = 8 * value + static_cast<std::uint64_t>(digit - '0');
     }
     return value;
 }
