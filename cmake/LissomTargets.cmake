@@ -22,6 +22,9 @@ function(lissom_target_defaults target)
         target_compile_options(
             ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
                               $<$<BOOL:${LISSOM_STRICT}>:-Werror>)
+        # What nothing calls is left out of a small library.
+        target_compile_options(${target} PRIVATE $<$<CONFIG:MinSizeRel>:-ffunction-sections>
+                                                 $<$<CONFIG:MinSizeRel>:-fdata-sections>)
         # gcc 12 reports overlaps in std::string's operator+ that cannot happen (gcc bug 105651).
         if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
             target_compile_options(${target} PRIVATE -Wno-restrict)
@@ -91,8 +94,9 @@ function(lissom_unity target)
     endif()
 endfunction()
 
-# lissom_headers: with LISSOM_PCH, compiles Eigen and what most sources include of the standard library once; the
-# libraries take them from there. Not the sources that lissom_hot_loops names, which are compiled always alike.
+# lissom_headers: with LISSOM_PCH, compiles Eigen, the mesh with its OpenMesh, and what most sources include of the
+# standard library once; the libraries take them from there. Not the sources that lissom_hot_loops names, which are
+# compiled always alike.
 function(lissom_headers)
     file(WRITE ${PROJECT_BINARY_DIR}/headers.cpp "")
     add_library(lissom_headers OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers.cpp)
@@ -102,7 +106,7 @@ function(lissom_headers)
         lissom_headers PRIVATE <Eigen/Geometry> <Eigen/LU> <algorithm> <array> <atomic> <charconv> <chrono> <cmath>
         <cstdint> <cstring> <deque> <filesystem> <functional> <limits> <map> <memory> <mutex> <numeric> <optional>
         <set> <span> <sstream> <string> <string_view> <thread> <tuple> <unordered_map> <unordered_set> <utility>
-        <variant> <vector>)
+        <variant> <vector> ${PROJECT_SOURCE_DIR}/kernel/mesh/mesh.h)
 endfunction()
 
 # lissom_library(NAME FILES...): a static library lissom_NAME with the alias lissom::NAME.
@@ -116,16 +120,17 @@ function(lissom_library name)
     endif()
 endfunction()
 
-# lissom_hot_loops(TARGET FILES...): for libraries whose time goes into loops over numbers; the build that is soonest
-# done leaves out what takes long to compile. FILES hold functions for processors with fused multiply-add: what a
-# compiler fuses depends on its level and on what is compiled beside, so these are compiled alone and always alike,
-# and every release build gives the same numbers.
+# lissom_hot_loops(TARGET FILES...): for libraries whose time goes into loops over numbers; builds that are small, or
+# soonest done, leave out what takes room or long to compile. FILES hold functions for processors with fused
+# multiply-add: what a compiler fuses depends on its level and on what is compiled beside, so these are compiled alone
+# and always alike, and every release build gives the same numbers.
 function(lissom_hot_loops target)
-    set(release $<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>)
+    set(fast $<OR:$<CONFIG:Release>,$<CONFIG:MinSizeRel>>)
+    set(release $<AND:${fast},$<CXX_COMPILER_ID:GNU,Clang>>)
     if(LISSOM_UNITY STREQUAL "LARGE")
         target_compile_options(${target} PRIVATE $<${release}:-O2>)
     else()
-        target_compile_options(${target} PRIVATE $<${release}:-O3>)
+        target_compile_options(${target} PRIVATE $<${release}:-O$<IF:$<CONFIG:MinSizeRel>,2,3>>)
     endif()
     if(ARGN)
         set_property(SOURCE ${ARGN} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)

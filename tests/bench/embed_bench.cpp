@@ -1,6 +1,7 @@
 // What the library costs a product that embeds it, before it does anything: sizes without symbols,
 // the shared libraries that are loaded with it, and the processor time of a start over that of an
-// empty program. Of the build without the GPL, which a shipped product takes, and of this one.
+// empty program. Of the build without the GPL, which a shipped product takes, of the kernel and the
+// C ABI alone, built to be small, and of this build.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -105,7 +106,7 @@ void add_build(Report& report, const std::string& build, const fs::path& folder,
     report.add({build + ", program, empty script: start over an empty program",
                 milliseconds_over_empty({program, "run", script}), "ms"});
     // Six, and Lua, with which it is built here.
-    add_file(report, build + ", liblissom", library, {target(7), target(4)});
+    add_file(report, build + ", liblissom with Lua", library, {target(7)});
     add_file(report, build + ", module of Lua 5.4", folder / "bindings/lua/lua5.4/lissom.so",
              {target(6)});
     fs::remove(script);
@@ -121,6 +122,13 @@ int main(int argc, char** argv) {
     } else {
         report.line("no build without the GPL in " + free_build.string() +
                     ": ./dev build no-gpl lissom lissom_shared lissom_lua54_module");
+    }
+    const fs::path small = fs::path(LISSOM_BENCH_SMALL_BUILD) / "bindings/c/liblissom.so";
+    if (fs::exists(small)) {
+        report.title("kernel and C ABI alone, small");
+        add_file(report, "kernel and C ABI alone, small", small, {6, 4});
+    } else {
+        report.line("no " + small.string() + ": ./dev build small lissom_shared");
     }
     add_build(report, "with CHOLMOD", LISSOM_BENCH_BUILD, false);
     report.add({"C host: start over an empty program, with a context",

@@ -203,7 +203,9 @@ void compare_with_cholesky(Report& report, const Setup& setup, const Context& co
     report.add({setup.name + ": constraints updated an edit",
                 (reference.cholesky_stats().updated - before) / 5.0, ""});
     report.add_ratio(setup.name + ": edit, CHOLMOD's update / ours", "CHOLMOD's update", edit, 60.0,
-                     Better::more);
+                     Better::more,
+                     "products of the moved constraints with the kept ones 79 %, the solve 7, "
+                     "columns of the Green's function 7");
 }
 
 void run_setup(Report& report, const Setup& setup, const Context& context) {

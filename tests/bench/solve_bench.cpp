@@ -97,6 +97,19 @@ class Cholmod {
     double flops_ = 0.0;
 };
 
+// Of what a profile of each is made.
+constexpr const char* kSolveBound =
+    "reading the factor, twice in double precision; drags read one in single precision, by three "
+    "right-hand sides at once";
+constexpr const char* kFactorBound =
+    "products of blocks 37 %, adding their results to other blocks 21, zeros in fresh memory 18, "
+    "rows "
+    "below the diagonal 10, entries of the matrix 8; above the subtrees block follows block, each "
+    "shared by rows";
+constexpr const char* kAnalysisBound =
+    "the order by minimum degree 58 %, the elimination tree 21, supernodes 12, the plan of the "
+    "factor 8; CHOLMOD's makes no plan";
+
 Context context_with(int threads) {
     ContextOptions options;
     options.threads = threads;
@@ -118,7 +131,7 @@ void run_peer(Report& report, const SymmetricMatrix& matrix, SparseSystem& ours,
         3 * kRounds, [&] { theirs.solve(b); }, [&] { ours.solve(b, x, kColumns); });
     report.add({"ours: solve, three right-hand sides" + on, 1e3 * solve.below, "ms"});
     report.add_ratio(blas + " / ours: solve" + on, blas, solve, threads == 1 ? 2.0 : 3.0,
-                     Better::more);
+                     Better::more, kSolveBound);
 }
 
 void run(Report& report) {
@@ -134,18 +147,18 @@ void run(Report& report) {
         "factor on 1 thread / on 2", "1 thread",
         seconds_quotient(
             kRounds, [&] { ours.factor(matrix, one); }, [&] { ours.factor(matrix, two); }),
-        1.8, Better::more);
+        1.8, Better::more, kFactorBound);
     ProductLimit product;
     report.add_ratio(
         "factor: share of the matrix product's rate, 1 thread", "matrix product",
         quotient_of(
             kRounds, [&] { return theirs.flops() / seconds([&] { ours.factor(matrix, one); }); },
             [&] { return product.rate(); }),
-        0.5, Better::more);
+        0.5, Better::more, kFactorBound);
     report.add_ratio("CHOLMOD / ours: analysis", "CHOLMOD",
                      seconds_quotient(
                          kRounds, [&] { theirs.analyze(); }, [&] { ours.analyze(matrix); }),
-                     0.95, Better::more);
+                     0.95, Better::more, kAnalysisBound);
     report.add_ratio("analysis / factor, 1 thread", "factor",
                      seconds_quotient(
                          3, [&] { ours.analyze(matrix); }, [&] { ours.factor(matrix, one); }));
