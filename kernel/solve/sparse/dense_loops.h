@@ -1,6 +1,6 @@
 /// The loops behind DenseKernels; private to kernel/solve. They are compiled for each kind of
 /// processor, as kernel/core/lanes.h says. A `Tile` says how many rows are done at a time: so many
-/// `vectors` of its type `Vector`, four or eight numbers each.
+/// `kVectors` of its type `Vector`, four or eight numbers each.
 #pragma once
 
 #include <algorithm>
@@ -40,8 +40,8 @@ template <typename Numbers, int Count>
 struct TileOf {
     using Vector = typename Numbers::Type;
     using OneVector = TileOf<Numbers, 1>;
-    static constexpr int vectors = Count;
-    static constexpr Index rows = Count * static_cast<Index>(sizeof(Vector) / sizeof(double));
+    static constexpr int kVectors = Count;
+    static constexpr Index kRows = Count * static_cast<Index>(sizeof(Vector) / sizeof(double));
     using Sums = Vector[kTileColumns][Count];
 };
 /// One vector of four rows.
@@ -58,7 +58,7 @@ LISSOM_INLINE void sum_tile(const double* a, std::ptrdiff_t stride, const double
     for (Index k = 0; k < depth; ++k, a += stride, strip += kTileColumns) {
         const auto* lanes = reinterpret_cast<const Vector*>(a);
         for (int j = 0; j < kTileColumns; ++j) {
-            for (int r = 0; r < Tile::vectors; ++r) sum[j][r] += strip[j] * lanes[r];
+            for (int r = 0; r < Tile::kVectors; ++r) sum[j][r] += strip[j] * lanes[r];
         }
     }
 }
@@ -75,7 +75,7 @@ LISSOM_INLINE void multiply_rows(const DenseProduct& p, const double* a, double*
         for (Index i = 0; i < kTileColumns; ++i) {
             if (i >= columns) break;
             auto* to = reinterpret_cast<Vector*>(c + (j + i) * p.c_stride);
-            for (int r = 0; r < Tile::vectors; ++r) {
+            for (int r = 0; r < Tile::kVectors; ++r) {
                 Vector value{};
                 if (accumulate) value = to[r];
                 value -= sum[i][r];
@@ -123,10 +123,10 @@ LISSOM_INLINE void multiply_slice(const DenseProduct& p, const double* a, Index 
                                   bool accumulate) {
     using Vector = typename Tile::OneVector;
     Index i = 0;
-    for (; i + Tile::rows <= p.rows; i += Tile::rows) {
+    for (; i + Tile::kRows <= p.rows; i += Tile::kRows) {
         multiply_rows<Tile>(p, a + i, p.c + i, depth, accumulate);
     }
-    for (; i + Vector::rows <= p.rows; i += Vector::rows) {
+    for (; i + Vector::kRows <= p.rows; i += Vector::kRows) {
         multiply_rows<Vector>(p, a + i, p.c + i, depth, accumulate);
     }
     if (i + 4 <= p.rows) {
