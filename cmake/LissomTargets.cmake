@@ -22,6 +22,8 @@ function(lissom_target_defaults target)
         target_compile_options(
             ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
                               $<$<BOOL:${LISSOM_STRICT}>:-Werror>)
+        # Where no kind of build is chosen, a frame would take ten times as long.
+        target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O2>)
         # What nothing calls is left out of a small library.
         target_compile_options(${target} PRIVATE $<$<CONFIG:MinSizeRel>:-ffunction-sections>
                                                  $<$<CONFIG:MinSizeRel>:-fdata-sections>)
@@ -125,7 +127,7 @@ endfunction()
 # multiply-add: what a compiler fuses depends on its level and on what is compiled beside, so these are compiled alone
 # and always alike, and every release build gives the same numbers.
 function(lissom_hot_loops target)
-    set(fast $<OR:$<CONFIG:Release>,$<CONFIG:MinSizeRel>>)
+    set(fast $<OR:$<CONFIG:Release>,$<CONFIG:MinSizeRel>,$<CONFIG:>>)
     set(release $<AND:${fast},$<CXX_COMPILER_ID:GNU,Clang>>)
     if(LISSOM_UNITY STREQUAL "LARGE")
         target_compile_options(${target} PRIVATE $<${release}:-O2>)

@@ -80,9 +80,13 @@ std::vector<Index> read_integers(const lissom_input* input, const char* name) {
 
 void require_room(const lissom_output* output, std::size_t count, const char* name) {
     require_given(output, name);
-    if (output->count < count || (!output->data && count > 0)) {
+    if (!output->data && count > 0 && output->count > 0) {
+        throw Error(ErrorCode::out_of_range, std::string(name) + ": its data are NULL, for " +
+                                                 std::to_string(count) + " elements");
+    }
+    if (output->count < count) {
         throw Error(ErrorCode::out_of_range, std::string(name) + ": there is room for " +
-                                                 std::to_string(output->data ? output->count : 0) +
+                                                 std::to_string(output->count) +
                                                  " elements, needed are " + std::to_string(count));
     }
     if (output->stride != 0) {

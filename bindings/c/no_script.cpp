@@ -10,7 +10,8 @@ namespace {
 lissom_status refuse(lissom_context* context) {
     return run(context, [] {
         throw Error(ErrorCode::unsupported,
-                    "this library was built without Lua: it runs no scripts");
+                    "this library was built without Lua: it runs no scripts, and lissom_call calls "
+                    "nothing; configure it with LISSOM_LUA=ON");
     });
 }
 

@@ -57,7 +57,12 @@ HandlePose reflected(const RestShape& rest, const MirrorPlane& plane, const Hand
 }
 
 const Handle& handle_of(const Holds& holds, HandleId id) {
-    if (id.value < 0 || id.value >= count_of(holds.handles) || !holds.handles[id.value]) {
+    if (id.value < 0 || id.value >= count_of(holds.handles)) {
+        throw Error(ErrorCode::handle_removed, "there is no handle with the id " +
+                                                   std::to_string(id.value) +
+                                                   "; take what add_handle returns");
+    }
+    if (!holds.handles[id.value]) {
         throw Error(ErrorCode::handle_removed, "the handle was removed; add a new one");
     }
     return *holds.handles[id.value];

@@ -527,10 +527,12 @@ class LaneGrower {
     // Of strands in a tail: how long they become along its spine, the next of its planes, and their
     // places across it, in its radius.
     struct Tails {
-        Floats length{}, right{}, above{};
-        Ints plane{};
+        Floats length, right, above;
+        Ints plane;
     };
-    Tails tails_;
+    // Zeros from here: without optimisation gcc 12 does not compile such values of the members
+    // above.
+    Tails tails_{};
     // Of the next points: their cells, places in them, and whether they are in the grid.
     Ints cell_{}, inside_{};
     Floats3 place_{};
