@@ -1,6 +1,5 @@
-/// The loops behind DenseKernels; private to kernel/solve. They are compiled for each kind of
-/// processor, as kernel/core/lanes.h says. A `Tile` says how many rows are done at a time: so many
-/// `kVectors` of its type `Vector`, four or eight numbers each.
+/// The loops behind DenseKernels; private to kernel/solve. They are compiled twice, as
+/// kernel/core/lanes.h says.
 #pragma once
 
 #include <algorithm>
@@ -34,49 +33,34 @@ LISSOM_INLINE void pack_strips(const double* b, std::ptrdiff_t stride, Index col
     }
 }
 
-/// `Count` vectors for the rows of a tile, of four columns. `Numbers` holds their type, LanesOf or
-/// EightDoubles.
-template <typename Numbers, int Count>
-struct TileOf {
-    using Vector = typename Numbers::Type;
-    using OneVector = TileOf<Numbers, 1>;
-    static constexpr int kVectors = Count;
-    static constexpr Index kRows = Count * static_cast<Index>(sizeof(Vector) / sizeof(double));
-    using Sums = Vector[kTileColumns][Count];
-};
-/// One vector of four rows.
-using FourRows = TileOf<LanesOf<double>, 1>;
-
-/// Sums of products of a tile's rows of a and one strip of b.
-template <typename Tile>
+/// Sums of 4 Rows x 4 products of rows of a and one strip of b.
+template <int Rows>
 LISSOM_INLINE void sum_tile(const double* a, std::ptrdiff_t stride, const double* strip,
-                            Index depth, typename Tile::Sums& sum) {
-    using Vector = typename Tile::Vector;
+                            Index depth, Lanes<double> (&sum)[kTileColumns][Rows]) {
     for (auto& column : sum) {
-        for (auto& lanes : column) lanes = Vector{};
+        for (auto& lanes : column) lanes = Lanes<double>{};
     }
     for (Index k = 0; k < depth; ++k, a += stride, strip += kTileColumns) {
-        const auto* lanes = reinterpret_cast<const Vector*>(a);
+        const auto* lanes = reinterpret_cast<const Lanes<double>*>(a);
         for (int j = 0; j < kTileColumns; ++j) {
-            for (int r = 0; r < Tile::kVectors; ++r) sum[j][r] += strip[j] * lanes[r];
+            for (int r = 0; r < Rows; ++r) sum[j][r] += strip[j] * lanes[r];
         }
     }
 }
 
-/// All columns of c for a tile's rows of a.
-template <typename Tile>
+/// All columns of c for 4 Rows rows of a.
+template <int Rows>
 LISSOM_INLINE void multiply_rows(const DenseProduct& p, const double* a, double* c, Index depth,
                                  bool accumulate) {
-    using Vector = typename Tile::Vector;
-    typename Tile::Sums sum;
+    Lanes<double> sum[kTileColumns][Rows];
     for (Index j = 0; j < p.columns; j += kTileColumns) {
-        sum_tile<Tile>(a, p.stride, p.packed + j * depth, depth, sum);
+        sum_tile<Rows>(a, p.stride, p.packed + j * depth, depth, sum);
         const Index columns = std::min(kTileColumns, p.columns - j);
         for (Index i = 0; i < kTileColumns; ++i) {
             if (i >= columns) break;
-            auto* to = reinterpret_cast<Vector*>(c + (j + i) * p.c_stride);
-            for (int r = 0; r < Tile::kVectors; ++r) {
-                Vector value{};
+            auto* to = reinterpret_cast<Lanes<double>*>(c + (j + i) * p.c_stride);
+            for (int r = 0; r < Rows; ++r) {
+                Lanes<double> value{};
                 if (accumulate) value = to[r];
                 value -= sum[i][r];
                 to[r] = value;
@@ -88,10 +72,10 @@ LISSOM_INLINE void multiply_rows(const DenseProduct& p, const double* a, double*
 /// The last one to three rows: a tile that begins above them, of which only these are kept.
 LISSOM_INLINE void multiply_last_rows(const DenseProduct& p, const double* a, double* c, Index rows,
                                       Index depth, bool accumulate) {
-    FourRows::Sums sum;
+    Lanes<double> sum[kTileColumns][1];
     const Index skipped = 4 - rows;
     for (Index j = 0; j < p.columns; j += kTileColumns) {
-        sum_tile<FourRows>(a - skipped, p.stride, p.packed + j * depth, depth, sum);
+        sum_tile<1>(a - skipped, p.stride, p.packed + j * depth, depth, sum);
         const Index columns = std::min(kTileColumns, p.columns - j);
         for (Index i = 0; i < kTileColumns; ++i) {
             if (i >= columns) break;
@@ -117,22 +101,15 @@ LISSOM_INLINE void multiply_few_rows(const DenseProduct& p, const double* a, dou
     }
 }
 
-/// One slice of the depth, whose part of b is packed: tiles, then vectors, then four rows.
-template <typename Tile>
+/// One slice of the depth, whose part of b is packed. `Rows` tiles of four rows at a time.
+template <int Rows>
 LISSOM_INLINE void multiply_slice(const DenseProduct& p, const double* a, Index depth,
                                   bool accumulate) {
-    using Vector = typename Tile::OneVector;
     Index i = 0;
-    for (; i + Tile::kRows <= p.rows; i += Tile::kRows) {
-        multiply_rows<Tile>(p, a + i, p.c + i, depth, accumulate);
+    for (; i + 4 * Rows <= p.rows; i += 4 * Rows) {
+        multiply_rows<Rows>(p, a + i, p.c + i, depth, accumulate);
     }
-    for (; i + Vector::kRows <= p.rows; i += Vector::kRows) {
-        multiply_rows<Vector>(p, a + i, p.c + i, depth, accumulate);
-    }
-    if (i + 4 <= p.rows) {
-        multiply_rows<FourRows>(p, a + i, p.c + i, depth, accumulate);
-        i += 4;
-    }
+    for (; i + 4 <= p.rows; i += 4) multiply_rows<1>(p, a + i, p.c + i, depth, accumulate);
     if (i == p.rows) return;
     if (p.above + p.rows >= 4) {
         multiply_last_rows(p, a + i, p.c + i, p.rows - i, depth, accumulate);
@@ -141,22 +118,22 @@ LISSOM_INLINE void multiply_slice(const DenseProduct& p, const double* a, Index 
     }
 }
 
-template <typename Tile>
+template <int Rows>
 LISSOM_INLINE void multiply_dense(const DenseProduct& p) {
     const std::ptrdiff_t b_stride = p.b_stride != 0 ? p.b_stride : p.stride;
     for (Index k = 0; k < p.depth; k += kPackedDepth) {
         const Index depth = std::min(kPackedDepth, p.depth - k);
         pack_strips(p.b + k * b_stride, b_stride, p.columns, depth, p.packed);
-        multiply_slice<Tile>(p, p.a + k * p.stride, depth, p.accumulate || k > 0);
+        multiply_slice<Rows>(p, p.a + k * p.stride, depth, p.accumulate || k > 0);
     }
 }
 
 /// Subtracts from the columns [at, at + columns) of a panel what its earlier columns give.
-template <typename Tile>
+template <int Rows>
 LISSOM_INLINE void subtract_earlier(const DensePanel& p, Index at, Index columns, Index begin,
                                     Index end) {
     if (at == p.first || begin >= end) return;
-    multiply_dense<Tile>({p.entry(begin, p.first), p.entry(at, p.first), p.entry(begin, at),
+    multiply_dense<Rows>({p.entry(begin, p.first), p.entry(at, p.first), p.entry(begin, at),
                           p.stride, p.stride, end - begin, columns, at - p.first, begin, true,
                           p.packed});
 }
@@ -193,12 +170,12 @@ LISSOM_INLINE Index eliminate_tile(const DensePanel& p, Index at, Index columns)
     return kNoIndex;
 }
 
-template <typename Tile>
+template <int Rows>
 LISSOM_INLINE Index eliminate_dense(const DensePanel& p) {
     const Index end = p.first + p.columns;
     for (Index at = p.first; at < end; at += kTileColumns) {
         const Index columns = std::min(kTileColumns, end - at);
-        subtract_earlier<Tile>(p, at, columns, at, end);
+        subtract_earlier<Rows>(p, at, columns, at, end);
         const Index failed = eliminate_tile(p, at, columns);
         if (failed != kNoIndex) return failed;
         divide_rows(p, at, columns, at + columns, end);
@@ -206,12 +183,12 @@ LISSOM_INLINE Index eliminate_dense(const DensePanel& p) {
     return kNoIndex;
 }
 
-template <typename Tile>
+template <int Rows>
 LISSOM_INLINE void solve_rows_dense(const DensePanel& p, Index begin, Index end) {
     const Index last = p.first + p.columns;
     for (Index at = p.first; at < last; at += kTileColumns) {
         const Index columns = std::min(kTileColumns, last - at);
-        subtract_earlier<Tile>(p, at, columns, begin, end);
+        subtract_earlier<Rows>(p, at, columns, begin, end);
         divide_rows(p, at, columns, begin, end);
     }
 }
