@@ -1,12 +1,14 @@
 /// Vectors of four numbers, and code that is compiled twice where the compiler can choose at run
 /// time: for any processor and for those with AVX2. Loops are written once, as LISSOM_INLINE
-/// templates over Lanes, and called from one plain function and from one marked LISSOM_AVX2.
+/// templates over Lanes, and called from one plain function and from one marked LISSOM_AVX2; where
+/// eight numbers at a time are faster, from one marked LISSOM_AVX512 too.
 /// Compiled with LISSOM_PORTABLE, code runs on any processor only.
 #pragma once
 
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(LISSOM_PORTABLE)
 #define LISSOM_HAS_AVX2_PATH
 #define LISSOM_AVX2 __attribute__((target("avx2,fma")))
+#define LISSOM_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx2,fma")))
 #endif
 #if defined(__GNUC__)
 #define LISSOM_INLINE inline __attribute__((always_inline))
@@ -25,14 +27,26 @@ inline bool has_avx2() {
 #endif
 }
 
-// Declares NAME: four numbers, aligned as one. clang forgets the alignment of an alias declaration,
-// and gcc that of a typedef where it is const. NOLINTBEGIN(bugprone-macro-parentheses)
-#if defined(__clang__)
-#define LISSOM_FOUR(Real, NAME, bytes) \
-    typedef Real NAME __attribute__((vector_size(bytes), aligned(bytes / 4), may_alias))
+/// Whether this processor runs what LISSOM_AVX512 marks.
+inline bool has_avx512() {
+#ifdef LISSOM_HAS_AVX2_PATH
+    return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
 #else
-#define LISSOM_FOUR(Real, NAME, bytes) \
-    using NAME = Real __attribute__((vector_size(bytes), aligned(bytes / 4), may_alias))
+    return false;
+#endif
+}
+
+// Declares NAME: so many numbers, aligned as one. clang forgets the alignment of an alias
+// declaration, and gcc that of a typedef where it is const. NOLINTBEGIN(bugprone-macro-parentheses)
+#if defined(__clang__)
+#define LISSOM_NUMBERS(Real, NAME, count) \
+    typedef Real NAME                     \
+        __attribute__((vector_size(count * sizeof(Real)), aligned(sizeof(Real)), may_alias))
+#else
+#define LISSOM_NUMBERS(Real, NAME, count) \
+    using NAME =                          \
+        Real __attribute__((vector_size(count * sizeof(Real)), aligned(sizeof(Real)), may_alias))
 #endif  // NOLINTEND(bugprone-macro-parentheses)
 
 /// Four numbers.
@@ -41,11 +55,11 @@ template <typename Real>
 struct LanesOf;
 template <>
 struct LanesOf<double> {
-    LISSOM_FOUR(double, Type, 32);
+    LISSOM_NUMBERS(double, Type, 4);
 };
 template <>
 struct LanesOf<float> {
-    LISSOM_FOUR(float, Type, 16);
+    LISSOM_NUMBERS(float, Type, 4);
 };
 template <typename Real>
 using Lanes = typename LanesOf<Real>::Type;
@@ -67,6 +81,17 @@ struct Lanes {
     }
     Real& operator[](int c) { return v[c]; }
     const Real& operator[](int c) const { return v[c]; }
+};
+template <typename Real>
+struct LanesOf {
+    using Type = Lanes<Real>;
+};
+#endif
+
+#ifdef LISSOM_HAS_AVX2_PATH
+/// Eight numbers, for what LISSOM_AVX512 marks.
+struct EightDoubles {
+    LISSOM_NUMBERS(double, Type, 8);
 };
 #endif
 

@@ -4,20 +4,6 @@
 
 namespace lissom {
 
-namespace {
-
-// What growth_lanes.h names as target.
-bool has_avx512() {
-#ifdef LISSOM_HAS_AVX2_PATH
-    return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-#else
-    return false;
-#endif
-}
-
-}  // namespace
-
 GrowthLoop best_growth_loop() {
     if (has_avx512()) return GrowthLoop::avx512;
     return has_avx2() ? GrowthLoop::avx2 : GrowthLoop::anywhere;

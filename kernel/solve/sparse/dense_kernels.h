@@ -50,11 +50,13 @@ struct DenseKernels {
     void (*solve_rows)(const DensePanel&, Index begin, Index end);
 };
 
-enum class Processor { any, avx2 };
+/// Kinds of processors, each of which can do what those before it can. The results of the last two
+/// are equal to the bit.
+enum class Processor { any, avx2, avx512 };
 
-/// Processor::avx2 where this one can, Processor::any elsewhere.
+/// The last kind of Processor that this machine has.
 Processor best_processor();
-/// The kernels for `processor`, which must be one that this machine has.
+/// The kernels for `processor`, which must be a kind that this machine has.
 DenseKernels dense_kernels(Processor processor);
 
 }  // namespace lissom

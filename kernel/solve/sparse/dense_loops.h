@@ -1,10 +1,12 @@
-/// The loops behind DenseKernels; private to kernel/solve. They are compiled twice, as
-/// kernel/core/lanes.h says.
+/// The loops behind DenseKernels; private to kernel/solve. They are compiled for each kind of
+/// processor, as kernel/core/lanes.h says. A `Tile` says how many rows are done at a time: so many
+/// `kVectors` of its type `Vector`, four or eight numbers each.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 #include "kernel/core/index.h"
 #include "kernel/core/lanes.h"
@@ -22,8 +24,7 @@ LISSOM_INLINE void pack_strips(const double* b, std::ptrdiff_t stride, Index col
         const double* from = b + j;
         if (j + kTileColumns <= columns) {
             for (Index k = 0; k < depth; ++k, from += stride, packed += kTileColumns) {
-                *reinterpret_cast<Lanes<double>*>(packed) =
-                    *reinterpret_cast<const Lanes<double>*>(from);
+                std::memcpy(packed, from, sizeof(Lanes<double>));
             }
             continue;
         }
@@ -33,37 +34,57 @@ LISSOM_INLINE void pack_strips(const double* b, std::ptrdiff_t stride, Index col
     }
 }
 
-/// Sums of 4 Rows x 4 products of rows of a and one strip of b.
-template <int Rows>
+/// `Count` vectors for the rows of a tile, of four columns. `Numbers` holds their type, LanesOf or
+/// EightDoubles.
+template <typename Numbers, int Count>
+struct TileOf {
+    using Vector = typename Numbers::Type;
+    using OneVector = TileOf<Numbers, 1>;
+    static constexpr int kVectors = Count;
+    static constexpr Index kWidth = static_cast<Index>(sizeof(Vector) / sizeof(double));
+    static constexpr Index kRows = Count * kWidth;
+    using Sums = Vector[kTileColumns][Count];
+};
+/// One vector of four rows.
+using FourRows = TileOf<LanesOf<double>, 1>;
+
+/// Sums of products of a tile's rows of a and one strip of b. Vectors are copied from and to where
+/// numbers are: compilers forget that one may be unaligned where its type is a template's.
+template <typename Tile>
 LISSOM_INLINE void sum_tile(const double* a, std::ptrdiff_t stride, const double* strip,
-                            Index depth, Lanes<double> (&sum)[kTileColumns][Rows]) {
+                            Index depth, typename Tile::Sums& sum) {
+    using Vector = typename Tile::Vector;
     for (auto& column : sum) {
-        for (auto& lanes : column) lanes = Lanes<double>{};
+        for (auto& lanes : column) lanes = Vector{};
     }
     for (Index k = 0; k < depth; ++k, a += stride, strip += kTileColumns) {
-        const auto* lanes = reinterpret_cast<const Lanes<double>*>(a);
+        Vector lanes[Tile::kVectors];
+        for (int r = 0; r < Tile::kVectors; ++r) {
+            std::memcpy(&lanes[r], a + r * Tile::kWidth, sizeof(Vector));
+        }
         for (int j = 0; j < kTileColumns; ++j) {
-            for (int r = 0; r < Rows; ++r) sum[j][r] += strip[j] * lanes[r];
+            for (int r = 0; r < Tile::kVectors; ++r) sum[j][r] += strip[j] * lanes[r];
         }
     }
 }
 
-/// All columns of c for 4 Rows rows of a.
-template <int Rows>
+/// All columns of c for a tile's rows of a.
+template <typename Tile>
 LISSOM_INLINE void multiply_rows(const DenseProduct& p, const double* a, double* c, Index depth,
                                  bool accumulate) {
-    Lanes<double> sum[kTileColumns][Rows];
+    using Vector = typename Tile::Vector;
+    typename Tile::Sums sum;
     for (Index j = 0; j < p.columns; j += kTileColumns) {
-        sum_tile<Rows>(a, p.stride, p.packed + j * depth, depth, sum);
+        sum_tile<Tile>(a, p.stride, p.packed + j * depth, depth, sum);
         const Index columns = std::min(kTileColumns, p.columns - j);
         for (Index i = 0; i < kTileColumns; ++i) {
             if (i >= columns) break;
-            auto* to = reinterpret_cast<Lanes<double>*>(c + (j + i) * p.c_stride);
-            for (int r = 0; r < Rows; ++r) {
-                Lanes<double> value{};
-                if (accumulate) value = to[r];
+            double* to = c + (j + i) * p.c_stride;
+            for (int r = 0; r < Tile::kVectors; ++r, to += Tile::kWidth) {
+                Vector value{};
+                if (accumulate) std::memcpy(&value, to, sizeof value);
                 value -= sum[i][r];
-                to[r] = value;
+                std::memcpy(to, &value, sizeof value);
             }
         }
     }
@@ -72,10 +93,10 @@ LISSOM_INLINE void multiply_rows(const DenseProduct& p, const double* a, double*
 /// The last one to three rows: a tile that begins above them, of which only these are kept.
 LISSOM_INLINE void multiply_last_rows(const DenseProduct& p, const double* a, double* c, Index rows,
                                       Index depth, bool accumulate) {
-    Lanes<double> sum[kTileColumns][1];
+    FourRows::Sums sum;
     const Index skipped = 4 - rows;
     for (Index j = 0; j < p.columns; j += kTileColumns) {
-        sum_tile<1>(a - skipped, p.stride, p.packed + j * depth, depth, sum);
+        sum_tile<FourRows>(a - skipped, p.stride, p.packed + j * depth, depth, sum);
         const Index columns = std::min(kTileColumns, p.columns - j);
         for (Index i = 0; i < kTileColumns; ++i) {
             if (i >= columns) break;
@@ -101,15 +122,22 @@ LISSOM_INLINE void multiply_few_rows(const DenseProduct& p, const double* a, dou
     }
 }
 
-/// One slice of the depth, whose part of b is packed. `Rows` tiles of four rows at a time.
-template <int Rows>
+/// One slice of the depth, whose part of b is packed: tiles, then vectors, then four rows.
+template <typename Tile>
 LISSOM_INLINE void multiply_slice(const DenseProduct& p, const double* a, Index depth,
                                   bool accumulate) {
+    using Vector = typename Tile::OneVector;
     Index i = 0;
-    for (; i + 4 * Rows <= p.rows; i += 4 * Rows) {
-        multiply_rows<Rows>(p, a + i, p.c + i, depth, accumulate);
+    for (; i + Tile::kRows <= p.rows; i += Tile::kRows) {
+        multiply_rows<Tile>(p, a + i, p.c + i, depth, accumulate);
     }
-    for (; i + 4 <= p.rows; i += 4) multiply_rows<1>(p, a + i, p.c + i, depth, accumulate);
+    for (; i + Vector::kRows <= p.rows; i += Vector::kRows) {
+        multiply_rows<Vector>(p, a + i, p.c + i, depth, accumulate);
+    }
+    if (i + 4 <= p.rows) {
+        multiply_rows<FourRows>(p, a + i, p.c + i, depth, accumulate);
+        i += 4;
+    }
     if (i == p.rows) return;
     if (p.above + p.rows >= 4) {
         multiply_last_rows(p, a + i, p.c + i, p.rows - i, depth, accumulate);
@@ -118,22 +146,22 @@ LISSOM_INLINE void multiply_slice(const DenseProduct& p, const double* a, Index 
     }
 }
 
-template <int Rows>
+template <typename Tile>
 LISSOM_INLINE void multiply_dense(const DenseProduct& p) {
     const std::ptrdiff_t b_stride = p.b_stride != 0 ? p.b_stride : p.stride;
     for (Index k = 0; k < p.depth; k += kPackedDepth) {
         const Index depth = std::min(kPackedDepth, p.depth - k);
         pack_strips(p.b + k * b_stride, b_stride, p.columns, depth, p.packed);
-        multiply_slice<Rows>(p, p.a + k * p.stride, depth, p.accumulate || k > 0);
+        multiply_slice<Tile>(p, p.a + k * p.stride, depth, p.accumulate || k > 0);
     }
 }
 
 /// Subtracts from the columns [at, at + columns) of a panel what its earlier columns give.
-template <int Rows>
+template <typename Tile>
 LISSOM_INLINE void subtract_earlier(const DensePanel& p, Index at, Index columns, Index begin,
                                     Index end) {
     if (at == p.first || begin >= end) return;
-    multiply_dense<Rows>({p.entry(begin, p.first), p.entry(at, p.first), p.entry(begin, at),
+    multiply_dense<Tile>({p.entry(begin, p.first), p.entry(at, p.first), p.entry(begin, at),
                           p.stride, p.stride, end - begin, columns, at - p.first, begin, true,
                           p.packed});
 }
@@ -170,12 +198,12 @@ LISSOM_INLINE Index eliminate_tile(const DensePanel& p, Index at, Index columns)
     return kNoIndex;
 }
 
-template <int Rows>
+template <typename Tile>
 LISSOM_INLINE Index eliminate_dense(const DensePanel& p) {
     const Index end = p.first + p.columns;
     for (Index at = p.first; at < end; at += kTileColumns) {
         const Index columns = std::min(kTileColumns, end - at);
-        subtract_earlier<Rows>(p, at, columns, at, end);
+        subtract_earlier<Tile>(p, at, columns, at, end);
         const Index failed = eliminate_tile(p, at, columns);
         if (failed != kNoIndex) return failed;
         divide_rows(p, at, columns, at + columns, end);
@@ -183,12 +211,12 @@ LISSOM_INLINE Index eliminate_dense(const DensePanel& p) {
     return kNoIndex;
 }
 
-template <int Rows>
+template <typename Tile>
 LISSOM_INLINE void solve_rows_dense(const DensePanel& p, Index begin, Index end) {
     const Index last = p.first + p.columns;
     for (Index at = p.first; at < last; at += kTileColumns) {
         const Index columns = std::min(kTileColumns, last - at);
-        subtract_earlier<Rows>(p, at, columns, begin, end);
+        subtract_earlier<Tile>(p, at, columns, begin, end);
         divide_rows(p, at, columns, begin, end);
     }
 }

@@ -61,8 +61,11 @@ double greatest_difference(const std::vector<double>& a, const std::vector<doubl
 }
 
 std::vector<Processor> processors() {
-    if (best_processor() == Processor::any) return {Processor::any};
-    return {Processor::any, best_processor()};
+    std::vector<Processor> here;
+    for (const Processor p : {Processor::any, Processor::avx2, Processor::avx512}) {
+        if (p <= best_processor()) here.push_back(p);
+    }
+    return here;
 }
 
 }  // namespace
@@ -105,6 +108,18 @@ TEST_CASE("supernodal factor: the paths for two processors agree") {
         const Factored plain = supernodal_factored(a, Processor::any),
                        best = supernodal_factored(a, best_processor());
         CHECK(greatest_difference(plain.value, best.value) < 1e-12);
+    }
+}
+
+TEST_CASE("supernodal factor: four and eight numbers at a time give the same bits") {
+    if (best_processor() < Processor::avx512) {
+        MESSAGE("skipped: this processor has no AVX-512");
+        return;
+    }
+    for (const test::NamedMatrix& named : test::matrices()) {
+        CAPTURE(named.name);
+        CHECK(supernodal_factored(named.matrix, Processor::avx512).value ==
+              supernodal_factored(named.matrix, Processor::avx2).value);
     }
 }
 
