@@ -367,12 +367,17 @@ lissom_status lissom_context_create(const lissom_context_options* options,
                                     lissom_context** context) {
     if (!context) return LISSOM_INVALID_ARGUMENT;
     CallError error;
+    lissom_context_options taken{};
     error.guard([&] {
-        const auto taken = take_options(options, lissom_default_context_options());
+        taken = take_options(options, lissom_default_context_options());
         require(taken.threads >= 1, "threads must be 1 or more");
         require(!taken.enqueue == !taken.wait, "enqueue and wait belong together");
         *context = new lissom_context(taken);
     });
+    // There is no context that could keep the error.
+    if (error.status != LISSOM_OK && taken.log) {
+        taken.log(taken.user, LISSOM_WARNING, error.message.c_str());
+    }
     return error.status;
 }
 

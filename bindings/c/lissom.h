@@ -221,7 +221,7 @@ typedef struct lissom_context_options {
 LISSOM_API lissom_context_options lissom_default_context_options(void);
 /// Makes a context. `options` may be NULL. [any thread]
 /// Errors: BAD_STRUCT; INVALID_ARGUMENT for threads below 1, or `enqueue` without `wait`;
-/// MEMORY_LIMIT.
+/// MEMORY_LIMIT. What is wrong is told to `log`, as there is no context to ask.
 LISSOM_API lissom_status lissom_context_create(const lissom_context_options* options,
                                                lissom_context** context);
 /// Cancels jobs, waits for them, and frees the context with all its objects. NULL is allowed.

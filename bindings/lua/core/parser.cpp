@@ -254,17 +254,19 @@ bool Parser::is_option_table(const Parameter& p, int index) const {
 
 void Parser::read_options(int index, int given) {
     const bool takes_options = entry_.options_last > entry_.options_first;
+    const bool has_options = takes_options && index <= given && !lua_isnil(L_, index);
     const int argument = index - (entry_.type ? 1 : 0);
+    // What stands where the options belong says more than what follows it.
+    if (has_options && lua_type(L_, index) != LUA_TTABLE) {
+        refuse({argument, "", 0}, "table of options", push_description(L_, index, ""));
+    }
     for (int extra = takes_options ? index + 1 : index; extra <= given; ++extra) {
         if (lua_isnil(L_, extra)) continue;
         refuse({extra - (entry_.type ? 1 : 0), "", 0}, "no further argument",
                push_description(L_, extra, ""));
     }
     if (!takes_options) return;
-    if (index <= given && !lua_isnil(L_, index)) {
-        if (lua_type(L_, index) != LUA_TTABLE) {
-            refuse({argument, "", 0}, "table of options", push_description(L_, index, ""));
-        }
+    if (has_options) {
         read_table(index, entry_.options_first, entry_.options_last);
     } else {
         fill_defaults(entry_.options_first, entry_.options_last);

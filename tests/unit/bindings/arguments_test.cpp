@@ -263,6 +263,8 @@ TEST_CASE("arguments by position") {
           "test:1: bad argument #1 to 'load' (string expected, got no value)");
     CHECK(lua.run("lissom.load('a', 5)") ==
           "test:1: bad argument #2 to 'load' (table of options expected, got 5)");
+    CHECK(lua.run("lissom.load('a', 5, 6)") ==
+          "test:1: bad argument #2 to 'load' (table of options expected, got 5)");
     CHECK(lua.run("lissom.load('a', {}, 5)") ==
           "test:1: bad argument #3 to 'load' (no further argument expected, got 5)");
     CHECK(lua.run("lissom.shapes.box():subdivide{ scheme = 'loop' }") == "");

@@ -71,6 +71,21 @@ TEST_CASE("a struct of options that was only cleared is refused") {
     lissom_context_destroy(context);
 }
 
+TEST_CASE("the log is told why there is no context") {
+    std::string told;
+    auto options = lissom_default_context_options();
+    options.user = &told;
+    options.log = [](void* user, lissom_log_level level, const char* message) {
+        CHECK(level == LISSOM_WARNING);
+        *static_cast<std::string*>(user) += message;
+    };
+    options.threads = 0;
+    lissom_context* context = nullptr;
+    CHECK(lissom_context_create(&options, &context) == LISSOM_INVALID_ARGUMENT);
+    CHECK(told == "threads must be 1 or more");
+    CHECK(context == nullptr);
+}
+
 TEST_CASE("options of a later header are taken where they ask for nothing new") {
     const Host host;
     struct Later {
