@@ -1,21 +1,26 @@
 # Functions that declare this project's libraries and tests, so that every target gets the same
 # language level, include root and warnings.
 
-# lissom_user_includes(TARGET): who links TARGET may include <lissom/...>. This project's own code does not: it names
-# headers by their place, private ones too.
-function(lissom_user_includes target)
-    set(foreign $<NOT:$<BOOL:$<TARGET_PROPERTY:LISSOM_OWN>>>)
-    target_include_directories(${target}
-                               INTERFACE $<BUILD_INTERFACE:$<${foreign}:${PROJECT_BINARY_DIR}/include>>)
+# lissom_includes(TARGET): who links TARGET may include <lissom/...>. This project's own code does not: it names
+# headers by their place, private ones too, which only it sees where a project is around it.
+function(lissom_includes target)
+    set(own $<BOOL:$<TARGET_PROPERTY:LISSOM_OWN>>)
+    set(root ${PROJECT_SOURCE_DIR})
+    if(NOT PROJECT_IS_TOP_LEVEL)
+        set(root $<${own}:${root}>)
+    endif()
+    target_include_directories(
+        ${target} INTERFACE $<BUILD_INTERFACE:${root}> $<BUILD_INTERFACE:$<$<NOT:${own}>:${PROJECT_BINARY_DIR}/include>>
+                            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()
 
 # lissom_target_defaults(TARGET): what every target of this project is compiled with.
 function(lissom_target_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON LISSOM_OWN ON)
-    target_include_directories(
-        ${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-    lissom_user_includes(${target})
+    # Before what a project around this one includes, where there may be a folder of the same name.
+    target_include_directories(${target} BEFORE PRIVATE ${PROJECT_SOURCE_DIR})
+    lissom_includes(${target})
     if(MSVC)
         target_compile_options(${target} PRIVATE /W4)
     else()
