@@ -555,8 +555,9 @@ LISSOM_API lissom_status lissom_deformer_create(lissom_context* context, lissom_
                                                 const lissom_deformer_options* options,
                                                 lissom_deformer* deformer);
 /// Adds a handle: what moves as one. It stands still until lissom_deformer_set_transform; one that
-/// is never moved holds its place. `handle` numbers the handles of this deformer. Errors:
-/// REGION_EMPTY; HANDLE_OUTSIDE_REGION; HANDLE_OVERLAP, naming the vertices.
+/// is never moved holds its place. `handle` numbers the handles of this deformer from 0; messages
+/// count them from 1. Errors: REGION_EMPTY; HANDLE_OUTSIDE_REGION; HANDLE_OVERLAP, naming the
+/// vertices.
 LISSOM_API lissom_status lissom_deformer_add_handle(lissom_context* context,
                                                     lissom_deformer deformer,
                                                     lissom_region vertices,
