@@ -2,9 +2,11 @@
 // frames. It loads a script as a tool, lets the library work as jobs between its frames, drags
 // handles through the basis in a vertex shader, and draws strands.
 //
-//     engine examples/engine                         # a window: drag the cactus by its tip or arm;
-//     Escape ends engine examples/engine --picture engine.png    # without a window, a drag of 60
-//     frames
+// clang-format off
+//     engine examples/engine                         # a window: drag the cactus; Escape ends it
+//     engine examples/engine --last last.png         # and its last frame is saved
+//     engine examples/engine --picture engine.png    # without a window: sixty frames of a drag
+// clang-format on
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -209,39 +211,45 @@ void main() {
 
 // ---- Frames
 
-// A drag by a hand: the handle nearest to where it pressed goes where it goes.
+// What a hand has done to the handles: each goes on from where it was left.
 class Drag {
   public:
-    lissom_transform map = lissom_identity();
     std::optional<std::uint32_t> handle;
 
+    const lissom_transform& map() const { return maps_[*handle]; }
+
+    // The handle nearest to where the hand pressed goes where it goes.
     void follow(const Hand& hand, const lissom_basis& basis, const Matrix& to_clip) {
         if (!hand.is_down) handle.reset();
         if (!hand.is_down) return;
         if (!handle) grip(hand, basis, to_clip);
-        map.m[3] = (hand.x - pressed_.x) / double(to_clip[0]);
-        map.m[7] = (hand.y - pressed_.y) / double(to_clip[5]);
+        lissom_transform& map = maps_[*handle];
+        map.m[3] = before_.m[3] + (hand.x - pressed_.x) / double(to_clip[0]);
+        map.m[7] = before_.m[7] + (hand.y - pressed_.y) / double(to_clip[5]);
     }
 
   private:
     void grip(const Hand& hand, const lissom_basis& basis, const Matrix& to_clip) {
+        maps_.resize(basis.handle_count, lissom_identity());
         double nearest = 1e9;
         for (std::uint32_t h = 0; h < basis.handle_count; ++h) {
             const float* center = basis.handles[h].center;
-            const double x =
-                double(to_clip[0] * center[0] + to_clip[8] * center[2] + to_clip[12]) - hand.x;
-            const double y = double(to_clip[1] * center[0] + to_clip[5] * center[1] +
-                                    to_clip[9] * center[2] + to_clip[13]) -
-                             hand.y;
+            const double px = center[0] + maps_[h].m[3], py = center[1] + maps_[h].m[7],
+                         pz = center[2];
+            const double x = to_clip[0] * px + to_clip[8] * pz + double(to_clip[12]) - hand.x;
+            const double y =
+                to_clip[1] * px + to_clip[5] * py + to_clip[9] * pz + double(to_clip[13]) - hand.y;
             if (x * x + y * y >= nearest) continue;
             nearest = x * x + y * y;
             handle = h;
         }
         pressed_ = hand;
-        map = lissom_identity();
+        before_ = maps_[*handle];
     }
 
+    std::vector<lissom_transform> maps_;
     Hand pressed_;
+    lissom_transform before_ = lissom_identity();
 };
 
 // Where the tip is in a picture without a hand: turned by `angle` about the middle of the trunk.
@@ -284,15 +292,22 @@ struct World {
     Surface ground;
 };
 
-void play(World& world, Screen& screen) {
+// Draws until the window is closed; whether the last frame could be saved, where that is asked for.
+bool play(World& world, Screen& screen, const std::string& last) {
     Drag drag;
+    bool was_ready = false;
     for (Hand hand; !hand.has_closed; hand = screen.hand()) {
         world.take_up();
         if (world.cactus.is_ready()) drag.follow(hand, world.cactus.basis(), world.cactus_view());
-        if (drag.handle) world.cactus.place(*drag.handle, drag.map);
+        if (drag.handle) world.cactus.place(*drag.handle, drag.map());
         world.draw();
         screen.show();
+        if (world.is_ready() && !was_ready) std::puts("ready");
+        was_ready = world.is_ready();
+        std::fflush(stdout);
     }
+    world.draw();
+    return last.empty() || save_picture(last);
 }
 
 // Sixty frames of a drag once all is there; whether the last one is what the library says.
@@ -319,8 +334,9 @@ bool draw_picture(World& world, Screen& screen, const std::string& path) {
     return save_picture(path) && difference < 1e-5;
 }
 
-int run(const std::string& folder, const std::string& picture) {
-    const std::unique_ptr<Screen> screen = picture.empty() ? open_window() : open_memory();
+int run(const std::string& folder, const std::string& mode, const std::string& file) {
+    const bool has_window = mode != "--picture";
+    const std::unique_ptr<Screen> screen = has_window ? open_window() : open_memory();
     if (!screen) {
         std::puts("no OpenGL 3.3 here");
         return 77;
@@ -331,11 +347,7 @@ int run(const std::string& folder, const std::string& picture) {
     {
         const api::Context context(options_for(host));
         World world(context, host.files, run_tool(context, host.files));
-        if (picture.empty()) {
-            play(world, *screen);
-        } else {
-            good = draw_picture(world, *screen, picture);
-        }
+        good = has_window ? play(world, *screen, file) : draw_picture(world, *screen, file);
     }
     for (const std::string& line : host.log) std::printf("log: %s\n", line.c_str());
     std::printf("%zu tasks of the job system\n", host.jobs.count());
@@ -346,12 +358,13 @@ int run(const std::string& folder, const std::string& picture) {
 }  // namespace engine
 
 int main(int count, char** arguments) {
-    if (count != 2 && !(count == 4 && std::strcmp(arguments[2], "--picture") == 0)) {
-        std::fputs("usage: engine FOLDER [--picture FILE.png]\n", stderr);
+    const std::string mode = count == 4 ? arguments[2] : "";
+    if (count != 2 && mode != "--picture" && mode != "--last") {
+        std::fputs("usage: engine FOLDER [--picture FILE.png | --last FILE.png]\n", stderr);
         return 2;
     }
     try {
-        return engine::run(arguments[1], count == 4 ? arguments[3] : "");
+        return engine::run(arguments[1], mode, count == 4 ? arguments[3] : "");
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;

@@ -17,7 +17,11 @@ namespace {
 
 class Window : public Screen {
   public:
-    explicit Window(GLFWwindow* window) : window_(window) { glfwMakeContextCurrent(window_); }
+    explicit Window(GLFWwindow* window) : window_(window) {
+        glfwMakeContextCurrent(window_);
+        // A frame of the screen each.
+        glfwSwapInterval(1);
+    }
     ~Window() override { glfwTerminate(); }
     void show() override {
         glfwSwapBuffers(window_);
@@ -31,7 +35,8 @@ class Window : public Screen {
         hand.x = 2.0 * hand.x / width - 1.0;
         hand.y = 1.0 - 2.0 * hand.y / height;
         hand.is_down = glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
-        hand.has_closed = glfwWindowShouldClose(window_) != 0;
+        hand.has_closed = glfwWindowShouldClose(window_) != 0 ||
+                          glfwGetKey(window_, GLFW_KEY_ESCAPE) == GLFW_PRESS;
         return hand;
     }
 
@@ -95,8 +100,12 @@ std::unique_ptr<Screen> open_window() {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_RESIZABLE, GLFW_FALSE);
     GLFWwindow* window = glfwCreateWindow(kWidth, kHeight, "engine", nullptr, nullptr);
-    if (!window) return nullptr;
+    if (!window) {
+        glfwTerminate();
+        return nullptr;
+    }
     return std::make_unique<Window>(window);
 }
 
