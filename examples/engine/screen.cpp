@@ -19,8 +19,9 @@ class Window : public Screen {
   public:
     explicit Window(GLFWwindow* window) : window_(window) {
         glfwMakeContextCurrent(window_);
-        // A frame of the screen each.
+        // A frame of the screen each. A key that was pressed between two of them counts.
         glfwSwapInterval(1);
+        glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE);
     }
     ~Window() override { glfwTerminate(); }
     void show() override {
