@@ -32,6 +32,18 @@ step() {
     ci_table+=$(printf '%-16s %6s %8s %8s %8s' "$name" "$used" "$allowed" "$passed" "$failed")$'\n'
 }
 
+# step_until LAST NAME SECONDS COMMAND... : a step that is left out, and says so, where it would begin after LAST.
+step_until() {
+    local last=$1
+    shift
+    if [ $SECONDS -le "$last" ]; then
+        step "$@"
+        return
+    fi
+    printf -- '-- %s is left out: %s s are over\n' "$1" $SECONDS
+    ci_table+=$(printf '%-16s %6s %8s %8s %8s' "$1" - "$2" - -)$'\n'
+}
+
 # finish SECONDS : prints the budget table and the last line; the exit status says whether all passed.
 finish() {
     local used=$SECONDS allowed=$1
