@@ -29,9 +29,8 @@ bool all_finite(std::span<const float> numbers) {
 ByteSource::ByteSource(const std::filesystem::path& path) : from_file_(true) {
     require_file(path);
     file_.open(path, std::ios::binary);
-    std::error_code error;
-    size_ = static_cast<std::size_t>(std::filesystem::file_size(path, error));
-    if (!file_ || error) refuse(ErrorCode::file_unreadable, "cannot be read");
+    size_ = addressable_size(path);
+    if (!file_) refuse(ErrorCode::file_unreadable, "cannot be read");
 }
 
 void ByteSource::read_bytes(void* to, std::size_t count) {

@@ -23,7 +23,7 @@ namespace lissom {
 class ByteSource {
   public:
     explicit ByteSource(std::string_view bytes) : bytes_(bytes), size_(bytes.size()) {}
-    /// Errors: as `require_file`.
+    /// Errors: as `require_file` and `addressable_size`.
     explicit ByteSource(const std::filesystem::path& path);
 
     /// What is being read, for the error of data that end too early.

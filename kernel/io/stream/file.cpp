@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <random>
@@ -12,12 +13,12 @@
 #include "kernel/core/error.h"
 #include "kernel/core/nearest.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #ifdef _WIN32
 #include <io.h>
 #else
-#include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -44,7 +45,10 @@ std::error_code last_error() {
 
 std::FILE* open_new(const fs::path& path) {
 #ifdef _WIN32
-    return _wfopen(path.c_str(), L"wbx");
+    // The older C library there does not know the mode "x".
+    const int descriptor =
+        _wopen(path.c_str(), _O_CREAT | _O_EXCL | _O_WRONLY | _O_BINARY, _S_IREAD | _S_IWRITE);
+    return descriptor < 0 ? nullptr : _fdopen(descriptor, "wb");
 #else
     return std::fopen(path.c_str(), "wbx");
 #endif
@@ -224,11 +228,11 @@ class TemporaryFile {
     bool replaced_ = false;
 };
 
-std::size_t size_of_file(const fs::path& path) {
+std::uintmax_t size_of_file(const fs::path& path) {
     std::error_code error;
     const auto size = fs::file_size(path, error);
     if (error) refuse(ErrorCode::file_unreadable, path, "cannot be read: " + error.message());
-    return static_cast<std::size_t>(size);
+    return size;
 }
 
 // The file that `path` stands for once symbolic links are followed; it need not exist.
@@ -370,6 +374,16 @@ void make_folder(const fs::path& path) {
                (error ? error : std::make_error_code(std::errc::file_exists)).message());
 }
 
+std::size_t addressable_size(const fs::path& path) {
+    const std::uintmax_t size = size_of_file(path);
+    if (size > std::string().max_size()) {
+        refuse(ErrorCode::file_too_large, path,
+               "has " + std::to_string(size) +
+                   " bytes, more than a program of 32 bits can address; use one of 64 bits");
+    }
+    return static_cast<std::size_t>(size);
+}
+
 FileContent read_file(const fs::path& path, const Context& context) {
     require_file(path, context);
     if (context.files().read) return read_by_host(path, context);
@@ -378,7 +392,7 @@ FileContent read_file(const fs::path& path, const Context& context) {
         refuse(ErrorCode::file_unreadable, path, "cannot be read: " + last_error().message());
     }
 
-    const std::size_t size = size_of_file(path);
+    const std::size_t size = addressable_size(path);
     FileContent content;
     content.charge = context.charge(size, "reading " + display_name(path));
     content.bytes.resize(size);

@@ -27,9 +27,12 @@ std::string missing_file_text(const std::filesystem::path& path);
 /// Errors: file_not_found, file_is_directory, file_empty, file_unreadable.
 void require_file(const std::filesystem::path& path, const Context& context = {});
 
+/// Bytes of a file. Errors: file_unreadable; file_too_large where no memory can hold as many.
+std::size_t addressable_size(const std::filesystem::path& path);
+
 /// Reads a file into memory, which is charged to the context first.
-/// Errors: as `require_file`, file_not_found also where the host's table has none; memory_limit;
-/// cancelled.
+/// Errors: as `require_file` and `addressable_size`, file_not_found also where the host's table has
+/// none; memory_limit; cancelled.
 FileContent read_file(const std::filesystem::path& path, const Context& context = {});
 
 /// Throws where no file can be made at `path` because its folder is missing: before long work whose

@@ -54,13 +54,15 @@ TEST_CASE("paths that leave the folder are refused") {
     const TemporaryFolder folder;
     fs::create_directories(folder / "inside");
     write_bytes(folder / "secret.bin", square_at("").bytes);
-    fs::create_symlink(folder / "secret.bin", folder / "inside/link.bin");
     const std::string absolute = (folder / "secret.bin").string();
-    for (const std::string& uri :
-         {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"),
-          std::string("..%2Fsecret.bin"), std::string("x/../../secret.bin"),
-          std::string("..\\secret.bin"), std::string("C:\\secret.bin"), std::string("c:secret.bin"),
-          std::string("link.bin"), "file://" + absolute, absolute}) {
+    std::vector<std::string> uris{"../secret.bin",      "%2e%2e/secret.bin",  "..%2Fsecret.bin",
+                                  "x/../../secret.bin", "..\\secret.bin",     "C:\\secret.bin",
+                                  "c:secret.bin",       "file://" + absolute, absolute};
+#ifndef _WIN32
+    fs::create_symlink(folder / "secret.bin", folder / "inside/link.bin");
+    uris.push_back("link.bin");
+#endif
+    for (const std::string& uri : uris) {
         CAPTURE(uri);
         write_bytes(folder / "inside/file.gltf", square_at(uri).text());
         CHECK(error_of([&] { load_mesh(folder / "inside/file.gltf"); }).code() ==

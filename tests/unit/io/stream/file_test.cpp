@@ -141,8 +141,10 @@ TEST_CASE("a file that exists keeps its permissions") {
         fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read;
     write_bytes(folder / "file", "old");
     fs::permissions(folder / "file", permissions);
+    // Windows has but one of them.
+    const fs::perms before = fs::status(folder / "file").permissions();
     write_file_atomically(folder / "file", "new");
-    CHECK(fs::status(folder / "file").permissions() == permissions);
+    CHECK(fs::status(folder / "file").permissions() == before);
 }
 
 TEST_CASE("a read-only file is not replaced") {
@@ -152,6 +154,8 @@ TEST_CASE("a read-only file is not replaced") {
     CHECK(error_of([&] { write_file_atomically(folder / "file", "new"); }).code() ==
           ErrorCode::file_write_failed);
     CHECK(read_bytes(folder / "file") == "old");
+    // Windows removes no such file.
+    fs::permissions(folder / "file", fs::perms::owner_write, fs::perm_options::add);
 }
 
 TEST_CASE("a path with a zero byte is refused and names no other file") {
