@@ -1,11 +1,19 @@
 #include "kernel/solve/grid/grid_size.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
 #include "kernel/core/error.h"
 
 namespace lissom {
+namespace {
+
+// Of larger grids the bytes could not be counted where addresses have 32 bits.
+constexpr Index kMostPoints =
+    sizeof(std::size_t) < sizeof(std::int64_t) ? kMostGridPoints / 16 : kMostGridPoints;
+
+}  // namespace
 
 void require_valid(const GridSize& size) {
     const std::string name = "a grid of " + std::to_string(size.nx) + " x " +
@@ -17,9 +25,9 @@ void require_valid(const GridSize& size) {
                                                          std::to_string(kLongestAxis) + " points");
         }
     }
-    if (std::int64_t{size.nx} * size.ny * size.nz > kMostGridPoints) {
+    if (std::int64_t{size.nx} * size.ny * size.nz > kMostPoints) {
         throw Error(ErrorCode::invalid_argument,
-                    name + "is too large; use at most " + std::to_string(kMostGridPoints));
+                    name + "is too large; use at most " + std::to_string(kMostPoints));
     }
 }
 

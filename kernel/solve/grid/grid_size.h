@@ -31,7 +31,7 @@ inline constexpr Index kLongestAxis = 2048;
 inline constexpr Index kMostGridPoints = Index{1} << 28;
 
 /// Errors: invalid_argument where an axis has no point or more than kLongestAxis, or the grid more
-/// than kMostGridPoints.
+/// than kMostGridPoints, or where addresses have 32 bits a sixteenth of them.
 void require_valid(const GridSize& size);
 
 }  // namespace lissom

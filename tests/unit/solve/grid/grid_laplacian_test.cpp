@@ -49,4 +49,10 @@ TEST_CASE("grid size: axes without points and grids beyond the limit are refused
         CHECK(test::error_of([&] { require_valid(size); }).code() == ErrorCode::invalid_argument);
     }
     CHECK_NOTHROW(require_valid({2048, 1, 1}));
+    CHECK_NOTHROW(require_valid({256, 256, 256}));
+    if (sizeof(std::size_t) < 8) {
+        CHECK_THROWS_AS(require_valid({256, 256, 257}), Error);
+    } else {
+        CHECK_NOTHROW(require_valid({1024, 1024, 256}));
+    }
 }
