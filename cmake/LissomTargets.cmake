@@ -29,6 +29,10 @@ function(lissom_target_defaults target)
                               $<$<BOOL:${LISSOM_STRICT}>:-Werror>)
         # Where no kind of build is chosen, a frame would take ten times as long.
         target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O2>)
+        # Code for any processor: gcc does not align vectors of 32 bytes on the stack of Windows (gcc bug 54412).
+        if(WIN32 AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+            target_compile_definitions(${target} PRIVATE LISSOM_PORTABLE)
+        endif()
         # What nothing calls is left out of a small library.
         target_compile_options(${target} PRIVATE $<$<CONFIG:MinSizeRel>:-ffunction-sections>
                                                  $<$<CONFIG:MinSizeRel>:-fdata-sections>)
