@@ -82,16 +82,21 @@ struct Lanes {
     Real& operator[](int c) { return v[c]; }
     const Real& operator[](int c) const { return v[c]; }
 };
-template <typename Real>
-struct LanesOf {
-    using Type = Lanes<Real>;
-};
 #endif
 
-#ifdef LISSOM_HAS_AVX2_PATH
-/// Eight numbers, for what LISSOM_AVX512 marks.
+/// Holders of numbers side by side for templates, which lose what an alias says of alignment:
+/// theirs is that of the whole, so they are copied from and to where numbers are. Eight are for
+/// what LISSOM_AVX512 marks.
+#if defined(__GNUC__)
+struct FourDoubles {
+    using Type = double __attribute__((vector_size(4 * sizeof(double))));
+};
 struct EightDoubles {
-    LISSOM_NUMBERS(double, Type, 8);
+    using Type = double __attribute__((vector_size(8 * sizeof(double))));
+};
+#else
+struct FourDoubles {
+    using Type = Lanes<double>;
 };
 #endif
 

@@ -6,7 +6,7 @@ namespace lissom {
 namespace {
 
 // Accumulators of four columns fit into the registers: 16 of two numbers, or 16 of four.
-using TileAnywhere = TileOf<LanesOf<double>, 1>;
+using TileAnywhere = TileOf<FourDoubles, 1>;
 
 void multiply_anywhere(const DenseProduct& product) {
     multiply_dense<TileAnywhere>(product);
@@ -21,7 +21,7 @@ void solve_rows_anywhere(const DensePanel& panel, Index begin, Index end) {
 }
 
 #ifdef LISSOM_HAS_AVX2_PATH
-using TileWithAvx2 = TileOf<LanesOf<double>, 3>;
+using TileWithAvx2 = TileOf<FourDoubles, 3>;
 
 LISSOM_AVX2 void multiply_with_avx2(const DenseProduct& product) {
     multiply_dense<TileWithAvx2>(product);

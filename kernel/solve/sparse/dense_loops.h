@@ -24,7 +24,7 @@ LISSOM_INLINE void pack_strips(const double* b, std::ptrdiff_t stride, Index col
         const double* from = b + j;
         if (j + kTileColumns <= columns) {
             for (Index k = 0; k < depth; ++k, from += stride, packed += kTileColumns) {
-                std::memcpy(packed, from, sizeof(Lanes<double>));
+                std::memcpy(packed, from, kTileColumns * sizeof(double));
             }
             continue;
         }
@@ -34,8 +34,8 @@ LISSOM_INLINE void pack_strips(const double* b, std::ptrdiff_t stride, Index col
     }
 }
 
-/// `Count` vectors for the rows of a tile, of four columns. `Numbers` holds their type, LanesOf or
-/// EightDoubles.
+/// `Count` vectors for the rows of a tile, of four columns. `Numbers` holds their type, FourDoubles
+/// or EightDoubles.
 template <typename Numbers, int Count>
 struct TileOf {
     using Vector = typename Numbers::Type;
@@ -46,10 +46,9 @@ struct TileOf {
     using Sums = Vector[kTileColumns][Count];
 };
 /// One vector of four rows.
-using FourRows = TileOf<LanesOf<double>, 1>;
+using FourRows = TileOf<FourDoubles, 1>;
 
-/// Sums of products of a tile's rows of a and one strip of b. Vectors are copied from and to where
-/// numbers are: compilers forget that one may be unaligned where its type is a template's.
+/// Sums of products of a tile's rows of a and one strip of b.
 template <typename Tile>
 LISSOM_INLINE void sum_tile(const double* a, std::ptrdiff_t stride, const double* strip,
                             Index depth, typename Tile::Sums& sum) {
