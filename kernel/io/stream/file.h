@@ -2,6 +2,7 @@
 /// a table of files (Context::files), that is asked instead of the system.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
