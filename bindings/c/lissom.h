@@ -45,6 +45,7 @@
 /// MIT license, as all of Lissom.
 #pragma once
 
+// NOLINTBEGIN(readability-identifier-naming, modernize-deprecated-headers): this is C.
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -941,3 +942,4 @@ LISSOM_API lissom_status lissom_call(lissom_context* context, const char* name,
 #ifdef __cplusplus
 }
 #endif
+// NOLINTEND(readability-identifier-naming, modernize-deprecated-headers)

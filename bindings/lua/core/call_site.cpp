@@ -142,7 +142,9 @@ class DumpReader {
         if (!valid_ || !list) return;
         std::size_t next = 0;
         for (std::size_t i = 0; i < count && i < list->size(); ++i) {
-            const int step = static_cast<signed char>(bytes_[differences + i]);
+            // A byte with a sign.
+            const int byte = static_cast<unsigned char>(bytes_[differences + i]);
+            const int step = byte < 128 ? byte : byte - 256;
             if (step != kMark) {
                 line += step;
             } else if (next < full.size()) {

@@ -195,7 +195,7 @@ std::vector<Parameter> own_ponytail_fields() {
             .thesis("4.6", "0")};
 }
 
-std::vector<Parameter> joined(std::vector<std::vector<Parameter>> lists) {
+std::vector<Parameter> joined(const std::vector<std::vector<Parameter>>& lists) {
     std::vector<Parameter> all;
     for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
     return all;
