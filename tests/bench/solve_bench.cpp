@@ -102,9 +102,9 @@ constexpr const char* kSolveBound =
     "reading the factor, twice in double precision; drags read one in single precision, by three "
     "right-hand sides at once";
 constexpr const char* kFactorBound =
-    "products of blocks 43 %, zeros in fresh memory 19, adding results to other blocks 17, rows "
-    "below the diagonal 10, entries of the matrix 6; above the subtrees block follows block, each "
-    "shared by rows";
+    "products of blocks 37 %, adding their results to other blocks 21, zeros in fresh memory 18, "
+    "rows below the diagonal 10, entries of the matrix 8; above the subtrees block follows block, "
+    "each shared by rows";
 constexpr const char* kAnalysisBound =
     "the order by minimum degree 58 %, the elimination tree 21, supernodes 12, the plan of the "
     "factor 8; CHOLMOD's makes no plan";
