@@ -75,11 +75,21 @@ void append_chunk(std::string& bytes, std::uint32_t type, const std::string& dat
     bytes.append(padded(data.size()) - data.size(), padding);
 }
 
+// After the byte-order mark that some programs write.
+bool begins_as_json(std::string_view bytes) {
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    if (bytes.starts_with(kMark)) bytes.remove_prefix(kMark.size());
+    const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+    return first != std::string_view::npos && (bytes[first] == '{' || bytes[first] == '[');
+}
+
 }  // namespace
 
 GltfContainer open_gltf_container(std::string_view bytes) {
     if (bytes.starts_with(kGltfMagic)) return open_glb(bytes);
-    return {bytes, std::nullopt};
+    if (begins_as_json(bytes)) return {bytes, std::nullopt};
+    refuse(ErrorCode::file_syntax,
+           "this is no glTF file: it begins neither with 'glTF', as a GLB does, nor with '{'");
 }
 
 void require_shallow(std::string_view json) {

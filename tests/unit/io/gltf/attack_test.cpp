@@ -246,6 +246,16 @@ TEST_CASE("JSON that would exhaust the stack is refused") {
           }).code() == ErrorCode::file_syntax);
 }
 
+TEST_CASE("what is no glTF file is told as that, and no error of JSON") {
+    for (const char* bytes : {"\x7f\x45LF", "glT", "solid cube", " "}) {
+        const Error error = error_of([&] { decode_mesh(bytes, "glb"); });
+        CHECK(error.code() == ErrorCode::file_syntax);
+        CHECK(std::string(error.what()).find("no glTF file") != std::string::npos);
+    }
+    const std::string json = R"({"asset":{"version":"2.0"}})";
+    CHECK(decode_mesh("\xEF\xBB\xBF\n" + json, "gltf").vertex_count() == 0);
+}
+
 TEST_CASE("binary files that end early, or have too much") {
     const std::string json = R"({"asset":{"version":"2.0"}}  )";
     const std::string good = glb_of(json.substr(0, 28), "abcd");
