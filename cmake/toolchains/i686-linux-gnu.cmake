@@ -11,6 +11,8 @@ execute_process(COMMAND ${loader} --version RESULT_VARIABLE status OUTPUT_QUIET 
 if(status EQUAL 0)
     set(CMAKE_CROSSCOMPILING_EMULATOR ${loader} --library-path /usr/i686-linux-gnu/lib)
 else()
-    set(CMAKE_CROSSCOMPILING_EMULATOR qemu-i386 -L /usr/i686-linux-gnu)
+    # The machine's own 32-bit libraries, which the loader's list names, are of another version.
+    set(CMAKE_CROSSCOMPILING_EMULATOR qemu-i386 -L /usr/i686-linux-gnu -E
+                                      LD_LIBRARY_PATH=/usr/i686-linux-gnu/lib)
 endif()
 include(${CMAKE_CURRENT_LIST_DIR}/foreign.cmake)

@@ -33,13 +33,14 @@ AnimationInfo info_of(const Json& animation, const std::vector<KeptAccessor>& ac
     for (const Json& sampler : *samplers) {
         const Json* input = member(sampler, "input");
         if (!input || !input->is_number_unsigned()) continue;
-        const auto number = input->get<std::size_t>();
+        const auto number = input->get<std::uint64_t>();
         if (number >= accessors.size()) continue;
-        const Json* count = member(accessors[number].json, "count");
+        const Json* count = member(accessors[static_cast<std::size_t>(number)].json, "count");
         if (count && count->is_number_unsigned()) {
             info.frames = std::max(info.frames, count->get<std::size_t>());
         }
-        info.seconds = std::max(info.seconds, last_time(accessors[number]));
+        info.seconds =
+            std::max(info.seconds, last_time(accessors[static_cast<std::size_t>(number)]));
     }
     return info;
 }

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
 #include "kernel/core/error.h"
@@ -69,8 +68,7 @@ class ByteWriter {
   public:
     template <typename T>
     void add(T value) {
-        const T ordered = with_byte_order(value, Endianness::little);
-        bytes_.append(reinterpret_cast<const char*>(&ordered), sizeof(T));
+        append_number(bytes_, value, Endianness::little);
     }
     template <typename Vector>
     void add_vector(const Vector& v) {

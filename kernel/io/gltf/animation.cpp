@@ -92,10 +92,7 @@ std::vector<std::size_t> moving_nodes(const Mesh& mesh, const std::vector<char>&
 
 std::size_t add_floats(GltfAsset& asset, const std::vector<float>& values) {
     std::string bytes;
-    for (const float value : values) {
-        const float ordered = with_byte_order(value, Endianness::little);
-        bytes.append(reinterpret_cast<const char*>(&ordered), sizeof(float));
-    }
+    for (const float value : values) append_number(bytes, value, Endianness::little);
     Json json{{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
               {"count", values.size()},
               {"type", "SCALAR"}};

@@ -1,7 +1,7 @@
 #include "kernel/io/gltf/asset.h"
 
 #include <algorithm>
-#include <cstring>
+#include <cstdint>
 #include <utility>
 
 #include "kernel/io/gltf/file/extensions.h"
@@ -79,9 +79,9 @@ void restore_last_rows(KeptAccessor& kept) {
     std::string bytes = *kept.bytes;
     for (std::size_t at = 0; at + kBytes <= bytes.size(); at += kBytes) {
         for (std::size_t column = 0; column < 4; ++column) {
-            const float value = with_byte_order(column == 3 ? 1.0f : 0.0f, Endianness::little);
-            std::memcpy(bytes.data() + at + (4 * column + 3) * sizeof(float), &value,
-                        sizeof(float));
+            const auto value = to_bytes(column == 3 ? 1.0f : 0.0f, Endianness::little);
+            std::copy(value.begin(), value.end(),
+                      bytes.data() + at + (4 * column + 3) * sizeof(float));
         }
     }
     if (bytes == *kept.bytes) return;
@@ -224,14 +224,17 @@ std::vector<std::string> GltfAsset::joints_of(std::string_view object) const {
     if (found == node_of_object.end() || !nodes || !skins) return {};
     const Json& node = (*nodes)[found->second];
     if (!node.contains("skin")) return {};
-    const auto skin = node["skin"].get<std::size_t>();
-    const Json* joints = skin < skins->size() ? member((*skins)[skin], "joints") : nullptr;
+    const auto skin = node["skin"].get<std::uint64_t>();
+    const Json* joints =
+        skin < skins->size() ? member((*skins)[static_cast<std::size_t>(skin)], "joints") : nullptr;
     if (!joints || !joints->is_array()) return {};
     std::vector<std::string> names;
     for (const Json& joint : *joints) {
-        const std::size_t number = joint.is_number_unsigned() ? joint.get<std::size_t>() : 0;
-        const bool named = number < nodes->size() && (*nodes)[number].contains("name");
-        names.push_back(named ? (*nodes)[number]["name"].get<std::string>()
+        const std::uint64_t number = joint.is_number_unsigned() ? joint.get<std::uint64_t>() : 0;
+        const Json* target =
+            number < nodes->size() ? &(*nodes)[static_cast<std::size_t>(number)] : nullptr;
+        const bool named = target && target->contains("name");
+        names.push_back(named ? (*target)["name"].get<std::string>()
                               : "node " + std::to_string(number));
     }
     return names;

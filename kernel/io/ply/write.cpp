@@ -153,11 +153,7 @@ class RowWriter {
   private:
     void write_binary(ScalarType type, double value) {
         with_scalar(type, [&](auto zero) {
-            const auto number =
-                with_byte_order(static_cast<decltype(zero)>(value), header_.endianness);
-            char raw[sizeof(number)];
-            std::memcpy(raw, &number, sizeof(number));
-            bytes_.append(raw, sizeof(number));
+            append_number(bytes_, static_cast<decltype(zero)>(value), header_.endianness);
         });
     }
 

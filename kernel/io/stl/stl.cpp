@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -171,12 +170,7 @@ FlatTriangle flat_triangle(std::span<const Vec3> positions, const Triangle& t) {
 }
 
 void append_floats(std::string& bytes, const Vec3& v) {
-    for (const double x : v) {
-        const float value = with_byte_order(static_cast<float>(x), Endianness::little);
-        char raw[sizeof(value)];
-        std::memcpy(raw, &value, sizeof(value));
-        bytes.append(raw, sizeof(value));
-    }
+    for (const double x : v) append_number(bytes, static_cast<float>(x), Endianness::little);
 }
 
 void require_float_range(const Mesh& mesh) {
@@ -216,11 +210,7 @@ void write_binary(const Mesh& mesh, const Triangulation& triangulation, std::str
     bytes.reserve(kStlHeaderBytes + 4 + kTriangleBytes * count);
     bytes += "Written by Lissom";
     bytes.resize(kStlHeaderBytes, ' ');
-    const auto written_count =
-        with_byte_order(static_cast<std::uint32_t>(count), Endianness::little);
-    char raw[sizeof(written_count)];
-    std::memcpy(raw, &written_count, sizeof(raw));
-    bytes.append(raw, sizeof(raw));
+    append_number(bytes, static_cast<std::uint32_t>(count), Endianness::little);
     for (const Triangle& t : triangulation.triangles) {
         ticker.tick([&] { return double(bytes.size()) / double(bytes.capacity()); });
         const FlatTriangle flat = flat_triangle(mesh.positions(), t);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstring>
 #include <string_view>
 
 #include "kernel/io/stream/endianness.h"
@@ -27,11 +26,10 @@ class ByteReader {
     /// The next number. Errors: file_truncated.
     template <typename T>
     T read() {
-        T value;
         if (remaining() < sizeof(T)) refuse_truncated(tally);
-        std::memcpy(&value, bytes_.data() + at_, sizeof(T));
+        const char* const next = bytes_.data() + at_;
         at_ += sizeof(T);
-        return with_byte_order(value, order_);
+        return from_bytes<T>(next, order_);
     }
     /// The next number as a double, which holds every value of every type. Errors: file_truncated.
     double read(ScalarType type) {

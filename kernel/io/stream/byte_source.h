@@ -4,7 +4,6 @@
 
 #include <bit>
 #include <cstddef>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -39,16 +38,18 @@ class ByteSource {
     /// The next number. Errors: file_truncated, file_unreadable.
     template <typename T>
     T read() {
-        T value{};
-        read_bytes(&value, sizeof(T));
-        return with_byte_order(value, Endianness::little);
+        char bytes[sizeof(T)];
+        read_bytes(bytes, sizeof(T));
+        return from_bytes<T>(bytes, Endianness::little);
     }
     /// Fills `numbers`. Errors: file_truncated, file_unreadable.
     template <typename T>
     void read(std::span<T> numbers) {
         read_bytes(numbers.data(), numbers.size_bytes());
         if constexpr (std::endian::native != std::endian::little) {
-            for (T& x : numbers) x = with_byte_order(x, Endianness::little);
+            for (T& x : numbers) {
+                x = from_bytes<T>(reinterpret_cast<const char*>(&x), Endianness::little);
+            }
         }
     }
 
@@ -78,10 +79,7 @@ void append_little_endian(std::string& bytes, std::span<const T> numbers) {
     if constexpr (std::endian::native == std::endian::little) {
         bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
     } else {
-        for (const T x : numbers) {
-            const T ordered = with_byte_order(x, Endianness::little);
-            bytes.append(reinterpret_cast<const char*>(&ordered), sizeof(T));
-        }
+        for (const T x : numbers) append_number(bytes, x, Endianness::little);
     }
 }
 template <typename T>

@@ -1,6 +1,7 @@
 #include "kernel/io/stream/read_error.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace lissom {
@@ -46,13 +47,13 @@ std::size_t checked_count(std::int64_t count, std::size_t file_bytes, std::strin
                           Place place) {
     const std::string what = std::to_string(count) + " " + std::string(elements);
     if (count < 0) refuse(ErrorCode::file_syntax, "the header announces " + what, place);
-    const std::size_t number = count;
-    if (number > kMaximumElements) {
+    if (count > static_cast<std::int64_t>(kMaximumElements)) {
         refuse(ErrorCode::file_too_large,
                "the header announces " + what + ", more than the " +
                    std::to_string(kMaximumElements) + " that can be numbered; split the file",
                place);
     }
+    const auto number = static_cast<std::size_t>(count);
     if (number > file_bytes) {
         refuse(ErrorCode::file_truncated,
                "the header announces " + what + ", but the file has only " +

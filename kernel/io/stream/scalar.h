@@ -1,11 +1,13 @@
 /// The number types of files; private to kernel/io.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <utility>
+#include <string>
 
 #include "kernel/io/stream/endianness.h"
 #include "kernel/mesh/attributes.h"
@@ -34,17 +36,34 @@ double rounded_to(ScalarType integer_type, double value);
 /// True where `value` is one of a normal 32-bit number or zero.
 bool is_float(double value);
 
-/// Reverses the bytes of a number where `order` is not the machine's.
+inline bool is_native(Endianness order) {
+    return (order == Endianness::little) == (std::endian::native == std::endian::little);
+}
+
+/// The bytes of a number in a file. Reversed bytes are never held as a number: some processors
+/// change what would be a signalling NaN on its way.
 template <typename T>
-T with_byte_order(T value, Endianness order) {
-    const bool native =
-        (order == Endianness::little) == (std::endian::native == std::endian::little);
-    if (native) return value;
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
-    std::memcpy(&value, bytes, sizeof(T));
-    return value;
+std::array<char, sizeof(T)> to_bytes(T value, Endianness order) {
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(T));
+    if (!is_native(order)) std::reverse(bytes.begin(), bytes.end());
+    return bytes;
+}
+
+/// The number that the next bytes of a file are.
+template <typename T>
+T from_bytes(const char* next, Endianness order) {
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), next, sizeof(T));
+    if (!is_native(order)) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<T>(bytes);
+}
+
+/// Appends the bytes of a number in a file.
+template <typename T>
+void append_number(std::string& bytes, T value, Endianness order) {
+    const std::array<char, sizeof(T)> added = to_bytes(value, order);
+    bytes.append(added.data(), added.size());
 }
 
 /// Calls use(T{}) with T the C++ type of `type`.

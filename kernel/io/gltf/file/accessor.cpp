@@ -109,9 +109,7 @@ void for_each_number(const PackedNumbers& packed, const Use& use) {
         using T = decltype(zero);
         const std::size_t count = packed.count * packed.width;
         for (std::size_t i = 0; i < count; ++i) {
-            T value;
-            std::memcpy(&value, packed.bytes.data() + i * sizeof(T), sizeof(T));
-            use(with_byte_order(value, Endianness::little), i);
+            use(from_bytes<T>(packed.bytes.data() + i * sizeof(T), Endianness::little), i);
         }
     });
 }

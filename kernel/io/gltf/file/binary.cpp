@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "kernel/io/gltf/file/container.h"
 #include "kernel/io/gltf/file/tiny_gltf.h"
@@ -46,9 +45,9 @@ std::string encoded(const WrittenNumbers& numbers, std::size_t stride) {
     with_scalar(numbers.type, [&](auto zero) {
         using T = decltype(zero);
         for (std::size_t i = 0; i < numbers.values.size(); ++i) {
-            const T value = with_byte_order(static_cast<T>(numbers.values[i]), Endianness::little);
-            std::memcpy(bytes.data() + i / width * stride + i % width * sizeof(T), &value,
-                        sizeof(T));
+            const auto number = to_bytes(static_cast<T>(numbers.values[i]), Endianness::little);
+            std::copy(number.begin(), number.end(),
+                      bytes.data() + i / width * stride + i % width * sizeof(T));
         }
     });
     return bytes;

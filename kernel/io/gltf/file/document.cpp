@@ -117,21 +117,21 @@ class Loader {
     }
 
   private:
-    static std::size_t length_of(const Json& buffer, std::size_t number) {
+    static std::uint64_t length_of(const Json& buffer, std::size_t number) {
         const Json* length = member(buffer, "byteLength");
-        if (length && length->is_number_unsigned()) return length->get<std::size_t>();
+        if (length && length->is_number_unsigned()) return length->get<std::uint64_t>();
         refuse(ErrorCode::file_syntax, "buffer " + std::to_string(number) + " has no length");
     }
 
-    static std::string_view part(std::string_view bytes, std::size_t length, std::size_t number) {
-        if (bytes.size() >= length) return bytes.substr(0, length);
+    static std::string_view part(std::string_view bytes, std::uint64_t length, std::size_t number) {
+        if (bytes.size() >= length) return bytes.substr(0, static_cast<std::size_t>(length));
         refuse(ErrorCode::file_truncated, "buffer " + std::to_string(number) + " has " +
                                               std::to_string(bytes.size()) + " of its " +
                                               std::to_string(length) + " bytes");
     }
 
     std::string_view buffer(Json& json, std::size_t number) {
-        const std::size_t length = length_of(json, number);
+        const std::uint64_t length = length_of(json, number);
         const Json* uri = member(json, "uri");
         if (!uri) return {};
         if (!uri->is_string()) refuse(ErrorCode::file_syntax, "the URI of a buffer is not a text");

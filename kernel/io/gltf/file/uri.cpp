@@ -157,7 +157,7 @@ SharedBytes GltfFolder::read_path(const fs::path& path, std::size_t length) {
     return known;
 }
 
-SharedBytes GltfFolder::read(std::string_view uri, std::size_t length) {
+SharedBytes GltfFolder::read(std::string_view uri, std::uint64_t length) {
     if (is_on_the_web(uri)) {
         refuse(ErrorCode::unsupported,
                "the file refers to " + in_quotes(uri) + " on the web; download it and refer to it");
@@ -177,7 +177,12 @@ SharedBytes GltfFolder::read(std::string_view uri, std::size_t length) {
                                               std::to_string(size) + " of the " +
                                               std::to_string(length) + " bytes it should have");
     }
-    return read_path(path, length);
+    if (length > std::string().max_size()) {
+        refuse(ErrorCode::file_too_large,
+               "a buffer has " + std::to_string(length) +
+                   " bytes, more than a program of 32 bits can address; use one of 64 bits");
+    }
+    return read_path(path, static_cast<std::size_t>(length));
 }
 
 SharedBytes GltfFolder::read_if_there(std::string_view uri) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -41,8 +42,9 @@ class GltfFolder {
 
     /// The first `length` bytes, if it has as many, of the file at the relative `uri`.
     /// Errors: unsafe_path where it is not inside the folder; unsupported for the web;
-    /// file_not_found; file_truncated; those of require_file.
-    SharedBytes read(std::string_view uri, std::size_t length);
+    /// file_not_found; file_truncated; file_too_large where no memory can hold as
+    /// many; those of require_file.
+    SharedBytes read(std::string_view uri, std::uint64_t length);
     /// All of a file, or null where there is none. Errors: as `read`; file_too_large.
     SharedBytes read_if_there(std::string_view uri);
 
