@@ -1,6 +1,7 @@
 // The first system alone: as a basis of the handles' transforms, and by its factor.
 #include <algorithm>
 
+#include "kernel/core/extended.h"
 #include "kernel/core/memory_error.h"
 #include "kernel/deform/deformer_state.h"
 #include "kernel/deform/frame/frame_steps.h"
@@ -40,7 +41,7 @@ std::vector<Vec3> solved_directly(const Motion& motion) {
     const std::vector<Index>& free = first.free_vertices();
     const std::size_t rows = free.size();
     if (rows == 0) return pulled_back(motion, x);
-    std::vector<long double> b(3 * rows);
+    std::vector<Extended> b(3 * rows);
     for (int d = 0; d < 3; ++d) {
         first.right_hand_side(
             [&](Index k) { return x[k][d]; },

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "kernel/core/extended.h"
 #include "kernel/deform/holds/mirror.h"
 #include "kernel/deform/rest_shape.h"
 #include "kernel/deform/rotation/polar.h"
@@ -31,13 +32,13 @@ void require_regular(const Affine& transform, const Vec3& about) {
 }  // namespace
 
 HandlePose placed(const RestShape& rest, const Affine& transform, const Vec3& about) {
-    using Vec3L = Eigen::Matrix<long double, 3, 1>;
-    using Mat3L = Eigen::Matrix<long double, 3, 3>;
+    using Vec3L = Eigen::Matrix<Extended, 3, 1>;
+    using Mat3L = Eigen::Matrix<Extended, 3, 3>;
     const auto moved_to = [&](const Vec3& point) -> Affine {
-        const Mat3L turn = transform.linear.cast<long double>() - Mat3L::Identity();
-        const Vec3L arm = point.cast<long double>() - about.cast<long double>();
+        const Mat3L turn = transform.linear.cast<Extended>() - Mat3L::Identity();
+        const Vec3L arm = point.cast<Extended>() - about.cast<Extended>();
         return {transform.linear,
-                (transform.translation.cast<long double>() + turn * arm).cast<double>()};
+                (transform.translation.cast<Extended>() + turn * arm).cast<double>()};
     };
     HandlePose pose;
     pose.transform = about.isZero(0.0) ? transform : moved_to(Vec3::Zero());

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/core/clock.h"
+#include "kernel/core/extended.h"
 #include "kernel/deform/boundary/common_gradients.h"
 #include "kernel/deform/boundary/rigid_fit.h"
 #include "kernel/deform/holds/constraints.h"
@@ -355,7 +356,7 @@ void BoundaryDeformer::State::place_held() {
 void BoundaryDeformer::State::solve_first() {
     const std::vector<Index>& free = first->free_vertices();
     const std::size_t rows = free.size();
-    std::vector<long double> right(rows * 3);
+    std::vector<Extended> right(rows * 3);
     for (int d = 0; d < 3; ++d) {
         first->right_hand_side([&](Index k) { return deviation[k][d]; },
                                [&](Index k) { return Vec3(known_turn[k].row(d)); },

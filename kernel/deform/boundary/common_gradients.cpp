@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <utility>
 
+#include "kernel/core/extended.h"
+
 namespace lissom {
 namespace {
 
@@ -63,7 +65,7 @@ CommonGradients::Responses CommonGradients::first_responses(Index feature) const
         if (!inside(v)) return 0.0;
         return k == 0 ? 1.0 : arm(v)[k - 1];
     };
-    std::vector<long double> right(kParameters * rows);
+    std::vector<Extended> right(kParameters * rows);
     for (int k = 0; k < kParameters && rows > 0; ++k) {
         const auto gradient = [&](Index v) {
             return k > 0 && inside(v) ? Vec3(Vec3::Unit(k - 1)) : Vec3(Vec3::Zero());

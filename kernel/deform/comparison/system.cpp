@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/extended.h"
 #include "kernel/deform/patch/row_accumulator.h"
 #include "kernel/deform/system/firm_factor.h"
 
@@ -95,7 +96,7 @@ void LeastSquares::solve(std::span<const double> b, std::span<double> x, Index c
     const std::size_t unknowns = rows_.columns;
     const std::size_t rows = rows_.rows();
     const std::size_t count = free_.size();
-    std::vector<long double> right(count * columns);
+    std::vector<Extended> right(count * columns);
     std::vector<double> residual(rows);
     for (Index c = 0; c < columns; ++c) {
         context.checkpoint();
@@ -109,9 +110,9 @@ void LeastSquares::solve(std::span<const double> b, std::span<double> x, Index c
             residual[r] = weight_[r] * sum;
         }
         for (std::size_t f = 0; f < count; ++f) {
-            long double sum = 0.0;
+            Extended sum = 0.0;
             for (Index t = columns_.begin[free_[f]]; t < columns_.begin[free_[f] + 1]; ++t) {
-                sum += static_cast<long double>(columns_.value[t]) * residual[columns_.column[t]];
+                sum += static_cast<Extended>(columns_.value[t]) * residual[columns_.column[t]];
             }
             right[c * count + f] = sum;
         }

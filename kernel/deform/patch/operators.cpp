@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/core/roots.h"
+
 namespace lissom {
 namespace {
 
@@ -27,7 +29,7 @@ struct TriangleShape {
             edge_squared[k] = e[k].squaredNorm();
             longest = std::max(longest, edge_squared[k]);
         }
-        if (twice_area > 0.0) normal = cross / std::hypot(twice_area, kNeedle * longest);
+        if (twice_area > 0.0) normal = cross / hypotenuse(twice_area, kNeedle * longest);
         area = 0.5 * std::max(twice_area, std::sin(smallest_angle) * longest);
         for (int k = 0; k < 3; ++k) {
             const double dot = -e[(k + 1) % 3].dot(e[(k + 2) % 3]);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <queue>
 
+#include "kernel/core/roots.h"
+
 namespace lissom {
 namespace {
 
@@ -46,7 +48,7 @@ double across(const Vec3& a, const Vec3& b, const Vec3& c, double at_a, double a
         const double sy = std::sqrt(sy_squared);
         const double crossing = y + sy > 0.0 ? sx + (x - sx) * sy / (y + sy) : -1.0;
         if (crossing < 0.0 || crossing > length) return along_edges;
-        return later(std::hypot(x - sx, y + sy));
+        return later(hypotenuse(x - sx, y + sy));
     }
     const double sine = (at_b - at_a) / length;
     if (std::abs(sine) >= 1.0) return along_edges;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/core/roots.h"
 #include "kernel/deform/rotation/polar.h"
 #include "kernel/mesh/measure/directions.h"
 #include "kernel/mesh/measure/measures.h"
@@ -36,7 +37,7 @@ Mat3 frame_about(const Vec3& normal) {
 
 // The rotation about the unit vector `axis` by the angle of (cosine, sine), of any length.
 Mat3 rotation_about(const Vec3& axis, double cosine, double sine) {
-    const double length = std::hypot(cosine, sine);
+    const double length = hypotenuse(cosine, sine);
     if (!(length > 0.0)) return Mat3::Identity();
     return Eigen::AngleAxisd(std::atan2(sine, cosine), axis).toRotationMatrix();
 }

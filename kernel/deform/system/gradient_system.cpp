@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "kernel/core/extended.h"
 #include "kernel/core/large_pages.h"
 #include "kernel/deform/patch/row_accumulator.h"
 #include "kernel/deform/system/firm_factor.h"
@@ -319,7 +320,7 @@ void GradientSystem::factor(const Context& context) {
     ties_charge_ = context.charge(tie_bytes_, "points that are held");
     ties_.prepare(count_of(free_),
                   [&](std::span<const double> b, std::span<double> x, Index columns) {
-                      const std::vector<long double> exact(b.begin(), b.end());
+                      const std::vector<Extended> exact(b.begin(), b.end());
                       system_.solve_refined(matrix_, exact, x, columns);
                   });
 }

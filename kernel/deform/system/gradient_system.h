@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/extended.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/holds/known_mask.h"
@@ -57,17 +58,16 @@ class GradientSystem {
     /// Right-hand side of one column, of length rows: `position(k)` is the coordinate of known
     /// vertex k and `gradient(k)` the row of its known gradient that belongs to that coordinate.
     template <typename Position, typename Gradient>
-    void right_hand_side(const Position& position, const Gradient& gradient, long double* b) const {
+    void right_hand_side(const Position& position, const Gradient& gradient, Extended* b) const {
         for (std::size_t row = 0; row < free_.size(); ++row) {
-            long double sum = 0.0L;
+            Extended sum = 0.0;
             for (Index e = positions_.begin[row]; e < positions_.begin[row + 1]; ++e) {
-                sum -=
-                    static_cast<long double>(positions_.value[e]) * position(positions_.column[e]);
+                sum -= static_cast<Extended>(positions_.value[e]) * position(positions_.column[e]);
             }
             for (Index e = gradients_begin_[row]; e < gradients_begin_[row + 1]; ++e) {
                 const Vec3 known = gradient(gradients_column_[e]);
                 for (int d = 0; d < 3; ++d) {
-                    sum -= static_cast<long double>(gradients_value_[at(e)][d]) * known[d];
+                    sum -= static_cast<Extended>(gradients_value_[at(e)][d]) * known[d];
                 }
             }
             b[row] = sum;
@@ -82,7 +82,7 @@ class GradientSystem {
     }
 
     /// Solves for `columns` right-hand sides, to nearly full precision.
-    std::vector<double> solve(std::span<const long double> b, Index columns) const {
+    std::vector<double> solve(std::span<const Extended> b, Index columns) const {
         std::vector<double> x(b.size());
         system_.solve_refined(matrix_, b, x, columns);
         return x;

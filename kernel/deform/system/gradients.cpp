@@ -7,6 +7,8 @@
 #include <iterator>
 #include <utility>
 
+#include "kernel/core/extended.h"
+
 namespace lissom {
 namespace {
 
@@ -159,10 +161,10 @@ class Displacer {
     // p_k = (V V^T)^-1 (v_k - c); the mean over the ring is subtracted as c depends on the ring. In
     // extended precision, as M_i must be the identity at rest however flat the ring is.
     void fill_stencil(Index i) {
-        using Vector = Eigen::Matrix<long double, 3, 1>;
-        using Matrix = Eigen::Matrix<long double, 3, 3>;
+        using Vector = Eigen::Matrix<Extended, 3, 1>;
+        using Matrix = Eigen::Matrix<Extended, 3, 3>;
         const auto at = [&](Index k) -> Vector {
-            return result_.displaced_rest[k].cast<long double>();
+            return result_.displaced_rest[k].cast<Extended>();
         };
         Vector center = Vector::Zero();
         for (const Index j : rings_.ring(i)) center += at(j) / rings_.count(i);

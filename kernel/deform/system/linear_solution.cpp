@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernel/core/extended.h"
 #include "kernel/deform/system/frame_loops.h"
 
 namespace lissom {
@@ -92,7 +93,7 @@ void LinearSolution::choose_base(const LinearProblem& problem) {
 
 void LinearSolution::solve_handles(const LinearProblem& problem, const Context& context) {
     const std::size_t rows = rest_.size();
-    std::vector<long double> right(rows * 4);
+    std::vector<Extended> right(rows * 4);
     Progress progress(context, "deform: handle basis");
     for (const Index h : handles_) {
         const auto holds = [&](Index k) { return problem.owner[k] == h; };
@@ -143,7 +144,7 @@ FixedPart LinearSolution::fixed_part(const LinearProblem& problem,
         if (found == constraints.end() || !found->second.position) return Vec3::Zero();
         return *found->second.position - problem.patch.origin - problem.patch.rest[k];
     };
-    std::vector<long double> right(rows * 3);
+    std::vector<Extended> right(rows * 3);
     for (int d = 0; d < 3; ++d) {
         problem.system.right_hand_side(
             [&](Index k) { return shift(k)[d]; },

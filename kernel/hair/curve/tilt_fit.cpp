@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kernel/core/error.h"
+#include "kernel/core/roots.h"
 #include "kernel/hair/curve/curve.h"
 #include "kernel/hair/curve/length_text.h"
 
@@ -126,7 +127,7 @@ void require_hint(const DividingLine& line, const std::vector<Vec3>& hint) {
     for_each_piece(line, hint, [&](const DividingPlace& place, const Vec3&) {
         const HintMiss miss = miss_of(place);
         if (miss != HintMiss::far) why = why == HintMiss::none ? why : miss;
-        nearest = std::min(nearest, std::hypot(place.across, place.height));
+        nearest = std::min(nearest, hypotenuse(place.across, place.height));
     });
     if (why == HintMiss::none) return;
     std::string text = "the hint is nowhere beside the dividing curve: ";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/core/roots.h"
 #include "kernel/mesh/query/distances.h"
 
 namespace lissom {
@@ -30,7 +31,7 @@ double to_margin(double distance, double softness) {
 
 // Radius of a point across the axis of the head, in ellipses of its slice.
 double ellipses(const HeadFrame& frame, const Vec3& p) {
-    return 2.0 * std::hypot(p.x() / frame.width, p.z() / frame.length);
+    return 2.0 * hypotenuse(p.x() / frame.width, p.z() / frame.length);
 }
 
 // Angle above the hairline: the difference in elevation, which is more where the line is steep,
@@ -40,14 +41,14 @@ double angle_above(const std::vector<HairlinePoint>& hairline, double azimuth, d
     const double rise = hairline_elevation(hairline, azimuth + kStep) -
                         hairline_elevation(hairline, azimuth - kStep);
     const double steepness = rise / (2.0 * kStep * std::max(std::cos(elevation), 0.1));
-    return (elevation - hairline_elevation(hairline, azimuth)) / std::hypot(1.0, steepness);
+    return (elevation - hairline_elevation(hairline, azimuth)) / hypotenuse(1.0, steepness);
 }
 
 // How far inside the hairline a point is, in the mesh's unit, negative outside.
 double inside_hairline(const HairlineTest& test, const Vec3& p) {
     const HeadFrame& frame = test.frame;
     const double azimuth = std::abs(std::atan2(p.x(), p.z()));
-    const double elevation = std::atan2(p.y(), std::hypot(p.x(), p.z()));
+    const double elevation = std::atan2(p.y(), hypotenuse(p.x(), p.z()));
     double inside =
         angle_above(test.hairline, azimuth, elevation) * std::min(p.norm(), frame.width);
     const double radius = ellipses(frame, p);

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "kernel/core/roots.h"
 #include "kernel/hair/scalp/head_landmarks.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/spatial_tree.h"
@@ -114,7 +115,7 @@ double roughness_of(const Slice& slice) {
     double sum = 0.0;
     for (const Vec2& p : slice.points) {
         const Vec2 d = 2.0 * (p - slice.center());
-        sum += std::abs(std::hypot(d.x() / slice.width(), d.y() / slice.length()) - 1.0);
+        sum += std::abs(hypotenuse(d.x() / slice.width(), d.y() / slice.length()) - 1.0);
     }
     return 0.5 * sum / slice.points.size();
 }

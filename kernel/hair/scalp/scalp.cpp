@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "kernel/core/roots.h"
 #include "kernel/hair/scalp/hairline.h"
 #include "kernel/mesh/measure/measures.h"
 
@@ -143,7 +144,7 @@ Vec3 Scalp::vector_of(const ScalpDirection& direction) const {
 
 ScalpDirection Scalp::direction_of(const Vec3& point) const {
     const Vec3 p = frame_.local(point);
-    return {std::atan2(p.x(), p.z()), std::atan2(p.y(), std::hypot(p.x(), p.z()))};
+    return {std::atan2(p.x(), p.z()), std::atan2(p.y(), hypotenuse(p.x(), p.z()))};
 }
 
 Vec3 Scalp::normal_at(const Triangle& triangle, const Vec3& barycentric) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/core/roots.h"
 #include "kernel/hair/strands/strand_measures.h"
 
 namespace lissom {
@@ -170,7 +171,7 @@ Strands joined_points(const Strands& a, const Strands& b) {
 }
 
 double scale_of(const Affine& map) {
-    const double scale = std::cbrt(std::abs(map.linear.determinant()));
+    const double scale = cube_root(std::abs(map.linear.determinant()));
     if (map.is_finite() && scale > 0.0 && std::isfinite(scale)) return scale;
     throw Error(
         ErrorCode::singular_transform,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/extended.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/system/gradients.h"
 #include "kernel/solve/sparse/sparse_system.h"
@@ -244,7 +245,7 @@ void minimise(const Matrix& matrix, const Columns& linear, const std::vector<Ind
     SparseSystem system;
     system.analyze(free, context);
     system.factor(free, context);
-    const std::vector<long double> exact(b.begin(), b.end());
+    const std::vector<Extended> exact(b.begin(), b.end());
     system.solve_refined(free, exact, b, 3);
     for (std::size_t i = 0; i < row_of.size(); ++i) {
         if (row_of[i] == kNoIndex) continue;

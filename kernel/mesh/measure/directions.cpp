@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/core/roots.h"
 #include "kernel/core/rotation.h"
 #include "kernel/mesh/measure/measures.h"
 
@@ -42,7 +43,7 @@ bool has_directions(const Mesh& mesh) {
 
 // The map without its scale, so that what is added to unit vectors keeps its size.
 Mat3 without_scale(const Mat3& map) {
-    return map / std::cbrt(std::abs(map.determinant()));
+    return map / cube_root(std::abs(map.determinant()));
 }
 
 }  // namespace

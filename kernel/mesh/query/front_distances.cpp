@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "kernel/core/roots.h"
 #include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
@@ -37,7 +38,7 @@ double through_side(const Vec3& corner, const Vec3& from, double from_distance, 
     if (depth == 0.0) return kBehindFront;
     const double crossing = (source.x() * seen.y() + seen.x() * source.y()) / depth;
     if (crossing < 0.0 || crossing > length) return kBehindFront;
-    return std::hypot(source.x() - seen.x(), depth);
+    return hypotenuse(source.x() - seen.x(), depth);
 }
 
 class Front {

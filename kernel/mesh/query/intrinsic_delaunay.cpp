@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "kernel/core/roots.h"
+
 namespace lissom {
 namespace {
 
@@ -162,7 +164,7 @@ void IntrinsicDelaunay::flip(Index side) {
     const double ab = lengths_[f][side % 3], bc = lengths_[f][f1 % 3], ca = lengths_[f][f2 % 3];
     const double ad = lengths_[g][g1 % 3], db = lengths_[g][g2 % 3];
     const Vec2 above = apex(ab, bc, ca), below = apex(ab, db, ad);
-    const double cd = std::hypot(above.x() - below.x(), above.y() + below.y());
+    const double cd = hypotenuse(above.x() - below.x(), above.y() + below.y());
 
     // The new triangles are f = (a, d, c) and g = (d, b, c), with the new edge as sides 1 and 2. A
     // side that was glued to one of the diamond's own has moved with it.

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "kernel/core/roots.h"
 #include "kernel/mesh/shapes/hairline.h"
 #include "kernel/mesh/shapes/head_form.h"
 #include "kernel/mesh/shapes/shape_checks.h"
@@ -269,7 +270,7 @@ void name_regions(Mesh& mesh, const HeadForm& form) {
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
         const Vec3& p = mesh.position(v);
         const bool ear = form.ears(p) < 1e-3;
-        const double elevation = std::atan2(p.y(), std::hypot(p.x(), p.z()));
+        const double elevation = std::atan2(p.y(), hypotenuse(p.x(), p.z()));
         if (ear) ears.push_back(v);
         if (p.y() < kHeadBottom + 2e-3) bottom.push_back(v);
         if (!ear && p.y() > -0.11 && p.norm() < 0.13 &&

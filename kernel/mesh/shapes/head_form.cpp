@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "kernel/core/roots.h"
+
 // Solids that are blended into each other: skull, face, neck and chest first, then what lies on
 // them. Every solid that is not in the middle stands for two, since only |x| counts. Lengths are
 // metres.
@@ -114,7 +116,7 @@ double almond(const Vec3& d) {
     constexpr double kHalf = 0.0128, kUpper = 0.0050, kLower = 0.0040;
     const auto arc = [&](double height, double sign) {
         const double radius = (kHalf * kHalf + height * height) / (2.0 * height);
-        return std::hypot(x, sign * y + radius - height) - radius;
+        return hypotenuse(x, sign * y + radius - height) - radius;
     };
     return std::max(arc(kUpper, 1.0), arc(kLower, -1.0));
 }
@@ -148,7 +150,7 @@ double ear_outline(const Vec3& q) {
 
 // A ridge of a radius along a line that runs `inward` of the outline, `out` of the plane.
 double ear_ridge(const Vec3& q, double outline, double inward, double out, double radius) {
-    return std::hypot(outline + inward, q.x() - out) - radius;
+    return hypotenuse(outline + inward, q.x() - out) - radius;
 }
 
 }  // namespace

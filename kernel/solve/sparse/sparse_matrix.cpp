@@ -4,6 +4,7 @@
 #include <string>
 
 #include "kernel/core/error.h"
+#include "kernel/core/extended.h"
 
 namespace lissom {
 
@@ -23,19 +24,18 @@ void SymmetricMatrix::multiply(const double* x, double* y, Index columns) const 
     }
 }
 
-void SymmetricMatrix::residual(const long double* b, const double* x, double* r,
-                               Index columns) const {
+void SymmetricMatrix::residual(const Extended* b, const double* x, double* r, Index columns) const {
     const Index n = size();
-    std::vector<long double> sum(n);
+    std::vector<Extended> sum(n);
     for (Index c = 0; c < columns; ++c) {
         const std::size_t shift = at(c) * n;
         const double* in = x + shift;
         std::copy(b + shift, b + shift + n, sum.begin());
         for (Index j = 0; j < n; ++j) {
-            const long double xj = in[j];
-            long double own = value[begin[j]] * xj;
+            const Extended xj = in[j];
+            Extended own = value[begin[j]] * xj;
             for (Index k = begin[j] + 1; k < begin[j + 1]; ++k) {
-                const long double a = value[k];
+                const Extended a = value[k];
                 sum[row[k]] -= a * xj;
                 own += a * in[row[k]];
             }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/core/extended.h"
 #include "kernel/core/geometry.h"
 
 namespace lissom {
@@ -31,8 +32,8 @@ struct SymmetricMatrix {
     std::size_t nonzeros() const { return value.size(); }
     /// y = A x for `columns` column vectors stored one after the other.
     void multiply(const double* x, double* y, Index columns) const;
-    /// r = b - A x, summed in long double.
-    void residual(const long double* b, const double* x, double* r, Index columns) const;
+    /// r = b - A x, summed in extended precision.
+    void residual(const Extended* b, const double* x, double* r, Index columns) const;
 };
 
 /// One entry (row, column, value) of a matrix under construction.

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "kernel/core/context.h"
+#include "kernel/core/extended.h"
 #include "kernel/core/index.h"
 #include "kernel/solve/sparse/single_factor.h"
 #include "kernel/solve/sparse/sparse_matrix.h"
@@ -54,7 +55,7 @@ class SparseSystem {
     /// in extended precision where the platform has it, so that ill-conditioned systems lose
     /// nothing to the rounding of b. `matrix` is the one factored. Costs two to three times as
     /// much.
-    void solve_refined(const SymmetricMatrix& matrix, std::span<const long double> b,
+    void solve_refined(const SymmetricMatrix& matrix, std::span<const Extended> b,
                        std::span<double> x, Index columns) const;
 
     /// A copy of the factor in single precision. Errors: invalid_argument without a factor;

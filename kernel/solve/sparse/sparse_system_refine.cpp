@@ -1,10 +1,11 @@
 #include <vector>
 
+#include "kernel/core/extended.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom {
 
-void SparseSystem::solve_refined(const SymmetricMatrix& matrix, std::span<const long double> b,
+void SparseSystem::solve_refined(const SymmetricMatrix& matrix, std::span<const Extended> b,
                                  std::span<double> x, Index columns) const {
     std::vector<double> right(b.begin(), b.end());
     solve(right, x, columns);

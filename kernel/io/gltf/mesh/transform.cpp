@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "kernel/core/roots.h"
 #include "kernel/solve/dual/least_norm.h"
 
 namespace lissom {
@@ -30,7 +31,7 @@ void normalize(Direction direction) {
 
 double mean_scale(const Mat3& linear) {
     const double volume = std::abs(linear.determinant());
-    return volume > 0.0 ? std::cbrt(volume) : 1.0;
+    return volume > 0.0 ? cube_root(volume) : 1.0;
 }
 
 // The inverse of the transpose, but with the size of a rotation.

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "kernel/core/extended.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -94,7 +95,7 @@ struct FeaturedBowl {
             for (double& entry : m[v].reshaped()) entry = unit(random);
         }
         const std::vector<Index>& free = first.free_vertices();
-        std::vector<long double> right(3 * free.size());
+        std::vector<Extended> right(3 * free.size());
         for (int d = 0; d < 3; ++d) {
             first.right_hand_side([&](Index k) { return x[k][d]; },
                                   [&](Index k) { return Vec3(m[k].row(d)); },

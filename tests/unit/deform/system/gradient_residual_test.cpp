@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "kernel/core/extended.h"
 #include "kernel/deform/system/gradient_system.h"
 #include "kernel/mesh/shapes/shapes.h"
 
@@ -64,7 +65,7 @@ struct Bowl {
             for (double& entry : m[v].reshaped()) entry = unit(random);
         }
         const std::vector<Index>& free = system.free_vertices();
-        std::vector<long double> right(3 * free.size());
+        std::vector<Extended> right(3 * free.size());
         for (int d = 0; d < 3; ++d) {
             system.right_hand_side([&](Index k) { return x[k][d]; },
                                    [&](Index k) { return Vec3(m[k].row(d)); },

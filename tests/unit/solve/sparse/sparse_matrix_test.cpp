@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "kernel/core/extended.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -31,15 +32,15 @@ TEST_CASE("residual: what multiply leaves of each column, with digits that doubl
     const SymmetricMatrix a = symmetric_from_triplets(
         4, {{0, 0, 2.0}, {1, 0, 3.0}, {1, 1, 5.0}, {2, 2, 1.0}, {3, 1, -4.0}, {3, 3, 7.0}});
     std::vector<double> x, ax(12), r(12);
-    std::vector<long double> b;
+    std::vector<Extended> b;
     for (int i = 0; i < 12; ++i) x.push_back(i % 5 - 2.5);
     a.multiply(x.data(), ax.data(), 3);
-    for (std::size_t i = 0; i < 12; ++i) b.push_back(ax[i] + 0.25L * i);
+    for (std::size_t i = 0; i < 12; ++i) b.push_back(ax[i] + Extended(0.25) * i);
     a.residual(b.data(), x.data(), r.data(), 3);
     for (std::size_t i = 0; i < 12; ++i) CHECK(r[i] == 0.25 * static_cast<double>(i));
     // A difference that is nothing beside b.
-    for (long double& v : b) v += 1e-17L;
-    if (sizeof(long double) == sizeof(double)) return;
+    for (Extended& v : b) v += 1e-17;
+    if (sizeof(Extended) == sizeof(double)) return;
     a.residual(b.data(), x.data(), r.data(), 3);
     CHECK(r[0] == doctest::Approx(1e-17).epsilon(0.1));
 }

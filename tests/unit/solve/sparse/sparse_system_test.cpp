@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "kernel/core/extended.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -73,10 +74,10 @@ TEST_CASE("solve: refined, an ill-conditioned system loses little to rounding, i
         system.factor(a);
         const std::vector<double> wanted = random_vector(3 * 900);
         // b = A x to more digits than a double has: what residual takes off zero.
-        const std::vector<long double> zero(wanted.size(), 0.0L);
+        const std::vector<Extended> zero(wanted.size(), 0.0);
         std::vector<double> head(wanted.size()), tail(wanted.size());
         a.residual(zero.data(), wanted.data(), head.data(), 3);
-        std::vector<long double> b;
+        std::vector<Extended> b;
         for (const double value : head) b.push_back(-value);
         a.residual(b.data(), wanted.data(), tail.data(), 3);
         for (std::size_t i = 0; i < b.size(); ++i) b[i] -= tail[i];
@@ -90,7 +91,7 @@ TEST_CASE("solve: refined, an ill-conditioned system loses little to rounding, i
         std::vector<double> x(b.size()), refined(b.size());
         system.solve(std::vector<double>(b.begin(), b.end()), x, 3);
         system.solve_refined(a, b, refined, 3);
-        if (sizeof(long double) > sizeof(double)) CHECK(error(refined) < 0.01 * error(x));
+        if (sizeof(Extended) > sizeof(double)) CHECK(error(refined) < 0.01 * error(x));
         CHECK(error(refined) <= error(x));
     }
 }
