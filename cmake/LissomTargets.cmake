@@ -171,6 +171,9 @@ function(lissom_quick_start target)
 endfunction()
 
 set(LISSOM_TEST_DATA ${PROJECT_SOURCE_DIR}/../shared/data CACHE PATH "Real meshes and heads for tests")
+# Where a processor is emulated, the cases that take longest are left out by it.
+set(LISSOM_UNIT_OPTIONS "" CACHE STRING "Options of doctest for unit tests, separated by semicolons")
+mark_as_advanced(LISSOM_UNIT_OPTIONS)
 
 # lissom_unit_test(MODULE FILES...): the doctest executable test_MODULE, registered as unit_MODULE.
 # Tests that need real meshes look in LISSOM_TEST_DATA and skip, by name, where it is absent.
@@ -182,7 +185,7 @@ function(lissom_unit_test module)
     target_compile_options(test_${module} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>)
     set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/unit/main.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     lissom_unity(test_${module})
-    add_test(NAME unit_${module} COMMAND test_${module})
+    add_test(NAME unit_${module} COMMAND test_${module} ${LISSOM_UNIT_OPTIONS})
     set_tests_properties(
         unit_${module} PROPERTIES LABELS unit ENVIRONMENT
                                   "LISSOM_TEST_DATA=${LISSOM_TEST_DATA}")
