@@ -36,6 +36,7 @@ double rounded_to(ScalarType integer_type, double value);
 /// True where `value` is one of a normal 32-bit number or zero.
 bool is_float(double value);
 
+/// Whether the machine keeps numbers in this order.
 inline bool is_native(Endianness order) {
     return (order == Endianness::little) == (std::endian::native == std::endian::little);
 }
