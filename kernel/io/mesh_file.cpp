@@ -127,12 +127,6 @@ void tell_origin(const Vec3& origin, const Format& format, const Context& contex
                                        " cannot hold; add it to what is read");
 }
 
-// Text editors put this mark before UTF-8.
-std::string_view without_byte_order_mark(std::string_view bytes) {
-    constexpr std::string_view kMark = "\xef\xbb\xbf";
-    return bytes.substr(bytes.starts_with(kMark) ? kMark.size() : 0);
-}
-
 // Values that were written out in decimals, flipped or turned need more than a float.
 void widen_type(Attribute& attribute) {
     const auto& values = attribute.values;

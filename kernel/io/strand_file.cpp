@@ -187,7 +187,7 @@ Strands decode_as(ByteSource* source, std::string_view text, const StrandFormat&
     } else {
         // Numbers in memory are no longer than those of a text, but lists grow by doubling.
         const MemoryCharge charge = context.charge(4 * text.size(), "reading strands");
-        hair = format.read_text(text, context);
+        hair = format.read_text(without_byte_order_mark(text), context);
     }
     progress.step(0.1);
     return in_kernel_frame(std::move(hair), options, context);

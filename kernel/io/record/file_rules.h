@@ -20,6 +20,12 @@ inline std::string normalized_extension(std::string_view extension) {
     return result;
 }
 
+/// Text without the mark that editors put before UTF-8.
+inline std::string_view without_byte_order_mark(std::string_view bytes) {
+    constexpr std::string_view kMark = "\xef\xbb\xbf";
+    return bytes.substr(bytes.starts_with(kMark) ? kMark.size() : 0);
+}
+
 /// Errors: invalid_argument where `unit` is not positive and finite.
 inline void require_unit(double unit) {
     if (unit > 0.0 && std::isfinite(unit)) return;

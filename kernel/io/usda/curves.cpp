@@ -1,13 +1,16 @@
 #include "kernel/io/usda/curves.h"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "kernel/hair/strands/strand_edit.h"
+#include "kernel/io/record/skipped_content.h"
 #include "kernel/io/stream/ticker.h"
 #include "kernel/io/usda/prim.h"
 #include "kernel/io/usda/text.h"
+#include "kernel/io/usda/transform.h"
 
 namespace lissom {
 namespace {
@@ -27,6 +30,8 @@ class LayerReader {
             read_statement();
         }
         if (!open_.empty()) text_.refuse_token("'}'");
+        if (prims_.empty()) log_content();
+        drop_hidden();
         hair_.strands = joined();
         return std::move(hair_);
     }
@@ -34,24 +39,58 @@ class LayerReader {
   private:
     struct OpenPrim {
         bool is_curves = false;
-        /// Whether a transform holds for what lies inside.
-        bool is_moved = false;
+        bool is_active = true, is_visible = true;
+        UsdaTransform transform;
+        /// Number of the first curves that lie inside.
+        std::size_t first_curves = 0;
     };
 
-    void read_layer_metadata() {
+    // Calls visit(key) for the entries of metadata in round brackets, which returns whether it read
+    // the value.
+    template <typename Visit>
+    void read_metadata(const Visit& visit) {
         text_.expect("(");
         while (!text_.take(")")) {
+            if (text_.peek().kind == UsdaText::Kind::punctuation) {
+                text_.skip_value();
+                continue;
+            }
             const UsdaText::Token key = text_.take();
-            if (!text_.take("=")) continue;
+            if (text_.take("=") && !visit(key)) text_.skip_value();
+        }
+    }
+
+    void read_layer_metadata() {
+        read_metadata([&](const UsdaText::Token& key) {
             if (key.is("metersPerUnit")) {
                 hair_.meters_per_unit = positive_number(key);
             } else if (key.is("upAxis")) {
                 const std::vector<std::string> axis = text_.texts();
                 hair_.up = axis == std::vector<std::string>{"Z"} ? UpAxis::z : UpAxis::y;
             } else {
-                text_.skip_value();
+                return read_reference(key);
             }
+            return true;
+        });
+    }
+
+    void read_prim_metadata(OpenPrim& prim) {
+        read_metadata([&](const UsdaText::Token& key) {
+            if (!key.is("active")) return read_reference(key);
+            std::string value = "true";
+            read_word(value);
+            prim.is_active = value != "false" && value != "0";
+            return true;
+        });
+    }
+
+    // Remembers a file that the layer takes prims from.
+    bool read_reference(const UsdaText::Token& key) {
+        if (!key.is("references") && !key.is("payload") && !key.is("subLayers")) return false;
+        for (const std::string& target : text_.texts()) {
+            if (reference_.empty() && target.starts_with('@')) reference_ = target;
         }
+        return true;
     }
 
     double positive_number(const UsdaText::Token& key) {
@@ -76,13 +115,14 @@ class LayerReader {
     }
 
     void open_prim(const UsdaText::Token& first) {
-        OpenPrim prim = open_.empty() ? OpenPrim{} : OpenPrim{false, open_.back().is_moved};
-        if (text_.peek().kind == UsdaText::Kind::word) {
-            prim.is_curves = text_.take().is("BasisCurves") && first.is("def");
-        }
+        OpenPrim prim;
+        prim.first_curves = prims_.size();
+        std::string type;
+        if (text_.peek().kind == UsdaText::Kind::word) type = text_.take().value;
+        prim.is_curves = type == "BasisCurves" && first.is("def");
         if (text_.peek().kind != UsdaText::Kind::text) text_.refuse_token("the name of a prim");
         const UsdaText::Token name = text_.take();
-        if (text_.peek().is("(")) text_.skip_value();
+        if (text_.peek().is("(")) read_prim_metadata(prim);
         text_.expect("{");
         if (open_.size() >= kDeepestPrim) {
             refuse(ErrorCode::file_syntax, "prims are nested too deep",
@@ -93,8 +133,15 @@ class LayerReader {
             prims_.back().name = name.value;
             prims_.back().place = {ElementKind::line, name.line};
             filled_.push_back(prims_.size() - 1);
+        } else {
+            count_other(type);
         }
-        open_.push_back(prim);
+        open_.push_back(std::move(prim));
+    }
+
+    void count_other(const std::string& type) {
+        const std::string name = in_quotes(type);
+        others_.add(type.empty() ? "prims without a type" : name.substr(1, name.size() - 2));
     }
 
     void close_prim(const UsdaText::Token& brace) {
@@ -102,18 +149,34 @@ class LayerReader {
             refuse(ErrorCode::file_syntax, "a bracket '}' that nothing opened",
                    {ElementKind::line, brace.line});
         }
-        if (open_.back().is_curves) {
-            if (open_.back().is_moved) {
-                refuse(ErrorCode::unsupported,
-                       "the curves stand under a transform; apply it before exporting",
-                       prims_[filled_.back()].place);
-            }
-            filled_.pop_back();
+        const OpenPrim& prim = open_.back();
+        if (prim.is_curves) filled_.pop_back();
+        if (!prim.is_active || !prim.is_visible) {
+            hide_curves(prim);
+        } else if (prim.transform.is_set()) {
+            move_curves(prim);
         }
         open_.pop_back();
     }
 
+    void hide_curves(const OpenPrim& prim) {
+        for (std::size_t i = prim.first_curves; i < prims_.size(); ++i) prims_[i].is_drawn = false;
+    }
+
+    // Applies the transform of a prim to the curves inside.
+    void move_curves(const OpenPrim& prim) {
+        std::optional<Affine> matrix;
+        for (std::size_t i = prim.first_curves; i < prims_.size(); ++i) {
+            CurvesPrim& curves = prims_[i];
+            if (curves.is_placed || !curves.is_drawn) continue;
+            if (!matrix) matrix = prim.transform.matrix();
+            curves.transform = *matrix * curves.transform;
+            curves.is_placed = prim.transform.resets();
+        }
+    }
+
     void skip_variants() {
+        others_.add("variant sets");
         text_.skip_value();
         text_.expect("=");
         text_.skip_value();
@@ -135,12 +198,26 @@ class LayerReader {
 
     void read_value(const UsdaText::Token& name) {
         if (open_.empty()) return text_.skip_value();
+        OpenPrim& prim = open_.back();
         if (name.is("xformOpOrder")) {
-            open_.back().is_moved |= !text_.texts().empty();
+            prim.transform.set_order(text_.texts(), {ElementKind::line, name.line});
+        } else if (name.is("visibility")) {
+            std::string value;
+            read_word(value);
+            prim.is_visible = value != "invisible";
+        } else if (name.value.starts_with("xformOp:")) {
+            read_operation(name.value, prim.transform);
         } else if (!open_.back().is_curves || !read_curves_value(name)) {
             refuse_samples(name);
             text_.skip_value();
         }
+    }
+
+    void read_operation(std::string_view name, UsdaTransform& transform) {
+        constexpr std::string_view kTimeSamples = ".timeSamples";
+        if (!name.ends_with(kTimeSamples)) return transform.set_operation(name, text_.numbers());
+        transform.set_changing(name.substr(0, name.size() - kTimeSamples.size()));
+        text_.skip_value();
     }
 
     void refuse_samples(const UsdaText::Token& name) const {
@@ -152,27 +229,37 @@ class LayerReader {
                {ElementKind::line, name.line});
     }
 
+    // The values that have an interpolation, and may be indexed, or null for other names.
+    static CurveValues* values_called(std::string_view name, CurvesPrim& prim) {
+        if (name == "widths" || name == "primvars:widths") return &prim.widths;
+        if (name == "primvars:st") return &prim.uvs;
+        if (name == "primvars:displayColor") return &prim.colors;
+        if (name == "primvars:displayOpacity") return &prim.opacities;
+        if (name == "primvars:lissom:width") return &prim.base_widths;
+        if (name == "primvars:lissom:transparency") return &prim.transparencies;
+        return nullptr;
+    }
+
     bool read_curves_value(const UsdaText::Token& name) {
+        constexpr std::string_view kIndices = ":indices";
         CurvesPrim& prim = prims_[filled_.back()];
+        if (CurveValues* values = values_called(name.value, prim)) {
+            const bool is_width = values == &prim.widths;
+            return read_values(
+                *values, is_width ? CurveInterpolation::vertex : CurveInterpolation::constant);
+        }
+        if (name.value.ends_with(kIndices)) {
+            const auto stem = name.value.substr(0, name.value.size() - kIndices.size());
+            if (CurveValues* values = values_called(stem, prim)) {
+                values->is_indexed = true;
+                return read_list(values->indices);
+            }
+        }
         if (name.is("type")) return read_word(prim.type);
         if (name.is("basis")) return read_word(prim.basis);
         if (name.is("wrap")) return read_word(prim.wrap);
         if (name.is("curveVertexCounts")) return read_list(prim.counts);
         if (name.is("points")) return read_list(prim.points);
-        if (name.is("widths")) return read_values(prim.widths, CurveInterpolation::vertex);
-        if (name.is("primvars:st")) return read_values(prim.uvs, CurveInterpolation::constant);
-        if (name.is("primvars:displayColor")) {
-            return read_values(prim.colors, CurveInterpolation::constant);
-        }
-        if (name.is("primvars:displayOpacity")) {
-            return read_values(prim.opacities, CurveInterpolation::constant);
-        }
-        if (name.is("primvars:lissom:width")) {
-            return read_values(prim.base_widths, CurveInterpolation::constant);
-        }
-        if (name.is("primvars:lissom:transparency")) {
-            return read_values(prim.transparencies, CurveInterpolation::constant);
-        }
         if (name.is("lissom:widthProfile")) return read_list(prim.width_profile);
         if (name.is("lissom:comment")) return read_word(prim.comment);
         if (name.is("primvars:group")) return read_texts(prim.group_names);
@@ -205,33 +292,57 @@ class LayerReader {
         values.numbers = text_.floats();
         values.found = !values.numbers.empty();
         values.interpolation = usual;
-        if (text_.take("(")) read_interpolation(values);
+        if (text_.peek().is("(")) read_interpolation(values);
         return true;
     }
 
     void read_interpolation(CurveValues& values) {
-        while (!text_.take(")")) {
-            const UsdaText::Token key = text_.take();
-            if (!text_.take("=")) continue;
-            if (!key.is("interpolation")) {
-                text_.skip_value();
-                continue;
-            }
+        read_metadata([&](const UsdaText::Token& key) {
+            if (!key.is("interpolation")) return false;
             const UsdaText::Token kind = text_.take();
-            if (kind.value == "constant") {
-                values.interpolation = CurveInterpolation::constant;
-            } else if (kind.value == "uniform") {
-                values.interpolation = CurveInterpolation::uniform;
-            } else if (kind.value == "varying") {
-                values.interpolation = CurveInterpolation::varying;
-            } else if (kind.value == "vertex") {
-                values.interpolation = CurveInterpolation::vertex;
-            } else {
-                refuse(ErrorCode::unsupported,
-                       "the interpolation " + in_quotes(kind.value) + " is not known for curves",
-                       {ElementKind::line, kind.line});
-            }
+            values.interpolation = interpolation_called(kind);
+            return true;
+        });
+    }
+
+    static CurveInterpolation interpolation_called(const UsdaText::Token& kind) {
+        if (kind.value == "constant") return CurveInterpolation::constant;
+        if (kind.value == "uniform") return CurveInterpolation::uniform;
+        if (kind.value == "varying") return CurveInterpolation::varying;
+        if (kind.value == "vertex") return CurveInterpolation::vertex;
+        refuse(ErrorCode::unsupported,
+               "the interpolation " + in_quotes(kind.value) + " is not known for curves",
+               {ElementKind::line, kind.line});
+    }
+
+    // Curves that are not drawn are named, not read.
+    void drop_hidden() {
+        constexpr std::size_t kShown = 5;
+        std::string names;
+        std::size_t count = 0;
+        for (const CurvesPrim& prim : prims_) {
+            if (prim.is_drawn) continue;
+            if (++count <= kShown) names += (count == 1 ? "" : ", ") + in_quotes(prim.name);
         }
+        if (count == 0) return;
+        std::erase_if(prims_, [](const CurvesPrim& prim) { return !prim.is_drawn; });
+        context_.log(LogLevel::warning, std::to_string(count) +
+                                            " BasisCurves that are inactive or invisible were "
+                                            "left out: " +
+                                            names + (count > kShown ? ", ..." : ""));
+    }
+
+    // Tells what a layer holds that has no curves at all.
+    void log_content() const {
+        Report report;
+        others_.finish(report);
+        std::string text = "the file holds no BasisCurves";
+        if (!report.findings().empty()) text += "; it holds " + report.findings()[0].message;
+        if (!reference_.empty()) {
+            text += "; it refers to " + in_quotes(reference_) +
+                    ", which is not read: flatten it first, for instance with usdcat --flatten";
+        }
+        context_.log(LogLevel::warning, text);
     }
 
     // Neighbours are joined pair by pair, so that many prims cost no more than few.
@@ -263,6 +374,10 @@ class LayerReader {
     std::vector<CurvesPrim> prims_;
     /// The prims of curves that are open, innermost last.
     std::vector<std::size_t> filled_;
+    /// Prims of other types, by type.
+    SkippedContent others_;
+    /// A file that the layer refers to.
+    std::string reference_;
 };
 
 }  // namespace

@@ -27,10 +27,13 @@ struct UsdaHair {
     bool has_widths = false;
 };
 
-/// Reads all BasisCurves of a layer in the order of the file; where there are several without
-/// groups, each is a group by its name. Cubic curves become polylines. Other prims are passed over.
+/// Reads all BasisCurves of a layer that are drawn, in the order of the file; if there are several
+/// without groups, each is a group by its name. Transforms are applied, indexed primvars expanded,
+/// and cubic curves become polylines. Other prims are passed over. Warnings of the log name curves
+/// that are inactive or invisible, and tell what a layer without curves holds.
 /// Errors: file_syntax, file_truncated, not_finite with the line; unsupported for periodic curves,
-/// curves that change over time or stand under a transform; cancelled, memory_limit.
+/// curves or transforms that change over time, and transforms that flatten; cancelled,
+/// memory_limit.
 UsdaHair read_usda(std::string_view bytes, const Context& context);
 
 /// Writes one BasisCurves "Hair", linear, with a width for each point where they differ. What is

@@ -1,11 +1,15 @@
 #include "kernel/io/usda/prim.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "kernel/hair/strands/strand_measures.h"
+#include "kernel/io/stream/byte_source.h"
 
 namespace lissom {
 namespace {
@@ -36,6 +40,34 @@ std::vector<T> whole_numbers(const CurvesPrim& prim, const std::vector<double>& 
         result.push_back(static_cast<T>(x));
     }
     return result;
+}
+
+// Gives each element of indexed values its own.
+void expand_indices(const CurvesPrim& prim, CurveValues& values, std::size_t width,
+                    const char* what) {
+    if (!values.is_indexed || !values.found) return;
+    const std::size_t count = values.numbers.size() / width;
+    std::vector<float> expanded;
+    expanded.reserve(values.indices.size() * width);
+    for (const double index : values.indices) {
+        if (!is_whole(index, 0, double(count) - 1.0)) {
+            refuse_prim(prim, std::string("an index of '") + what + "' has no value");
+        }
+        const auto from = values.numbers.begin() +
+                          static_cast<std::ptrdiff_t>(index) * static_cast<std::ptrdiff_t>(width);
+        expanded.insert(expanded.end(), from, from + static_cast<std::ptrdiff_t>(width));
+    }
+    values.numbers = std::move(expanded);
+    values.found = !values.numbers.empty();
+}
+
+void expand_all_indices(CurvesPrim& prim) {
+    expand_indices(prim, prim.widths, 1, "widths");
+    expand_indices(prim, prim.uvs, 2, "st");
+    expand_indices(prim, prim.colors, 3, "displayColor");
+    expand_indices(prim, prim.opacities, 1, "displayOpacity");
+    expand_indices(prim, prim.base_widths, 1, "lissom:width");
+    expand_indices(prim, prim.transparencies, 1, "lissom:transparency");
 }
 
 struct CurveCounts {
@@ -149,7 +181,30 @@ void set_roots(const CurvesPrim& prim, const CurveCounts& counts, Strands& stran
     strands.set_roots(std::move(roots));
 }
 
+// Groups whose names are written for each curve, or once for all.
+void set_flat_groups(const CurvesPrim& prim, const CurveCounts& counts, Strands& strands) {
+    const std::vector<std::string>& written = prim.group_names;
+    if (counts.strands == 0) return;
+    if (written.size() != 1 && written.size() != counts.strands) {
+        refuse_prim(prim, std::to_string(written.size()) + " values of 'group' for " +
+                              std::to_string(counts.strands) + " curves");
+    }
+    std::map<std::string, Index> numbers;
+    std::vector<std::string> names;
+    std::vector<Index> groups;
+    for (std::size_t s = 0; s < counts.strands; ++s) {
+        const std::string& name = written[written.size() == 1 ? 0 : s];
+        const auto [entry, is_new] = numbers.emplace(name, count_of(names));
+        if (is_new) names.push_back(name);
+        groups.push_back(entry->second);
+    }
+    strands.set_groups(std::move(groups), std::move(names));
+}
+
 void set_groups(const CurvesPrim& prim, const CurveCounts& counts, Strands& strands) {
+    if (prim.groups.empty() && !prim.group_names.empty()) {
+        return set_flat_groups(prim, counts, strands);
+    }
     std::vector<Index> groups =
         whole_numbers<Index>(prim, prim.groups, counts.strands, kNoIndex, "group:indices");
     for (const Index group : groups) {
@@ -157,6 +212,27 @@ void set_groups(const CurvesPrim& prim, const CurveCounts& counts, Strands& stra
         refuse_prim(prim, "a value of 'group:indices' has no name");
     }
     strands.set_groups(std::move(groups), prim.group_names);
+}
+
+void scale_widths(Strands& strands, double scale) {
+    StrandWidths widths = strands.widths();
+    widths.common *= scale;
+    for (float& width : widths.values) width = static_cast<float>(width * scale);
+    strands.set_widths(std::move(widths));
+}
+
+void apply_transform(const CurvesPrim& prim, Strands& strands) {
+    if (prim.transform.is_identity()) return;
+    for (Index s = 0; s < strands.size(); ++s) {
+        StrandEdit strand = strands.edit_strand(s);
+        for (Index k = 0; k < strand.cols(); ++k) {
+            const Vec3 point = strand.col(k).cast<double>();
+            strand.col(k) = prim.transform(point).cast<float>();
+        }
+    }
+    require_finite(strands.points(), 3, 0, strands.offsets());
+    if (!prim.widths.found) return;
+    scale_widths(strands, std::cbrt(std::abs(prim.transform.linear.determinant())));
 }
 
 }  // namespace
@@ -186,6 +262,7 @@ Strands strands_of(CurvesPrim prim, const Context& context) {
         refuse_prim(prim, "its curves are closed, which hair is not; set wrap to nonperiodic",
                     ErrorCode::unsupported);
     }
+    expand_all_indices(prim);
     if (prim.type == "cubic") {
         make_linear(prim);
     } else if (prim.type != "linear") {
@@ -201,6 +278,7 @@ Strands strands_of(CurvesPrim prim, const Context& context) {
     set_transparency(prim, counts, strands);
     set_roots(prim, counts, strands);
     set_groups(prim, counts, strands);
+    apply_transform(prim, strands);
     strands.set_ids(whole_numbers<std::uint32_t>(prim, prim.ids, counts.strands, 0, "strandId"));
     strands.set_comment(std::move(prim.comment));
     return strands;

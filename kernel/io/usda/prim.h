@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/io/stream/read_error.h"
@@ -20,6 +21,9 @@ struct CurveValues {
     std::vector<float> numbers;
     CurveInterpolation interpolation = CurveInterpolation::vertex;
     bool found = false;
+    /// For each element the number of its value; only if `is_indexed`.
+    std::vector<double> indices = {};
+    bool is_indexed = false;
 };
 
 /// What the file says; defaults are those of USD.
@@ -39,10 +43,17 @@ struct CurvesPrim {
     CurveValues base_widths, transparencies;
     std::vector<float> width_profile;
     std::string comment;
+    /// False if it, or a prim around it, is inactive or invisible.
+    bool is_drawn = true;
+    /// The map from its points to the layer, and whether no prim further out adds to it.
+    Affine transform;
+    bool is_placed = false;
 };
 
-/// The strands of a prim. Errors: file_syntax at the prim where its numbers contradict each other;
-/// unsupported for kinds of curves that are not known.
+/// Returns the strands of a prim in the space of the layer. Widths are scaled by the cube root of
+/// the transform's determinant. Errors: file_syntax at the prim if its numbers contradict each
+/// other; not_finite if the transform takes them out of the range of 32-bit numbers; unsupported
+/// for kinds of curves that are not known.
 Strands strands_of(CurvesPrim prim, const Context& context);
 
 /// Replaces the control points of cubic curves, and all values that go with them, by points on the

@@ -82,17 +82,42 @@ double UsdaText::fraction() const {
     return begin_ == end_ ? 1.0 : double(at_ - begin_) / double(end_ - begin_);
 }
 
+void UsdaText::skip_line_rest() {
+    while (at_ != end_ && *at_ != '\n') ++at_;
+}
+
+void UsdaText::skip_block_comment() {
+    const std::string_view rest(at_, at(end_ - at_));
+    const std::size_t stop = rest.find("*/", 2);
+    if (stop == std::string_view::npos) {
+        refuse(ErrorCode::file_truncated, "a comment does not end; export the file again",
+               {ElementKind::line, line_});
+    }
+    for (const char c : rest.substr(0, stop)) line_ += c == '\n' ? 1 : 0;
+    at_ += stop + 2;
+}
+
+// True if there was one at this place.
+bool UsdaText::skip_comment() {
+    const std::string_view rest(at_, at(end_ - at_));
+    if (rest.starts_with("#") || rest.starts_with("//")) {
+        skip_line_rest();
+        return true;
+    }
+    if (!rest.starts_with("/*")) return false;
+    skip_block_comment();
+    return true;
+}
+
 void UsdaText::skip_blanks() {
-    for (; at_ != end_; ++at_) {
-        if (*at_ == '#') {
-            while (at_ != end_ && *at_ != '\n') ++at_;
-            if (at_ == end_) return;
-        }
+    while (at_ != end_) {
+        if (skip_comment()) continue;
         if (*at_ == '\n') {
             ++line_;
         } else if (*at_ != ' ' && *at_ != '\t' && *at_ != '\r') {
             return;
         }
+        ++at_;
     }
 }
 
@@ -116,6 +141,18 @@ void UsdaText::read_text() {
     at_ += stop + quotes.size();
 }
 
+// An asset between three at signs may have others in it: @@@name@@@.
+void UsdaText::read_asset() {
+    const std::string_view rest(at_, at(end_ - at_));
+    const std::size_t stop = rest.starts_with("@@@") ? rest.find("@@@", 3) : rest.npos;
+    if (stop == rest.npos || rest.substr(0, stop).find('\n') != rest.npos) {
+        return read_delimited('@');
+    }
+    next_.kind = Kind::word;
+    next_.value = rest.substr(0, stop + 3);
+    at_ += stop + 3;
+}
+
 // An asset (@name@) or a path (</name>).
 void UsdaText::read_delimited(char end) {
     const char* const start = at_++;
@@ -131,7 +168,7 @@ void UsdaText::advance() {
     if (at_ == end_) return;
     const char* const start = at_;
     if (*at_ == '"' || *at_ == '\'') return read_text();
-    if (*at_ == '@') return read_delimited('@');
+    if (*at_ == '@') return read_asset();
     if (*at_ == '<') return read_delimited('>');
     if (starts_number(*at_) || is_word_character(*at_)) {
         next_.kind = starts_number(*at_) ? Kind::number : Kind::word;
@@ -208,12 +245,14 @@ void UsdaText::skip_value() {
 
 std::vector<double> UsdaText::numbers() {
     std::vector<double> values;
+    if (take("None")) return values;
     visit_value([&](const Token& token) { values.push_back(number_of(token)); });
     return values;
 }
 
 std::vector<float> UsdaText::floats() {
     std::vector<float> values;
+    if (take("None")) return values;
     visit_value([&](const Token& token) {
         const auto value = static_cast<float>(number_of(token));
         if (!std::isfinite(value)) {

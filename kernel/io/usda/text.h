@@ -11,8 +11,8 @@
 
 namespace lissom {
 
-/// A position in the text of a layer that moves forward. Blanks, line ends and comments are passed
-/// over between tokens; nesting is bounded.
+/// A position in the text of a layer that moves forward. Blanks, line ends and comments ("#", "//"
+/// and "/* */") are passed over between tokens; nesting is bounded.
 class UsdaText {
   public:
     enum class Kind { end, word, number, text, punctuation };
@@ -38,8 +38,8 @@ class UsdaText {
     /// Moves over a value: one token, or brackets with all they hold. Errors: file_syntax for
     /// brackets that do not match or are nested too deep; file_truncated.
     void skip_value();
-    /// Reads a value of numbers, whatever brackets they stand in. Errors: as skip_value;
-    /// file_syntax for what is no number.
+    /// Reads a value of numbers, whatever brackets they stand in; none for a value that is blocked
+    /// ("None"). Errors: as skip_value; file_syntax for what is no number.
     std::vector<double> numbers();
     /// As `numbers`, into 32 bits, where a value can be large. Errors: also not_finite naming the
     /// line.
@@ -57,8 +57,12 @@ class UsdaText {
   private:
     void advance();
     void skip_blanks();
+    bool skip_comment();
+    void skip_line_rest();
+    void skip_block_comment();
     void read_text();
     void read_delimited(char end);
+    void read_asset();
 
     template <typename Visit>
     void visit_value(const Visit& visit);

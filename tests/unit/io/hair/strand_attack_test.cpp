@@ -95,6 +95,20 @@ std::vector<Sample> samples() {
          "point3f[] points = [" +
              repeated("(0,1,2),", 9) +
              "]\nfloat[] widths = [1,2,3,4,5,6,7,8,9] (interpolation = \"varying\")\n}}\n"});
+    list.push_back(
+        {"usda",
+         "#usda 1.0\n/* a */ def Xform \"a\" ( active = true references = @@@b@@@ ){\n"
+         "double3 xformOp:translate:p = (1,2,3) // b\nfloat3 xformOp:rotateXYZ = (1,2,3)\n"
+         "matrix4d xformOp:transform = ((1,0,0,0),(0,1,0,0),(0,0,1,0),(1,2,3,1))\n"
+         "quatf xformOp:orient = (1,0,0,1)\nuniform token[] xformOpOrder = "
+         "[\"!resetXformStack!\", \"xformOp:translate:p\", \"xformOp:rotateXYZ\", "
+         "\"xformOp:transform\", \"xformOp:orient\", \"!invert!xformOp:translate:p\"]\n"
+         "token visibility = \"inherited\"\ndef BasisCurves \"h\"\n{\nuniform token type = "
+         "\"linear\"\nint[] curveVertexCounts = [2, 2]\npoint3f[] points = [" +
+             repeated("(0,1,2),", 4) +
+             "]\ncolor3f[] primvars:displayColor = [(1,0,0),(0,0,1)] (interpolation = "
+             "\"uniform\")\n"
+             "int[] primvars:displayColor:indices = [1, 0]\n}}\n"});
     return list;
 }
 
@@ -244,15 +258,33 @@ TEST_CASE("large repetitive USDA is handled in bounded memory and time") {
     constexpr std::size_t kSize = 1 << 20;
     const auto filled = [&](std::string_view text) { return repeated(text, kSize / text.size()); };
     for (const std::string& bytes :
-         {"#usda 1.0\n" + filled("("), "#usda 1.0\n" + filled("["), "#usda 1.0\n" + filled("\""),
-          "#usda 1.0\n" + filled("def \"a\"{"), "#usda 1.0\n" + filled("def BasisCurves \"a\"{}\n"),
+         {"#usda 1.0\n" + filled("("),
+          "#usda 1.0\n" + filled("["),
+          "#usda 1.0\n" + filled("\""),
+          "#usda 1.0\n" + filled("def \"a\"{"),
+          "#usda 1.0\n" + filled("def BasisCurves \"a\"{}\n"),
           "#usda 1.0\n" + filled("def BasisCurves \"a\"{int[] curveVertexCounts=[1]\n"
                                  "point3f[] points=[0,0,0] uniform token type = \"linear\"}\n"),
-          usda("a = " + filled("[")), usda("a = (" + filled("1,") + ")\n"),
-          usda("point3f[] points = [" + filled("1,") + "]\n"), usda(filled("b\n")),
-          usda(filled("b = 1\n")), "#usda 1.0\n" + filled("#"), "#usda 1.0\n" + filled("}"),
-          "#usda 1.0\n" + filled("'''"), "#usda 1.0\n" + filled("\\"),
-          "#usda 1.0\n" + filled("variantSet \"a\" = {")}) {
+          usda("a = " + filled("[")),
+          usda("a = (" + filled("1,") + ")\n"),
+          usda("point3f[] points = [" + filled("1,") + "]\n"),
+          usda(filled("b\n")),
+          usda(filled("b = 1\n")),
+          "#usda 1.0\n" + filled("#"),
+          "#usda 1.0\n" + filled("}"),
+          "#usda 1.0\n" + filled("'''"),
+          "#usda 1.0\n" + filled("\\"),
+          "#usda 1.0\n" + filled("variantSet \"a\" = {"),
+          "#usda 1.0\n" + filled("/*"),
+          "#usda 1.0\n" + filled("/**/"),
+          "#usda 1.0\n" + filled("//\n"),
+          "#usda 1.0\n" + filled("@@@\n"),
+          "#usda 1.0\n" + filled("def A \"a\" ( b = "),
+          "#usda 1.0\n" +
+              filled("def A \"a\" { uniform token[] xformOpOrder = [\"xformOp:scale\"]\n"),
+          usda("int[] primvars:st:indices = [" + filled("0,") +
+               "]\nfloat2[] primvars:st = [(0,0)]\n"),
+          usda("uniform token[] xformOpOrder = [" + filled("\"xformOp:scale\",") + "]\n")}) {
         CAPTURE(bytes.substr(0, 80));
         CHECK(is_handled(bytes, "usda"));
     }
