@@ -43,9 +43,15 @@ int transform_mesh(Call& call) {
 
 int subdivide_mesh(Call& call) {
     const auto mesh = call.self<MeshObject>();
-    const Index levels = call.integer("levels");
-    const auto scheme = call.choice<SubdivisionScheme>("scheme");
-    return new_mesh(call, [&] { return subdivide(mesh->mesh, {levels, scheme}, call.context()); });
+    const bool whole = !call.has("region");
+    const auto region = call.object<RegionObject>("region");
+    SubdivideOptions options;
+    options.levels = call.integer("levels");
+    options.scheme = call.choice<SubdivisionScheme>("scheme");
+    return new_mesh(call, [&] {
+        if (!whole) options.region = region->current();
+        return subdivide(mesh->mesh, options, call.context());
+    });
 }
 
 int smooth_mesh(Call& call) {
@@ -183,11 +189,19 @@ std::vector<Function> new_mesh_methods() {
                            .between(0, 12)},
          .options = {choice("scheme", {"midpoint", "loop", "catmull_clark"},
                             "midpoint keeps the shape; the others smooth it.")
-                         .defaults("midpoint")},
+                         .defaults("midpoint"),
+                     object("region", "lissom.Region",
+                            "Splits the faces of this region only. Triangles beside it are divided "
+                            "where their edges are, and polygons take the new vertices in, so that "
+                            "the mesh stays watertight.")
+                         .optional("all")},
          .results = {{"lissom.Mesh", "mesh", "The new mesh."}},
-         .errors = {ErrorCode::out_of_range, ErrorCode::memory_limit, ErrorCode::cancelled},
+         .errors = {ErrorCode::out_of_range, ErrorCode::topology_mismatch, ErrorCode::region_empty,
+                    ErrorCode::memory_limit, ErrorCode::cancelled},
          .example = R"(local mesh = lissom.shapes.box():subdivide(2, { scheme = "catmull_clark" })
-assert(mesh:face_count() == 96))"},
+assert(mesh:face_count() == 96)
+local top = mesh:region{ plane = { point = { 0, 0, 0 }, normal = { 0, 1, 0 } } }
+assert(mesh:subdivide{ region = top }:is_closed()))"},
         {.name = "extract",
          .body = extract_region,
          .summary = "The faces of a region with their vertices as a mesh of their own.",

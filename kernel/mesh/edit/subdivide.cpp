@@ -1,6 +1,8 @@
 #include "kernel/mesh/edit/subdivide.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -22,9 +24,11 @@ constexpr std::size_t kBytesPerCorner = 100;
 // that is divided into quads.
 class Step {
   public:
-    Step(const Mesh& mesh, SubdivisionScheme scheme)
-        : mesh_(mesh), topology_(mesh.topology()), scheme_(scheme) {
+    /// `split` tells for each face whether it is split.
+    Step(const Mesh& mesh, SubdivisionScheme scheme, const std::vector<char>& split)
+        : mesh_(mesh), topology_(mesh.topology()), scheme_(scheme), split_(split) {
         find_edges();
+        number_edge_points();
         number_face_points();
     }
 
@@ -35,7 +39,9 @@ class Step {
         map_vertices();
         context.checkpoint();
         for (Index f = 0; f < topology_.face_count(); ++f) {
-            if (face_point_[f] == kNoIndex) {
+            if (!split_[at(f)]) {
+                fit_face(f);
+            } else if (face_point_[f] == kNoIndex) {
                 split_triangle(f);
             } else {
                 split_polygon(f);
@@ -43,6 +49,15 @@ class Step {
         }
         context.checkpoint();
         return derive(mesh_, positions(), std::move(faces_), map_, context);
+    }
+
+    /// For each new face whether the face that it was made from was split.
+    std::vector<char> made_by_splitting() const {
+        std::vector<char> made;
+        for (Index f = 0; f < map_.faces.size(); ++f) {
+            made.push_back(split_[at(map_.faces.main_source(f))]);
+        }
+        return made;
     }
 
   private:
@@ -61,6 +76,18 @@ class Step {
         }
     }
 
+    // Edges with a split face beside them get a point.
+    void number_edge_points() {
+        edge_point_.assign(at(topology_.edge_count()), kNoIndex);
+        for (Index e = 0; e < topology_.edge_count(); ++e) {
+            if (is_split(edge_faces_[2 * e]) || is_split(edge_faces_[2 * e + 1])) {
+                edge_point_[at(e)] = edge_point_count_++;
+            }
+        }
+    }
+
+    bool is_split(Index face) const { return face != kNoIndex && split_[at(face)] != 0; }
+
     bool has_face_point(Index f) const {
         return scheme_ == SubdivisionScheme::catmull_clark || topology_.face(f).size() > 3;
     }
@@ -68,28 +95,30 @@ class Step {
     void number_face_points() {
         face_point_.assign(topology_.face_count(), kNoIndex);
         for (Index f = 0; f < topology_.face_count(); ++f) {
-            if (has_face_point(f)) face_point_[f] = face_point_count_++;
+            if (split_[at(f)] && has_face_point(f)) face_point_[f] = face_point_count_++;
         }
     }
 
     void require_room() const {
         const std::int64_t limit = std::numeric_limits<Index>::max();
         const std::int64_t vertices =
-            std::int64_t{topology_.vertex_count()} + topology_.edge_count() + face_point_count_;
+            std::int64_t{topology_.vertex_count()} + edge_point_count_ + face_point_count_;
         if (vertices <= limit && 4 * std::int64_t{topology_.corner_count()} <= limit) return;
         throw Error(ErrorCode::out_of_range,
                     "the subdivided mesh would have more elements than can be numbered; use fewer "
                     "levels");
     }
 
-    Index edge_point(Index edge) const { return topology_.vertex_count() + edge; }
+    bool has_point(Index edge) const { return edge_point_[at(edge)] != kNoIndex; }
+    Index edge_point(Index edge) const { return topology_.vertex_count() + edge_point_[at(edge)]; }
     Index face_point(Index f) const {
-        return topology_.vertex_count() + topology_.edge_count() + face_point_[f];
+        return topology_.vertex_count() + edge_point_count_ + face_point_[f];
     }
 
     void map_vertices() {
         map_.vertices = ElementMap::identity(topology_.vertex_count());
         for (Index e = 0; e < topology_.edge_count(); ++e) {
+            if (!has_point(e)) continue;
             const auto [a, b] = topology_.edge(e);
             map_.vertices.add_mean(std::array{a, b});
         }
@@ -107,6 +136,66 @@ class Step {
         add_face(f, {v[1], bc, ab}, {{c + 1, c + 1}, {c + 1, c + 2}, {c, c + 1}});
         add_face(f, {v[2], ca, bc}, {{c + 2, c + 2}, {c, c + 2}, {c + 1, c + 2}});
         add_face(f, {ab, bc, ca}, {{c, c + 1}, {c + 1, c + 2}, {c, c + 2}});
+    }
+
+    // A face that is not split takes in the points of its edges.
+    void fit_face(Index f) {
+        const Index first = topology_.first_corner(f), n = count_of(topology_.face(f));
+        Index points = 0;
+        for (Index k = 0; k < n; ++k) points += has_point(corner_edge_[first + k]) ? 1 : 0;
+        if (n == 3 && points > 0) {
+            fit_triangle(f, points);
+        } else {
+            fit_polygon(f);
+        }
+    }
+
+    void fit_polygon(Index f) {
+        const std::span<const Index> v = topology_.face(f);
+        const Index first = topology_.first_corner(f), n = count_of(v);
+        std::vector<Index> vertices;
+        for (Index k = 0; k < n; ++k) {
+            const Index here = first + k;
+            vertices.push_back(v[k]);
+            add_corner(here, here);
+            if (!has_point(corner_edge_[here])) continue;
+            vertices.push_back(edge_point(corner_edge_[here]));
+            add_corner(here, first + (k + 1) % n);
+        }
+        faces_.add(vertices);
+        map_.faces.add_copy(f);
+    }
+
+    // Bank, Sherman and Weiser 1983: one point halves it, of two points the diagonal that is left
+    // is the shorter one.
+    void fit_triangle(Index f, Index points) {
+        if (points == 3) return split_triangle(f);
+        const Index first = topology_.first_corner(f);
+        const auto divided = [&](Index k) { return has_point(corner_edge_[first + k % 3]); };
+        Index k = 0;
+        while (!(divided(k) && (points == 1 || divided(k + 1)))) ++k;
+        const std::span<const Index> v = topology_.face(f);
+        const Index ca = first + k, cb = first + (k + 1) % 3, cc = first + (k + 2) % 3;
+        const Index a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3];
+        const Index ab = edge_point(corner_edge_[ca]);
+        if (points == 1) {
+            add_face(f, {a, ab, c}, {{ca, ca}, {ca, cb}, {cc, cc}});
+            add_face(f, {ab, b, c}, {{ca, cb}, {cb, cb}, {cc, cc}});
+            return;
+        }
+        const Index bc = edge_point(corner_edge_[cb]);
+        add_face(f, {ab, b, bc}, {{ca, cb}, {cb, cb}, {cb, cc}});
+        const auto length = [&](Index from, Index p, Index q) {
+            const Vec3 middle = 0.5 * (mesh_.position(p) + mesh_.position(q));
+            return (mesh_.position(from) - middle).squaredNorm();
+        };
+        if (length(a, b, c) <= length(c, a, b)) {
+            add_face(f, {a, ab, bc}, {{ca, ca}, {ca, cb}, {cb, cc}});
+            add_face(f, {a, bc, c}, {{ca, ca}, {cb, cc}, {cc, cc}});
+        } else {
+            add_face(f, {a, ab, c}, {{ca, ca}, {ca, cb}, {cc, cc}});
+            add_face(f, {ab, bc, c}, {{ca, cb}, {cb, cc}, {cc, cc}});
+        }
     }
 
     void add_face(Index f, std::initializer_list<Index> vertices,
@@ -149,7 +238,7 @@ class Step {
         const bool is_loop = scheme_ == SubdivisionScheme::loop;
         for (Index e = 0; e < topology_.edge_count(); ++e) {
             const Index left = edge_faces_[2 * e], right = edge_faces_[2 * e + 1];
-            if (left == kNoIndex || right == kNoIndex) continue;
+            if (!is_split(left) || !is_split(right)) continue;
             const auto [a, b] = topology_.edge(e);
             const Vec3 ends = mesh_.position(a) + mesh_.position(b);
             if (is_loop) {
@@ -161,7 +250,7 @@ class Step {
             }
         }
         for (Index v = 0; v < topology_.vertex_count(); ++v) {
-            if (topology_.is_isolated(v)) continue;
+            if (topology_.is_isolated(v) || !is_smoothed(v)) continue;
             if (topology_.is_boundary(v)) {
                 // The neighbours along the boundary are the first and the last of the ring.
                 const std::span<const Index> ring = topology_.neighbors(v);
@@ -172,6 +261,11 @@ class Step {
             }
         }
         return result;
+    }
+
+    bool is_smoothed(Index v) const {
+        const auto faces = topology_.faces_around(v);
+        return std::all_of(faces.begin(), faces.end(), [&](Index f) { return is_split(f); });
     }
 
     Vec3 opposite(Index triangle, Index a, Index b) const {
@@ -203,11 +297,12 @@ class Step {
     const Mesh& mesh_;
     const Topology& topology_;
     SubdivisionScheme scheme_;
+    const std::vector<char>& split_;
     std::vector<Index> corner_edge_;
     // Faces left and right of each edge.
     std::vector<Index> edge_faces_;
-    std::vector<Index> face_point_;
-    Index face_point_count_ = 0;
+    std::vector<Index> edge_point_, face_point_;
+    Index edge_point_count_ = 0, face_point_count_ = 0;
     FaceList faces_;
     MeshMap map_;
 };
@@ -230,14 +325,42 @@ bool sees_itself(const Mesh& mesh, Index f) {
     return true;
 }
 
-std::vector<Index> faces_to_triangulate(const Mesh& mesh, SubdivisionScheme scheme) {
+std::vector<Index> faces_to_triangulate(const Mesh& mesh, SubdivisionScheme scheme,
+                                        const std::vector<char>& split) {
     std::vector<Index> faces;
     if (scheme == SubdivisionScheme::catmull_clark) return faces;
     for (Index f = 0; f < mesh.face_count(); ++f) {
-        if (mesh.topology().face(f).size() == 3) continue;
+        if (!split[at(f)] || mesh.topology().face(f).size() == 3) continue;
         if (scheme == SubdivisionScheme::loop || !sees_itself(mesh, f)) faces.push_back(f);
     }
     return faces;
+}
+
+// Triangulates what the scheme cannot split, and follows the flags of the faces.
+void prepare_faces(Mesh& mesh, SubdivisionScheme scheme, std::vector<char>& split,
+                   const Context& context) {
+    const std::vector<Index> faces = faces_to_triangulate(mesh, scheme, split);
+    if (faces.empty()) return;
+    std::vector<char> flags;
+    auto next = faces.begin();
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const bool divided = next != faces.end() && *next == f;
+        if (divided) ++next;
+        flags.insert(flags.end(), divided ? mesh.topology().face(f).size() - 2 : 1, split[at(f)]);
+    }
+    triangulate(mesh, faces, context);
+    split = std::move(flags);
+}
+
+std::vector<char> faces_to_split(const Mesh& mesh, const std::optional<Region>& region) {
+    if (!region) return std::vector<char>(at(mesh.face_count()), 1);
+    require_same_topology(mesh, region->topology(), "the region");
+    std::vector<char> split(at(mesh.face_count()), 0);
+    const std::vector<Index> faces = region->faces();
+    for (const Index f : faces) split[at(f)] = 1;
+    if (!faces.empty()) return split;
+    throw Error(ErrorCode::region_empty,
+                "the region holds no face to subdivide: mark all vertices of a face");
 }
 
 }  // namespace
@@ -248,10 +371,14 @@ Mesh subdivide(const Mesh& mesh, const SubdivideOptions& options, const Context&
     }
     Progress progress(context, "subdivide");
     Mesh result = mesh;
+    std::vector<char> split = faces_to_split(mesh, options.region);
     for (Index level = 0; level < options.levels; ++level) {
         progress.update(level, options.levels);
-        triangulate(result, faces_to_triangulate(result, options.scheme), context);
-        result = Step(result, options.scheme).subdivided(context);
+        prepare_faces(result, options.scheme, split, context);
+        Step step(result, options.scheme, split);
+        Mesh finer = step.subdivided(context);
+        split = step.made_by_splitting();
+        result = std::move(finer);
     }
     return result;
 } catch (const std::bad_alloc&) {

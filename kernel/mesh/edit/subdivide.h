@@ -1,9 +1,12 @@
 /// Subdivision of a mesh.
 #pragma once
 
+#include <optional>
+
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/region.h"
 
 namespace lissom {
 
@@ -22,13 +25,18 @@ struct SubdivideOptions {
     /// How often each face is split; 0 copies the mesh.
     Index levels = 1;
     SubdivisionScheme scheme = SubdivisionScheme::midpoint;
+    /// Splits the faces of this region only; all faces if absent. Triangles beside it are divided
+    /// where their edges are, and polygons take the new vertices in, so that there are no
+    /// T-junctions. Only vertices whose faces are all split are smoothed.
+    std::optional<Region> region = std::nullopt;
 };
 
 /// The subdivided mesh. Old vertices keep their ids; then follow those on edges, in the order of
 /// the edges, and those inside faces. Attributes are interpolated linearly, corner attributes
 /// within each face, so that seams stay; the faces made from one face follow each other.
-/// Errors: invalid_argument for negative levels; out_of_range where the result would have more
-/// elements than Index can number; memory_limit; cancelled.
+/// Errors: invalid_argument for negative levels; topology_mismatch for a region of another mesh;
+/// region_empty for a region without a face; out_of_range where the result would have more elements
+/// than Index can number; memory_limit; cancelled.
 Mesh subdivide(const Mesh& mesh, const SubdivideOptions& options = {}, const Context& context = {});
 
 }  // namespace lissom

@@ -1,6 +1,7 @@
 #include "kernel/mesh/edit/subdivide.h"
 
 #include "kernel/mesh/edit/triangulate.h"
+#include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
@@ -155,4 +156,72 @@ TEST_CASE("levels below 0 and results beyond counting are refused") {
     options.memory_limit = 1000000;
     CHECK(test::error_of([&] { (void)subdivide(box, {.levels = 40}, Context(options)); }).code() ==
           ErrorCode::memory_limit);
+}
+
+namespace {
+
+bool keeps_shape(const Mesh& mesh, const Mesh& fine) {
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (fine.position(v) != mesh.position(v)) return false;
+    }
+    return std::abs(area(fine) - area(mesh)) < 1e-12 * area(mesh);
+}
+
+}  // namespace
+
+TEST_CASE("subdivide: a region alone is split, without T-junctions, and all values stay linear") {
+    for (const SubdivisionScheme scheme : kSchemes) {
+        for (const Mesh& mesh :
+             {test::decorated(make_torus({.segments = 12, .tube_segments = 8})),
+              test::decorated(make_sphere({.segments = 12, .kind = SphereKind::triangles}))}) {
+            const Region half = select_box(mesh, {{0.0, -9, -9}, {9, 9, 9}});
+            const Mesh fine = subdivide(mesh, {2, scheme, half});
+            CHECK(fine.topology().is_closed());
+            CHECK(euler_characteristic(fine.topology()) == euler_characteristic(mesh.topology()));
+            CHECK(test::is_decorated(fine));
+            CHECK(fine.face_count() > mesh.face_count() + 11 * count_of(half.faces()));
+            // What does not touch the region is as it was.
+            for (Index v = 0; v < mesh.vertex_count(); ++v) {
+                if (!half.contains(v)) CHECK(fine.position(v) == mesh.position(v));
+            }
+            if (scheme != SubdivisionScheme::midpoint) continue;
+            CHECK(keeps_shape(mesh, fine));
+            for (Index v = 0; v < fine.vertex_count(); ++v) {
+                CHECK(fine.attributes().find("x")->values[v] == Approx(fine.position(v).x()));
+            }
+        }
+    }
+}
+
+TEST_CASE("subdivide: all of a mesh as a region is the mesh without one") {
+    for (const SubdivisionScheme scheme : kSchemes) {
+        const Mesh mesh = test::decorated(make_box({.segments = {2, 1, 1}}));
+        const Mesh whole = subdivide(mesh, {2, scheme});
+        CHECK(hash(subdivide(mesh, {2, scheme, Region::all(mesh.shared_topology())})) ==
+              hash(whole));
+    }
+}
+
+TEST_CASE("subdivide: triangles beside a region are divided as many times as it takes") {
+    FaceList faces;
+    for (const auto& f : {std::array{0, 1, 2}, {1, 0, 3}, {2, 1, 4}, {0, 2, 5}}) {
+        faces.add({f[0], f[1], f[2]});
+    }
+    const Mesh star({{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, -2, 0}, {3, 2, 0}, {-1, 2, 0}},
+                    std::move(faces));
+    const Mesh fine = subdivide(star, {.region = Region(star.shared_topology(), {0, 1, 2})});
+    CHECK(fine.face_count() == 4 + 3 * 2);
+    CHECK(fine.vertex_count() == 6 + 3);
+    CHECK(area(fine) == Approx(area(star)));
+    CHECK(fine.topology().boundary_loops().size() == 1);
+    CHECK(fine.topology().boundary_loops().front().size() == 6);
+}
+
+TEST_CASE("subdivide: a region of another mesh and one without a face are refused") {
+    const Mesh mesh = make_box(), other = make_box();
+    const auto code_of = [&](const Region& region) {
+        return test::error_of([&] { subdivide(mesh, {.region = region}); }).code();
+    };
+    CHECK(code_of(Region::all(other.shared_topology())) == ErrorCode::topology_mismatch);
+    CHECK(code_of(Region(mesh.shared_topology(), {0, 1})) == ErrorCode::region_empty);
 }

@@ -1,0 +1,42 @@
+/// Refinement around points of a surface: edges are halved until those near the points are short.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/mesh/derive.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// A ball around a point of a surface, and the greatest length of edges in it.
+struct FinePlace {
+    Index face = kNoIndex;
+    Vec3 point = Vec3::Zero();
+    double radius = 0.0, length = 0.0;
+};
+
+struct FinerMesh {
+    Mesh mesh;
+    /// From its elements to those of the mesh as given. Old vertices keep their numbers.
+    MeshMap map;
+};
+
+/// The faces that touch the ball of a place and hang together with its face through such faces, in
+/// the order in which they are reached.
+std::vector<Index> faces_touching(const Mesh& mesh, const FinePlace& place);
+
+/// Halves edges until no face that touches the ball of a place has an edge longer than its length.
+/// The longest edge of a triangle is halved before its others (Rivara 1984), so that no angle
+/// becomes smaller than half of what it was. The shape stays, and the mesh conforms: polygons in a
+/// ball are triangulated, those beside it take the new vertices in. The faces made from one face
+/// follow each other in its place; attributes are interpolated within faces. Nothing if no edge is
+/// that long. Errors: memory_limit; cancelled.
+std::optional<FinerMesh> finer_near(const Mesh& mesh, std::span<const FinePlace> places,
+                                    const Context& context);
+
+}  // namespace lissom
