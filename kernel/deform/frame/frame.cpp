@@ -10,13 +10,28 @@
 namespace lissom {
 namespace {
 
+// Solves the second system with what `taken` adds to rotations, which stay as they are.
+void solve_stretched(const SecondInput& input, std::span<const TakenStretch> taken,
+                     FrameScratch::State& scratch, const Context& context) {
+    std::vector<PaddedMat3> before;
+    for (const auto& [v, stretch] : taken) {
+        PaddedMat3& s = scratch.rotations[at(v)];
+        before.push_back(s);
+        s = padded_columns((input.base_rotation + s.topRows<3>()) * stretch - input.base_rotation);
+    }
+    input.motion.method().second->solve(scratch.rotations, scratch.deviation, input.draft,
+                                        scratch.second, context);
+    // A vertex may have taken twice.
+    for (std::size_t n = taken.size(); n-- > 0;) scratch.rotations[at(taken[n].vertex)] = before[n];
+}
+
 // Solves for deviations from the similarity nearest to the base transform, so that similarities of
 // the whole are exact. `deviation` is that of the first system, and then of the second.
 void solve_second(const SecondInput& input, FrameScratch::State& scratch, const Context& context) {
     const Motion& motion = input.motion;
     const Patch& patch = motion.patch();
-    const RotationSystem& second = *motion.method().second;
     Deviation& deviation = scratch.deviation;
+    const std::vector<TakenStretch> taken = taken_stretches(motion, deviation);
     const bool winds = share_of_turns(input.greatest_turn) > 0.0;
     if (!winds) find_rotations(input, deviation, scratch.part, context, scratch.rotations);
     const Mat3 remainder = motion.base_linear() - input.base_rotation;
@@ -28,12 +43,12 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
         });
     }
     if (winds) wind_rotations(input, scratch, context);
-    second.solve(scratch.rotations, deviation, input.draft, scratch.second, context);
+    solve_stretched(input, taken, scratch, context);
     const int steps = motion.options().refine;
     for (int step = 1; step <= steps; ++step) {
         const double further = over_relaxation(input.greatest_turn, step == steps);
         refine_rotations(input, deviation, further, scratch.absolute, context, scratch.rotations);
-        second.solve(scratch.rotations, deviation, input.draft, scratch.second, context);
+        solve_stretched(input, taken, scratch, context);
     }
 }
 

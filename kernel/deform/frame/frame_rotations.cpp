@@ -179,7 +179,8 @@ void turn_held(const SecondInput& input, Rotations& rotations) {
         const Handle* h = handles[n].get();
         if (!h || h->soft() || !h->options.gradient) continue;
         const Mat3& linear = motion.pose(index_of(n)).transform.linear;
-        const PaddedMat3 turn = padded_columns(rotation_of(motion, linear) - input.base_rotation);
+        const PaddedMat3 turn =
+            padded_columns(held_transform(motion, linear) - input.base_rotation);
         for (const Index v : prepared.held[n]) rotations[v] = turn;
         for (const SparseRow& row : h->points) {
             for (const auto& [v, c] : row) {
@@ -191,7 +192,7 @@ void turn_held(const SecondInput& input, Rotations& rotations) {
         const Index v = entry.first;
         if (v >= motion.patch().real_count || !prepared.known.gradient[v]) continue;
         rotations[v] =
-            padded_columns(rotation_of(motion, motion.known_gradient(v)) - input.base_rotation);
+            padded_columns(held_transform(motion, motion.known_gradient(v)) - input.base_rotation);
     }
 }
 

@@ -100,6 +100,21 @@ struct SecondInput {
 /// S of the second system for a deformation gradient: R, or R s.
 Mat3 rotation_of(const Motion& motion, const Mat3& gradient);
 
+/// S of a vertex that is held and whose gradient is `linear`: all of `linear`, stretch included,
+/// for a second system that knows lengths. With less the held surface would keep asking for the
+/// size it had, and free vertices beside it would pay. The same as rotation_of for rigid motions.
+Mat3 held_transform(const Motion& motion, const Mat3& linear);
+
+/// The stretch that a vertex takes over from a handle which does not hold its gradient exactly.
+struct TakenStretch {
+    Index vertex = kNoIndex;
+    Mat3 stretch = Mat3::Identity();
+};
+
+/// Stretches of vertices that stretched handles draw softly, or hold by position alone: as much of
+/// the handle's as the gradients of the first system have. None for rigid motions.
+std::vector<TakenStretch> taken_stretches(const Motion& motion, std::span<const Vec4> deviation);
+
 void solve_first(const Motion& motion, const Context& context, Deviation& deviation);
 
 /// M_i after the first system, or what `part` of it leads to; where it does not exist, the mean of

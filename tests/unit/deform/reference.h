@@ -86,7 +86,7 @@ class Reference {
     std::vector<Vec3> second(const std::vector<Vec3>& first_positions) const {
         const std::vector<Mat3> m = gradients(first_positions);
         std::vector<Mat3> s;
-        for (const Mat3& gradient : m) s.push_back(rotation_and_scale(gradient));
+        for (Index i = 0; i < size(); ++i) s.push_back(transform_of(i, m[i]));
         LeastSquares system(static_cast<Index>(unknown_.size()));
         const bool edges = options_.second != SecondSystem::laplacian;
         for (const auto& [edge, cotangent] : cotangent_) {
@@ -130,7 +130,7 @@ class Reference {
             const Row row = laplacian_row(i);
             add(factor * faded_[i] * row_weight(i), applied(row, x).cast<double>(),
                 applied(row, rest_).cast<double>());
-            const Mat3 r = rotation_and_scale(held_.count(i) > 0 ? held_.at(i).linear : product);
+            const Mat3 r = transform_of(i, held_.count(i) > 0 ? held_.at(i).linear : product);
             sum += squares - 2.0 * r.cwiseProduct(product).sum();
         }
         return sum;
@@ -330,6 +330,12 @@ class Reference {
         const double scale =
             options_.local_size == LocalSize::scale ? m.norm() / std::sqrt(3.0) : 1.0;
         return scale * u * svd.matrixV().transpose();
+    }
+
+    /// S_i: where lengths count, a held vertex is as large as its handle makes it.
+    Mat3 transform_of(Index i, const Mat3& gradient) const {
+        const bool whole = held_.count(i) > 0 && options_.second != SecondSystem::laplacian;
+        return whole ? gradient : rotation_and_scale(gradient);
     }
 
     /// RMS distance of the surface to its centroid.
