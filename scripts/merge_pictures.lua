@@ -16,7 +16,7 @@ function merge_pictures.print(name, mesh, report, parts)
         report.solve_seconds))
     for i, join in ipairs(report.joins) do
         print(string.format("  join %d: %d vertices meet %d, scale %.3g%s%s%s", i, join.source_size,
-            join.target_size, join.scale, join.guessed and ", keys guessed" or "",
+            join.target_size, join.scale, join.placed ~= "keys" and ", placed " .. join.placed or "",
             join.source_trimmed and ", source trimmed" or "",
             join.target_trimmed and ", target trimmed" or ""))
     end

@@ -201,9 +201,9 @@ end
 -- ---- Joining
 
 local direction_options = { "source_up", "source_front", "target_up", "target_front" }
-local merge_options = { "configuration", "fixed", "reach", "frames", "seam", "smooth", "collar", "transition",
-    "trim", "greatest_turn", "refine", "intersections", "fidelity", "source_up", "source_front", "target_up",
-    "target_front" }
+local merge_options = { "configuration", "place", "fixed", "reach", "frames", "seam", "smooth", "collar",
+    "transition", "trim", "greatest_turn", "refine", "intersections", "fidelity", "source_up", "source_front",
+    "target_up", "target_front" }
 
 --- The values of a recipe's parameters (`schema` as of lissom.params), those given or else the defaults,
 -- and a table of the given options that are lissom.merge's own. Any other name is an error at the caller of

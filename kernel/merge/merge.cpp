@@ -55,6 +55,10 @@ void Merge::set_keys(Index join, std::vector<KeyPair> keys) try {
     throw_out_of_memory();
 }
 
+const std::vector<std::string>& Merge::warnings() const {
+    return state_->preparation.found.warnings;
+}
+
 std::size_t Merge::memory_bytes() const {
     const MergePreparation& made = state_->preparation;
     std::size_t bytes =

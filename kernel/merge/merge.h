@@ -36,6 +36,15 @@ namespace lissom {
 /// or stays where it was put and only bends to meet the target (3.3.2).
 enum class Configuration { free, fixed };
 
+/// How a free source without keys is turned about the axis of its boundary: least from how it lies
+/// beside the target, as people lay parts where they belong or leave both as they were modelled; or
+/// as the shapes of the parts suggest, wherever it lies. Directions that belong together
+/// (MergeOptions::directions) come before either.
+enum class Place { as_placed, shape };
+
+/// What decided which points of two boundaries meet.
+enum class Placing { keys, as_placed, directions, shape };
+
 /// How a feature that keeps its shape in the free configuration finds the similarity it moves by.
 enum class FeatureMotion {
     /// Its Laplacian coordinates share a deformation gradient that is an unknown of the systems
@@ -54,12 +63,15 @@ struct Join {
     Path source, target;
     /// Which of the targets.
     Index target_mesh = 0;
-    /// Points that meet. Without any, what fits best is taken; see JoinReport::guessed.
+    /// Points that meet. Without any, MergeOptions::directions or MergeOptions::place decide.
     std::vector<KeyPair> keys = {};
 };
 
 struct MergeOptions {
     Configuration configuration = Configuration::free;
+    /// How joins without keys are placed. In the fixed configuration the source lies where it is,
+    /// so that only `as_placed` applies.
+    Place place = Place::as_placed;
     /// Features of the source that keep their shape. In the free configuration each moves as a
     /// whole, by a similarity of its own (the extension of thesis section 3.5); in the fixed one it
     /// stays where it is.
@@ -122,10 +134,21 @@ struct JoinReport {
     Index source_size = 0, target_size = 0;
     /// How much the source grew at it.
     double scale = 1.0;
-    /// True where no keys were given; `certainty` is then runner-up cost / best cost. Below
-    /// kCertain the result is a guess that asks for one key.
+    /// What decided how the source is turned.
+    Placing placed = Placing::keys;
+    /// Whether the shapes decided, or directions that contradict each other; `certainty` is then
+    /// the probability, 0 to 1, that this is right, and else 1. Below kCertain the result asks for
+    /// one key.
     bool guessed = false;
-    double certainty = 0.0;
+    double certainty = 1.0;
+    /// Whether the parts are round, so that no turn is better than another.
+    bool any_turn = false;
+    /// How the source turns at this join from how it lies: the unit axis times an angle in radians,
+    /// 0 to pi.
+    Vec3 turn = Vec3::Zero();
+    /// Points of the boundaries that meet: given as the only key they make the same result, but for
+    /// rounding. None in the thesis's transition.
+    std::optional<KeyPair> key;
     /// Mean turn of the loops, in radians, as given; and whether they were trimmed.
     double source_turn = 0.0, target_turn = 0.0;
     bool source_trimmed = false, target_trimmed = false;
@@ -201,6 +224,10 @@ class Merge {
     /// (too narrow, too wide, with a handle, or meeting another); as `sew`; cancelled; internal in
     /// place of a mesh that is not sound.
     MergeResult solve(const Context& context = {});
+
+    /// What was found when the merge was prepared and the user should look at, in plain words; it
+    /// is among the warnings of the report as well.
+    const std::vector<std::string>& warnings() const;
 
     /// Bytes held: both inputs and the factors.
     std::size_t memory_bytes() const;

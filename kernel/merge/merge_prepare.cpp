@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/core/clock.h"
+#include "kernel/merge/loop/loop_fit.h"
 #include "kernel/merge/loop/loop_values.h"
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/provenance.h"
@@ -22,6 +23,8 @@ constexpr double kFew = 3.0;
 constexpr int kMostLevels = 4;
 // Edges of a region are looked at about so many of its vertices.
 constexpr Index kSampledVertices = 1000;
+// Outlines whose lengths in widths differ by more than this factor do not suit each other.
+constexpr double kThinOutline = 3.0;
 // How far the source deforms in the fixed configuration, in radii of its largest boundary.
 constexpr double kReach = 3.0;
 
@@ -54,6 +57,8 @@ void require_options(const MergeOptions& options, std::size_t joins, std::size_t
     const bool stays = options.configuration == Configuration::fixed;
     require(stays || !options.reach,
             "a reach applies to the fixed configuration; in the free one all of the source moves");
+    require(!stays || options.place == Place::as_placed,
+            "a source that stays has its place; place = shape applies to the free configuration");
     require(stays || options.turn_frames,
             "frames that keep their directions apply to the fixed configuration");
 }
@@ -342,6 +347,30 @@ void open_targets(double width, Boundaries& boundaries, const Context& context) 
     }
 }
 
+std::string axes_text(double aspect) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f : 1", aspect);
+    return text;
+}
+
+// A thin outline that meets a round one is spread to it, and the part beside it with it.
+void note_thin_outlines(const Boundaries& boundaries, std::vector<std::string>& warnings) {
+    for (std::size_t j = 0; j < boundaries.source_curves.size(); ++j) {
+        const double source = loop_aspect(boundaries.source_curves[j]);
+        const double target = loop_aspect(boundaries.target_curves[j]);
+        const double ratio = std::max(source / target, target / source);
+        if (!(ratio > kThinOutline)) continue;
+        char spread[16];
+        std::snprintf(spread, sizeof spread, "%.1f", std::sqrt(ratio));
+        warnings.push_back(
+            "join " + std::to_string(j + 1) + ": the source's outline (axes " + axes_text(source) +
+            ") and the target's (" + axes_text(target) +
+            ") differ so much that the source is widened " + spread +
+            " times at the seam; cut the thin part where it is rounder, or open the target along "
+            "an outline like the source's, as lissom.paste does");
+    }
+}
+
 // Features on parts without a join need no care: these go as a whole, or stay.
 std::vector<Region> carried_features(const MergeSide& source, const MergeOptions& options) {
     const Region loops = region_of_loops(source.mesh, source.loops);
@@ -516,6 +545,7 @@ MergePreparation prepare_merge(const Mesh& source, std::span<const Mesh* const> 
     progress.step(0.3);
     made.boundaries = find_boundaries(std::move(sides), joins, options, context);
     const Boundaries& from = made.boundaries;
+    note_thin_outlines(from, made.found.warnings);
     made.features = carried_features(from.source, options);
     made.loose = loose_parts(from.source);
     made.source_rim = seam_quality(from.source.mesh, from.source.loops);

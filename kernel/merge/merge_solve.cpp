@@ -1,4 +1,5 @@
 // What a merge does every time: correspondence, deformation of the source.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -6,7 +7,7 @@
 #include <utility>
 
 #include "kernel/deform/rotation/polar.h"
-#include "kernel/merge/loop/automatic_keys.h"
+#include "kernel/merge/loop/loop_fit.h"
 #include "kernel/merge/loop/loop_values.h"
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/turned.h"
@@ -109,23 +110,36 @@ BoundaryValue common_value(const Mesh& mesh, const Region& feature, const Region
     return {to, nearest_rotation(products), std::exp(logs / rows.size())};
 }
 
-// The shapes of the parts count only where the loops and the given directions leave a choice.
-std::vector<OffsetGuess> guessed_places(const MergePreparation& preparation,
-                                        const Context& context) {
-    const Boundaries& from = preparation.boundaries;
-    std::vector<LoopJoin> loops;
-    for (std::size_t j = 0; j < from.source_curves.size(); ++j) {
-        loops.push_back({&from.source_curves[j], &from.target_curves[j]});
+// Tells how a join without keys was placed.
+void note_place(const MergePreparation& preparation, const FoundPlaces& found, std::size_t j,
+                JoinReport& join, std::vector<std::string>& warnings) {
+    join.placed = found.by;
+    join.certainty = found.certainty[j];
+    join.any_turn = found.any_turn;
+    join.guessed = found.by == Placing::shape || join.certainty < kCertain;
+    const std::string name = "join " + std::to_string(j + 1) + ": ";
+    if (found.by == Placing::shape && preparation.options.place == Place::as_placed) {
+        warnings.push_back(name +
+                           "the source must be turned over to meet the target, so that how it lies "
+                           "does not say which way it belongs; the shapes decide");
     }
-    const auto& directions = preparation.options.directions;
-    const bool stays = preparation.options.configuration == Configuration::fixed;
-    if (stays && directions.empty()) return nearest_offsets(loops);
-    std::vector<OffsetGuess> guesses = guess_offsets(loops, directions);
-    if (guesses.front().certainty >= kCertain) return guesses;
-    const PartShapes::Pair& parts = preparation.parts->of(from, context);
-    loops.front().source_part = &parts.source;
-    loops.front().target_part = &parts.target;
-    return guess_offsets(loops, directions);
+    if (join.any_turn) {
+        warnings.push_back(name + "the parts are round, any turn fits; give a key to choose one");
+    } else if (join.certainty < kCertain) {
+        warnings.push_back(name +
+                           "where the boundaries meet is a guess; give it one key, or say which "
+                           "directions of both models belong together");
+    }
+}
+
+KeyPair key_of(const Loop& source, const Loop& target, const ParameterPair& key) {
+    return {point_of(source.points(), source.place_at(key.source)),
+            point_of(target.points(), target.place_at(key.target))};
+}
+
+Vec3 rotation_vector(const Mat3& rotation) {
+    const Eigen::AngleAxisd turn(rotation);
+    return turn.angle() * turn.axis();
 }
 
 // One value a held vertex; those not on a loop stay as they are.
@@ -243,10 +257,10 @@ std::vector<ParameterPair> parameters_of(const MergePreparation& preparation, st
 Matching match_boundaries(const MergePreparation& preparation,
                           std::span<const std::vector<KeyPair>> given, const Context& context) {
     const Boundaries& from = preparation.boundaries;
-    std::vector<OffsetGuess> guessed;
-    const bool guess = std::any_of(given.begin(), given.end(),
-                                   [](const std::vector<KeyPair>& keys) { return keys.empty(); });
-    if (guess) guessed = guessed_places(preparation, context);
+    FoundPlaces found;
+    const bool seek = std::any_of(given.begin(), given.end(),
+                                  [](const std::vector<KeyPair>& keys) { return keys.empty(); });
+    if (seek) found = find_places(preparation, context);
     Matching result;
     result.joins = preparation.found.joins;
     for (std::size_t j = 0; j < given.size(); ++j) {
@@ -257,18 +271,13 @@ Matching match_boundaries(const MergePreparation& preparation,
         JoinReport& join = result.joins[j];
         result.starts.push_back(keys.empty() ? 0 : nearest_vertex(source, keys.front().source));
         if (keys.empty()) {
-            keys.push_back(guessed[j].key);
-            join.guessed = true;
-            join.certainty = guessed[j].certainty;
-            if (join.certainty < kCertain) {
-                result.warnings.push_back(
-                    "join " + std::to_string(j + 1) +
-                    ": where the boundaries meet is a guess; give it one key, "
-                    "or say which directions of both models belong together");
-            }
+            keys.push_back(found.keys[j]);
+            note_place(preparation, found, j, join, result.warnings);
         }
         result.pairs.push_back(
             corresponding(source, target, keys, preparation.method.loops == LoopMeasure::robust));
+        if (!from.overlap) join.key = key_of(source, target, keys.front());
+        join.turn = rotation_vector(similarity_of(source, target, result.pairs.back()).rotation);
         join.refined = from.refined[j] != 0;
         join.target_refined = from.target_refined[j] != 0;
         join.source_size = source.size();

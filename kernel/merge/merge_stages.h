@@ -156,6 +156,15 @@ MergePreparation prepare_merge(const Mesh& source, std::span<const Mesh* const> 
 std::vector<ParameterPair> parameters_of(const MergePreparation& preparation, std::size_t join,
                                          std::span<const KeyPair> keys);
 
+/// Where joins without keys meet: one key and the certainty of each join.
+struct FoundPlaces {
+    std::vector<ParameterPair> keys;
+    Placing by = Placing::as_placed;
+    std::vector<double> certainty;
+    bool any_turn = false;
+};
+FoundPlaces find_places(const MergePreparation& preparation, const Context& context);
+
 /// What meets what.
 struct Matching {
     std::vector<LoopPair> pairs;
@@ -166,7 +175,7 @@ struct Matching {
     std::vector<JoinReport> joins;
     std::vector<std::string> warnings;
 };
-/// `keys` by join; guessed where there are none.
+/// `keys` by join; find_places if one has none.
 Matching match_boundaries(const MergePreparation& preparation,
                           std::span<const std::vector<KeyPair>> keys, const Context& context);
 

@@ -59,7 +59,7 @@ void judge_angles(const MergeReport& report, std::vector<std::string>& faults) {
 void judge_places(const MergeReport& report, std::vector<std::string>& faults) {
     for (std::size_t j = 0; j < report.joins.size(); ++j) {
         const JoinReport& join = report.joins[j];
-        if (!join.guessed || join.certainty >= kCertain) continue;
+        if (!join.guessed || join.any_turn || join.certainty >= kCertain) continue;
         faults.push_back("where the boundaries of join " + std::to_string(j + 1) +
                          " meet is a guess");
     }

@@ -122,8 +122,20 @@ test("keys are ids or points, in any number; both name the same place", function
     local mixed = lissom.merge{ joins = { join{ { from, { bowl:position(to) } } } } }
     same(mixed, mesh, 1e-9)
     local _, guessed = lissom.merge{ joins = { join() } }
-    expect.truthy(guessed.joins[1].guessed and guessed.joins[1].certainty >= 1)
-    expect.truthy(guessed.joins[1].certainty > 1.5 or #guessed.warnings > 0)
+    expect.equal(guessed.joins[1].placed, "as placed")
+    expect.equal(guessed.joins[1].guessed, false)
+    expect.near(guessed.joins[1].turn.angle, 0, 0.1)
+    local _, by_shape = lissom.merge{ joins = { join() }, place = "shape" }
+    expect.equal(by_shape.joins[1].placed, "shape")
+    expect.truthy(by_shape.joins[1].guessed and by_shape.joins[1].certainty <= 1)
+    expect.truthy(by_shape.joins[1].certainty > 0.75 or #by_shape.warnings > 0)
+    -- The key of a report makes the same result.
+    local confirmed = lissom.merge{ joins = { join{ by_shape.joins[1].key } } }
+    same(confirmed, lissom.merge{ joins = { join() }, place = "shape" }, 1e-9)
+    expect.error(function()
+        lissom.merge{ joins = { join() }, place = "shape", configuration = "fixed" }
+    end, "invalid_argument")
+    expect.error(function() lissom.merge{ joins = { join() }, place = "by shape" } end, "as placed")
 end)
 
 test("wherever the source lies", function()
@@ -275,7 +287,7 @@ test("several joins, on several targets", function()
     } }
     expect.truthy(handle:is_closed())
     expect.equal(handle:genus(), 1)
-    expect.truthy(of_handle.joins[1].guessed)
+    expect.equal(of_handle.joins[1].placed, "as placed")
 end)
 
 test("solved again after a key moved", function()
@@ -302,7 +314,8 @@ test("directions that belong together decide where round rims meet, and one with
     for _, front in ipairs{ "z", "-x", { 1, 0, 1 } } do
         local fitted, of_fitted = lissom.merge{ joins = { { source = rim(cap), target = ring_of } },
             source_front = front, target_front = "z" }
-        expect.truthy(fitted and of_fitted.joins[1].guessed and of_fitted.joins[1].certainty > 1.5)
+        expect.truthy(fitted and not of_fitted.joins[1].guessed)
+        expect.equal(of_fitted.joins[1].placed, "directions")
         local d = front == "z" and { 0, 0, 1 } or front == "-x" and { -1, 0, 0 } or
             { 0.70710678, 0, 0.70710678 }
         -- What lies at the front of the cap's rim comes to lie at the front of the cylinder's.
@@ -619,12 +632,15 @@ test("a source that stays where it was put meets what is nearest, and that is no
         local below = half(ball(20), 0, { 0, -1, 0 })
         local joins = { { source = rim(over), target = rim(below) } }
         local placed, of_placed = lissom.merge{ configuration = "fixed", joins = joins }
-        expect.truthy(placed:is_closed() and of_placed.joins[1].certainty > 1.5)
+        expect.truthy(placed:is_closed() and not of_placed.joins[1].guessed)
+        expect.truthy(of_placed.ok)
         for _, warning in ipairs(of_placed.warnings) do
             expect.truthy(not warning:find("guess", 1, true))
         end
         local _, of_free = lissom.merge{ joins = joins }
-        expect.truthy(of_free.joins[1].certainty < 1.5)
+        expect.truthy(not of_free.joins[1].guessed and of_free.joins[1].turn.angle < 0.5)
+        local _, of_shape = lissom.merge{ joins = joins, place = "shape" }
+        expect.truthy(of_shape.joins[1].any_turn or of_shape.joins[1].certainty < 0.75)
     end
 end)
 
@@ -646,4 +662,19 @@ test("the report tells the seam and the transition as regions of the merged mesh
         local p, q, r = blended:position(v)
         if not moved:contains(v) then expect.truthy(x == p and y == q and z == r) end
     end
+end)
+
+test("a thin outline that is to meet a round one is told before anything is solved", function()
+    local function thin(aspect)
+        local stretched = half(ball(24))
+        local points = stretched:positions()
+        for v = 1, #stretched do
+            stretched:set_position(v, aspect * points[3 * v - 2], points[3 * v - 1], points[3 * v])
+        end
+        return lissom.merging{ joins = { { source = rim(stretched), target = rim(bowl) } } }
+    end
+    expect.equal(#thin(1.5):warnings(), 0)
+    local told = thin(6):warnings()
+    expect.equal(#told, 1)
+    expect.truthy(told[1]:find("axes [56]%.%d : 1") and told[1]:find("lissom.paste", 1, true))
 end)

@@ -140,7 +140,8 @@ end)
 test("directions as of merging are taken by a merge without keys", function()
     local by_front, of_front = merging.join(head, torso, { source_cut = options.source_cut,
         source_front = "z", target_front = "0, 0, 1" })
-    expect.truthy(by_front:is_closed() and of_front.joins[1].certainty > 1.5)
+    expect.truthy(by_front:is_closed() and not of_front.joins[1].guessed)
+    expect.equal(of_front.joins[1].placed, "directions")
 end)
 
 test("the head turns with its parameter", function()

@@ -52,6 +52,7 @@ MergeOptions merge_options(const Call& call) {
     MergeOptions options;
     if (call.integer("fidelity") == 1) options = MergeOptions::literal(configuration);
     options.configuration = configuration;
+    options.place = call.choice<Place>("place");
     read_steps(call, options);
     if (call.has("transition") && call.kind("transition") == Kind::boolean) {
         options.suit_transition = true;
@@ -216,6 +217,18 @@ int solve_merging(Call& call) {
     return done ? push_merge_result(call, *result, merging->inputs) : call.fail();
 }
 
+int merging_warnings(Call& call) {
+    const auto merging = call.self<MergingObject>();
+    auto& warnings = call.hold<std::vector<std::string>>();
+    if (!call.attempt_quick([&] { warnings = merging->merge().warnings(); })) return call.fail();
+    lua_createtable(call.lua(), count_of(warnings), 0);
+    for (std::size_t i = 0; i < warnings.size(); ++i) {
+        call.push(warnings[i]);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+    }
+    return 1;
+}
+
 void close_merging(void* object) {
     static_cast<MergingObject*>(object)->content.reset();
 }
@@ -229,17 +242,24 @@ std::vector<Parameter> merge_parameters(bool intersections) {
               "List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which "
               "boundaries meet, and points that do: vertices of the boundaries, or points {x, y, "
               "z} on them, the source's first. Between keys arc length decides. Without keys the "
-              "best fit is taken, with the directions below and, where all these leave a choice, "
-              "with the planes of symmetry of the parts; in the fixed configuration, without "
-              "directions, what lies nearest meets. The report says how certain it is. All sources "
-              "lie on one "
-              "mesh; targets may lie on several, and each boundary is in one join."),
+              "directions below decide, or else `place`; the report says which turn was taken and "
+              "how certain it is. All sources lie on one mesh; targets may lie on several, and "
+              "each boundary is in one join."),
         object("source", "lissom.Mesh", "The mesh that is deformed.")
             .optional("the mesh of the joins' sources"),
         either("target",
                {object("target", "lissom.Mesh", ""), objects("target", "lissom.Mesh", "")},
                "The mesh, or the meshes, that stay.")
             .optional("the meshes of the joins' targets"),
+        choice("place", {"as placed", "shape"},
+               "How joins without keys and directions are turned about the axis of the boundary. "
+               "as placed: least from how the source lies beside the target, so that a part that "
+               "was laid roughly, or both as they were modelled, come right; the result is the "
+               "same if both are moved together, or if the source is moved without a turn and "
+               "scaled. shape: as the shapes of both parts suggest, the same wherever the source "
+               "lies; the report says how certain that is. A part that must be turned over by "
+               "more than 150 degrees is placed by shape as well.")
+            .defaults("as placed"),
         axis("source_up",
              "A direction of the source that is to lie the way `target_up` does, for joins without "
              "keys. It counts as far as it lies in the plane of the boundary: that of a neck's "
@@ -382,7 +402,14 @@ assert(merging:solve():is_closed()))"},
                                  {"lissom.MergeReport", "report", "What was found and done."}},
                      .errors = merge_errors(),
                      .example = made + R"(local mesh, report = merging:solve()
-assert(mesh:is_closed() and report.free_vertices > 0))"}},
+assert(mesh:is_closed() and report.free_vertices > 0))"},
+                    {.name = "warnings",
+                     .body = merging_warnings,
+                     .summary = "Returns what was found before anything is solved, such as a thin "
+                                "outline that is to meet a round one; the report has it as well.",
+                     .results = {{"string[]", "warnings", "In plain words."}},
+                     .errors = {ErrorCode::handle_removed},
+                     .example = made + "assert(#merging:warnings() == 0)"}},
         .close = close_merging};
 }
 

@@ -42,13 +42,51 @@ void push_seam(const Call& call, const SewReport& seam) {
     call.set_field("after");
 }
 
+constexpr const char* kPlacings[] = {"keys", "as placed", "directions", "shape"};
+
+void push_point(const Call& call, const Vec3& point) {
+    lua_createtable(call.lua(), 3, 0);
+    for (int k = 0; k < 3; ++k) {
+        call.push(point[k]);
+        lua_rawseti(call.lua(), -2, k + 1);
+    }
+}
+
+// A key whose ends are points, as those of the report are.
+void push_key(const Call& call, const KeyPair& key) {
+    lua_createtable(call.lua(), 2, 0);
+    push_point(call, std::get<Vec3>(key.source));
+    lua_rawseti(call.lua(), -2, 1);
+    push_point(call, std::get<Vec3>(key.target));
+    lua_rawseti(call.lua(), -2, 2);
+}
+
+void push_turn(const Call& call, const Vec3& turn) {
+    const double angle = turn.norm();
+    lua_createtable(call.lua(), 0, 2);
+    push_point(call, angle > 0.0 ? Vec3(turn / angle) : Vec3::UnitY());
+    call.set_field("axis");
+    call.set_field("angle", call.push(kDegrees * angle));
+}
+
+void push_place(const Call& call, const JoinReport& join) {
+    call.set_field("placed", call.push(kPlacings[static_cast<int>(join.placed)]));
+    call.set_field("guessed", call.push(join.guessed));
+    if (join.guessed) call.set_field("certainty", call.push(join.certainty));
+    call.set_field("any_turn", call.push(join.any_turn));
+    push_turn(call, join.turn);
+    call.set_field("turn");
+    if (!join.key) return;
+    push_key(call, *join.key);
+    call.set_field("key");
+}
+
 void push_join(const Call& call, const JoinReport& join) {
-    lua_createtable(call.lua(), 0, 11);
+    lua_createtable(call.lua(), 0, 15);
+    push_place(call, join);
     call.set_field("source_size", call.push(join.source_size));
     call.set_field("target_size", call.push(join.target_size));
     call.set_field("scale", call.push(join.scale));
-    call.set_field("guessed", call.push(join.guessed));
-    if (join.guessed) call.set_field("certainty", call.push(join.certainty));
     call.set_field("source_turn", call.push(kDegrees * join.source_turn));
     call.set_field("target_turn", call.push(kDegrees * join.target_turn));
     call.set_field("source_trimmed", call.push(join.source_trimmed));
@@ -342,9 +380,18 @@ std::vector<Record> merge_records() {
          {{"integer", "source_size", "Vertices of the source's boundary as it was joined."},
           {"integer", "target_size", "Vertices of the target's."},
           {"number", "scale", "How much the source grew there."},
-          {"boolean", "guessed", "No keys were given."},
+          {"string", "placed",
+           "What decided how the source is turned: keys, as placed, directions or shape."},
+          {"boolean", "guessed", "The shapes decided, or directions that contradict each other."},
           {"number|nil", "certainty",
-           "Where it was guessed: runner-up cost / best cost; below 1.5 give a key."},
+           "Where it was guessed: the probability, 0 to 1, that it is right; below .75 give a "
+           "key."},
+          {"boolean", "any_turn", "The parts are round: no turn is better than another."},
+          {"table", "turn",
+           "How the source turns from how it lies: axis, a unit vector, and angle in degrees."},
+          {"number[][]|nil", "key",
+           "A point of the source's boundary and the point of the target's that it meets: "
+           "keys = { key } makes the same result. nil in the thesis's transition."},
           {"number", "source_turn", "Mean turn of the source's boundary at a vertex, as given."},
           {"number", "target_turn", "The same of the target's."},
           {"boolean", "source_trimmed", "It was jagged and has been trimmed."},

@@ -6,20 +6,18 @@
 #include <cmath>
 #include <limits>
 
-#include "kernel/deform/rotation/polar.h"
+#include "kernel/merge/loop/loop_fit.h"
 
 namespace lissom {
 namespace {
 
-constexpr int kSamples = 128;
+constexpr int kSamples = kLoopSamples;
 // Offsets closer than this to the best one are the same guess.
 constexpr int kSameGuess = kSamples / 10;
 // What a mismatch of normals counts beside a misfit of points in sizes of the target.
 constexpr double kNormalWeight = 0.5;
 constexpr double kFrameSigma = 0.015;
-// Steps of the search between samples: the last is a billionth of a loop.
-constexpr int kRefinements = 30;
-// Certainty is told in costs of the best offset and at least these: of a fit alone, and where
+// Contrast is told in costs of the best offset and at least these: of a fit alone, and where
 // directions or parts decide.
 constexpr double kFitFloor = 1e-6, kLeaningFloor = 0.05;
 // Costs that differ by less are equally good; sampling changes them by as much.
@@ -27,8 +25,11 @@ constexpr double kTie = 1e-3;
 // Costs of neighbours that differ by less are level: rounding changes them by less than that where
 // a copy of the source lies elsewhere.
 constexpr double kFlat = 1e-6;
-// A rise below this is none, whatever the sign that rounding gives it.
-constexpr double kLevel = 1e-10;
+// Beyond this angle between the axes every turn rotates a source by nearly as much, and an error of
+// 10 degrees in how it lies may turn it by 40.
+constexpr double kTurnedOver = 150.0 * kPi / 180.0;
+// Halvings between two samples: the last is below the rounding of a parameter.
+constexpr int kHalvings = 50;
 // Directions whose parts in the planes of the loops have a smaller product say nothing.
 constexpr double kLeastLean = 0.01;
 // What directions of the user's count where they are opposite to each other, halved.
@@ -36,51 +37,8 @@ constexpr double kDirectionWeight = 4.0;
 // The same of the planes in which the parts are mirror images of themselves.
 constexpr double kMirrorWeight = 1.0;
 
-// A loop at evenly spaced parameters from `start`.
-struct Samples {
-    std::array<Vec3, kSamples> points, normals;
-
-    Samples(const Loop& loop, const std::vector<Mat3>& frames, double start) {
-        for (int k = 0; k < kSamples; ++k) {
-            const LoopPoint place = loop.place_at(start + static_cast<double>(k) / kSamples);
-            points[k] = point_of(loop.points(), place);
-            normals[k] = interpolated(frames, place).col(1).normalized();
-        }
-    }
-};
-
-struct Similarity {
-    Mat3 rotation = Mat3::Identity();
-    double scale = 1.0;
-    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
-
-    Vec3 operator()(const Vec3& p) const { return to + scale * (rotation * (p - from)); }
-};
-
-// Points that are to meet, with weights. The last of several joins are their centres.
-struct Matches {
-    std::vector<Vec3> from, to;
-
-    Similarity fit() const {
-        Similarity s;
-        const double n = from.size();
-        for (const Vec3& p : from) s.from += p / n;
-        for (const Vec3& p : to) s.to += p / n;
-        Mat3 products = Mat3::Zero();
-        double from_squares = 0.0, to_squares = 0.0;
-        for (std::size_t i = 0; i < from.size(); ++i) {
-            const Vec3 a = from[i] - s.from, b = to[i] - s.to;
-            products += b * a.transpose();
-            from_squares += a.squaredNorm();
-            to_squares += b.squaredNorm();
-        }
-        s.rotation = nearest_rotation(products / std::sqrt(from_squares * to_squares));
-        s.scale = std::sqrt(to_squares / from_squares);
-        return s;
-    }
-};
-
-double misfit(const Samples& source, const Samples& target, const Similarity& s, double size) {
+double misfit(const LoopSamples& source, const LoopSamples& target, const SimilarityMap& s,
+              double size) {
     double squares = 0.0, mismatch = 0.0;
     for (int k = 0; k < kSamples; ++k) {
         squares += (s(source.points[k]) - target.points[k]).squaredNorm();
@@ -115,7 +73,7 @@ int first_of_lowest(const Costs& cost) {
 }
 
 // `floor`: costs below this are those of one fit.
-double certainty_of(const Costs& cost, int best, double floor) {
+double contrast_of(const Costs& cost, int best, double floor) {
     double second = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kSamples; ++k) {
         const int apart = std::abs(k - best);
@@ -124,34 +82,8 @@ double certainty_of(const Costs& cost, int best, double floor) {
     return std::max(1.0, (second + floor) / (cost[best] + floor));
 }
 
-// The offset near a sample at which `cost` is as high a little before as a little after: in a
-// bottom of any shape that is a zero with a slope, so that rounding hardly moves it.
-template <typename Cost>
-double refined(int offset, const Cost& cost) {
-    const double apart = 0.5 / kSamples;
-    const auto rise = [&](double x) { return cost(x + apart) - cost(x - apart); };
-    double low = (offset - 1.0) / kSamples, high = (offset + 1.0) / kSamples;
-    if (!(rise(low) < -kLevel && rise(high) > kLevel)) {
-        return static_cast<double>(offset) / kSamples;
-    }
-    for (int step = 0; step < kRefinements; ++step) {
-        const double middle = 0.5 * (low + high);
-        (rise(middle) < -kLevel ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
-}
-
 Vec3 square_to(const Vec3& direction, const Vec3& axis) {
     return direction - direction.dot(axis) * axis;
-}
-
-// Turns one unit vector onto another the shortest way; either may be zero.
-Mat3 shortest_turn(const Vec3& from, const Vec3& to) {
-    const Vec3 across = from.cross(to);
-    const double sine = across.norm(), cosine = from.dot(to);
-    if (sine == 0.0 && cosine >= 0.0) return Mat3::Identity();
-    const Vec3 axis = sine > 0.0 ? Vec3(across / sine) : from.unitOrthogonal();
-    return Eigen::AngleAxisd(std::atan2(sine, cosine), axis).toRotationMatrix();
 }
 
 // All joins, to try offsets of the first one.
@@ -166,8 +98,8 @@ class OffsetSearch {
 
     // The similarity for an offset of the first join, with the centres of all others, each of which
     // counts as much as the samples of one loop.
-    Similarity fit(double offset) const {
-        const Samples to = target(0, offset);
+    SimilarityMap fit(double offset) const {
+        const LoopSamples to = target(0, offset);
         Matches matches;
         matches.from.assign(source_[0].points.begin(), source_[0].points.end());
         matches.to.assign(to.points.begin(), to.points.end());
@@ -178,28 +110,34 @@ class OffsetSearch {
         return matches.fit();
     }
 
-    double cost(std::size_t join, double offset, const Similarity& s) const {
+    double cost(std::size_t join, double offset, const SimilarityMap& s) const {
         return misfit(source_[join], target(join, offset), s, joins_[join].target->radius());
     }
 
-    // Of the first join, with how far the similarity leaves the other joins apart.
-    double first_cost(double offset, const Similarity& s) const {
-        const double size = joins_[0].target->radius();
+    // How far the similarity leaves the other joins apart, in radii of the first.
+    double others_apart(const SimilarityMap& s) const {
         double squares = 0.0;
         for (std::size_t j = 1; j < joins_.size(); ++j) {
             squares += (s(joins_[j].source->center()) - joins_[j].target->center()).squaredNorm();
         }
-        return cost(0, offset, s) + std::sqrt(squares / joins_.size()) / size;
+        return std::sqrt(squares / joins_.size()) / joins_[0].target->radius();
     }
 
+    double first_cost(double offset, const SimilarityMap& s) const {
+        return cost(0, offset, s) + others_apart(s);
+    }
+
+    // The best offsets of the joins behind the first one under a similarity.
+    void add_others(const SimilarityMap& s, std::vector<OffsetGuess>& guesses) const;
+
   private:
-    Samples target(std::size_t join, double offset) const {
+    LoopSamples target(std::size_t join, double offset) const {
         return {*joins_[join].target, frames_[join], offset};
     }
 
     std::span<const LoopJoin> joins_;
     std::vector<std::vector<Mat3>> frames_;
-    std::vector<Samples> source_;
+    std::vector<LoopSamples> source_;
 };
 
 // How far a rotation brings the directions together that belong together, in the planes of the
@@ -251,11 +189,81 @@ OffsetGuess best_offset(const Cost& cost, double floor) {
     for (int k = 0; k < kSamples; ++k) costs[k] = cost(static_cast<double>(k) / kSamples);
     const int best = first_of_lowest(costs);
     const double offset =
-        is_flat(costs, best) ? static_cast<double>(best) / kSamples : refined(best, cost);
-    return {{0.0, offset}, certainty_of(costs, best, floor)};
+        is_flat(costs, best) ? static_cast<double>(best) / kSamples : refined_offset(best, cost);
+    return {{0.0, offset}, contrast_of(costs, best, floor)};
+}
+
+void OffsetSearch::add_others(const SimilarityMap& s, std::vector<OffsetGuess>& guesses) const {
+    for (std::size_t j = 1; j < joins_.size(); ++j) {
+        guesses.push_back(
+            best_offset([&](double offset) { return cost(j, offset, s); }, kFitFloor));
+    }
+}
+
+// The angle, -pi to pi, by which a rotation turns about an axis.
+double twist_about(const Vec3& axis, const Mat3& rotation) {
+    const Eigen::Quaterniond q(rotation);
+    return std::remainder(2.0 * std::atan2(q.vec().dot(axis), q.w()), 2.0 * kPi);
+}
+
+// The sample of a twist after which it passes through 0, with the least values beside it; -1 if it
+// never does. It also changes its sign at half a turn.
+int untwisted_sample(const std::array<double, kSamples + 1>& twist) {
+    int best = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kSamples; ++k) {
+        const double size = std::max(std::abs(twist[k]), std::abs(twist[k + 1]));
+        if ((twist[k] <= 0.0) == (twist[k + 1] <= 0.0) || !(size < least)) continue;
+        best = k;
+        least = size;
+    }
+    return best;
+}
+
+// The offset under which a source with one loop is turned least: without a twist about the axis.
+double untwisted_offset(const OffsetSearch& search, const Vec3& axis) {
+    const auto twist = [&](double u) { return twist_about(axis, search.fit(u).rotation); };
+    std::array<double, kSamples + 1> twists{};
+    for (int k = 0; k <= kSamples; ++k) twists[k] = twist(static_cast<double>(k) / kSamples);
+    const int best = untwisted_sample(twists);
+    if (best < 0) return 0.0;
+    double low = static_cast<double>(best) / kSamples, high = low + 1.0 / kSamples;
+    const bool below = twists[best] <= 0.0;
+    for (int step = 0; step < kHalvings; ++step) {
+        const double middle = 0.5 * (low + high);
+        ((twist(middle) <= 0.0) == below ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+// The same of several loops, whose centres come together as well.
+double least_turned_offset(const OffsetSearch& search) {
+    const auto cost = [&](double u) {
+        const SimilarityMap fit = search.fit(u);
+        return search.others_apart(fit) + 0.25 * (3.0 - fit.rotation.trace());
+    };
+    return best_offset(cost, kFitFloor).key.target;
 }
 
 }  // namespace
+
+bool directions_count(const LoopJoin& join, std::span<const DirectionPair> directions) {
+    return Leaning({join.source, join.target}, directions).counts();
+}
+
+bool is_turned_over(const LoopJoin& join) {
+    const double along = join.source->axis().dot(join.target->axis());
+    return std::acos(std::clamp(along, -1.0, 1.0)) > kTurnedOver;
+}
+
+std::vector<OffsetGuess> as_placed_offsets(std::span<const LoopJoin> joins) {
+    const OffsetSearch search(joins);
+    const double offset = joins.size() > 1 ? least_turned_offset(search)
+                                           : untwisted_offset(search, joins.front().target->axis());
+    std::vector<OffsetGuess> guesses{{{0.0, offset}, kSureContrast}};
+    search.add_others(search.fit(offset), guesses);
+    return guesses;
+}
 
 std::vector<OffsetGuess> guess_offsets(std::span<const LoopJoin> joins,
                                        std::span<const DirectionPair> directions) {
@@ -263,15 +271,11 @@ std::vector<OffsetGuess> guess_offsets(std::span<const LoopJoin> joins,
     const Leaning leaning(joins.front(), directions);
     std::vector<OffsetGuess> guesses{best_offset(
         [&](double offset) {
-            const Similarity fit = search.fit(offset);
+            const SimilarityMap fit = search.fit(offset);
             return search.first_cost(offset, fit) + leaning.cost(fit.rotation);
         },
         leaning.counts() ? kLeaningFloor : kFitFloor)};
-    const Similarity fit = search.fit(guesses.front().key.target);
-    for (std::size_t j = 1; j < joins.size(); ++j) {
-        guesses.push_back(
-            best_offset([&](double offset) { return search.cost(j, offset, fit); }, kFitFloor));
-    }
+    search.add_others(search.fit(guesses.front().key.target), guesses);
     return guesses;
 }
 
@@ -280,8 +284,9 @@ std::vector<OffsetGuess> nearest_offsets(std::span<const LoopJoin> joins) {
     std::vector<OffsetGuess> guesses;
     for (std::size_t j = 0; j < joins.size(); ++j) {
         const Loop &source = *joins[j].source, &target = *joins[j].target;
-        const Similarity met{shortest_turn(source.axis(), target.axis()),
-                             target.radius() / source.radius(), source.center(), target.center()};
+        const SimilarityMap met{shortest_turn(source.axis(), target.axis()),
+                                target.radius() / source.radius(), source.center(),
+                                target.center()};
         guesses.push_back(
             best_offset([&](double offset) { return search.cost(j, offset, met); }, kFitFloor));
     }

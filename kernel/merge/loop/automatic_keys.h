@@ -1,5 +1,5 @@
-/// Which points of boundaries meet where the user gives no keys: the offset along the loop under
-/// which a similarity fits best.
+/// Which points of boundaries meet if the user gives no keys: the offset along the loop that turns
+/// the source least from how it lies, or the one under which a similarity fits best.
 #pragma once
 
 #include <span>
@@ -23,10 +23,27 @@ struct LoopJoin {
 /// A guess for one join.
 struct OffsetGuess {
     ParameterPair key;
-    /// Cost of the best different offset, in costs of the best one: below kCertain the guess is a
-    /// toss.
-    double certainty = 1.0;
+    /// Cost of the best different offset, in costs of the best one: below kClearContrast the guess
+    /// is a toss.
+    double contrast = 1.0;
 };
+
+/// Offsets of this contrast are no toss; and the contrast of one that was not compared.
+inline constexpr double kClearContrast = 1.5, kSureContrast = 1e9;
+
+/// Finds, of all turns about the axis of the first loop, the one that rotates the source least from
+/// how it lies: the similarity that fits the loops then has no twist about the target's axis. With
+/// several joins the centres of all loops come together, and of what that leaves the least rotation
+/// is taken. The other joins get the best offset under that similarity.
+std::vector<OffsetGuess> as_placed_offsets(std::span<const LoopJoin> joins);
+
+/// Returns whether the source must be turned over by more than 150 degrees to meet the target, so
+/// that how it lies does not say which way it belongs.
+bool is_turned_over(const LoopJoin& join);
+
+/// Returns whether any of the directions lies in the planes of both loops enough to say how the
+/// source turns.
+bool directions_count(const LoopJoin& join, std::span<const DirectionPair> directions);
 
 /// Tries 128 offsets of the first join, each with the similarity that fits its samples and, beside
 /// them, the centres of all other joins, and takes the one with the least misfit of points,

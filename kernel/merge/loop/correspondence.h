@@ -28,7 +28,7 @@ struct DirectionPair {
 };
 
 /// A correspondence that was guessed with less certainty than this is a toss; see JoinReport.
-inline constexpr double kCertain = 1.5;
+inline constexpr double kCertain = 0.75;
 
 /// Parameters of two loops that meet, each ascending cyclically.
 struct ParameterPair {

@@ -482,7 +482,7 @@ TEST_CASE("two coarse loops beside a dense source are split on both sides, and i
     CHECK(refined < 0.8 * plain);
 }
 
-TEST_CASE("without keys a merge is the same wherever its source lies") {
+TEST_CASE("placed by shape a merge is the same wherever its source lies") {
     // Round loops could meet anywhere, and nothing of the parts says where.
     const auto round_dome = [](Index count) {
         return tube(count, 20, [](double angle, double height) {
@@ -500,6 +500,7 @@ TEST_CASE("without keys a merge is the same wherever its source lies") {
     };
     const Mesh* targets[] = {&target};
     MergeOptions options;
+    options.place = Place::shape;
     const auto merged_from = [&](const Mesh& mesh) {
         return Merge(mesh, targets, {Join{low(mesh), low(target)}}, options).solve();
     };

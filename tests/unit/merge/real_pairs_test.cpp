@@ -227,6 +227,7 @@ TEST_CASE("a part that was cut off and moved comes back where it was") {
         MergeOptions options;
         options.smooth = 0;
         options.trim = false;
+        options.place = Place::shape;
         Merge merge(moved, targets, {Join{boundary, body->boundary}}, options);
         const MergeResult result = merge.solve();
         CHECK(result.report.joins[0].guessed);

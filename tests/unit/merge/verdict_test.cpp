@@ -42,7 +42,7 @@ TEST_CASE("the verdict says in one line that a seam is good, or all that is not"
     MergeReport bad = report_with(31.0, 0.4);
     bad.intersections.resize(3);
     bad.joins.front().guessed = true;
-    bad.joins.front().certainty = 1.1;
+    bad.joins.front().certainty = 0.6;
     const Verdict all = verdict_of(bad, true);
     CHECK(!all.good);
     CHECK(says(all, "31 degrees"));

@@ -47,7 +47,7 @@ TEST_CASE("without keys the loops meet where a similarity brings them together")
         double distance = 0.0;
         const double u = target.parameter_of(target.nearest(expected, distance));
         CHECK(difference(guess.key.target - guess.key.source, u) < 0.01);
-        CHECK(guess.certainty > 1.5);
+        CHECK(guess.contrast > kClearContrast);
     }
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("where the source stays, places decide, however round the loops are") 
         double distance = 0.0;
         const double u = target.parameter_of(target.nearest(expected, distance));
         CHECK(difference(guess.key.target - guess.key.source, u) < 0.01);
-        CHECK(guess.certainty > 1.5);
+        CHECK(guess.contrast > kClearContrast);
     }
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("a round loop could meet anywhere, and the guess says so") {
     const Mesh a = round_tube(60, 3), b = round_tube(60, 3);
     const Loop source = first_ring(a, 60), target = first_ring(b, 60);
     const LoopJoin join{&source, &target};
-    CHECK(guess_offsets(std::span(&join, 1)).front().certainty < 1.5);
+    CHECK(guess_offsets(std::span(&join, 1)).front().contrast < kClearContrast);
 }
 
 TEST_CASE("round loops of several joins find each other by where the others are") {
@@ -96,7 +96,7 @@ TEST_CASE("round loops of several joins find each other by where the others are"
     for (std::size_t k = 0; k < loops.size(); k += 2) joins.push_back({&loops[k], &loops[k + 1]});
     for (const OffsetGuess& guess : guess_offsets(joins)) {
         CHECK(difference(guess.key.target - guess.key.source, 0.0) < 0.01);
-        CHECK(guess.certainty > 1.5);
+        CHECK(guess.contrast > kClearContrast);
     }
 }
 
@@ -156,9 +156,9 @@ TEST_CASE("directions that belong together decide where loops leave a choice") {
         const DirectionPair pair{7.0 * front, turn(Vec3(1, 0, 0.2))};
         const OffsetGuess guess = guess_offsets(std::span(&join, 1), std::span(&pair, 1)).front();
         CHECK(difference(guess.key.target, 1.0 - angle / (2.0 * kPi)) < 1e-3);
-        CHECK(guess.certainty > kCertain);
+        CHECK(guess.contrast > kClearContrast);
     }
     // Along the axis they say nothing.
     const DirectionPair along{Vec3::UnitZ(), turn(Vec3::UnitZ())};
-    CHECK(guess_offsets(std::span(&join, 1), std::span(&along, 1)).front().certainty < kCertain);
+    CHECK(guess_offsets(std::span(&join, 1), std::span(&along, 1)).front().contrast < kClearContrast);
 }
