@@ -58,6 +58,7 @@ LISSOM_GLFW(void, glfwGetFramebufferSize, (GLFWwindow * window, int* width, int*
 LISSOM_GLFW(int, glfwGetInputMode, (GLFWwindow * window, int mode), (window, mode))
 LISSOM_GLFW(const float*, glfwGetJoystickAxes, (int jid, int* count), (jid, count))
 LISSOM_GLFW(const unsigned char*, glfwGetJoystickButtons, (int jid, int* count), (jid, count))
+LISSOM_GLFW(const char*, glfwGetKeyName, (int key, int scancode), (key, scancode))
 LISSOM_GLFW(void, glfwGetMonitorWorkarea,
             (GLFWmonitor * monitor, int* xpos, int* ypos, int* width, int* height),
             (monitor, xpos, ypos, width, height))

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "viewer/window/screen/key_letter.h"
 
 namespace lissom::window {
 namespace {
@@ -54,9 +55,19 @@ Key key_of(int code) {
     const auto* found = std::find_if(kKeys.begin(), kKeys.end(),
                                      [&](const auto& pair) { return pair.first == code; });
     if (found != kKeys.end()) return found->second;
-    const bool has_character =
-        (code >= GLFW_KEY_0 && code <= GLFW_KEY_9) || (code >= GLFW_KEY_A && code <= GLFW_KEY_Z);
-    return has_character ? Key::character : Key::none;
+    return Key::none;
+}
+
+// The text that the present layout gives a key.
+std::string name_of(int code) {
+    const char* const name = glfwGetKeyName(code, 0);
+    return name ? name : "";
+}
+
+void press_key(InputMaker& inputs, int code, bool is_down, const Modifiers& held) {
+    const Key key = key_of(code);
+    const char32_t letter = key == Key::none ? key_letter(code, name_of) : 0;
+    inputs.key(letter != 0 ? Key::character : key, letter, is_down, held);
 }
 
 Modifiers modifiers_of(int bits) {
@@ -177,8 +188,8 @@ void GlfwWindow::State::listen() {
     });
     glfwSetKeyCallback(window, [](GLFWwindow* from, int code, int, int action, int bits) {
         const bool is_down = action != GLFW_RELEASE;
-        of(from).inputs.key(key_of(code), static_cast<char32_t>(code), is_down,
-                            modifiers_after(code, is_down, modifiers_of(bits)));
+        press_key(of(from).inputs, code, is_down,
+                  modifiers_after(code, is_down, modifiers_of(bits)));
     });
     glfwSetCharCallback(
         window, [](GLFWwindow* from, unsigned character) { of(from).inputs.text(character); });
