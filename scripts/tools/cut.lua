@@ -90,6 +90,7 @@ return lissom.tool{
     drag = function(self, ev)
         if self.params.by == "draw" and self.line then table.insert(self.line, { ev.x, ev.y }) end
         if self.params.by ~= "line" then return end
+        if ev.late then return end
         self.line, self.lines = { ev.start, { ev.x, ev.y } }, nil
         local one, plane = plane_of(self, ev)
         if not one then return end

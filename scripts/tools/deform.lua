@@ -104,6 +104,7 @@ return lissom.tool{
         if self.brush.last then return paint(self, ev) end
         if not one or not self.grip.gizmo:part() then return end
         handles.follow(one, self.grip.before, self.grip:drag(ev))
+        if ev.late then return end
         assert(handles.preview(one, self.params.preview))
     end,
     release = function(self, ev)

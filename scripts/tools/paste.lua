@@ -130,7 +130,9 @@ return lissom.tool{
         self.last = self.part.name
         follow(self, ev)
     end,
-    drag = follow,
+    drag = function(self, ev)
+        if not ev.late then follow(self, ev) end
+    end,
     wheel = function(self, ev)
         if ev.shift then
             self.params.scale = math.max(0.01, math.min(100, self.params.scale * growth ^ ev.lines))

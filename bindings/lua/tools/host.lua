@@ -91,7 +91,7 @@ end
 function Event:select(options) return self.camera:select(filled(self, options)) end
 
 local event_fields = {
-    mouse = set_of{ "x", "y", "button", "shift", "ctrl", "alt" },
+    mouse = set_of{ "x", "y", "button", "shift", "ctrl", "alt", "late" },
     wheel = set_of{ "x", "y", "lines", "shift", "ctrl", "alt" },
     key = set_of{ "key", "shift", "ctrl", "alt" },
 }

@@ -351,8 +351,9 @@ std::vector<Function> tool_functions() {
              "a "
              "parameter), draw, activate, deactivate, cancel. All take the tool itself and a "
              "lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the "
-             "scene, any other call is one of its own; after an error the scene is as before. The "
-             "table's other keys are the tool's own.",
+             "scene, any other call is one of its own; after an error the scene is as before. "
+             "drag is called with every place that the hand came to. The table's other keys are "
+             "the tool's own.",
          .arguments = {table("tool", "name, help, params (as for lissom.params) and functions.")},
          .results = {{"table", "tool", "The same table; `tool.params` are the values now."}},
          .errors = {ErrorCode::invalid_argument},
@@ -418,7 +419,8 @@ std::vector<Record> tool_records() {
           {"string?", "button", "left (default), right or middle; of a press."},
           {"boolean?", "shift", "Whether this key is down."},
           {"boolean?", "ctrl", "Likewise."},
-          {"boolean?", "alt", "Likewise."}}},
+          {"boolean?", "alt", "Likewise."},
+          {"boolean?", "late", "A later place of the same drag is known already; of a move."}}},
         {"lissom.ToolEvent",
          "What a tool is called with.",
          {{"number?", "x", "Pixels from the left edge of the picture."},
@@ -431,6 +433,9 @@ std::vector<Record> tool_records() {
           {"boolean", "shift", "Whether this key is down."},
           {"boolean", "ctrl", "Likewise."},
           {"boolean", "alt", "Likewise."},
+          {"boolean?", "late",
+           "A later place of the same drag is known already, of drag: a slow tool takes this one, "
+           "and leaves out what is only seen until then."},
           {"lissom.Camera", "camera", "What the scene is seen by."},
           {"lissom.Scene", "scene", "The scene."},
           {"integer[]", "size", "{width, height} of the picture in pixels."},

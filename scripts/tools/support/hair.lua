@@ -281,9 +281,9 @@ function hair.goes_on(tool, ev)
     if is_turned then tool.turn = tool.turn + 1 end
     tool.alt = ev.alt
     if not is_near(ev, tool.pixels[#tool.pixels], fine) then table.insert(tool.pixels, { ev.x, ev.y }) end
-    if is_near(ev, tool.last, step) and not is_turned then return false end
-    tool.last = { ev.x, ev.y }
-    return true
+    if is_near(ev, tool.last, step) and not is_turned and not tool.behind then return false end
+    tool.last, tool.behind = { ev.x, ev.y }, ev.late
+    return not ev.late
 end
 
 --- Whether what was drawn is a click: all of it within 6 pixels.

@@ -4,17 +4,6 @@
 
 namespace lissom::window {
 
-void InputQueue::push(Input input) {
-    const bool repeats = !inputs_.empty() && input.kind == Input::Kind::move &&
-                         inputs_.back().kind == Input::Kind::move &&
-                         inputs_.back().modifiers == input.modifiers;
-    if (repeats) {
-        inputs_.back() = std::move(input);
-    } else {
-        inputs_.push_back(std::move(input));
-    }
-}
-
 std::vector<Input> InputQueue::take() {
     return std::exchange(inputs_, {});
 }
@@ -47,6 +36,7 @@ void InputMaker::scroll(const Vec2& lines) {
 
 void InputMaker::key(Key key, char32_t code, bool is_down, const Modifiers& held) {
     const Modifiers before = std::exchange(held_, held);
+    if (is_down) letter_ = key == Key::character ? code : 0;
     if (key == Key::none) {
         if (held_ != before) queue_.push(made(Input::Kind::move));
         return;
@@ -60,6 +50,7 @@ void InputMaker::key(Key key, char32_t code, bool is_down, const Modifiers& held
 void InputMaker::text(char32_t character) {
     Input input = made(Input::Kind::text);
     input.character = character;
+    input.letter = letter_;
     queue_.push(std::move(input));
 }
 

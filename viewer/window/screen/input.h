@@ -1,4 +1,4 @@
-/// Input: what a hand did, as the window tells it, and a queue in which moves do not pile up.
+/// Input: actions of a hand, as the window tells them, and a queue that keeps all of them.
 #pragma once
 
 #include <cstdint>
@@ -55,15 +55,16 @@ struct Input {
     Key key = Key::none;
     /// Of text: the character. Of Key::character: the letter or digit on the key, in capitals.
     char32_t character = 0;
+    /// Of text: the letter or digit of the key that was pressed last; 0 for none.
+    char32_t letter = 0;
     /// Of a drop: paths.
     std::vector<std::string> files = {};
 };
 
-/// Inputs in their order. Of moves that follow each other only the last is kept, so that whoever is
-/// slower than the hand is never behind it by more than one.
+/// Inputs in their order. Every move stays: a stroke is its whole course.
 class InputQueue {
   public:
-    void push(Input input);
+    void push(Input input) { inputs_.push_back(std::move(input)); }
     /// All of it; the queue is empty afterwards.
     std::vector<Input> take();
     bool empty() const { return inputs_.empty(); }
@@ -100,6 +101,7 @@ class InputMaker {
     InputQueue queue_;
     Modifiers held_;
     Vec2 cursor_ = Vec2::Zero();
+    char32_t letter_ = 0;
 };
 
 }  // namespace lissom::window

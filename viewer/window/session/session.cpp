@@ -27,6 +27,9 @@ constexpr std::size_t kMostLines = 10000;
 // Seconds after which what a tool does is stopped where its file changes.
 constexpr double kLongWork = 1.0;
 
+// Seconds after which a stroke that a slow tool follows is shown as far as it has come.
+constexpr double kLongStroke = 0.05;
+
 // os.exit, which would end the window and what it holds.
 int refuse_exit(lua_State* L) {
     return luaL_error(L, "os.exit does not end the window: return, or raise an error");
@@ -673,20 +676,31 @@ void Session::take_inputs() {
     lock.unlock();
     begin_work();
     bool only_looks = true;
-    for (const ToolInput& input : inputs) {
+    auto seen = Clock::now();
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const ToolInput& input = inputs[i];
         if (input.kind == ToolInput::Kind::look) look_ = input;
         if (!bench_ || !bench_->has_scene()) continue;
         const bool is_hover = input.kind == ToolInput::Kind::move && !bench_->is_held();
+        const bool is_late = is_followed(inputs, i);
+        if (is_hover && is_late) continue;
         only_looks = only_looks && (is_hover || input.kind == ToolInput::Kind::look);
-        if (input.kind == ToolInput::Kind::play) {
-            play(input.event);
-        } else if (input.kind == ToolInput::Kind::stop) {
-            let_go();
-        } else {
-            succeeds(bench_->take(input));
-        }
+        take_input(input, is_late);
+        if (seconds_since(seen) < kLongStroke || i + 1 == inputs.size()) continue;
+        show_scene(!std::exchange(only_looks, true));
+        seen = Clock::now();
     }
     show_scene(!only_looks);
+}
+
+void Session::take_input(const ToolInput& input, bool is_late) {
+    if (input.kind == ToolInput::Kind::play) {
+        play(input.event);
+    } else if (input.kind == ToolInput::Kind::stop) {
+        let_go();
+    } else {
+        succeeds(bench_->take(input, is_late));
+    }
 }
 
 // What the tool shows; an error that comes again with every event is told once.

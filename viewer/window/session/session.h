@@ -171,6 +171,7 @@ class Session {
     using Setting = std::pair<std::string, lua::ParameterValue>;
     void set_parameter(const std::shared_ptr<Setting>& setting);
     void take_inputs();
+    void take_input(const ToolInput& input, bool is_late);
     bool succeeds(const cli::ScriptResult& result);
     void recover();
     void draw_marks();

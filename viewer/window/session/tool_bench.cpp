@@ -234,7 +234,7 @@ void push_look(lua_State* L, const ToolInput& input) {
     lua_setfield(L, -2, "size");
 }
 
-void push_event(lua_State* L, const ToolInput& input) {
+void push_event(lua_State* L, const ToolInput& input, bool is_late) {
     lua_newtable(L);
     const auto flag = [&](const char* key, bool down) {
         if (!down) return;
@@ -244,6 +244,7 @@ void push_event(lua_State* L, const ToolInput& input) {
     flag("shift", input.modifiers.shift);
     flag("ctrl", input.modifiers.ctrl);
     flag("alt", input.modifiers.alt);
+    flag("late", is_late);
     if (input.kind == ToolInput::Kind::key) {
         lua_pushstring(L, input.key.c_str());
         return lua_setfield(L, -2, "key");
@@ -406,7 +407,7 @@ cli::ScriptResult ToolBench::use(const std::string& word, const std::string& tol
     return result;
 }
 
-cli::ScriptResult ToolBench::take(const ToolInput& input) {
+cli::ScriptResult ToolBench::take(const ToolInput& input, bool is_late) {
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     push_host();
@@ -416,7 +417,7 @@ cli::ScriptResult ToolBench::take(const ToolInput& input) {
         result = call("look", 2);
     } else {
         lua_pushstring(L, kVerbs[static_cast<std::size_t>(input.kind)]);
-        push_event(L, input);
+        push_event(L, input, is_late);
         result = call("method", 3);
     }
     lua_settop(L, top);

@@ -138,8 +138,8 @@ class ToolBench {
     std::vector<std::filesystem::path> tool_files(const std::string& word);
     /// Whether a button is down that the tool knows of.
     bool is_held() const;
-    /// A hand has done this.
-    cli::ScriptResult take(const ToolInput& input);
+    /// A hand has done this; `is_late` if a later place of the same drag is known already.
+    cli::ScriptResult take(const ToolInput& input, bool is_late = false);
     /// Shows or hides an object of the scene.
     cli::ScriptResult show(const std::string& name, bool visible);
     cli::ScriptResult set(const std::string& name, const lua::ParameterValue& value);

@@ -13,9 +13,8 @@ gl::Extent ToolPixels::size(const PictureSize& pixels) const {
 }
 
 void push_input(std::vector<ToolInput>& inputs, ToolInput input) {
-    const bool piles_up = input.kind == ToolInput::Kind::move ||
-                          input.kind == ToolInput::Kind::look ||
-                          input.kind == ToolInput::Kind::wheel;
+    const bool piles_up =
+        input.kind == ToolInput::Kind::look || input.kind == ToolInput::Kind::wheel;
     const bool replaces = piles_up && !inputs.empty() && inputs.back().kind == input.kind &&
                           inputs.back().modifiers == input.modifiers;
     if (replaces) {
@@ -24,6 +23,12 @@ void push_input(std::vector<ToolInput>& inputs, ToolInput input) {
     } else {
         inputs.push_back(std::move(input));
     }
+}
+
+bool is_followed(const std::vector<ToolInput>& inputs, std::size_t place) {
+    if (inputs[place].kind != ToolInput::Kind::move || place + 1 == inputs.size()) return false;
+    const ToolInput& next = inputs[place + 1];
+    return next.kind == ToolInput::Kind::move && next.modifiers == inputs[place].modifiers;
 }
 
 std::string tool_key(const Input& input) {
@@ -49,10 +54,11 @@ std::string tool_key(const Input& input) {
         default:
             break;
     }
-    const bool types =
-        input.kind == Input::Kind::text && input.character > 32 && input.character < 127;
-    if (!types) return "";
-    return std::string(1, static_cast<char>(std::tolower(static_cast<int>(input.character))));
+    if (input.kind != Input::Kind::text) return "";
+    const bool has_latin = input.letter >= U'A' && input.letter <= U'Z';
+    const char32_t typed = input.character > 127 && has_latin ? input.letter : input.character;
+    if (typed <= 32 || typed >= 127) return "";
+    return std::string(1, static_cast<char>(std::tolower(static_cast<int>(typed))));
 }
 
 }  // namespace lissom::window

@@ -1,5 +1,4 @@
-/// What a hand does to the picture, on its way to a tool; and a queue in which moves do not pile
-/// up.
+/// What a hand does to the picture, on its way to a tool; and a queue that keeps each move.
 #pragma once
 
 #include <cstddef>
@@ -43,12 +42,16 @@ struct ToolPixels {
     gl::Extent size(const PictureSize& pixels) const;
 };
 
-/// Adds `input` behind others. A move that follows a move with the same buttons, or a look that
-/// follows a look, takes its place, and turns of the wheel are summed: whoever is slower than the
-/// hand is never behind by more than one.
+/// Adds `input` behind others. A look that follows a look takes its place, and turns of the wheel
+/// are summed. Moves are all kept: a stroke is its whole course.
 void push_input(std::vector<ToolInput>& inputs, ToolInput input);
 
+/// Returns whether the input at `place` is a move that another move follows, with the same
+/// modifiers: a tool may leave out what is only seen between them.
+bool is_followed(const std::vector<ToolInput>& inputs, std::size_t place);
+
 /// The name of a key as tools know it: "enter", "a", "7"; empty for one that they are not told of.
+/// A letter that is not Latin has the name of the Latin letter on its key.
 std::string tool_key(const Input& input);
 
 }  // namespace lissom::window

@@ -16,7 +16,7 @@ Input input_at(Input::Kind kind, double x) {
 
 }  // namespace
 
-TEST_CASE("input: of moves that follow each other the last is left, and nothing else is") {
+TEST_CASE("input: every move is kept in its order") {
     InputQueue queue;
     queue.push(input_at(Input::Kind::move, 1.0));
     queue.push(input_at(Input::Kind::move, 2.0));
@@ -26,19 +26,24 @@ TEST_CASE("input: of moves that follow each other the last is left, and nothing 
     queue.push(input_at(Input::Kind::scroll, 999.0));
     queue.push(input_at(Input::Kind::scroll, 999.0));
     const std::vector<Input> inputs = queue.take();
-    REQUIRE(inputs.size() == 6);
-    CHECK(inputs[0].at.x() == 2.0);
-    CHECK(inputs[1].kind == Input::Kind::press);
-    CHECK(inputs[2].at.x() == 999.0);
-    CHECK(inputs[3].kind == Input::Kind::release);
+    REQUIRE(inputs.size() == 1003);
+    CHECK(inputs[0].at.x() == 1.0);
+    CHECK(inputs[2].kind == Input::Kind::press);
+    for (std::size_t i = 3; i < 1000; ++i) REQUIRE(inputs[i].at.x() == 1.0 * i);
+    CHECK(inputs[1000].kind == Input::Kind::release);
     CHECK(queue.empty());
 }
 
-TEST_CASE("input: moves with other modifiers are kept apart") {
-    InputQueue queue;
-    queue.push(input_at(Input::Kind::move, 1.0));
-    Input shifted = input_at(Input::Kind::move, 2.0);
-    shifted.modifiers.shift = true;
-    queue.push(shifted);
-    CHECK(queue.take().size() == 2);
+TEST_CASE("input: text says which letter is on its key") {
+    InputMaker maker([] { return PixelScale{}; });
+    maker.key(Key::character, U'W', true, {});
+    maker.text(U'ц');
+    maker.key(Key::character, U'W', false, {});
+    maker.key(Key::none, 0, true, {});
+    maker.text(U'-');
+    const std::vector<Input> inputs = maker.queue().take();
+    REQUIRE(inputs.size() == 4);
+    CHECK(inputs[1].letter == U'W');
+    CHECK(inputs[1].character == U'ц');
+    CHECK(inputs[3].letter == 0);
 }

@@ -139,7 +139,7 @@ std::string content_of(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("tool input: moves and looks do not pile up, all else does") {
+TEST_CASE("tool input: looks and turns of the wheel do not pile up, and no move is lost") {
     std::vector<ToolInput> inputs;
     push_input(inputs, input(Kind::move, 1.0));
     push_input(inputs, input(Kind::move, 2.0));
@@ -158,10 +158,15 @@ TEST_CASE("tool input: moves and looks do not pile up, all else does") {
         turned.lines = lines;
         push_input(inputs, turned);
     }
-    REQUIRE(inputs.size() == 9);
-    CHECK(inputs[0].at.x() == 2.0);
-    CHECK(inputs[2].at.x() == 99.0);
-    CHECK(inputs[8].lines == 2.5);
+    REQUIRE(inputs.size() == 109);
+    CHECK(inputs[0].at.x() == 1.0);
+    CHECK(inputs[102].at.x() == 99.0);
+    CHECK(inputs[108].lines == 2.5);
+    CHECK(is_followed(inputs, 0));
+    CHECK_FALSE(is_followed(inputs, 1));
+    CHECK_FALSE(is_followed(inputs, 2));
+    // The modifiers of the next one differ.
+    CHECK_FALSE(is_followed(inputs, 106));
 }
 
 TEST_CASE("tool input: keys have the names that tools know") {
@@ -172,7 +177,11 @@ TEST_CASE("tool input: keys have the names that tools know") {
     typed.character = U'+';
     CHECK(tool_key(typed) == "+");
     typed.character = U'é';
+    typed.letter = U'2';
     CHECK(tool_key(typed).empty());
+    typed.character = U'ц';
+    typed.letter = U'W';
+    CHECK(tool_key(typed) == "w");
     Input pressed;
     pressed.kind = Input::Kind::key_down;
     pressed.key = Key::enter;
@@ -198,6 +207,33 @@ TEST_CASE("session: a drag with a tool is one step, which undo takes back and re
     host.wait();
     CHECK(host.shown() == after);
     CHECK(host.lines.empty());
+}
+
+TEST_CASE("session: a slow tool hears every place of a stroke, and which of them are late") {
+    ToolHost host;
+    host.open(host.folder.write("slow.lua", R"(local lissom = require "lissom"
+return lissom.tool{ name = "slow",
+    press = function(self) self.path, self.late = {}, 0 end,
+    drag = function(self, ev)
+        local clock = os.clock()
+        while os.clock() - clock < 0.02 do end
+        table.insert(self.path, ev.x + 1000 * ev.y)
+        if ev.late then self.late = self.late + 1 end
+    end,
+    release = function(self) print(table.concat(self.path, " ")) print(self.late > 10 and "late" or "soon") end }
+)"));
+    std::string course;
+    host.session.post(input(Kind::press));
+    for (int i = 0; i < 40; ++i) {
+        const double x = 320.0 + i, y = 240.0 + (i % 10);
+        host.session.post(input(Kind::move, x, y));
+        course += (i > 0 ? " " : "") + std::to_string(static_cast<int>(x + 1000.0 * y)) + ".0";
+    }
+    host.session.post(input(Kind::release));
+    host.wait();
+    CHECK(host.says(LineKind::message, course));
+    CHECK(host.says(LineKind::message, "late"));
+    CHECK(host.state().steps.size() <= 1);
 }
 
 TEST_CASE("session: the wheel turns within a gesture of a tool") {
