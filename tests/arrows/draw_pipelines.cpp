@@ -9,8 +9,8 @@
 int main(int count, char** words) {
     if (count != 2) return 2;
     const std::string root = words[1];
-    std::ifstream readme(root + "/README.md", std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(readme), {}};
+    std::ifstream rooms(root + "/CONTRIBUTING.md", std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(rooms), {}};
     std::ofstream file(root + "/docs/pipelines.svg", std::ios::binary);
     file << lissom::test::pipelines_picture(text);
     if (file.flush()) return 0;

@@ -51,7 +51,7 @@ std::map<std::string, int> files_of_rooms() {
     return result;
 }
 
-/// Whether a folder has sources that the README's table of rooms is to name.
+/// Whether a folder has sources that CONTRIBUTING.md's table of rooms is to name.
 bool is_room(const std::string& folder) {
     if (folder.starts_with("tests")) return false;
     for (const auto& entry : fs::directory_iterator(root() / folder))
@@ -83,9 +83,9 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("no room has more than thirty files, and the README names each") {
-    std::ifstream stream(root() / "README.md", std::ios::binary);
-    const std::string readme(std::istreambuf_iterator<char>(stream), {});
+TEST_CASE("no room has more than thirty files, and CONTRIBUTING.md names each") {
+    std::ifstream stream(root() / "CONTRIBUTING.md", std::ios::binary);
+    const std::string rules(std::istreambuf_iterator<char>(stream), {});
     const auto rooms = files_of_rooms();
     CHECK(rooms.size() > 90);
     for (const auto& counted : rooms) {
@@ -93,7 +93,7 @@ TEST_CASE("no room has more than thirty files, and the README names each") {
         const auto files = counted.second;
         CHECK_MESSAGE(files <= 30, room << " has " << files << " files");
         if (is_room(room))
-            CHECK_MESSAGE(readme.find("](" + room + ")") != std::string::npos,
+            CHECK_MESSAGE(rules.find("](" + room + ")") != std::string::npos,
                           room << " has no line");
     }
 }

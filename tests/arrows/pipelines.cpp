@@ -59,13 +59,13 @@ std::string plain(std::string_view cell) {
     return result;
 }
 
-// What the README says about a room; nothing where it has no row.
-std::string caption_of(std::string_view readme, std::string_view room) {
+// The description of a room in the table of rooms; empty if it has no row.
+std::string caption_of(std::string_view rooms, std::string_view room) {
     const std::string row = "| [" + std::string(room) + "](";
-    const std::size_t at = readme.find(row);
+    const std::size_t at = rooms.find(row);
     if (at == std::string_view::npos) return "";
-    const std::size_t begin = readme.find("| ", at + row.size()) + 2;
-    return plain(readme.substr(begin, readme.find(" |", begin) - begin));
+    const std::size_t begin = rooms.find("| ", at + row.size()) + 2;
+    return plain(rooms.substr(begin, rooms.find(" |", begin) - begin));
 }
 
 Lines wrapped(const std::string& text, std::size_t letters) {
@@ -136,14 +136,14 @@ void draw_room(Drawing& drawing, int x, int y, std::string_view name, std::strin
 }
 
 // Rooms from left to right, each with an arrow to the next.
-void draw_lane(Drawing& drawing, const Lane& lane, int y, std::string_view readme) {
+void draw_lane(Drawing& drawing, const Lane& lane, int y, std::string_view rooms) {
     drawing.box(kLaneLeft, y, kWidth - kEdge - kLaneLeft, kLaneHeight, "#f6f6f4", lane.color);
     drawing.text(kLaneLeft + 12, y + 21, "title",
                  std::string(lane.module) + ": " + std::string(lane.title));
     int x = kLaneLeft + 12;
     bool first = true;
     for (const std::string_view room : rooms_of(lane.module)) {
-        const std::string caption = caption_of(readme, room);
+        const std::string caption = caption_of(rooms, room);
         const bool within = room.find('/', lane.module.size() + 1) != std::string_view::npos;
         if (caption.empty() || within) continue;  // a single file; a room of a room
         if (!first) drawing.arrow({x - kGap, y + kTitle + 14, x - 1, y + kTitle + 14});
@@ -155,7 +155,7 @@ void draw_lane(Drawing& drawing, const Lane& lane, int y, std::string_view readm
 }
 
 // The modules that all stand on, with the names of their rooms.
-int draw_base(Drawing& drawing, std::string_view readme) {
+int draw_base(Drawing& drawing, std::string_view rooms) {
     const int width = (kWidth - 2 * kEdge - 2 * kGap) / 3, y = kEdge;
     int x = kEdge;
     for (const std::string_view module : kBase) {
@@ -166,7 +166,7 @@ int draw_base(Drawing& drawing, std::string_view readme) {
             if (room != module) names += (names.empty() ? "" : ", ") + last_part(room);
         }
         int base = y + 42;
-        for (const std::string& line : wrapped(caption_of(readme, module), 56)) {
+        for (const std::string& line : wrapped(caption_of(rooms, module), 56)) {
             drawing.text(x + 12, base, "caption", line);
             base += kLine;
         }
@@ -184,9 +184,9 @@ bool knows(std::string_view module, std::string_view other) {
 
 }  // namespace
 
-std::string pipelines_picture(std::string_view readme) {
+std::string pipelines_picture(std::string_view rooms) {
     Drawing drawing;
-    const int below = draw_base(drawing, readme);
+    const int below = draw_base(drawing, rooms);
     int y = below + 2 * kGap;
     std::string_view above;
     for (const Lane& lane : kLanes) {
@@ -198,7 +198,7 @@ std::string pipelines_picture(std::string_view readme) {
             drawing.arrow({kWidth - 200, below, kWidth - 200, below + kGap, kEdge + 6, below + kGap,
                            kEdge + 6, middle, kLaneLeft - 1, middle});
         }
-        draw_lane(drawing, lane, y, readme);
+        draw_lane(drawing, lane, y, rooms);
         above = lane.module;
         y += kLaneHeight + kGap;
     }

@@ -1,5 +1,5 @@
 /// The picture of the pipelines: rooms of deformation, merging and hair, and the modules below
-/// them, drawn from the rules of include_rules.h and the table of rooms in the README.
+/// them, drawn from the rules of include_rules.h and the table of rooms in CONTRIBUTING.md.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace lissom::test {
 
-/// An SVG file. `readme` is the text of README.md, whose table says what a room is for.
-std::string pipelines_picture(std::string_view readme);
+/// An SVG file. `rooms` is the text of CONTRIBUTING.md, whose table describes each room.
+std::string pipelines_picture(std::string_view rooms);
 
 }  // namespace lissom::test

@@ -19,16 +19,16 @@ std::string text_of(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("the picture of the pipelines is that of the rules and the README") {
-    const bool same = pipelines_picture(text_of("README.md")) == text_of("docs/pipelines.svg");
+TEST_CASE("the picture of the pipelines is that of the rules and CONTRIBUTING.md") {
+    const bool same = pipelines_picture(text_of("CONTRIBUTING.md")) == text_of("docs/pipelines.svg");
     CHECK_MESSAGE(same, "write docs/pipelines.svg again: ./dev build release pipelines");
 }
 
-TEST_CASE("the picture has every room that the README has of the pipelines, with its words") {
-    const std::string readme =
+TEST_CASE("the picture has every room that CONTRIBUTING.md has of the pipelines, with its words") {
+    const std::string rooms =
         "| [kernel/hair/curve](kernel/hair/curve) | curves & `hints` |\n"
         "| [kernel/merge/sew](kernel/merge/sew) | the seam (`sew.cpp`) |\n";
-    const std::string picture = pipelines_picture(readme);
+    const std::string picture = pipelines_picture(rooms);
     for (const char* text : {">curve<", ">curves &amp; hints<", ">sew<", ">the seam<"}) {
         CHECK(picture.find(text) != std::string::npos);
     }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs what README.md shows: the commands of its sh blocks, its Lua scripts, its C++ programs against an
-# installed copy of the library; and checks that what it links to exists. Ends with the count.
+# Runs the commands of sh blocks, the Lua scripts, and the C and C++ programs (against an installed copy of the
+# library) of README.md and the guide, and checks that their links lead to files. Ends with the count.
 # Usage: readme_test.sh ROOT [COMMAND...]   A COMMAND that has been run already is not run again.
 set -uo pipefail
 
@@ -22,13 +22,15 @@ check() { # WHAT COMMAND...
     fi
 }
 
+pages=("$root/README.md" "$root"/docs/guide/*.md)
+
 # Each fenced block becomes $work/blocks/NUMBER.LANGUAGE.
 extract_blocks() {
     mkdir "$work/blocks"
     awk -v folder="$work/blocks" '
         /^```/ && file { close(file); file = ""; next }
-        /^```[a-z]/ { file = sprintf("%s/%02d.%s", folder, ++count, substr($0, 4)); printf "" >file; next }
-        file { print >file }' "$root/README.md"
+        /^```[a-z]/ { file = sprintf("%s/%03d.%s", folder, ++count, substr($0, 4)); printf "" >file; next }
+        file { print >file }' "${pages[@]}"
 }
 
 run_command() { (cd "$root" && bash -euo pipefail -c "$1") </dev/null; }
@@ -69,8 +71,9 @@ already_run() { # LINE COMMAND...
 }
 
 extract_blocks
-check "README.md has commands, a script and a program" \
-    bash -c "ls '$work'/blocks/*.sh '$work'/blocks/*.lua '$work'/blocks/*.cpp"
+check "there are commands, scripts and programs" \
+    bash -c "ls '$work'/blocks/*.sh '$work'/blocks/*.lua '$work'/blocks/*.cpp '$work'/blocks/*.c"
+check "README.md has at most 150 lines" test "$(wc -l <"$root/README.md")" -le 150
 for block in "$work"/blocks/*; do
     case $block in
     *.sh)
@@ -91,9 +94,11 @@ done
 # After the C++ program, which installs the library.
 for block in "$work"/blocks/*.c; do check "C block $(basename "$block")" run_c_program "$block"; done
 
-while read -r link; do
-    check "link to $link" test -e "$root/$link"
-done < <(grep -oE '\]\([^)#:]+\)' "$root/README.md" | sed 's/^](//; s/)$//' | sort -u)
+for page in "${pages[@]}" "$root"/docs/*.md "$root/CONTRIBUTING.md"; do
+    while read -r link; do
+        check "$(basename "$page") links to $link" test -e "$(dirname "$page")/$link"
+    done < <(grep -oE '\]\([^)#:]+[)#]' "$page" | sed 's/^](//; s/[)#]$//' | sort -u)
+done
 
 printf '%d passed, %d failed\n' $passed $failed
 [ $failed -eq 0 ]
