@@ -62,7 +62,11 @@ std::string plain(std::string_view cell) {
 // The description of a room in the table of rooms; empty if it has no row.
 std::string caption_of(std::string_view rooms, std::string_view room) {
     const std::string row = "| [" + std::string(room) + "](";
-    const std::size_t at = rooms.find(row);
+    std::size_t at = rooms.find(row);
+    // Other tables have links to rooms inside their rows.
+    while (at != std::string_view::npos && at > 0 && rooms[at - 1] != '\n') {
+        at = rooms.find(row, at + 1);
+    }
     if (at == std::string_view::npos) return "";
     const std::size_t begin = rooms.find("| ", at + row.size()) + 2;
     return plain(rooms.substr(begin, rooms.find(" |", begin) - begin));

@@ -20,7 +20,8 @@ std::string text_of(const std::string& name) {
 }  // namespace
 
 TEST_CASE("the picture of the pipelines is that of the rules and CONTRIBUTING.md") {
-    const bool same = pipelines_picture(text_of("CONTRIBUTING.md")) == text_of("docs/pipelines.svg");
+    const bool same =
+        pipelines_picture(text_of("CONTRIBUTING.md")) == text_of("docs/pipelines.svg");
     CHECK_MESSAGE(same, "write docs/pipelines.svg again: ./dev build release pipelines");
 }
 
