@@ -10,8 +10,8 @@
 int main(int argc, char** argv) {
     lissom::cli::ProgramParts parts = lissom::cli::kernel_parts();
     parts.libraries.push_back(lissom::lua::viewer_library);
-    parts.verbs.push_back(
-        {"render", "MESH... -o FILE", "Draws meshes into a picture.", lissom::cli::render});
+    parts.verbs.push_back({"render", "FILE... -o FILE",
+                           "Draws meshes, hair or scenes into a picture.", lissom::cli::render});
     parts.compare_pictures = lissom::cli::compare_pictures;
 #ifdef LISSOM_WINDOW
     parts.verbs.push_back({"view", "[MESH... | SCRIPT [--name value ...]]",

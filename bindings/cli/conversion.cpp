@@ -4,6 +4,7 @@
 #include <chrono>
 #include <system_error>
 
+#include "bindings/cli/scene_input.h"
 #include "bindings/lua/core/failure.h"
 #include "kernel/io/stream/file.h"
 
@@ -78,7 +79,8 @@ Conversion convert_file(Program& program, const fs::path& in, const fs::path& ou
     LogFilter log(program, options.shows_warnings);
     const Clock::time_point start = Clock::now();
     make_folder(out.parent_path());
-    const Mesh mesh = load_mesh(in, options.load, program.context());
+    const Mesh mesh = is_scene_path(in) ? joined_scene_mesh(in, program.context())
+                                        : load_mesh(in, options.load, program.context());
     log.is_saving = true;
     conversion.origin = save_mesh(mesh, out, options.save, program.context()).origin;
     conversion.seconds = std::chrono::duration<double>(Clock::now() - start).count();

@@ -24,7 +24,8 @@ struct Request {
 };
 
 const char* const kDescription =
-    "Reads mesh files and writes them in another format.\n\n"
+    "Reads mesh files, or the visible meshes of a scene (.lissom), and writes them in another "
+    "format.\n\n"
     "  lissom convert IN OUT                                    one file\n"
     "  lissom convert --in 'a/*.obj' --out b/ --to glb          many files\n"
     "  lissom convert --in 'a/**/*.ply' other/ --out b/         with their folders\n\n"
@@ -43,7 +44,7 @@ std::string normalized(const std::string& extension) {
 }
 
 void declare_files(CLI::App& app, Request& request) {
-    app.add_option("IN", request.in, "The mesh file to read");
+    app.add_option("IN", request.in, "The mesh file or scene to read");
     app.add_option("OUT", request.out, "The mesh file to write; its extension names the format");
     app.add_option("--in", request.many.in,
                    "Files to read: names, folders (the mesh files in them) or patterns in quotes, "
@@ -75,6 +76,8 @@ void declare(CLI::App& app, Request& request) {
                    "numbers can hold its detail (default: keep)")
         ->check(CLI::IsMember({"keep", "auto"}));
     app.add_flag("--text", request.text, "Write text where the format has text and binary");
+    app.add_flag("--normals", request.options.save.normals,
+                 "Write the normals of the surface for meshes that have none");
     app.add_flag("--big-endian", request.big_endian, "Byte order of a binary .ply");
     request.load_flags.declare(app);
 }

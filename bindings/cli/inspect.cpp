@@ -1,15 +1,21 @@
-// lissom inspect MESH...
+// lissom inspect FILE...
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <utility>
 
 #include "bindings/cli/json.h"
 #include "bindings/cli/load_flags.h"
+#include "bindings/cli/scene_input.h"
 #include "bindings/cli/verbs.h"
+#include "kernel/hair/strands/strand_measures.h"
 #include "kernel/io/animation_list.h"
 #include "kernel/io/mesh_file.h"
+#include "kernel/io/strand_file.h"
+#include "kernel/io/stream/read_error.h"
 #include "kernel/mesh/label_adder.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/path.h"
@@ -114,6 +120,74 @@ Json mesh_json(const std::string& file, const Mesh& mesh, const Context& context
     return json;
 }
 
+const char* domain_name(StrandDomain domain) {
+    constexpr const char* kNames[] = {"all", "strand", "point"};
+    return kNames[static_cast<int>(domain)];
+}
+
+// Strands of each group, in the order of the names.
+Json groups_json(const Strands& strands) {
+    std::vector<Index> counts(strands.group_names().size(), 0);
+    for (const Index group : strands.groups()) {
+        if (group != kNoIndex) ++counts[at(group)];
+    }
+    std::vector<std::pair<std::string, Json>> groups;
+    for (std::size_t g = 0; g < counts.size(); ++g) {
+        groups.emplace_back(strands.group_names()[g], counts[g]);
+    }
+    return Json::object_t(groups.begin(), groups.end());
+}
+
+// What strands hold beside points and widths.
+Json strand_content_json(const Strands& strands) {
+    Json list = Json::array();
+    if (strands.colors()) list.push_back("colors");
+    if (strands.transparency().domain != StrandDomain::all ||
+        strands.transparency().common != 0.0f) {
+        list.push_back("transparency");
+    }
+    if (!strands.roots().uvs.empty()) list.push_back("root uvs");
+    if (!strands.roots().faces.empty()) list.push_back("root faces");
+    if (!strands.ids().empty()) list.push_back("ids");
+    return list;
+}
+
+Json widths_json(const Strands& strands) {
+    float least = std::numeric_limits<float>::infinity(), most = 0.0f;
+    std::vector<float> widths;
+    for (Index s = 0; s < strands.size(); ++s) {
+        widths_of(strands, s, widths);
+        for (const float width : widths) {
+            least = std::min(least, width);
+            most = std::max(most, width);
+        }
+    }
+    if (strands.point_count() == 0) return nullptr;
+    return {{"min", least}, {"max", most}, {"domain", domain_name(strands.widths().domain)}};
+}
+
+Json strands_json(const std::string& file, const Strands& strands, const Context& context) {
+    const StrandStatistics measured = strand_statistics(strands, {}, context);
+    const bool empty = strands.empty();
+    Json json = {
+        {"file", file},
+        {"strands", measured.strands},
+        {"points", measured.points},
+        {"points_per_strand", {{"min", measured.least_points}, {"max", measured.most_points}}}};
+    json["bounds"] = bounds_json(bounds(strands));
+    json["length"] = empty ? Json(nullptr)
+                           : Json{{"min", measured.least_length},
+                                  {"mean", measured.mean_length},
+                                  {"max", measured.most_length}};
+    json["widths"] = widths_json(strands);
+    json["zero_length"] = measured.zero_length;
+    json["zero_segments"] = measured.zero_segments;
+    json["content"] = strand_content_json(strands);
+    json["groups"] = groups_json(strands);
+    json["comment"] = strands.comment();
+    return json;
+}
+
 // ---- The same for people
 
 std::string number_text(const Json& value) {
@@ -215,38 +289,150 @@ void print_mesh(const Json& mesh) {
     for (const Json& animation : mesh["animations"]) line("animation", animation_text(animation));
 }
 
+std::string range_text(const Json& range) {
+    const std::string least = number_text(range["min"]), most = number_text(range["max"]);
+    return least == most ? least : least + " to " + most;
+}
+
+void print_strands(const Json& hair) {
+    std::cout << hair["file"].get<std::string>() << "\n";
+    line("strands", hair["strands"].dump());
+    line("points",
+         hair["points"].dump() + " (" + range_text(hair["points_per_strand"]) + " a strand)");
+    const Json& box = hair["bounds"];
+    if (!box.is_null()) line("bounds", vector_text(box["min"]) + " to " + vector_text(box["max"]));
+    if (!hair["length"].is_null()) {
+        line("length",
+             range_text(hair["length"]) + " m, mean " + number_text(hair["length"]["mean"]) + " m");
+    }
+    if (!hair["widths"].is_null()) line("widths", range_text(hair["widths"]) + " m");
+    if (hair["zero_length"].get<Index>() > 0)
+        line("no length", hair["zero_length"].dump() + " strands");
+    std::string content;
+    for (const Json& what : hair["content"])
+        content += (content.empty() ? "" : ", ") + what.get<std::string>();
+    if (!content.empty()) line("holds", content);
+    if (!hair["groups"].empty()) line("groups", counts_text(hair["groups"]));
+    if (!hair["comment"].get<std::string>().empty())
+        line("comment", in_quotes(hair["comment"].get<std::string>()));
+}
+
+// Tells of one file after the other what it holds.
+class Inspector {
+  public:
+    Inspector(Program& program, const LoadOptions& options) : program_(program), options_(options) {
+        // What was found is part of the answer.
+        program.log_filter = [this](LogLevel level, std::string_view message) {
+            if (level == LogLevel::warning) warnings_.emplace_back(message);
+            return program_.debug;
+        };
+    }
+    ~Inspector() { program_.log_filter = nullptr; }
+    Inspector(const Inspector&) = delete;
+    Inspector& operator=(const Inspector&) = delete;
+
+    void inspect_file(const std::string& file) {
+        warnings_.clear();
+        if (is_scene_path(file)) return inspect_scene(file);
+        if (is_hair_path(file)) return inspect_hair(file);
+        const Mesh mesh = load_mesh(file, options_, program_.context());
+        add_mesh(meshes, file, mesh);
+    }
+
+    Json meshes = Json::array(), hair = Json::array(), scenes = Json::array();
+
+  private:
+    void add_mesh(Json& list, const std::string& name, const Mesh& mesh) {
+        program_.clear_progress();
+        list.push_back(mesh_json(name, mesh, program_.context()));
+        if (program_.json()) return;
+        print_mesh(list.back());
+        print_report(mesh.report());
+    }
+
+    void add_strands(Json& list, const std::string& name, const Strands& strands) {
+        program_.clear_progress();
+        list.push_back(strands_json(name, strands, program_.context()));
+        list.back()["warnings"] = warnings_;
+        if (program_.json()) return;
+        print_strands(list.back());
+        std::string label = "found";
+        for (const std::string& warning : warnings_) line(std::exchange(label, ""), warning);
+    }
+
+    void inspect_hair(const std::string& file) {
+        add_strands(hair, file, load_strands(file, {}, program_.context()));
+    }
+
+    void inspect_scene(const std::string& file) {
+        const std::vector<SceneObject> objects = read_scene(file, program_.context());
+        program_.clear_progress();
+        if (!program_.json()) {
+            std::cout << file << "\n";
+            line("objects", std::to_string(objects.size()));
+        }
+        Json list = Json::array();
+        for (const SceneObject& object : objects) add_object(list, file, object);
+        scenes.push_back({{"file", file}, {"objects", std::move(list)}});
+    }
+
+    void add_object(Json& list, const std::string& file, const SceneObject& object) {
+        const std::string name =
+            file + ": " + object.name + " (" + object.kind + (object.visible ? ")" : ", hidden)");
+        if (object.mesh) {
+            add_mesh(list, name, *object.mesh);
+        } else if (object.strands) {
+            add_strands(list, name, *object.strands);
+        } else {
+            list.push_back(Json::object());
+            if (!program_.json()) std::cout << name << "\n";
+        }
+        Json& entry = list.back();
+        entry["name"] = object.name;
+        entry["kind"] = object.kind;
+        entry["visible"] = object.visible;
+        entry.erase("file");
+    }
+
+    Program& program_;
+    const LoadOptions& options_;
+    std::vector<std::string> warnings_;
+};
+
 }  // namespace
 
 int inspect(Program& program, const std::vector<std::string>& words) {
-    CLI::App app("Says what is in mesh files.", "lissom inspect");
+    CLI::App app("Says what is in mesh files, hair files and scenes.", "lissom inspect");
     std::vector<std::string> files;
     LoadFlags flags;
-    app.add_option("MESH", files, "Mesh files")->required();
+    app.add_option("FILE", files,
+                   "Mesh files, hair files (.hair, .data, .usda) and scenes (.lissom)")
+        ->required();
     flags.declare(app);
     int status = kSuccess;
     if (!program.parse(app, words, status)) return status;
     LoadOptions options;
     flags.apply(options);
-    // What was found is part of the answer.
-    program.log_filter = [&](LogLevel, std::string_view) { return program.debug; };
-    Json answers = Json::array();
+    Inspector inspector(program, options);
     for (const std::string& file : files) {
         try {
-            const Mesh mesh = load_mesh(file, options, program.context());
-            program.clear_progress();
-            answers.push_back(mesh_json(file, mesh, program.context()));
-            if (program.json()) continue;
-            print_mesh(answers.back());
-            print_report(mesh.report());
+            inspector.inspect_file(file);
         } catch (const Error& error) {
             status = kFailure;
-            answers.push_back({{"file", file}, {"error", error_json(error)}});
+            Json& list = is_scene_path(file)  ? inspector.scenes
+                         : is_hair_path(file) ? inspector.hair
+                                              : inspector.meshes;
+            list.push_back({{"file", file}, {"error", error_json(error)}});
             if (!program.json()) program.fail(error);
             if (error.code() == ErrorCode::cancelled) break;
         }
     }
     program.clear_progress();
-    if (program.json()) std::cout << json_text({{"meshes", answers}}) << std::endl;
+    if (!program.json()) return status;
+    Json answer = {{"meshes", std::move(inspector.meshes)}};
+    if (!inspector.hair.empty()) answer["hair"] = std::move(inspector.hair);
+    if (!inspector.scenes.empty()) answer["scenes"] = std::move(inspector.scenes);
+    std::cout << json_text(answer) << std::endl;
     return status;
 }
 

@@ -8,7 +8,7 @@ ProgramParts kernel_parts() {
     ProgramParts parts;
     parts.verbs = {{"run", "FILE [--name value ...]", "Runs a Lua script.", run_script},
                    {"test", "PATH...", "Runs the tests of scripts.", run_tests},
-                   {"inspect", "MESH...", "Says what is in mesh files.", inspect},
+                   {"inspect", "FILE...", "Says what is in meshes, hair and scenes.", inspect},
                    {"convert", "IN OUT", "Writes meshes in another format.", convert},
                    {"new", "tool NAME", "Writes a tool to begin with.", make_new},
                    {"repl", "", "Runs Lua line by line.", repl},

@@ -14,7 +14,7 @@ namespace lissom::cli {
 /// The values of --weld and --no-repair.
 struct LoadFlags {
     std::string weld;
-    bool no_repair = false;
+    bool no_repair = false, keep_unused = false;
 
     /// Lets `app` fill these values, which must outlive its parsing.
     void declare(CLI::App& app);

@@ -60,9 +60,15 @@ bool is_recording(std::string_view text) {
     return text.starts_with("return (require(\"lissom\").replay{");
 }
 
+std::string_view without_mark(std::string_view text) {
+    constexpr std::string_view kMark = "\xef\xbb\xbf";
+    return text.substr(text.starts_with(kMark) ? kMark.size() : 0);
+}
+
 std::optional<std::string> script_text(const std::string& file) {
     const auto all_of = [](std::istream& stream) {
-        return std::string(std::istreambuf_iterator<char>(stream), {});
+        const std::string text(std::istreambuf_iterator<char>(stream), {});
+        return std::string(without_mark(text));
     };
     if (file == "-") return all_of(std::cin);
     // What is no file could be read only once.

@@ -23,7 +23,11 @@ bool calls_test(std::string_view text);
 /// Whether it is a recording of what was done with tools, as the window writes them.
 bool is_recording(std::string_view text);
 
-/// The text of a regular file, or of the standard input for "-"; nothing where it cannot be read.
+/// Returns a text without the byte order mark that editors put before it.
+std::string_view without_mark(std::string_view text);
+
+/// Returns the text of a regular file, or of the standard input for "-", without a byte order mark;
+/// nothing if it cannot be read.
 std::optional<std::string> script_text(const std::string& file);
 
 }  // namespace lissom::cli

@@ -9,7 +9,8 @@
 #include "kernel/core/error.h"
 #include "kernel/core/memory_error.h"
 #include "kernel/io/gltf/gltf.h"
-#include "kernel/io/obj/mtl.h"
+#include "kernel/io/obj/material_collector.h"
+#include "kernel/io/obj/material_files.h"
 #include "kernel/io/obj/obj.h"
 #include "kernel/io/off/off.h"
 #include "kernel/io/ply/ply.h"
@@ -33,6 +34,9 @@ struct Format {
                   const Context& context);
     // Whether it keeps the place of an object apart from its positions.
     bool has_places = false;
+    // The files beside it that define materials, if it has such.
+    MaterialFiles (*materials)(const Mesh& mesh, const std::filesystem::path& path,
+                               const Context& context) = nullptr;
 };
 
 // A format that keeps all in one file.
@@ -48,12 +52,13 @@ MeshData read_obj_file(const FileInput& file, const Context& context) {
     return data;
 }
 
-constexpr std::array<Format, 6> kFormats{{{"obj", "OBJ", read_obj_file, write_obj},
-                                          {"ply", "PLY", read_alone<read_ply>, write_ply},
-                                          {"off", "OFF", read_alone<read_off>, write_off},
-                                          {"stl", "STL", read_alone<read_stl>, write_stl},
-                                          {"gltf", "glTF", read_gltf, write_gltf, true},
-                                          {"glb", "glTF", read_gltf, write_glb, true}}};
+constexpr std::array<Format, 6> kFormats{
+    {{"obj", "OBJ", read_obj_file, write_obj, false, material_files},
+     {"ply", "PLY", read_alone<read_ply>, write_ply},
+     {"off", "OFF", read_alone<read_off>, write_off},
+     {"stl", "STL", read_alone<read_stl>, write_stl},
+     {"gltf", "glTF", read_gltf, write_gltf, true},
+     {"glb", "glTF", read_gltf, write_glb, true}}};
 
 const Format& find_format(std::string_view extension) {
     const std::string wanted = normalized_extension(extension);
@@ -111,6 +116,22 @@ std::optional<Mesh> in_file_frame(const Mesh& mesh, const SaveOptions& options,
     return result;
 }
 
+// The mesh with the normals of its surface as an attribute, or nothing if none are asked for. A
+// vertex that has none gets no value.
+std::optional<Mesh> with_normals(const Mesh& mesh, const Format& format,
+                                 const SaveOptions& options) {
+    const bool wanted = options.normals && format.name != "STL";
+    if (!wanted || mesh.face_count() == 0 || mesh.attributes().find("normal")) return std::nullopt;
+    Attribute normals{"normal", Domain::vertex, 3, ScalarType::float32, {}};
+    for (const Vec3& normal : vertex_normals(mesh)) {
+        const bool has_none = normal.isZero(0.0);
+        for (const double x : normal) normals.values.push_back(has_none ? kNone : x);
+    }
+    Mesh result = mesh;
+    result.attributes().add(std::move(normals));
+    return result;
+}
+
 // The origin of a file whose format has no other place for it.
 Vec3 moved_origin(const Mesh& mesh, const Format& format, const SaveOptions& options) {
     if (options.origin == FileOrigin::keep || format.has_places) return Vec3::Zero();
@@ -140,7 +161,7 @@ RepairOptions repair_options(const LoadOptions& options, const MeshData& data) {
     const Weld usual = data.faces_are_separate ? Weld::all
                        : data.seams_are_known  ? Weld::none
                                                : Weld::seams;
-    return {options.weld.value_or(usual), options.repair};
+    return {options.weld.value_or(usual), options.repair, options.unused};
 }
 
 // What was changed is a warning, and so is a mesh that is wholly inside out, which has a message;
@@ -184,22 +205,80 @@ Mesh decode(FileInput file, const Format& format, const LoadOptions& options,
 struct Encoded {
     std::string bytes;
     SavedFile saved;
+    // Written before the file.
+    std::vector<SideFile> beside;
 };
 
-Encoded encode(const Mesh& mesh, const Format& format, const SaveOptions& options,
-               const Context& context) {
+// `path` is empty for a file in memory, which has no others beside it.
+Encoded encode(const Mesh& given, const Format& format, const SaveOptions& options,
+               const std::filesystem::path& path, const Context& context) {
     require_unit(options.unit);
     // The size of the file is not known yet, but of the order of the mesh's.
-    const MemoryCharge charge = context.charge(mesh.memory_bytes(), "saving a mesh");
+    const MemoryCharge charge = context.charge(given.memory_bytes(), "saving a mesh");
+    const std::optional<Mesh> lit = with_normals(given, format, options);
+    const Mesh& mesh = lit ? *lit : given;
     Encoded result;
     result.saved.origin = moved_origin(mesh, format, options);
     const std::optional<Mesh> turned = in_file_frame(mesh, options, result.saved.origin);
     SavedParts parts(turned ? *turned : mesh);
+    if (format.materials && !path.empty()) {
+        MaterialFiles materials = format.materials(mesh, path, context);
+        parts.replace_material_libraries(std::move(materials.libraries), materials.holds_asset);
+        result.beside = std::move(materials.files);
+    }
     format.write(parts, options, result.bytes, context);
     parts.log_losses(format.name, context);
     tell_origin(result.saved.origin, format, context);
     return result;
 }
+
+// Writes files one after the other; without commit() they are then as they were.
+class FileGroup {
+  public:
+    explicit FileGroup(const Context& context) : context_(context) {}
+    FileGroup(const FileGroup&) = delete;
+    FileGroup& operator=(const FileGroup&) = delete;
+    ~FileGroup() {
+        for (auto file = written_.rbegin(); file != written_.rend(); ++file) restore(*file);
+    }
+
+    void write(const std::filesystem::path& path, std::string_view bytes) {
+        Old old{path, content_of(path)};
+        write_file_atomically(path, bytes, context_);
+        written_.push_back(std::move(old));
+    }
+    void commit() { written_.clear(); }
+
+  private:
+    struct Old {
+        std::filesystem::path path;
+        std::optional<std::string> bytes;
+    };
+
+    std::optional<std::string> content_of(const std::filesystem::path& path) const {
+        try {
+            return read_file(path, context_).bytes;
+        } catch (const Error& error) {
+            if (error.code() == ErrorCode::file_empty) return std::string();
+            if (error.code() != ErrorCode::file_not_found) throw;
+            return std::nullopt;
+        }
+    }
+
+    // As far as that can be done, for an error is under way.
+    void restore(const Old& old) const noexcept try {
+        std::error_code ignored;
+        if (old.bytes) {
+            write_file_atomically(old.path, *old.bytes, Context());
+        } else {
+            std::filesystem::remove(old.path, ignored);
+        }
+    } catch (...) {
+    }
+
+    const Context& context_;
+    std::vector<Old> written_;
+};
 
 std::vector<std::string> extensions() {
     std::vector<std::string> list;
@@ -231,11 +310,15 @@ SavedFile save_mesh(const Mesh& mesh, const std::filesystem::path& path, const S
     progress.step(0.8);
     const Encoded encoded = with_place_in_errors(display_name(path), [&] {
         return with_memory_errors([&] {
-            return encode(mesh, find_format(display_name(path.extension())), options, context);
+            return encode(mesh, find_format(display_name(path.extension())), options, path,
+                          context);
         });
     });
     progress.step(0.2);
+    FileGroup beside(context);
+    for (const SideFile& file : encoded.beside) beside.write(file.path, file.bytes);
     write_file_atomically(path, encoded.bytes, context);
+    beside.commit();
     return encoded.saved;
 }
 
@@ -250,7 +333,7 @@ Mesh decode_mesh(std::string_view bytes, std::string_view extension, const LoadO
 std::string encode_mesh(const Mesh& mesh, std::string_view extension, const SaveOptions& options,
                         const Context& context) {
     return with_memory_errors(
-        [&] { return encode(mesh, find_format(extension), options, context).bytes; });
+        [&] { return encode(mesh, find_format(extension), options, {}, context).bytes; });
 }
 
 const std::vector<std::string>& readable_extensions() {

@@ -1,14 +1,20 @@
 #include "viewer/lua/render_verb.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
 #include "bindings/cli/json.h"
+#include "bindings/cli/scene_input.h"
 #include "kernel/io/mesh_file.h"
+#include "kernel/io/strand_file.h"
 #include "kernel/io/stream/file.h"
+#include "viewer/draw/scene_drawing.h"
 #include "viewer/lua/paint.h"
 #include "viewer/lua/png_file.h"
 
@@ -16,7 +22,7 @@ namespace lissom::cli {
 namespace {
 
 struct Request {
-    std::vector<std::string> meshes;
+    std::vector<std::string> files;
     std::string out, size = "1280x960", view = "three-quarter", up = "y", shading = "smooth",
                      fit = "all";
     std::string region, scalars, color = "clay", background = "white";
@@ -25,7 +31,7 @@ struct Request {
     double fov = 30.0, ortho = 0.0, crease = 50.0;
     MeshStyle style;
     Picture picture;
-    bool no_legend = false;
+    bool no_legend = false, is_style_given = false;
 };
 
 bool read_size(const std::string& text, int& width, int& height) {
@@ -164,11 +170,60 @@ void options_of(Request& request) {
     request.style.crease = request.crease * kDegree;
 }
 
-void add_meshes(Request& request, const Context& context) {
-    for (const std::string& path : request.meshes) {
-        request.picture.meshes.push_back(
-            {std::make_shared<const Mesh>(load_mesh(path, {}, context)), request.style});
+// Messages about a file begin with its name.
+class FileNamedLog {
+  public:
+    explicit FileNamedLog(Program& program) : program_(program) {
+        program.log_filter = [this](LogLevel level, std::string_view message) {
+            if (file.empty() || level != LogLevel::warning) return true;
+            program_.clear_progress();
+            std::cerr << "warning: " << file << ": " << message << std::endl;
+            return false;
+        };
     }
+    ~FileNamedLog() { program_.log_filter = nullptr; }
+    FileNamedLog(const FileNamedLog&) = delete;
+    FileNamedLog& operator=(const FileNamedLog&) = delete;
+
+    std::string file;
+
+  private:
+    Program& program_;
+};
+
+void add_scene(Request& request, const std::string& path, const Context& context) {
+    SceneDrawing drawing = drawing_of(read_scene_list(path, context));
+    Picture& picture = request.picture;
+    for (DrawnMesh& mesh : drawing.meshes) {
+        if (request.is_style_given) mesh.style = request.style;
+        picture.meshes.push_back(std::move(mesh));
+    }
+    for (DrawnStrands& strands : drawing.strands) {
+        picture.strands.push_back({std::move(strands), std::nullopt});
+    }
+    auto& marks = picture.marks;
+    std::move(drawing.lines.begin(), drawing.lines.end(), std::back_inserter(marks.lines));
+    marks.points.insert(marks.points.end(), drawing.points.begin(), drawing.points.end());
+}
+
+void add_file(Request& request, const std::string& path, const Context& context) {
+    if (is_scene_path(path)) return add_scene(request, path, context);
+    if (is_hair_path(path)) {
+        auto strands = std::make_shared<const Strands>(load_strands(path, {}, context));
+        request.picture.strands.push_back({{std::move(strands), {}, {}}, std::nullopt});
+        return;
+    }
+    request.picture.meshes.push_back(
+        {std::make_shared<const Mesh>(load_mesh(path, {}, context)), request.style});
+}
+
+void add_files(Program& program, Request& request) {
+    FileNamedLog log(program);
+    for (const std::string& path : request.files) {
+        log.file = path;
+        add_file(request, path, program.context());
+    }
+    log.file.clear();
     if (!request.region.empty()) paint_region(request.picture, request.region);
     for (const std::string& name : request.handles) paint_handle(request.picture, name);
     if (!request.scalars.empty()) paint_values(request.picture, request.scalars);
@@ -177,9 +232,11 @@ void add_meshes(Request& request, const Context& context) {
 }  // namespace
 
 int render(Program& program, const std::vector<std::string>& words) {
-    CLI::App app("Draws meshes into a picture.", "lissom render");
+    CLI::App app("Draws meshes, hair and scenes into a picture.", "lissom render");
     Request request;
-    app.add_option("MESH", request.meshes, "The mesh files to draw")->required();
+    app.add_option("FILE", request.files,
+                   "What to draw: mesh files, hair files (.hair, .data, .usda), scenes (.lissom)")
+        ->required();
     app.add_option("-o,--out", request.out, "The picture to write, a .png file")->required();
     declare_view(app, request);
     declare_content(app, request);
@@ -189,7 +246,10 @@ int render(Program& program, const std::vector<std::string>& words) {
     require_picture_path(request.out);
     make_folder(std::filesystem::path(request.out).parent_path());
     options_of(request);
-    add_meshes(request, program.context());
+    request.is_style_given = app.count("--shading") + app.count("--color") + app.count("--wire") +
+                                 app.count("--crease") + app.count("--boundaries") >
+                             0;
+    add_files(program, request);
     Renderer renderer;
     const Image image = draw_picture(renderer, request.picture, program.context());
     save_picture(image, request.out, program.context());

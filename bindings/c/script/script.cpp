@@ -3,6 +3,7 @@
 #include "bindings/c/files.h"
 #include "bindings/c/script/host.h"
 #include "bindings/lua/core/script_parameters.h"
+#include "bindings/lua/host/script_files.h"
 #include "kernel/core/nearest.h"
 
 namespace lissom::c {
@@ -59,7 +60,8 @@ struct Running {
 int run_protected(lua_State* L) {
     const auto* running = static_cast<const Running*>(lua_touserdata(L, 1));
     const Script& script = *running->script;
-    if (luaL_loadbufferx(L, script.text.data(), script.text.size(), script.name.c_str(), "t")) {
+    const std::string_view text = lua::lua_text_of(script.text);
+    if (luaL_loadbufferx(L, text.data(), text.size(), script.name.c_str(), "t")) {
         return lua_error(L);
     }
     const int function = lua_gettop(L);
@@ -82,7 +84,8 @@ bool may_declare(const Script& script) {
 // Throws where the text is no Lua.
 void check_syntax(ScriptHost& host, const Script& script) {
     lua_State* L = host.lua();
-    if (luaL_loadbufferx(L, script.text.data(), script.text.size(), script.name.c_str(), "t")) {
+    const std::string_view text = lua::lua_text_of(script.text);
+    if (luaL_loadbufferx(L, text.data(), text.size(), script.name.c_str(), "t")) {
         throw_lua_error(message_at_top(L), LISSOM_SCRIPT_ERROR);
     }
 }

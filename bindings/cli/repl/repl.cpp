@@ -8,6 +8,7 @@
 #include "bindings/cli/repl/help_function.h"
 #include "bindings/cli/repl/session_text.h"
 #include "bindings/cli/script.h"
+#include "bindings/cli/script_text.h"
 #include "bindings/cli/terminal/line_editor.h"
 #include "bindings/cli/verbs.h"
 #include "kernel/core/version.h"
@@ -50,7 +51,8 @@ class Prompt {
         LineEditor::Read typed = editor_.read("> ");
         if (typed.outcome == LineEditor::Outcome::end) return Typed::end;
         if (typed.outcome == LineEditor::Outcome::interrupted) return Typed::nothing;
-        std::string chunk = typed.line;
+        // Input from a file may begin with a byte order mark.
+        std::string chunk(without_mark(typed.line));
         if (load(L_, "return " + chunk)) {
             editor_.remember(chunk);
             return Typed::chunk;

@@ -19,23 +19,13 @@ FileContent content_of(const State& state, std::string_view name) {
     return read_file(path, state.context);
 }
 
-// Without what stands before the Lua text: a mark of UTF-8, and a line for the shell, whose end
-// stays for the numbers of lines.
-std::string_view script_text(std::string_view bytes) {
-    constexpr std::string_view kMark = "\xEF\xBB\xBF";
-    if (bytes.starts_with(kMark)) bytes.remove_prefix(kMark.size());
-    if (!bytes.starts_with('#')) return bytes;
-    const std::size_t end = bytes.find('\n');
-    return end == std::string_view::npos ? std::string_view() : bytes.substr(end);
-}
-
 // Pushes the function of the file, or a message and returns false. Loading raises no error.
 bool push_script(lua_State* L, const char* name) {
     Failure failure;
     int status = 0;
     const bool read = failure.guard([&] {
         const FileContent content = content_of(*find_state(L), name);
-        const std::string_view text = script_text(content.bytes);
+        const std::string_view text = lua_text_of(content.bytes);
         const std::string place = std::string("@") + name;
         status = luaL_loadbufferx(L, text.data(), text.size(), place.c_str(), "t");
     });
@@ -44,6 +34,14 @@ bool push_script(lua_State* L, const char* name) {
 }
 
 }  // namespace
+
+std::string_view lua_text_of(std::string_view bytes) {
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    if (bytes.starts_with(kMark)) bytes.remove_prefix(kMark.size());
+    if (!bytes.starts_with('#')) return bytes;
+    const std::size_t end = bytes.find('\n');
+    return end == std::string_view::npos ? std::string_view() : bytes.substr(end);
+}
 
 int load_script_file(lua_State* L) {
     const char* name = luaL_checkstring(L, 1);

@@ -16,6 +16,7 @@ int load(Call& call) {
     options.up = up_axis(call);
     options.unit = call.number("unit");
     options.repair = call.boolean("repair");
+    options.unused = call.choice<UnusedVertices>("unused");
     if (call.has("weld")) options.weld = given_weld(call);
     return new_mesh(
         call, [&] { return load_mesh(call.file(path, FileUse::read), options, call.context()); });
@@ -30,6 +31,7 @@ int save(Call& call) {
     options.binary = call.boolean("binary");
     options.endianness = call.choice<Endianness>("endianness");
     options.origin = call.choice<FileOrigin>("origin");
+    options.normals = call.boolean("normals");
     SavedFile saved;
     const bool done = call.attempt([&] {
         saved = save_mesh(mesh->mesh, call.file(path, FileUse::write), options, call.context());
@@ -59,6 +61,11 @@ std::vector<Function> mesh_file_functions() {
              "checked and repaired: mesh:report() says what was done.",
          .arguments = {string("path", "The file; its extension names the format.")},
          .options = {weld_option().optional("\"all\" for .stl, \"seams\" for others"),
+                     choice("unused", {"drop", "keep"},
+                            "What becomes of vertices that no face uses. \"keep\" leaves them in "
+                            "their order, for programs that match vertices by number; with weld = "
+                            "false all vertices of a sound file keep their numbers.")
+                         .defaults("drop"),
                      boolean("repair",
                              "false makes each defect that would be mended, and each face without "
                              "area, an error that names the elements.")
@@ -102,7 +109,11 @@ std::vector<Function> mesh_file_methods() {
          .summary = "Writes the mesh to a file, whole or not at all.",
          .arguments = {string("path", "The file; its extension names the format.")},
          .options =
-             {up_option("The up axis that the file shall have."),
+             {boolean("normals",
+                      "Write the normals of the surface, one a vertex, for a mesh without the "
+                      "attribute \"normal\". STL has those of its triangles in any case.")
+                  .defaults(defaults.normals),
+              up_option("The up axis that the file shall have."),
               unit_option("Length of the file's unit in the unit of the mesh: positions are "
                           "divided by it."),
               boolean("binary", "Binary or text, for .ply and .stl.").defaults(defaults.binary),

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bindings/lua/host/counted_state.h"
+#include "bindings/lua/host/script_files.h"
 #include "bindings/lua/sandbox/sandbox_state.h"
 #include "kernel/core/error.h"
 #include "kernel/io/stream/file.h"
@@ -270,7 +271,8 @@ void push_module(lua_State* L, const char* name) {
         if (found) {
             const std::string place = "@" + display_name(module.path);
             // Pushes a function or a message, and raises nothing.
-            luaL_loadbufferx(L, module.text.data(), module.text.size(), place.c_str(), "t");
+            const std::string_view text = lua_text_of(module.text);
+            luaL_loadbufferx(L, text.data(), text.size(), place.c_str(), "t");
         }
     } catch (const std::exception& error) {
         std::snprintf(message, sizeof message, "%s", error.what());

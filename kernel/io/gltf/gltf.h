@@ -21,9 +21,10 @@ namespace lissom {
 /// "joints" and "weights", "_NAME" as "NAME", and morph targets as "morph.N.position" and so on. A
 /// vertex without a value has NaN. Polygons of FB_ngon_encoding are read as such. Points and lines
 /// are skipped, unless there are only points. All else is kept in the asset. Files that it refers
-/// to are read from the folder of the file and nowhere else.
+/// to are read from the folder of the file and nowhere else; pictures that are not there keep their
+/// URI, and the report names them.
 /// Errors: file_syntax, file_truncated, file_too_large, face_index; unsupported for other versions
-/// of glTF, required extensions that are not known and buffers on the web; unsafe_path for files
+/// of glTF, required extensions that are not known and buffers on the web; unsafe_path for buffers
 /// outside the folder; file_not_found for missing buffers; cancelled.
 MeshData read_gltf(const FileInput& file, const Context& context);
 

@@ -15,7 +15,7 @@ std::size_t read_point_count(ByteSource& source) {
     const auto count = source.read<std::int32_t>();
     const std::size_t strand = source.tally.found;
     const Place place{ElementKind::strand, strand};
-    if (count < 1) {
+    if (count < 0) {
         refuse(ErrorCode::file_syntax,
                "strand " + std::to_string(strand) + " has " + std::to_string(count) + " points",
                place);
@@ -37,7 +37,7 @@ Strands read_hair_salon(ByteSource& source, const Context& context) {
     const std::size_t count =
         checked_count(source.read<std::int32_t>(), source.size(), "strands", {});
     source.tally = {"strands", 0, count};
-    source.require(count * (kCountBytes + kPointBytes));
+    source.require(count * kCountBytes);
     Progress progress(context, "read strands");
     Ticker ticker(progress);
     const MemoryCharge charge = context.charge(source.remaining(), "reading strands");
@@ -46,10 +46,14 @@ Strands read_hair_salon(ByteSource& source, const Context& context) {
     std::vector<float> points(3 * most);
     std::vector<Index> offsets = {0};
     offsets.reserve(count + 1);
-    std::size_t total = 0;
+    std::size_t total = 0, empty = 0;
     for (; source.tally.found < count; ++source.tally.found) {
         ticker.tick([&] { return 1.0 - double(source.remaining()) / double(source.size()); });
         const std::size_t added = read_point_count(source);
+        if (added == 0) {
+            ++empty;
+            continue;
+        }
         if (added > most - total) refuse_truncated(source.tally);
         const auto strand = std::span(points).subspan(3 * total, 3 * added);
         source.read(strand);
@@ -59,6 +63,12 @@ Strands read_hair_salon(ByteSource& source, const Context& context) {
         offsets.push_back(index_of(total));
     }
     points.resize(3 * total);
+    if (empty > 0) {
+        context.log(LogLevel::warning,
+                    std::to_string(empty) + " of " + std::to_string(count) +
+                        (count == 1 ? " strand has" : " strands have") +
+                        " no points and were left out: others have lower numbers than in the file");
+    }
     if (source.remaining() > 0) {
         context.log(LogLevel::warning, std::to_string(source.remaining()) +
                                            " bytes after the last strand were left out");

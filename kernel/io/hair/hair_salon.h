@@ -12,9 +12,9 @@
 
 namespace lissom {
 
-/// Reads strands, those of one point too. Bytes after them are passed over, with a warning in the
-/// log. Errors: file_syntax, file_truncated, file_too_large; not_finite naming the strand;
-/// cancelled, memory_limit.
+/// Reads strands, those of one point too. Strands of no points are left out, and bytes after the
+/// last are passed over, each with a warning of the log. Errors: file_syntax, file_truncated,
+/// file_too_large; not_finite naming the strand; cancelled, memory_limit.
 Strands read_hair_salon(ByteSource& source, const Context& context);
 
 /// Writes the points.

@@ -20,12 +20,17 @@ struct Group {
 };
 
 // Where several match, the first wins; the first of a name and width is the one that is written.
-constexpr std::array<Group, 6> kGroups{{{"normal", {"nx", "ny", "nz"}, 3, true},
-                                        {"color", {"red", "green", "blue", "alpha"}, 4, true},
-                                        {"color", {"red", "green", "blue"}, 3, true},
-                                        {"uv", {"s", "t"}, 2, false},
-                                        {"uv", {"u", "v"}, 2, false},
-                                        {"uv", {"texture_u", "texture_v"}, 2, false}}};
+constexpr std::array<Group, 10> kGroups{
+    {{"normal", {"nx", "ny", "nz"}, 3, true},
+     {"color", {"red", "green", "blue", "alpha"}, 4, true},
+     {"color", {"red", "green", "blue"}, 3, true},
+     {"color", {"r", "g", "b", "a"}, 4, true},
+     {"color", {"r", "g", "b"}, 3, true},
+     {"color", {"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"}, 4, true},
+     {"color", {"diffuse_red", "diffuse_green", "diffuse_blue"}, 3, true},
+     {"uv", {"s", "t"}, 2, false},
+     {"uv", {"u", "v"}, 2, false},
+     {"uv", {"texture_u", "texture_v"}, 2, false}}};
 constexpr std::string_view kU = "texture_u", kV = "texture_v";
 constexpr std::string_view kCornerUv = "texcoord", kCornerPrefix = "corner_";
 

@@ -12,16 +12,17 @@
 namespace lissom {
 
 /// Reads text and binary of both byte orders. Of the element "vertex": x y z in any number type,
-/// nx ny nz as "normal", red green blue [alpha] as "color" (integers scaled to 0..1), s t, u v or
-/// texture_u texture_v as "uv", texture_u2 texture_v2 as "uv2" and so on, bytes region_<name> as
-/// regions; of "face": vertex_indices or vertex_index, the lists texcoord, texcoord2, ... as corner
-/// attributes "uv", "uv2", ..., lists corner_<width>_<name> as other attributes of corners, red
-/// green blue [alpha] as "color" and nx ny nz as "normal" ("face_color" and "face_normal" where the
-/// vertices have such); of "tristrips": vertex_indices. Face labels and material files are in
-/// comments of the header, see PlyHeader. Other numbers of vertices and faces are attributes of
-/// their name, see PlyLayout. What else there is, is skipped and named in the report; so are
-/// infinite values of attributes. Numbers in text keep all their digits, whatever type the header
-/// gives them. Errors: file_syntax, file_truncated, file_too_large, face_index, cancelled.
+/// nx ny nz as "normal", red green blue [alpha], r g b [a] or diffuse_red ... as "color" (integers
+/// scaled to 0..1), s t, u v or texture_u texture_v as "uv", texture_u2 texture_v2 as "uv2" and so
+/// on, bytes region_<name> as regions; of "face": vertex_indices or vertex_index, the lists
+/// texcoord, texcoord2, ... as corner attributes "uv", "uv2", ..., lists corner_<width>_<name> as
+/// other attributes of corners, red green blue [alpha] as "color" and nx ny nz as "normal"
+/// ("face_color" and "face_normal" where the vertices have such); of "tristrips": vertex_indices.
+/// Face labels and material files are in comments of the header, see PlyHeader. Other numbers of
+/// vertices and faces are attributes of their name, see PlyLayout. What else there is, is skipped
+/// and named in the report; so are infinite values of attributes. Numbers in text keep all their
+/// digits, whatever type the header gives them. Errors: file_syntax, file_truncated,
+/// file_too_large, face_index, cancelled.
 MeshData read_ply(std::string_view bytes, const Context& context);
 
 /// Writes what `read_ply` reads: all that a mesh holds but its asset. Positions are "float" where

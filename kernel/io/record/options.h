@@ -35,6 +35,8 @@ struct LoadOptions {
     /// Length of the file's unit in the mesh's unit: positions are multiplied by it. Positive,
     /// finite.
     double unit = 1.0;
+    /// Vertices that no face uses.
+    UnusedVertices unused = UnusedVertices::drop;
 };
 
 /// The inverse of LoadOptions, and how the file is encoded.
@@ -52,6 +54,9 @@ struct SaveOptions {
     /// in its node, but for nodes that a skin or an animation of weights uses; other formats cannot
     /// hold it, so that SavedFile and a warning of the log tell it.
     FileOrigin origin = FileOrigin::keep;
+    /// Writes the normals of the surface (see vertex_normals) for a mesh that has none of its own.
+    /// STL has those of its triangles in any case.
+    bool normals = false;
 };
 
 /// How the coordinates of a file become those of the strands.

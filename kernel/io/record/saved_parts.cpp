@@ -1,6 +1,7 @@
 #include "kernel/io/record/saved_parts.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "kernel/core/error.h"
 #include "kernel/io/stream/read_error.h"
@@ -80,7 +81,12 @@ const FaceLabels* SavedParts::take_labels(std::string_view kind) {
 
 const std::vector<std::string>& SavedParts::take_material_libraries() {
     libraries_taken_ = true;
-    return mesh_.material_libraries();
+    return libraries_ ? *libraries_ : mesh_.material_libraries();
+}
+
+void SavedParts::replace_material_libraries(std::vector<std::string> names, bool have_asset) {
+    libraries_ = std::move(names);
+    libraries_have_asset_ = have_asset;
 }
 
 const std::map<std::string, Region, std::less<>>& SavedParts::take_regions() {
@@ -118,7 +124,9 @@ void SavedParts::log_losses(std::string_view format, const Context& context) con
     }
     if (!asset_taken_ && mesh_.asset() && !(libraries_taken_ && defines_libraries)) {
         lost += lost.empty() ? " " : ", ";
-        lost += "materials, textures, nodes and animations of the file it came from";
+        lost += libraries_have_asset_ ? "nodes and animations"
+                                      : "materials, textures, nodes and animations";
+        lost += " of the file it came from";
     }
     if (lost.empty()) return;
     context.log(LogLevel::warning,

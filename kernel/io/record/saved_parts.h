@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -35,6 +36,9 @@ class SavedParts {
     /// The labels of a kind, or null.
     const FaceLabels* take_labels(std::string_view kind);
     const std::vector<std::string>& take_material_libraries();
+    /// Makes these the material libraries that a writer takes, in place of those of the mesh.
+    /// `have_asset`: what the asset says of materials is in them.
+    void replace_material_libraries(std::vector<std::string> names, bool have_asset);
     const std::map<std::string, Region, std::less<>>& take_regions();
     /// What the mesh holds beside its surface, or null.
     const std::shared_ptr<const Asset>& take_asset();
@@ -45,6 +49,8 @@ class SavedParts {
   private:
     const Mesh& mesh_;
     std::set<std::string, std::less<>> taken_attributes_, taken_labels_;
+    std::optional<std::vector<std::string>> libraries_;
+    bool libraries_have_asset_ = false;
     bool libraries_taken_ = false, regions_taken_ = false, asset_taken_ = false;
 };
 

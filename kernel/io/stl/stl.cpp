@@ -121,14 +121,29 @@ class StlTextReader {
     LabelReader objects_;
 };
 
+// The number of triangles in the rest of the data. Programs that write as they go put 0 or the
+// largest number in its place; the triangles tell it then.
+std::size_t triangle_count(ByteReader& data, std::size_t file_bytes, const Context& context) {
+    constexpr auto kUnknown = std::numeric_limits<std::uint32_t>::max();
+    const auto announced = data.read<std::uint32_t>();
+    const std::size_t there = data.remaining() / kTriangleBytes;
+    const bool is_stand_in = announced == 0 || announced == kUnknown;
+    if (!is_stand_in || there == 0 || data.remaining() % kTriangleBytes != 0) {
+        return checked_count(announced, file_bytes, "triangles", {});
+    }
+    context.log(LogLevel::warning, "the header announces " + std::to_string(announced) +
+                                       " triangles, and " + std::to_string(there) +
+                                       " follow; these were read");
+    return checked_count(static_cast<std::int64_t>(there), file_bytes, "triangles", {});
+}
+
 MeshData read_binary(std::string_view bytes, const Context& context) {
     Progress progress(context, "read STL");
     Ticker ticker(progress);
     ByteReader data(bytes, Endianness::little);
     data.tally.elements = "triangles";
     data.skip(kStlHeaderBytes);
-    const std::size_t count =
-        checked_count(data.read<std::uint32_t>(), bytes.size(), "triangles", {});
+    const std::size_t count = triangle_count(data, bytes.size(), context);
     data.tally.announced = count;
     TriangleList triangles;
     triangles.reserve(std::min(count, data.remaining() / kTriangleBytes));

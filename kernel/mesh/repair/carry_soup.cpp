@@ -102,12 +102,16 @@ void carry_labels(AttributeSet&& old, const SoupSources& sources, AttributeSet& 
 }
 
 std::vector<Index> carried_region(const std::vector<Index>& vertices, std::size_t file_vertices,
-                                  const SoupSources& sources) {
+                                  const SoupSources& sources, const Topology& topology) {
     std::vector<char> inside(file_vertices, 0);
     for (const Index v : vertices) inside[v] = 1;
     std::vector<Index> kept;
     for (std::size_t c = 0; c < sources.corner_count(); ++c) {
         if (inside[sources.vertex_at(c)]) kept.push_back(sources.fan_of_corner[c]);
+    }
+    const std::vector<Index>& source = sources.fans.source;
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+        if (topology.is_isolated(v) && inside[source[at(v)]]) kept.push_back(v);
     }
     return kept;
 }
@@ -164,8 +168,9 @@ Mesh carry_soup(Soup soup, std::span<const Index> file_corners, CornerFaces work
     carry_labels(std::move(soup.attributes), sources, mesh.attributes());
     mesh.attributes().recount();
     for (const auto& [name, vertices] : soup.regions) {
-        mesh.set_region(
-            name, Region(mesh.shared_topology(), carried_region(vertices, file_vertices, sources)));
+        mesh.set_region(name,
+                        Region(mesh.shared_topology(),
+                               carried_region(vertices, file_vertices, sources, mesh.topology())));
     }
     return mesh;
 }

@@ -1,6 +1,7 @@
 #include "kernel/mesh/repair/repair.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "kernel/mesh/corner_faces.h"
@@ -81,9 +82,10 @@ std::vector<char> used_vertices(const Soup& soup, std::span<const Index> corners
     return used;
 }
 
-void require_sound(const Soup& soup, std::span<const Index> file_corners, const Context& context) {
+void require_sound(const Soup& soup, std::span<const Index> file_corners, bool keeps_unused,
+                   const Context& context) {
     check_and_pair_edges(count_of(soup.positions), soup.faces, context);
-    if (soup.faces.size() == 0) return;
+    if (soup.faces.size() == 0 || keeps_unused) return;
     Elements unused{ElementKind::vertex, 0, {}};
     const std::vector<char> used = used_vertices(soup, file_corners);
     for (std::size_t v = 0; v < used.size(); ++v) {
@@ -109,6 +111,43 @@ std::span<const Index> object_labels(const Soup& soup) {
     return objects->second.of_face;
 }
 
+// Vertices that are neither in the mesh nor welded to one that is.
+std::vector<Index> left_out(const Soup& soup, std::span<const Index> file_corners,
+                            const CornerFaces& work, const FanVertices& fans) {
+    std::vector<char> known = used_vertices(soup, fans.source);
+    for (const Index corner : work.corner_source) known[file_corners[corner]] = 1;
+    std::vector<Index> list;
+    for (std::size_t v = 0; v < known.size(); ++v) {
+        if (!known[v]) list.push_back(index_of(v));
+    }
+    return list;
+}
+
+// Gives vertices without faces the place that their number has among the others. The first fans of
+// the soup's vertices come in their order, and then further ones.
+void insert_vertices(const std::vector<Index>& added, FanVertices& fans) {
+    if (added.empty()) return;
+    const auto further =
+        std::adjacent_find(fans.source.begin(), fans.source.end(), std::greater_equal<>());
+    const auto first_count =
+        further == fans.source.end() ? fans.source.size() : at(further - fans.source.begin()) + 1;
+    std::vector<Index> source, moved_to;
+    source.reserve(fans.source.size() + added.size());
+    auto next = added.begin();
+    for (std::size_t fan = 0; fan < fans.source.size(); ++fan) {
+        const bool is_first = fan < first_count;
+        while (next != added.end() && (!is_first || *next < fans.source[fan])) {
+            source.push_back(*next++);
+        }
+        moved_to.push_back(count_of(source));
+        source.push_back(fans.source[fan]);
+    }
+    source.insert(source.end(), next, added.end());
+    for (Index& fan : fans.of_corner) fan = moved_to[at(fan)];
+    fans.source = std::move(source);
+    fans.unchanged = false;
+}
+
 // What became of the vertices of the file.
 class VertexFindings {
   public:
@@ -126,9 +165,10 @@ class VertexFindings {
   private:
     void add_unused(Report& report) const {
         const std::vector<char> used = used_vertices(soup_, file_corners_);
+        const std::vector<char> kept = used_vertices(soup_, fans_.source);
         std::vector<Index> unused;
         for (std::size_t v = 0; v < used.size(); ++v) {
-            if (!used[v]) unused.push_back(index_of(v));
+            if (!used[v] && !kept[v]) unused.push_back(index_of(v));
         }
         add(report, FindingKind::vertices_unreferenced, std::move(unused));
     }
@@ -206,10 +246,11 @@ Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Rep
         kBytesPerCorner * soup.faces.vertices.size() + kBytesPerVertex * soup.positions.size(),
         "checking a mesh");
     const std::vector<Index> file_corners = soup.faces.vertices;
+    const bool keeps_unused = options.unused == UnusedVertices::keep;
     weld_known(soup);
     if (options.weld == Weld::all) weld_all(soup);
     if (options.weld == Weld::seams) weld_within_loose_faces(soup);
-    if (!options.repair) require_sound(soup, file_corners, context);
+    if (!options.repair) require_sound(soup, file_corners, keeps_unused, context);
     progress.update(0.2);
 
     const auto vertex_count = count_of(soup.positions);
@@ -232,6 +273,7 @@ Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Rep
     if (options.weld == Weld::seams && !welding.is_closed())
         welding.weld_seams(object_labels(soup));
     FanVertices fans = welding.number_fans();
+    if (keeps_unused) insert_vertices(left_out(soup, file_corners, work, fans), fans);
     VertexFindings(soup, file_corners, work, fans).add_to(report);
     progress.update(0.8);
 

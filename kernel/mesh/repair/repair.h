@@ -23,10 +23,19 @@ enum class Weld {
     all,
 };
 
+/// What becomes of vertices that no face uses.
+enum class UnusedVertices {
+    drop,
+    /// They stay in their order: programs that match vertices by number, as those of morph targets
+    /// do, find the count of the file. Without welding and defects all vertices keep their numbers.
+    keep,
+};
+
 struct RepairOptions {
     Weld weld = Weld::seams;
     /// False: what would be mended is an error instead, and so are faces without area.
     bool repair = true;
+    UnusedVertices unused = UnusedVertices::drop;
 };
 
 /// The mesh of `soup`; its report() starts with the findings of `report`. Faces are, in this order:
@@ -34,7 +43,7 @@ struct RepairOptions {
 /// cut apart where more than two meet (faces that bound the same piece of space stay together),
 /// oriented like their neighbours (a closed piece that had to be reoriented faces outward, an open
 /// one as most of its area did), and vertices are split into one for each fan. Vertices without
-/// faces are dropped, unless there is no face at all.
+/// faces are dropped, unless `unused` keeps them or there is no face at all.
 /// Errors: face_index; not_finite; invalid_argument for attributes that do not fit; cancelled; and
 /// without `repair`: face_too_small, repeated_vertex, duplicate_face, nonmanifold_edge,
 /// inconsistent_orientation, nonmanifold_vertex, unreferenced_vertex, zero_area.

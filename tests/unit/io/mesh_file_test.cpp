@@ -1,5 +1,6 @@
 #include "kernel/io/mesh_file.h"
 
+#include "kernel/mesh/measure/measures.h"
 #include "tests/unit/io/io_support.h"
 
 using namespace lissom;
@@ -219,4 +220,63 @@ TEST_CASE("a failed save leaves the old file") {
     CHECK(error_of([&] { save_mesh(mesh, folder / "a.stl"); }).code() == ErrorCode::not_finite);
     CHECK(read_bytes(folder / "a.stl") == before);
     CHECK(folder.names().size() == 1);
+}
+
+TEST_CASE("vertices that no face uses stay in their order if that is asked for") {
+    const std::string text =
+        "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 8 8 8\nv 0 1 0\nv 7 7 7\nv 1 1 0\nf 2 3 5\nf 3 7 5\n";
+    const LoadOptions keep{.unused = UnusedVertices::keep};
+    const Mesh dropped = decode_mesh(text, "obj");
+    CHECK(dropped.vertex_count() == 4);
+    CHECK(dropped.report().find(FindingKind::vertices_unreferenced)->count == 3);
+    const Mesh mesh = decode_mesh(text, "obj", keep);
+    REQUIRE(mesh.vertex_count() == 7);
+    CHECK(mesh.position(0) == Vec3(9, 9, 9));
+    CHECK(mesh.position(5) == Vec3(7, 7, 7));
+    CHECK(face_of(mesh, 1) == std::vector<Index>{2, 6, 4});
+    CHECK(mesh.report().find(FindingKind::vertices_unreferenced) == nullptr);
+    for (const char* extension : {"obj", "ply", "off"}) {
+        CAPTURE(extension);
+        check_same_geometry(decode_mesh(encode_mesh(mesh, extension), extension, keep), mesh);
+    }
+    CHECK(decode_mesh(text, "obj", {.repair = false, .unused = UnusedVertices::keep})
+              .vertex_count() == 7);
+    // Faces that are dropped leave their vertices, and what is split gets copies at the end.
+    const std::string torn = text + "f 1 4 4\nv 2 2 2\nv 3 3 3\nf 2 8 9\n";
+    const Mesh split = decode_mesh(torn, "obj", keep);
+    REQUIRE(split.vertex_count() == 10);
+    CHECK(split.position(0) == Vec3(9, 9, 9));
+    CHECK(split.position(8) == Vec3(3, 3, 3));
+    CHECK(split.position(9) == Vec3(0, 0, 0));
+    // Regions keep them too.
+    const Mesh region = decode_mesh(text + "g region:a\np 1 2 4\n", "obj", keep);
+    CHECK(region.find_region("a")->vertices() == std::vector<Index>{0, 1, 3});
+}
+
+TEST_CASE("normals of the surface are written if they are asked for and there are none") {
+    const Mesh mesh = prism(6);
+    for (const char* extension : {"obj", "ply", "off", "glb"}) {
+        CAPTURE(extension);
+        CHECK_FALSE(round_trip(mesh, extension).attributes().find("normal"));
+        const Mesh lit = round_trip(mesh, extension, {.normals = true});
+        const Attribute* normal = lit.attributes().find("normal");
+        REQUIRE(normal);
+        const std::vector<Vec3> expected = vertex_normals(lit);
+        for (Index c = 0; c < lit.topology().corner_count(); ++c) {
+            const Index v = lit.topology().faces().vertices[c];
+            const auto n = normal->at(normal->domain == Domain::corner ? c : v);
+            CHECK((Vec3(n[0], n[1], n[2]) - expected[v]).norm() < 1e-6);
+        }
+    }
+    LoggedContext logged;
+    encode_mesh(mesh, "stl", {.normals = true}, logged.context);
+    CHECK(logged.log().empty());
+    Mesh own = mesh;
+    own.attributes().add(
+        {"normal", Domain::vertex, 3, ScalarType::float32, std::vector<double>(36, 0.25)});
+    CHECK(round_trip(own, "ply", {.normals = true}).attributes().find("normal")->at(0)[0] == 0.25);
+    // Axes of the file hold for them as well.
+    const Mesh turned = round_trip(mesh, "ply", {.up = UpAxis::z, .normals = true});
+    CHECK(turned.attributes().find("normal")->at(0)[2] ==
+          doctest::Approx(vertex_normals(mesh)[0].y()).epsilon(1e-6));
 }

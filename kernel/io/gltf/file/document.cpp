@@ -157,12 +157,33 @@ class Loader {
             json.erase("uri");
             return std::make_shared<const std::string>(std::move(data->bytes));
         }
-        SharedBytes content = folder_.read_if_there(uri);
+        std::string why;
+        SharedBytes content = file_of_image(uri, why);
         if (!content) {
-            ++missing_count_;
-            missing_ += (missing_.empty() ? "" : ", ") + in_quotes(uri);
+            constexpr std::size_t kShown = 10;
+            if (++missing_count_ <= kShown) {
+                missing_ += (missing_.empty() ? "" : ", ") + in_quotes(uri) + why;
+            }
         }
         return content;
+    }
+
+    // Null, with the reason, for a picture that cannot be had: the surface is read all the same.
+    SharedBytes file_of_image(std::string uri, std::string& why) {
+        // Programs for Windows write its separators.
+        std::replace(uri.begin(), uri.end(), '\\', '/');
+        try {
+            return folder_.read_if_there(uri);
+        } catch (const Error& error) {
+            if (error.code() == ErrorCode::unsafe_path) {
+                why = " (outside the folder of the file, which is not read)";
+            } else if (error.code() == ErrorCode::file_unreadable) {
+                why = " (cannot be read)";
+            } else {
+                throw;
+            }
+        }
+        return nullptr;
     }
 
     SharedBytes image_of_view(std::size_t view) {

@@ -74,8 +74,28 @@ TEST_CASE("images are held to the folder too, but may be missing") {
     const TemporaryFolder folder;
     GltfFile file;
     file.add_mesh(file.square_primitive());
-    file.json["images"] = {{{"uri", "../picture.png"}}};
-    CHECK(code_in(folder, file) == ErrorCode::unsafe_path);
+    fs::create_directories(folder / "inside");
+    write_bytes(folder / "picture.png", "\x89PNG\r\n\x1a\nsecret");
+    for (const std::string uri :
+         {"../picture.png", "..\\picture.png", "%2e%2e/picture.png", "C:\\picture.png",
+          "c:/picture.png", "file:///picture.png", "/picture.png", "\\\\host\\picture.png"}) {
+        CAPTURE(uri);
+        file.json["images"] = {{{"uri", uri}}, {{"uri", uri}}};
+        write_bytes(folder / "inside/file.gltf", file.text());
+        const LoggedContext logged;
+        const Mesh mesh = load_mesh(folder / "inside/file.gltf", {}, logged.context);
+        CHECK(mesh.face_count() == 2);
+        CHECK(mesh.report().find(FindingKind::files_missing)->count == 2);
+        CHECK(std::count(logged.log().begin(), logged.log().end(), '\n') == 1);
+        const std::string bytes = encode_mesh(mesh, "glb");
+        CHECK(json_of_glb(bytes)["images"][0]["uri"] == uri);
+        CHECK(bytes.find("secret") == std::string::npos);
+    }
+    fs::create_directories(folder / "maps");
+    write_bytes(folder / "maps/wood.png", "\x89PNG\r\n\x1a\nwood");
+    file.json["images"] = {{{"uri", "maps\\wood.png"}}};
+    CHECK(encode_mesh(load_in(folder, file), "glb").find("wood") != std::string::npos);
+    fs::remove(folder / "picture.png");
     file.json["images"] = {{{"uri", "picture.png"}}};
     const Mesh mesh = load_in(folder, file);
     CHECK(mesh.report().find(FindingKind::files_missing));

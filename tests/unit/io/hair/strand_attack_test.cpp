@@ -230,8 +230,6 @@ TEST_CASE("counts of .data that no file can hold are refused") {
         });
         CHECK(error.elements().kind == ElementKind::strand);
     }
-    CHECK(code_of(Bytes().add(std::int32_t{1}, std::int32_t{0}, 0.f, 0.f, 0.f), "data") ==
-          ErrorCode::file_syntax);
 }
 
 TEST_CASE("USDA that contradicts itself is refused with the line") {
@@ -294,4 +292,23 @@ TEST_CASE("messages about USDA show no bytes that cannot be printed") {
     const Error error =
         error_of([] { decode_strands(usda("point3f[] points = [\x01\xff\x7f]\n"), "usda"); });
     for (const char c : error.message()) CHECK((c >= 0x20 && c < 0x7f));
+}
+
+TEST_CASE("strands of no points in .data are left out, and the log counts them") {
+    const std::string gap = Bytes().add(std::int32_t{3}, std::int32_t{2}, 0.f, 0.f, 0.f, 1.f, 0.f,
+                                        0.f, std::int32_t{0}, std::int32_t{1}, 5.f, 5.f, 5.f);
+    const LoggedContext logged;
+    const Strands strands = decode_strands(gap, "data", {}, logged.context);
+    CHECK(strands.size() == 2);
+    CHECK(strands.root(1) == Eigen::Vector3f(5, 5, 5));
+    CHECK(logged.mentions("1 of 3 strands"));
+    const std::string none = Bytes().add(std::int32_t{2}, std::int32_t{0}, std::int32_t{0});
+    CHECK(decode_strands(none, "data").empty());
+    CHECK(code_of(Bytes().add(std::int32_t{2}, std::int32_t{0}), "data") ==
+          ErrorCode::file_truncated);
+    CHECK(code_of(Bytes().add(std::int32_t{1}, std::int32_t{-1}), "data") ==
+          ErrorCode::file_syntax);
+    for (std::size_t size = 0; size < gap.size(); ++size) {
+        CHECK_FALSE(is_read(gap.substr(0, size), "data"));
+    }
 }

@@ -1,3 +1,5 @@
+#include <sstream>
+
 #include "tests/unit/io/io_support.h"
 
 using namespace lissom;
@@ -347,4 +349,40 @@ TEST_CASE("faces of more than 255 vertices fit into PLY") {
     mesh.attributes().add({"uv", Domain::corner, 2, ScalarType::float64,
                            numbers(2 * mesh.topology().corner_count(), 3)});
     check_same_mesh(round_trip(mesh, "ply"), mesh);
+}
+
+TEST_CASE("r g b are colours in PLY as red green blue are") {
+    for (const std::string& names :
+         {std::string("r g b"), std::string("diffuse_red diffuse_green diffuse_blue"),
+          std::string("r g b a")}) {
+        CAPTURE(names);
+        std::string properties, row;
+        std::istringstream words(names);
+        for (std::string name; words >> name;) {
+            properties += "property uchar " + name + "\n";
+            row += row.empty() ? " 255" : " 51";
+        }
+        const Mesh mesh = decode_mesh(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+            "property float y\nproperty float z\n" +
+                properties +
+                "element face 1\nproperty list uchar int vertex_indices\n"
+                "end_header\n0 0 0" +
+                row + "\n1 0 0" + row + "\n0 1 0" + row + "\n3 0 1 2\n",
+            "ply");
+        const Attribute* color = mesh.attributes().find("color");
+        REQUIRE(color);
+        CHECK(mesh.attributes().all().size() == 1);
+        CHECK(color->width == (names.ends_with("a") ? 4 : 3));
+        CHECK(color->at(1)[0] == 1.0);
+        CHECK(color->at(1)[1] == doctest::Approx(0.2));
+    }
+    Mesh own = prism(4);
+    own.attributes().add(
+        {"r", Domain::vertex, 1, ScalarType::float32, std::vector<double>(8, 0.5)});
+    own.attributes().add(
+        {"g", Domain::vertex, 1, ScalarType::float32, std::vector<double>(8, 0.5)});
+    own.attributes().add(
+        {"b", Domain::vertex, 1, ScalarType::float32, std::vector<double>(8, 0.5)});
+    check_same_mesh(round_trip(own, "ply"), own);
 }

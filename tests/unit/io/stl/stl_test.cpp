@@ -157,3 +157,19 @@ TEST_CASE("an STL error in text names the line, an early end the triangles found
     });
     CHECK(end.message().find("1 of 2 triangles") != std::string::npos);
 }
+
+TEST_CASE("binary STL whose header announces no triangles has those that follow") {
+    std::string bytes = binary("", {{kA, kB, kC}, {kA, kC, kD}});
+    for (const char filler : {'\0', '\xff'}) {
+        for (std::size_t i = 80; i < 84; ++i) bytes[i] = filler;
+        const LoggedContext logged;
+        CHECK(decode_mesh(bytes, "stl", {}, logged.context).face_count() == 2);
+        CHECK(logged.mentions("2 follow"));
+    }
+    for (std::size_t i = 80; i < 84; ++i) bytes[i] = '\0';
+    CHECK(stl(bytes.substr(0, 84)).face_count() == 0);
+    CHECK(stl(bytes.substr(0, 84) + "tail").face_count() == 0);
+    CHECK(stl(bytes.substr(0, bytes.size() - 1)).face_count() == 0);
+    for (std::size_t i = 80; i < 84; ++i) bytes[i] = '\xff';
+    CHECK(stl_error(bytes.substr(0, bytes.size() - 1)) == ErrorCode::file_too_large);
+}

@@ -1,0 +1,107 @@
+#include "bindings/cli/scene_input.h"
+
+#include <algorithm>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/hair/strands/strand_edit.h"
+#include "kernel/io/record/file_rules.h"
+#include "kernel/io/strand_file.h"
+#include "kernel/io/stream/file.h"
+#include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/scene/mesh_item.h"
+#include "kernel/scene/scene.h"
+#include "kernel/scene/scene_file.h"
+#include "kernel/scene/strands_item.h"
+
+namespace lissom::cli {
+namespace fs = std::filesystem;
+namespace {
+
+std::shared_ptr<const Mesh> placed(std::shared_ptr<const Mesh> mesh, const Affine& map,
+                                   const Context& context) {
+    if (map.is_identity()) return mesh;
+    Mesh moved = *mesh;
+    transform(moved, map, context);
+    return std::make_shared<const Mesh>(std::move(moved));
+}
+
+std::shared_ptr<const Strands> placed(std::shared_ptr<const Strands> strands, const Affine& map,
+                                      const Context& context) {
+    if (map.is_identity()) return strands;
+    Strands moved = *strands;
+    transform(moved, map, context);
+    return std::make_shared<const Strands>(std::move(moved));
+}
+
+SceneObject object_of(const NamedObject& object, const Context& context) {
+    SceneObject result{object.name, std::string(kind_name(object.item->kind())),
+                       object.look.visible, nullptr, nullptr};
+    const Affine& map = object.look.transform;
+    if (const auto* mesh = dynamic_cast<const MeshItem*>(object.item.get())) {
+        result.mesh = placed(mesh->shared_mesh(), map, context);
+    } else if (const auto* strands = dynamic_cast<const StrandsItem*>(object.item.get())) {
+        result.strands = placed(strands->shared_strands(), map, context);
+    }
+    return result;
+}
+
+void label_object(Mesh& mesh, const std::string& name) {
+    auto& labels = mesh.attributes().labels();
+    if (mesh.face_count() == 0 || labels.contains("object")) return;
+    labels["object"] = {{name}, std::vector<Index>(at(mesh.face_count()), 0)};
+}
+
+}  // namespace
+
+bool is_scene_path(const fs::path& path) {
+    std::error_code error;
+    const std::string extension = display_name(path.extension());
+    if (extension == ".lissom" || extension == ".LISSOM") return true;
+    return fs::is_directory(path, error) && fs::exists(path / "scene.json", error);
+}
+
+bool is_hair_path(const fs::path& path) {
+    const std::vector<std::string>& known = readable_strand_extensions();
+    const std::string extension = normalized_extension(display_name(path.extension()));
+    return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+ObjectList read_scene_list(const fs::path& path, const Context& context) {
+    Scene scene;
+    ItemMaker maker;
+    load_scene(path, scene, maker, context);
+    return scene.objects();
+}
+
+std::vector<SceneObject> read_scene(const fs::path& path, const Context& context) {
+    std::vector<SceneObject> objects;
+    for (const auto& object : read_scene_list(path, context)) {
+        objects.push_back(object_of(*object, context));
+    }
+    return objects;
+}
+
+Mesh joined_scene_mesh(const fs::path& path, const Context& context) {
+    std::optional<Mesh> result;
+    for (const SceneObject& object : read_scene(path, context)) {
+        if (!object.mesh || !object.visible) continue;
+        Mesh mesh = *object.mesh;
+        label_object(mesh, object.name);
+        if (result) {
+            append(*result, mesh, context);
+        } else {
+            result = std::move(mesh);
+        }
+    }
+    if (result) return std::move(*result);
+    throw Error(ErrorCode::mesh_empty,
+                display_name(path) +
+                    ": the scene has no visible mesh; lissom inspect lists what it "
+                    "holds");
+}
+
+}  // namespace lissom::cli
