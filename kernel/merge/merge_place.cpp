@@ -1,11 +1,25 @@
 // Which points of the boundaries meet if there are no keys.
 #include <algorithm>
+#include <cmath>
 
 #include "kernel/merge/loop/automatic_keys.h"
+#include "kernel/merge/loop/loop_fit.h"
 #include "kernel/merge/merge_stages.h"
 
 namespace lissom {
 namespace {
+
+// Weights of a multinomial logit model: the odds of a turn are exp(-score), and those that none of
+// the turns is right exp(-kNoneScore). Fitted to 147 pairs of parts of real models, of which 37
+// come from different ones; in cross validation by models 76 of 78 that had a certainty above .75
+// were right, and all 52 above .9.
+constexpr double kLoopWeight = 2.83, kBendWeight = 1.24, kMirrorWeight = 3.22, kMassWeight = 0.29;
+constexpr double kNoneScore = -3.97;
+// Misfits well below this are none.
+constexpr double kLeastMisfit = 0.003;
+// Turns within 30 degrees are one guess; offsets that differ by less than kRounding are equal, and
+// scores by less than kSameScore.
+constexpr double kSameGuess = 30.0 / 360.0, kRounding = 1e-6, kSameScore = 0.01;
 
 std::vector<LoopJoin> loops_of(const Boundaries& boundaries) {
     std::vector<LoopJoin> loops;
@@ -37,19 +51,97 @@ FoundPlaces guessed_places(const std::vector<OffsetGuess>& offsets, Placing by) 
     return found;
 }
 
-// The shapes of the parts count only if the loops leave a choice.
-FoundPlaces places_by_shape(const MergePreparation& preparation, std::vector<LoopJoin> loops,
+// How far the vertices of a deformed region are from the similarity that fits them, RMS, in sizes
+// of the region.
+double bend_of(const Mesh& rest, const Region& region, std::span<const Vec3> now) {
+    Matches matches{{}, {now.begin(), now.end()}};
+    for (const Index v : region.vertices()) matches.from.push_back(rest.position(v));
+    const SimilarityMap fit = matches.fit();
+    double apart = 0.0, size = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        apart += (now[i] - fit(matches.from[i])).squaredNorm();
+        size += (now[i] - fit.to).squaredNorm();
+    }
+    return std::sqrt(apart / size);
+}
+
+double log_of(double misfit) {
+    return std::log(misfit + kLeastMisfit);
+}
+
+double score_of(const JudgedTurn& one) {
+    return kLoopWeight * log_of(one.turn.loop_cost) + kBendWeight * log_of(one.bend) +
+           kMirrorWeight * one.turn.mirror + kMassWeight * one.turn.mass;
+}
+
+// The probability of each turn, and of all near it, that it is right; see kLoopWeight.
+void find_certainty(std::vector<JudgedTurn>& turns) {
+    std::vector<double> odds;
+    double sum = std::exp(-kNoneScore);
+    for (const JudgedTurn& one : turns) sum += odds.emplace_back(std::exp(-score_of(one)));
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        for (std::size_t k = 0; k < turns.size(); ++k) {
+            const double apart = turns[i].turn.offset - turns[k].turn.offset;
+            if (std::abs(std::remainder(apart, 1.0)) < kSameGuess) {
+                turns[i].certainty += odds[k] / sum;
+            }
+        }
+        turns[i].score = score_of(turns[i]);
+    }
+}
+
+// The turn with the least score; of several that are equal but for rounding the first along the
+// target's loop, so that where the source lies does not decide.
+const JudgedTurn& best_turn(const std::vector<JudgedTurn>& turns) {
+    const auto lower = [](const JudgedTurn& a, const JudgedTurn& b) { return a.score < b.score; };
+    const double least = std::min_element(turns.begin(), turns.end(), lower)->score;
+    const auto place = [](const JudgedTurn& one) {
+        const double u = one.turn.offset + kRounding;
+        return u - std::floor(u);
+    };
+    const JudgedTurn* best = nullptr;
+    for (const JudgedTurn& one : turns) {
+        if (one.score > least + kSameScore) continue;
+        if (!best || place(one) < place(*best)) best = &one;
+    }
+    return *best;
+}
+
+// Several joins lie where their centres do; a single one is turned as its loops, the planes of
+// symmetry, masses and necks of the parts suggest, with the least distortion.
+FoundPlaces places_by_shape(const MergePreparation& preparation, std::span<const LoopJoin> loops,
                             const Context& context) {
-    const auto& directions = preparation.options.directions;
-    const std::vector<OffsetGuess> guesses = guess_offsets(loops, directions);
-    if (guesses.front().contrast >= kClearContrast) return guessed_places(guesses, Placing::shape);
+    if (loops.size() > 1) return guessed_places(guess_offsets(loops), Placing::shape);
     const PartShapes::Pair& parts = preparation.parts->of(preparation.boundaries, context);
-    loops.front().source_part = &parts.source;
-    loops.front().target_part = &parts.target;
-    return guessed_places(guess_offsets(loops, directions), Placing::shape);
+    if (parts.source.round || parts.target.round) {
+        FoundPlaces found = sure_places(guess_offsets(loops), Placing::shape);
+        found.any_turn = true;
+        return found;
+    }
+    const std::vector<JudgedTurn> turns = judged_turns(preparation, context);
+    const JudgedTurn& best = best_turn(turns);
+    return {{{0.0, best.turn.offset}}, Placing::shape, {best.certainty}, false};
 }
 
 }  // namespace
+
+std::vector<JudgedTurn> judged_turns(const MergePreparation& preparation, const Context& context) {
+    const Boundaries& from = preparation.boundaries;
+    const PartShapes::Pair& parts = preparation.parts->of(from, context);
+    const Region& region = preparation.deformer->region();
+    const bool snap = preparation.method.loops == LoopMeasure::robust;
+    const Loop &source = from.source_curves.front(), &target = from.target_curves.front();
+    std::vector<JudgedTurn> turns;
+    for (const TurnCandidate& turn :
+         turn_candidates({&source, &target, &parts.source, &parts.target})) {
+        const ParameterPair key{0.0, turn.offset};
+        const LoopPair pair = corresponding(source, target, std::span(&key, 1), snap);
+        const BoundaryDeformation deformed = deformed_by(preparation, std::span(&pair, 1), context);
+        turns.push_back({turn, bend_of(from.source.mesh, region, deformed.positions), 0.0});
+    }
+    find_certainty(turns);
+    return turns;
+}
 
 FoundPlaces find_places(const MergePreparation& preparation, const Context& context) {
     const std::vector<LoopJoin> loops = loops_of(preparation.boundaries);

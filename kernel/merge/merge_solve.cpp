@@ -143,16 +143,16 @@ Vec3 rotation_vector(const Mat3& rotation) {
 }
 
 // One value a held vertex; those not on a loop stay as they are.
-std::vector<BoundaryValue> values_of(const MergePreparation& preparation, const Matching& matching,
-                                     const Region& held) {
+std::vector<BoundaryValue> values_of(const MergePreparation& preparation,
+                                     std::span<const LoopPair> pairs, const Region& held) {
     const Boundaries& from = preparation.boundaries;
     const std::vector<Index>& ids = held.vertices();
     std::vector<BoundaryValue> values;
     for (const Index v : ids) {
         values.push_back({from.source.mesh.position(v), Mat3::Identity(), 1.0});
     }
-    for (std::size_t j = 0; j < matching.pairs.size(); ++j) {
-        const LoopPair& pair = matching.pairs[j];
+    for (std::size_t j = 0; j < pairs.size(); ++j) {
+        const LoopPair& pair = pairs[j];
         const std::vector<BoundaryValue> loop = loop_values(
             from.source_curves[j], from.target_curves[j], pair, preparation.method.values);
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -161,32 +161,6 @@ std::vector<BoundaryValue> values_of(const MergePreparation& preparation, const 
         }
     }
     return values;
-}
-
-BoundaryDeformation bent(const MergePreparation& preparation, const Matching& matching,
-                         const Context& context) {
-    BoundaryDeformer& deformer = *preparation.deformer;
-    BoundaryDeformation deformed =
-        deformer.solve(values_of(preparation, matching, deformer.held()), context);
-    if (!preparation.featured) return deformed;
-    BoundaryDeformer& featured = *preparation.featured;
-    const Mesh& mesh = preparation.boundaries.source.mesh;
-    std::vector<BoundaryValue> values = values_of(preparation, matching, featured.held());
-    const std::vector<Index>& ids = featured.held().vertices();
-    for (const Region& feature : preparation.features) {
-        Vec3 center;
-        const BoundaryValue move = common_value(mesh, feature, featured.region(), deformed, center);
-        for (const Index v : feature.vertices()) {
-            const Vec3 arm = mesh.position(v) - center;
-            values[std::lower_bound(ids.begin(), ids.end(), v) - ids.begin()] = {
-                move.position + move.scale * (move.rotation * arm), move.rotation, move.scale};
-        }
-    }
-    BoundaryDeformation result = featured.solve(values, context);
-    result.seconds.first += deformed.seconds.first;
-    result.seconds.polar += deformed.seconds.polar;
-    result.seconds.second += deformed.seconds.second;
-    return result;
 }
 
 // Parts of the source without a join go as a whole with what is nearest to them.
@@ -287,10 +261,36 @@ Matching match_boundaries(const MergePreparation& preparation,
     return result;
 }
 
+BoundaryDeformation deformed_by(const MergePreparation& preparation,
+                                std::span<const LoopPair> pairs, const Context& context) {
+    BoundaryDeformer& deformer = *preparation.deformer;
+    BoundaryDeformation deformed =
+        deformer.solve(values_of(preparation, pairs, deformer.held()), context);
+    if (!preparation.featured) return deformed;
+    BoundaryDeformer& featured = *preparation.featured;
+    const Mesh& mesh = preparation.boundaries.source.mesh;
+    std::vector<BoundaryValue> values = values_of(preparation, pairs, featured.held());
+    const std::vector<Index>& ids = featured.held().vertices();
+    for (const Region& feature : preparation.features) {
+        Vec3 center;
+        const BoundaryValue move = common_value(mesh, feature, featured.region(), deformed, center);
+        for (const Index v : feature.vertices()) {
+            const Vec3 arm = mesh.position(v) - center;
+            values[std::lower_bound(ids.begin(), ids.end(), v) - ids.begin()] = {
+                move.position + move.scale * (move.rotation * arm), move.rotation, move.scale};
+        }
+    }
+    BoundaryDeformation result = featured.solve(values, context);
+    result.seconds.first += deformed.seconds.first;
+    result.seconds.polar += deformed.seconds.polar;
+    result.seconds.second += deformed.seconds.second;
+    return result;
+}
+
 Moved deform_source(const MergePreparation& preparation, const Matching& matching,
                     const Context& context) {
     const Mesh& rest = preparation.boundaries.source.mesh;
-    BoundaryDeformation deformed = bent(preparation, matching, context);
+    BoundaryDeformation deformed = deformed_by(preparation, matching.pairs, context);
     Moved result{rest, deformed.seconds, thesis_merge(preparation, matching, context)};
     if (result.thesis) {
         deformed = result.thesis->deform(preparation.deformer->region(), *preparation.kept,

@@ -18,6 +18,7 @@
 #include "kernel/deform/boundary/boundary_deformer.h"
 #include "kernel/deform/stats.h"
 #include "kernel/merge/blend/transition.h"
+#include "kernel/merge/loop/automatic_keys.h"
 #include "kernel/merge/loop/correspondence.h"
 #include "kernel/merge/loop/loop.h"
 #include "kernel/merge/loop/loop_pair.h"
@@ -178,6 +179,22 @@ struct Matching {
 /// `keys` by join; find_places if one has none.
 Matching match_boundaries(const MergePreparation& preparation,
                           std::span<const std::vector<KeyPair>> keys, const Context& context);
+
+/// The source as the boundaries of `pairs` deform it. Errors: cancelled.
+BoundaryDeformation deformed_by(const MergePreparation& preparation,
+                                std::span<const LoopPair> pairs, const Context& context);
+
+/// A turn of a source with one join, and what it does to it.
+struct JudgedTurn {
+    TurnCandidate turn;
+    /// RMS distance of the deformed source's vertices from the similarity that fits them best, in
+    /// its sizes.
+    double bend = 0.0;
+    /// Lower is better; and the probability that the right turn is within 30 degrees of this one.
+    double score = 0.0, certainty = 0.0;
+};
+/// Deforms the source by every turn that the shapes of the parts suggest, with the factors kept.
+std::vector<JudgedTurn> judged_turns(const MergePreparation& preparation, const Context& context);
 
 /// The source brought to the target.
 struct Moved {

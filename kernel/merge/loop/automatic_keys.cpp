@@ -28,6 +28,10 @@ constexpr double kFlat = 1e-6;
 // Beyond this angle between the axes every turn rotates a source by nearly as much, and an error of
 // 10 degrees in how it lies may turn it by 40.
 constexpr double kTurnedOver = 150.0 * kPi / 180.0;
+// Offsets closer than this part of the loop are one turn.
+constexpr double kSameTurn = 10.0 / 360.0;
+// A minimum is the least of the samples this near to it.
+constexpr int kNear = 6;
 // Halvings between two samples: the last is below the rounding of a parameter.
 constexpr int kHalvings = 50;
 // Directions whose parts in the planes of the loops have a smaller product say nothing.
@@ -245,6 +249,88 @@ double least_turned_offset(const OffsetSearch& search) {
     return best_offset(cost, kFitFloor).key.target;
 }
 
+// What a direction of each part says of a rotation of the source: the cosine between them in the
+// plane of the target's loop, or 0 if one of them is too short to say anything.
+struct Leans {
+    Vec3 source, target;
+
+    double along(const Mat3& rotation) const {
+        const double lengths = source.norm() * target.norm();
+        return lengths > kLeastLean ? (rotation * source).dot(target) / lengths : 0.0;
+    }
+    double weight() const { return std::min(1.0, source.norm()) * std::min(1.0, target.norm()); }
+};
+
+class CandidateSearch {
+  public:
+    explicit CandidateSearch(const LoopJoin& join)
+        : search_(std::span(&join, 1)),
+          mirror_{square_to(join.source_part->mirror, join.source->axis()),
+                  square_to(join.target_part->mirror, join.target->axis())},
+          mass_{join.source_part->mass, join.target_part->mass},
+          neck_{join.source_part->neck, join.target_part->neck} {}
+
+    std::vector<TurnCandidate> candidates() {
+        propose([&](double u) { return search_.first_cost(u, search_.fit(u)); });
+        propose([&](double u) { return -std::abs(mirror_.along(rotation(u))); });
+        propose([&](double u) { return neck_.along(rotation(u)); });
+        propose([&](double u) { return mass_.along(rotation(u)); });
+        propose([&](double u) { return -mass_.along(rotation(u)); });
+        if (found_.empty()) found_.push_back(judged(0.0));
+        return std::move(found_);
+    }
+
+  private:
+    Mat3 rotation(double offset) const { return search_.fit(offset).rotation; }
+
+    // Takes the minima of a cost, the lowest first, that are not near an earlier one.
+    template <typename Cost>
+    void propose(const Cost& cost) {
+        Costs costs{};
+        for (int k = 0; k < kSamples; ++k) costs[k] = cost(static_cast<double>(k) / kSamples);
+        std::vector<int> minima;
+        for (int k = 0; k < kSamples; ++k) {
+            if (is_clear_minimum(costs, k)) minima.push_back(k);
+        }
+        // Costs that differ by rounding are one, so that where the source lies does not decide.
+        const auto steps = [&](int k) { return std::floor(costs[k] / kTie); };
+        std::stable_sort(minima.begin(), minima.end(),
+                         [&](int x, int y) { return steps(x) < steps(y); });
+        for (const int k : minima) add(refined_offset(k, cost));
+    }
+
+    // The least within kNear samples, from which the cost rises by more than a tie.
+    static bool is_clear_minimum(const Costs& costs, int k) {
+        double most = costs[k];
+        for (int d = 1; d <= kNear; ++d) {
+            const double before = costs[wrapped_sample(k - d)],
+                         after = costs[wrapped_sample(k + d)];
+            if (before < costs[k] || after <= costs[k]) return false;
+            most = std::max({most, before, after});
+        }
+        return most > costs[k] + kTie;
+    }
+
+    void add(double offset) {
+        const bool near = std::any_of(found_.begin(), found_.end(), [&](const TurnCandidate& one) {
+            return std::abs(std::remainder(one.offset - offset, 1.0)) < kSameTurn;
+        });
+        if (!near && found_.size() < kTurnCandidates) found_.push_back(judged(offset));
+    }
+
+    TurnCandidate judged(double offset) const {
+        const SimilarityMap fit = search_.fit(offset);
+        const double mirror = mirror_.along(fit.rotation);
+        const double off = std::sqrt(std::max(0.0, 1.0 - mirror * mirror));
+        return {offset, fit, search_.first_cost(offset, fit), mirror == 0.0 ? 0.0 : off,
+                mass_.along(fit.rotation) * mass_.weight()};
+    }
+
+    OffsetSearch search_;
+    Leans mirror_, mass_, neck_;
+    std::vector<TurnCandidate> found_;
+};
+
 }  // namespace
 
 bool directions_count(const LoopJoin& join, std::span<const DirectionPair> directions) {
@@ -263,6 +349,10 @@ std::vector<OffsetGuess> as_placed_offsets(std::span<const LoopJoin> joins) {
     std::vector<OffsetGuess> guesses{{{0.0, offset}, kSureContrast}};
     search.add_others(search.fit(offset), guesses);
     return guesses;
+}
+
+std::vector<TurnCandidate> turn_candidates(const LoopJoin& join) {
+    return CandidateSearch(join).candidates();
 }
 
 std::vector<OffsetGuess> guess_offsets(std::span<const LoopJoin> joins,

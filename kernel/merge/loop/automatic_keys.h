@@ -7,6 +7,7 @@
 
 #include "kernel/merge/loop/correspondence.h"
 #include "kernel/merge/loop/loop.h"
+#include "kernel/merge/loop/loop_fit.h"
 #include "kernel/merge/loop/part_shape.h"
 
 namespace lissom {
@@ -54,6 +55,23 @@ bool directions_count(const LoopJoin& join, std::span<const DirectionPair> direc
 /// not decide.
 std::vector<OffsetGuess> guess_offsets(std::span<const LoopJoin> joins,
                                        std::span<const DirectionPair> directions = {});
+
+/// A turn that something suggests, and how well the loops fit under it.
+struct TurnCandidate {
+    double offset = 0.0;
+    SimilarityMap fit;
+    /// RMS misfit of the loops in radii of the target, and half the mean mismatch of their normals.
+    double loop_cost = 0.0;
+    /// The sine of the angle between the planes of symmetry, and the cosine between the directions
+    /// in which both masses lie beside the axis, less if one lies near to it: 0 if a part has none.
+    double mirror = 0.0, mass = 0.0;
+};
+
+/// Finds the turns that the loops, the planes of symmetry, the masses and the necks of a join
+/// suggest, at most kTurnCandidates and each at least 10 degrees from the others. Returns at least
+/// one.
+std::vector<TurnCandidate> turn_candidates(const LoopJoin& join);
+inline constexpr std::size_t kTurnCandidates = 16;
 
 /// The same for a source that stays where it was put: each join has the offset under which its
 /// loops lie nearest to each other, moved together by their centres, scaled by their radii and

@@ -12,6 +12,7 @@
 
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/query/distances.h"
 #include "kernel/mesh/query/spatial_tree.h"
 
 namespace lissom {
@@ -28,6 +29,12 @@ constexpr double kMirrored = 0.06;
 // No other plane may be nearly as good, by a factor and by a part of the size: a round part has
 // many. Planes at a smaller angle than this are one.
 constexpr double kOtherPlane = 25.0 * kPi / 180.0, kClearlyFlatter = 1.4, kClearlyLess = 0.02;
+
+// The neck of a part is its surface up to so many radii from the boundary.
+constexpr double kNeck = 2.0;
+// A part is round if turns by these angles leave its points this near to it, in its sizes.
+constexpr double kTurns[] = {0.4, 0.9, 1.7, kPi};
+constexpr double kRound = 0.02;
 
 struct Plane {
     Vec3 point = Vec3::Zero(), normal = Vec3::UnitX();
@@ -84,6 +91,16 @@ class MirrorSearch {
             result.push_back({found->position, found->distance});
         }
         return result;
+    }
+
+    // RMS distance from the surface of the probes turned about an axis, in sizes of the part.
+    double turned_asymmetry(const Vec3& point, const Vec3& axis, double angle) const {
+        const Mat3 turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+        double squares = 0.0;
+        for (const Vec3& p : probes_) {
+            squares += square(tree_.nearest(point + turn * (p - point)).distance);
+        }
+        return std::sqrt(squares / probes_.size()) / size_;
     }
 
     double asymmetry(std::span<const MirrorImage> images) const {
@@ -182,12 +199,54 @@ std::vector<JudgedPlane> judged_planes(const MirrorSearch& search, const Vec3& a
     return planes;
 }
 
+// Whether no turn of several moves the surface off itself.
+bool is_round(const MirrorSearch& search, const Loop& loop, const Context& context) {
+    const Vec3 axis = loop.axis();
+    if (!(axis.norm() > 0.0)) return false;
+    for (const double angle : kTurns) {
+        context.checkpoint();
+        if (search.turned_asymmetry(loop.center(), axis, angle) > kRound) return false;
+    }
+    return true;
+}
+
+// How far a point lies beside the axis of a loop, in its radii.
+Vec3 beside_axis(const Loop& loop, const Vec3& point) {
+    const Vec3 axis = loop.axis(), arm = (point - loop.center()) / loop.radius();
+    return arm - arm.dot(axis) * axis;
+}
+
+// The centroid of the surface near a loop.
+Vec3 neck_center(const Mesh& mesh, const Loop& loop) {
+    const double reach = kNeck * loop.radius();
+    const std::vector<double> distance = edge_distances(mesh, loop.vertices(), reach);
+    const std::vector<double> areas = face_areas(mesh);
+    Vec3 sum = Vec3::Zero();
+    double total = 0.0;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const auto corners = mesh.topology().face(f);
+        Vec3 middle = Vec3::Zero();
+        bool near = true;
+        for (const Index v : corners) {
+            middle += mesh.position(v) / std::ssize(corners);
+            near = near && distance[v] <= reach;
+        }
+        if (!near) continue;
+        sum += areas[f] * middle;
+        total += areas[f];
+    }
+    return total > 0.0 ? Vec3(sum / total) : loop.center();
+}
+
 }  // namespace
 
 PartShape part_shape(const Mesh& mesh, const Loop& loop, const Context& context) {
     PartShape shape;
     const Mesh part = component_at(mesh, loop.vertices().front(), context);
     const MirrorSearch search(part, context);
+    shape.mass = beside_axis(loop, search.center());
+    shape.neck = beside_axis(loop, neck_center(mesh, loop));
+    shape.round = is_round(search, loop, context);
     const std::vector<JudgedPlane> planes = judged_planes(search, loop.axis(), context);
     const JudgedPlane& best = planes.front();
     shape.asymmetry = best.asymmetry;

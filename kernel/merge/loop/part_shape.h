@@ -1,5 +1,5 @@
 /// What the shape of a part says about which way round it belongs: the plane in which it is its own
-/// mirror image; private to kernel/merge.
+/// mirror image, where its mass lies and its neck leans; private to kernel/merge.
 #pragma once
 
 #include "kernel/core/context.h"
@@ -17,6 +17,11 @@ struct PartShape {
     /// RMS distance of mirrored points from the surface, in sizes of the part: of the best plane,
     /// and of the best of those that lie at another angle.
     double asymmetry = 0.0, next_asymmetry = 0.0;
+    /// How far the centroid of the part, and that of its surface within two radii of the boundary,
+    /// lie beside the boundary's axis, in radii of the boundary.
+    Vec3 mass = Vec3::Zero(), neck = Vec3::Zero();
+    /// Whether turning the part about the boundary's axis leaves it as it is.
+    bool round = false;
 };
 
 /// The shape of the component of `mesh` that `loop` bounds. The plane is sought among those through

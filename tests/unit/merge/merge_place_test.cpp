@@ -131,6 +131,31 @@ TEST_CASE("placed by shape a part is the same under any similarity of the source
     }
 }
 
+TEST_CASE("round parts take any turn, which is said and no fault") {
+    const auto dome = [](Index count, double swell) {
+        return tube(count, 16, [=](double angle, double height) {
+            const double r = (1.0 + swell * std::cos(angle) * height * (1.0 - height)) *
+                             std::sqrt(1.0 - 0.9 * height * height);
+            return Vec3(r * std::cos(angle), r * std::sin(angle), 1.6 * height);
+        });
+    };
+    const auto at_plane = [](const Mesh& mesh) {
+        const std::vector<Path> open = boundaries(mesh);
+        return open[0].length(mesh) > open[1].length(mesh) ? open[0] : open[1];
+    };
+    MergeOptions options;
+    options.place = Place::shape;
+    for (const double swell : {0.0, 0.8}) {
+        const Mesh source = dome(40, swell);
+        const Mesh target = moved(dome(56, swell), rotation(Vec3::UnitX(), kPi, Vec3::Zero()));
+        const Mesh* targets[] = {&target};
+        Merge merge(source, targets, {Join{at_plane(source), at_plane(target)}}, options);
+        const MergeReport report = merge.solve().report;
+        CHECK(report.joins[0].any_turn == (swell == 0.0));
+        if (swell == 0.0) CHECK(report.verdict.find("guess") == std::string::npos);
+    }
+}
+
 TEST_CASE("several joins are placed by where their boundaries lie, and then turned least") {
     const auto open_tube = [](double low, double high, double radius) {
         return tube(32, 12, [=](double angle, double height) {
