@@ -1,27 +1,128 @@
 --- Merges two meshes along an open boundary of each: what answers the clicks is a coroutine.
 --
 -- Click the loop of the part that is moved, then the loop that it is joined to: the merged surface appears
--- there, instead of the second mesh. Where it is turned wrongly, click pairs of points that shall meet, the
--- first on the loop of the part, the second on the seam. Enter takes the result, and the part is hidden too.
--- `transition` may be changed until the next merge: the result follows.
+-- there, instead of the second mesh, and a label says how it was placed, how certain that is, and whether
+-- the seam is good. If it is turned wrongly, turn it by the wheel, with ctrl or while the button is down,
+-- or click pairs of points that shall meet, the first on the loop of the part, the second on the seam. Enter
+-- takes the result, and the part is hidden too. The parameters may be changed until the next merge: the
+-- result follows.
 local lissom = require "lissom"
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
+local vectors = require "vectors"
 
 local pick = lissom.pick
+local step = 5                      -- of a line of the wheel, in degrees
 
--- Merges. A join is { source =, target =, keys = }: hits of two loops, pairs of points on them.
+-- The rotation that a matrix of a scene holds, or nil if it holds none.
+local function rotation_of(m)
+    local x = vectors.unit{ m[1][1], m[2][1], m[3][1] }
+    local y = { m[1][2], m[2][2], m[3][2] }
+    y = vectors.unit(vectors.plus(y, x, -vectors.dot(x, y)))
+    local z = vectors.cross(x, y)
+    local r = { { x[1], y[1], z[1], 0 }, { x[2], y[2], z[2], 0 }, { x[3], y[3], z[3], 0 }, { 0, 0, 0, 1 } }
+    return x[1] + y[2] + z[3] < 3 - 1e-14 and r or nil
+end
+
+-- How the part lies beside the other mesh in the scene: its place and size there do not matter.
+local function relative_turn(scene, join)
+    local from, to = scene:info(join.source.object).transform, scene:info(join.target.object).transform
+    return rotation_of(matrices.product(matrices.inverse(to), from))
+end
+
+-- The axis and the angle in degrees of a rotation.
+local function axis_and_angle(r)
+    local axis = { r[3][2] - r[2][3], r[1][3] - r[3][1], r[2][1] - r[1][2] }
+    local cosine = (r[1][1] + r[2][2] + r[3][3] - 1) / 2
+    if vectors.length(axis) < 1e-6 then             -- half a turn: a column of r + 1 is the axis
+        axis = { r[1][1] + 1, r[2][1], r[3][1] }
+        if vectors.length(axis) < 0.5 then axis = { r[1][2], r[2][2] + 1, r[3][2] } end
+        if vectors.length(axis) < 0.5 then axis = { r[1][3], r[2][3], r[3][3] + 1 } end
+    end
+    return axis, math.deg(math.acos(math.max(-1, math.min(1, cosine))))
+end
+
+-- The loop of the part on a copy that is turned as it lies in the scene.
+local function turned_source(source, turn)
+    if not turn then return source.boundary end
+    local axis, angle = axis_and_angle(turn)
+    local copy = source.mesh:copy():transform{ rotate = { axis = axis, angle = angle } }
+    return copy:boundaries()[source.index]
+end
+
+local function moved_keys(keys, turn)
+    local moved = {}
+    for i, pair in ipairs(keys) do
+        moved[i] = { turn and matrices.direction(turn, pair[1]) or pair[1], pair[2] }
+    end
+    return moved
+end
+
+-- The point of a loop at a fraction of its length.
+local function point_at(loop, fraction)
+    local points, length = loop:points(), loop:length()
+    local left = fraction % 1 * length
+    for i, p in ipairs(points) do
+        local edge = vectors.plus(points[i % #points + 1], p, -1)
+        local step_length = vectors.length(edge)
+        if left <= step_length then
+            return vectors.plus(p, edge, step_length > 0 and left / step_length or 0)
+        end
+        left = left - step_length
+    end
+    return points[1]
+end
+
+-- Keys whose ends on the target go around it, counter-clockwise seen against the opening. The loop has the
+-- surface on its left, so that it runs the other way.
+local function turned_keys(target, keys, angle)
+    local turned = {}
+    for i, pair in ipairs(keys) do
+        local at = target:nearest(pair[2]).parameter
+        turned[i] = { pair[1], point_at(target, at - angle / 360) }
+    end
+    return turned
+end
+
+-- What is said of a join: what decided how the part is turned, how certain that is, the verdict.
+local function told(join, report)
+    local found, words = report.joins[1], {}
+    table.insert(words, found.placed == "keys" and "placed by keys" or "placed: " .. found.placed)
+    if found.certainty and join.turn == 0 then
+        table.insert(words, string.format("certainty %.2f", found.certainty))
+    end
+    if found.any_turn then table.insert(words, "any turn fits") end
+    if join.turn ~= 0 then table.insert(words, string.format("turned by %g degrees", join.turn)) end
+    table.insert(words, report.verdict)
+    return table.concat(words, "; ")
+end
+
+-- Merges. A join is { source =, target =, keys =, turn = }: hits of two loops, pairs of points on them, and
+-- degrees.
 local function merged(self, scene, join)
     for _, hit in ipairs{ join.source, join.target } do
         local there = rawequal(meshes.get(scene, hit.object), hit.mesh)
         if not there then error(hit.object .. " is no longer there", 0) end
     end
-    local source, target, radii = join.source.boundary, join.target.boundary, self.params.transition
+    local turn = relative_turn(scene, join)
+    local source, target = turned_source(join.source, turn), join.target.boundary
+    local radii = self.params.transition
     local function width(loop) return radii * loop:length() / (2 * math.pi) end
-    return assert(lissom.merge{
-        joins = { { source = source, target = target, keys = #join.keys > 0 and join.keys or nil } },
-        transition = radii > 0 and { source = width(source), target = width(target) } or nil,
-    })
+    local function merge(keys)
+        return assert(lissom.merge{
+            joins = { { source = source, target = target, keys = #keys > 0 and keys or nil } },
+            transition = radii > 0 and { source = width(source), target = width(target) } or nil,
+            place = self.params.place ~= "as placed" and self.params.place or nil,
+        })
+    end
+    local keys = moved_keys(join.keys, turn)
+    local mesh, report = merge(keys)
+    if join.turn == 0 then return mesh, report end
+    local placed = report.joins[1].placed
+    if #keys == 0 then keys = { report.joins[1].key } end
+    mesh, report = merge(turned_keys(target, keys, join.turn))
+    report.joins[1].placed = placed
+    return mesh, report
 end
 
 -- Shows the result of a join, in place of the one before or of the target.
@@ -40,7 +141,20 @@ local function show(self, scene, join)
         local region = report[name].region
         if region then mesh:set_region(name, mesh:region{ vertices = region:vertices() }) end
     end
+    join.told = told(join, report)
+    join.warnings = report.warnings
     self.joins[mesh:hash()] = join
+end
+
+-- A point of a loop in the scene, or nil once it is gone.
+local function in_scene(scene, loop)
+    local info = scene:info(loop.object)
+    return info and matrices.point(info.transform, loop.boundary:points()[1])
+end
+
+-- The same join with another turn.
+local function with_turn(join, turn)
+    return { source = join.source, target = join.target, keys = join.keys, turn = turn }
 end
 
 -- The same; where it cannot be merged, that is told in the picture, and the clicks go on.
@@ -85,8 +199,10 @@ end
 
 return lissom.tool{
     name = "merge",
-    help = "Click two loops, then pairs of points that meet; Enter takes the result.",
+    help = "Click two loops; turn the part by the wheel or click points that meet; Enter takes the result.",
     params = {
+        place = { type = "choice", default = "as placed", choices = { "as placed", "shape" },
+            help = "Without keys: turned least from how the part lies, or as the shapes of both suggest." },
         transition = { type = "number", default = 0, min = 0, max = 2, unit = "radii of the loop",
             help = "Width on either side of the seam in which the details of both fade into each other." },
     },
@@ -100,11 +216,12 @@ return lissom.tool{
                 prompt = "Click the loop of the part that is moved (the box 'boundaries' shows all)" }
             self.result = nil
             local target = pick.boundary{ prompt = "Click the loop that it is joined to" }
-            try(self, scene, { source = self.source, target = target, keys = {} })
+            try(self, scene, { source = self.source, target = target, keys = {}, turn = 0 })
         end
         local join = shown(self, scene)
         while join do
-            local from = pick.boundary{ prompt = "Enter takes it; or click a point of the part's loop",
+            local from = pick.boundary{
+                prompt = "Enter takes it, ctrl and the wheel turn it; or click a point of the part's loop",
                 object = join.source.object, optional = true }
             if not from then return scene:set(join.source.object, { visible = false }) end
             self.open = { on_loop(scene, join.source, from) }
@@ -112,13 +229,19 @@ return lissom.tool{
             local keys = table.move(join.keys, 1, #join.keys, 1, {})
             table.insert(keys, { self.open[1], on_loop(scene, join.target, to) })
             self.open = nil
-            try(self, scene, { source = join.source, target = join.target, keys = keys })
+            try(self, scene, { source = join.source, target = join.target, keys = keys, turn = 0 })
             join = shown(self, scene)
         end
     end,
+    wheel = function(self, ev)
+        local join = in_progress(self, ev.scene)
+        if not join then return end
+        local turn = (join.turn + step * ev.lines + 180) % 360 - 180
+        try(self, ev.scene, with_turn(join, turn))
+    end,
     changed = function(self, ev)
         local join = shown(self, ev.scene)
-        if join then try(self, ev.scene, join) end
+        if join then try(self, ev.scene, with_turn(join, join.turn)) end
     end,
     draw = function(self, view)
         if self.trouble then view:label(self.trouble) end
@@ -127,6 +250,11 @@ return lissom.tool{
         table.insert(keys, self.open)
         draw_loop(view, join.source, keys, 1, "#d06020")
         draw_loop(view, join.target, keys, 2, "#2070c0")
+        local at = join.told and in_scene(view.scene, join.target)
+        if not at then return end
+        local lines = { join.told }
+        table.move(join.warnings, 1, #join.warnings, 2, lines)
+        view:label{ at = at, text = table.concat(lines, "\n") }
     end,
     cancel = function(self, ev)
         local in_a_step = ev.scene:depth() > 0          -- after an error there is none

@@ -53,12 +53,12 @@ test("keys: pairs of points that meet turn the part", function()
     click_loops()
     local free = h.scene:get("merged"):hash()
     h:click(on("small", 0))
-    expect.equal(#h.host:draw().labels, 1)
+    expect.equal(#h.host:draw().labels, 2)
     h:click(on("large", 60))
     local keyed = h.scene:get("merged")
     expect.truthy(keyed:hash() ~= free)
     expect.truthy(keyed:is_closed())
-    expect.equal(#h.host:draw().labels, 2)
+    expect.equal(#h.host:draw().labels, 3)
     h:click(on("small", -60))
     h:click(on("large", -10))
     expect.truthy(h.scene:get("merged"):is_closed())
@@ -73,6 +73,66 @@ test("the result is that of lissom.merge", function()
         joins = { { source = small_mesh:boundaries()[1], target = large_mesh:boundaries()[1] } },
     }
     expect.equal(h.scene:get("merged"):hash(), mesh:set_region("seam", report.seam.region):hash())
+end)
+
+-- A cup with a spike at an angle from the nearest point upwards, and where the spike of a mesh is.
+local function spiked(direction, x, radius, segments, angle)
+    local mesh = cup(direction, x, radius, segments)
+    local a = math.rad(angle)
+    local from = { x - 0.5 * direction * radius, 0.8 * radius * math.sin(a), 0.8 * radius * math.cos(a) }
+    local v = mesh:nearest(from[1], from[2], from[3]).vertex or mesh:region{ sphere = { center = from,
+        radius = 0.3 * radius } }:vertices()[1]
+    mesh:set_position(v, from[1], 2 * from[2], 2 * from[3])
+    return mesh, v
+end
+
+test("the wheel turns the part, by five degrees a line, and the label says how it was placed", function()
+    local small, spike = spiked(1, -2, 1, 16, 0)
+    h = hand.new("merge", { small = small, large = cup(-1, 2, 1.5, 24) }, { ortho = 19.2 })
+    click_loops()
+    local function spike_angle()
+        local mesh, best, most = h.scene:get("merged"), nil, 0
+        for v = 1, #mesh do
+            local x, y, z = mesh:position(v)
+            local r = x < 2 and math.sqrt(y * y + z * z) or 0
+            if r > most then best, most = math.deg(math.atan(y, z)), r end
+        end
+        return best
+    end
+    local rest = math.deg(math.atan(select(2, small:position(spike)), (select(3, small:position(spike)))))
+    expect.near(spike_angle(), rest, 2)
+    local label = h.host:draw().labels[1].text
+    expect.truthy(label:find("placed: as placed", 1, true) and label:find("good: ", 1, true))
+    h.host:wheel{ x = 640, y = 480, lines = 6, ctrl = true }
+    label = h.host:draw().labels[1].text
+    expect.truthy(label:find("turned by 30 degrees", 1, true))
+    expect.near(math.abs(spike_angle() - rest), 30, 3)
+    h.host:wheel{ x = 640, y = 480, lines = -6, ctrl = true }
+    expect.near(spike_angle(), rest, 2)
+    h.host:set{ place = "shape" }
+    expect.truthy(h.host:draw().labels[1].text:find("placed: shape", 1, true))
+    h.host:set{ place = "as placed" }
+    h:key("enter")
+    h:there_and_back()
+end)
+
+test("as placed goes by how the parts lie in the scene", function()
+    local a = math.rad(40)
+    local turned = { { 1, 0, 0, 0 }, { 0, math.cos(a), -math.sin(a), 0 }, { 0, math.sin(a), math.cos(a), 0 },
+        { 0, 0, 0, 1 } }
+    local small = spiked(1, -2, 1, 16, 0)
+    local function merged(objects, places)
+        h = hand.new("merge", objects, { ortho = 19.2, places = places })
+        click_loops()
+        return h.scene:get("merged")
+    end
+    local large = cup(-1, 2, 1.5, 24)
+    local by_place = merged({ small = small, large = large }, { small = turned })
+    local by_mesh = merged({ small = small:copy():transform{ rotate = { axis = "x", angle = 40 } },
+        large = large })
+    expect.equal(#by_place, #by_mesh)
+    local p, q = by_place:positions(), by_mesh:positions()
+    for i = 1, #p do expect.near(p[i], q[i], 1e-9) end
 end)
 
 test("the transition may be changed, before and after the result is taken", function()
@@ -97,7 +157,7 @@ test("undo in the middle: keys go on from those of before", function()
     h:click(on("large", 60))
     h.host:undo()
     expect.equal(h.scene:get("merged"):hash(), free)
-    expect.equal(#h.host:draw().labels, 0)
+    expect.equal(#h.host:draw().labels, 1)
     h.host:set{ transition = 0.5 }
     h.host:set{ transition = 0 }
     expect.equal(h.scene:get("merged"):hash(), free)
@@ -108,7 +168,7 @@ test("undo in the middle: keys go on from those of before", function()
     h:key("enter")
     expect.equal(h.scene:info("small").visible, false)
     h.host:undo()
-    expect.equal(#h.host:draw().labels, 2)
+    expect.equal(#h.host:draw().labels, 3)
     h:key("enter")
     expect.equal(h.scene:info("small").visible, false)
 end)
@@ -157,7 +217,7 @@ test("a part goes in the middle: that is told, and the clicks begin again", func
     expect.equal(#h.scene, 1)
     h.host:undo()
     click_loops()
-    expect.equal(#h.host:draw().labels, 0)
+    expect.equal(#h.host:draw().labels, 1)
     h:key("enter")
     expect.truthy(h.scene:get("merged"):is_closed())
 end)
@@ -193,7 +253,7 @@ test("keys that contradict each other are told, and the result before stays", fu
     expect.truthy(#h.host:draw().labels[1].text > 10)
     h:click(on("small", 60))
     h:click(on("large", 60))
-    expect.equal(#h.host:draw().labels, 4)
+    expect.equal(#h.host:draw().labels, 5)
     h:key("enter")
     expect.equal(h.scene:info("small").visible, false)
 end)

@@ -55,7 +55,7 @@ void Hand::navigate(const Input& input) {
 }
 
 // With a tool in hand the left button is the tool's, but with alt, and the wheel while that is
-// down; the others move the camera.
+// down or with ctrl; the others move the camera.
 bool Hand::give_to_tool(const Input& input) {
     ToolInput event;
     event.at = state_.pixels.at(input.at);
@@ -66,8 +66,9 @@ bool Hand::give_to_tool(const Input& input) {
         tool_drags_ =
             state_.has_tool() && input.button == MouseButton::left && !input.modifiers.alt;
     }
-    const bool own =
-        tool_drags_ || (state_.has_tool() && !dragged_ && input.kind == Input::Kind::move);
+    const bool tools_wheel = input.kind == Input::Kind::scroll && input.modifiers.ctrl;
+    const bool own = tool_drags_ || (state_.has_tool() && !dragged_ &&
+                                     (input.kind == Input::Kind::move || tools_wheel));
     if (!own) return false;
     cursor_ = input.at;
     switch (input.kind) {

@@ -164,7 +164,7 @@ void draw_objects(const std::vector<std::string>& objects, std::vector<bool>& hi
 constexpr const char* kKeys =
     "left drag: turn; with a tool: the right button, or alt\n"
     "shift and drag, or the middle button: move\n"
-    "wheel: nearer, towards the cursor; in a tool's drag: the tool's\n"
+    "wheel: nearer, towards the cursor; with ctrl or in a tool's drag: the tool's\n"
     "Home: what is selected, else all; with shift: all\n"
     "without a tool: 1 to 7: sides   O: perspective   F: as Home\n"
     "    W: wire   B: boundaries\n"
