@@ -205,6 +205,15 @@ lissom_status lissom_deformer_read_positions(lissom_context* context, lissom_def
     });
 }
 
+lissom_status lissom_deformer_read_normals(lissom_context* context, lissom_deformer deformer,
+                                           const lissom_output* normals) {
+    return run(context, [&] {
+        const std::vector<Vec3>& own = deformer_of(*context, deformer).normals(context->kernel);
+        write_points(normals, own.size(), "normals",
+                     [&](std::size_t i) { return context->space.to_host(own[i]); });
+    });
+}
+
 lissom_status lissom_deformer_apply(lissom_context* context, lissom_deformer deformer,
                                     lissom_mesh mesh) {
     return run(context, [&] {

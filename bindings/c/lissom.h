@@ -614,6 +614,12 @@ LISSOM_API lissom_status lissom_deformer_read_rows(lissom_context* context,
 LISSOM_API lissom_status lissom_deformer_read_positions(lissom_context* context,
                                                         lissom_deformer deformer,
                                                         const lissom_output* positions);
+/// Unit normals of the surface at the same rows, weighted by the angles of faces as those of
+/// lissom_mesh_read_normals are: read them beside the positions of a frame. Vertices outside the
+/// region but next to it keep their place; their normals turn only with the faces they share.
+LISSOM_API lissom_status lissom_deformer_read_normals(lissom_context* context,
+                                                      lissom_deformer deformer,
+                                                      const lissom_output* normals);
 /// Writes the last result into a mesh: the one it was made for, or a copy of it; custom normals and
 /// morph targets follow. Errors: TOPOLOGY_MISMATCH for another mesh, or one that changed around the
 /// region.

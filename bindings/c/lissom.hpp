@@ -225,6 +225,9 @@ class Deformer : public Object<lissom_deformer, lissom_deformer_release> {
     void read_positions(const lissom_output& out) const {
         check(lissom_deformer_read_positions(context_, handle_, &out));
     }
+    void read_normals(const lissom_output& out) const {
+        check(lissom_deformer_read_normals(context_, handle_, &out));
+    }
     void apply(Mesh& mesh) const { check(lissom_deformer_apply(context_, handle_, mesh.handle())); }
     void reset() { check(lissom_deformer_reset(context_, handle_)); }
 };

@@ -375,25 +375,79 @@ LISSOM_BASIS_API void lissom_basis_scatter(const lissom_basis* basis, const floa
 
 // ---- Normals
 
-LISSOM_BASIS_API void lissom_basis__normalize(float* n) {
-    float largest = 0.0f, square, root;
+/* The square root of a number from 1 to 3, by Newton's method. */
+LISSOM_BASIS_API float lissom_basis__root(float square) {
+    float root = 0.5f + 0.5f * square;
+    int i;
+    for (i = 0; i < 4; ++i) root = 0.5f * (root + square / root);
+    return root;
+}
+
+/* Scales to length one and returns the length; leaves zero and what is not finite. */
+LISSOM_BASIS_API float lissom_basis__normalize(float* n) {
+    float largest = 0.0f, length;
     int i;
     for (i = 0; i < 3; ++i) {
         const float size = n[i] < 0.0f ? -n[i] : n[i];
         if (size > largest) largest = size;
     }
-    if (!(largest > 0.0f) || !(largest - largest == 0.0f)) return;
+    if (!(largest > 0.0f) || !(largest - largest == 0.0f)) return 0.0f;
     for (i = 0; i < 3; ++i) n[i] /= largest;
-    /* Newton's root of a number from 1 to 3. */
-    square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    root = 0.5f + 0.5f * square;
-    for (i = 0; i < 4; ++i) root = 0.5f * (root + square / root);
-    for (i = 0; i < 3; ++i) n[i] /= root;
+    length = lissom_basis__root(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (i = 0; i < 3; ++i) n[i] /= length;
+    return largest * length;
 }
 
-/// Makes unit normals of a triangle mesh from its positions: the sum of the triangles' vector areas
-/// at each vertex. Zero where a vertex has none. For the whole mesh, because vertices at the border
-/// of the region have triangles on both sides. `triangles` has 3 vertices each; those that name a
+/* The angle of the direction (x, y) from the x axis, y not negative: atan as Moshier has it. */
+LISSOM_BASIS_API float lissom_basis__angle(float y, float x) {
+    const float pi = 3.14159265f, across = x < 0.0f ? -x : x;
+    const float low = y < across ? y : across, high = y < across ? across : y;
+    const int reduced = low > 0.4142f * high;
+    const float above = reduced ? low - high : low, below = reduced ? low + high : high;
+    const float t = below > 0.0f ? above / below : 0.0f, z = t * t;
+    const float small =
+        (reduced ? pi / 4 : 0.0f) + t +
+        t * z *
+            (((8.05374449538e-2f * z - 1.38776856032e-1f) * z + 1.99777106478e-1f) * z -
+             3.33329491539e-1f);
+    const float right = y > across ? pi / 2 - small : small;
+    return x < 0.0f ? pi - right : right;
+}
+
+LISSOM_BASIS_API void lissom_basis__add_normal(const float* p[3], float* n[3]) {
+    float edge[3][3], normal[3], size = 0.0f;
+    int k, c;
+    for (k = 0; k < 3; ++k) {
+        for (c = 0; c < 3; ++c) {
+            edge[k][c] = p[(k + 1) % 3][c] - p[k][c];
+            if (edge[k][c] > size) size = edge[k][c];
+            if (-edge[k][c] > size) size = -edge[k][c];
+        }
+    }
+    if (!(size > 0.0f) || !(size - size == 0.0f)) return;
+    /* Edges of about length one, so that squares neither vanish nor overflow. */
+    for (k = 0; k < 3; ++k) {
+        for (c = 0; c < 3; ++c) edge[k][c] /= size;
+    }
+    for (c = 0; c < 3; ++c) {
+        normal[c] = edge[0][(c + 1) % 3] * edge[1][(c + 2) % 3] -
+                    edge[0][(c + 2) % 3] * edge[1][(c + 1) % 3];
+    }
+    size = lissom_basis__normalize(normal);
+    if (!(size > 0.0f)) return;
+    for (k = 0; k < 3; ++k) {
+        const float* const to = edge[k];
+        const float* const from = edge[(k + 2) % 3];
+        const float cosine = -(to[0] * from[0] + to[1] * from[1] + to[2] * from[2]);
+        const float angle = lissom_basis__angle(size, cosine);
+        for (c = 0; c < 3; ++c) n[k][c] += angle * normal[c];
+    }
+}
+
+/// Makes unit normals of a triangle mesh from its positions: the normals of the triangles at each
+/// vertex, weighted by their angles there, as Lissom's own and those of its pictures are. Zero
+/// where no triangle at a vertex has an area. For the whole mesh, because vertices at the border of
+/// the region have triangles on both sides. `triangles` has 3 vertices each; those that name a
 /// vertex that does not exist are passed over. Strides are in bytes, multiples of 4.
 LISSOM_BASIS_API void lissom_basis_normals(const float* positions, size_t position_stride,
                                            uint32_t vertex_count, const uint32_t* triangles,
@@ -402,7 +456,7 @@ LISSOM_BASIS_API void lissom_basis_normals(const float* positions, size_t positi
     const unsigned char* const from = (const unsigned char*)positions;
     unsigned char* const to = (unsigned char*)normals;
     uint32_t v, t;
-    int k, c;
+    int k;
     for (v = 0; v < vertex_count; ++v) {
         float* const n = (float*)(void*)(to + v * normal_stride);
         n[0] = n[1] = n[2] = 0.0f;
@@ -410,28 +464,19 @@ LISSOM_BASIS_API void lissom_basis_normals(const float* positions, size_t positi
     for (t = 0; t < triangle_count; ++t) {
         const uint32_t* const triangle = triangles + 3 * (size_t)t;
         const float* p[3];
-        float a[3], b[3], area[3];
+        float* n[3];
         if (triangle[0] >= vertex_count || triangle[1] >= vertex_count ||
             triangle[2] >= vertex_count) {
             continue;
         }
         for (k = 0; k < 3; ++k) {
             p[k] = (const float*)(const void*)(from + triangle[k] * position_stride);
+            n[k] = (float*)(void*)(to + triangle[k] * normal_stride);
         }
-        for (c = 0; c < 3; ++c) {
-            a[c] = p[1][c] - p[0][c];
-            b[c] = p[2][c] - p[0][c];
-        }
-        for (c = 0; c < 3; ++c) {
-            area[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
-        }
-        for (k = 0; k < 3; ++k) {
-            float* const n = (float*)(void*)(to + triangle[k] * normal_stride);
-            for (c = 0; c < 3; ++c) n[c] += area[c];
-        }
+        lissom_basis__add_normal(p, n);
     }
     for (v = 0; v < vertex_count; ++v) {
-        lissom_basis__normalize((float*)(void*)(to + v * normal_stride));
+        (void)lissom_basis__normalize((float*)(void*)(to + v * normal_stride));
     }
 }
 

@@ -166,6 +166,13 @@ const std::vector<Vec3>& Deformer::solve_draft(const Context& context) {
 const std::vector<Vec3>& Deformer::positions() const {
     return state_->shown->positions;
 }
+const std::vector<Vec3>& Deformer::normals(const Context& context) {
+    State& s = *state_;
+    return with_memory_errors([&]() -> const std::vector<Vec3>& {
+        if (!s.normals) s.normals = make_region_normals(*s.rest, s.context);
+        return s.normals->evaluate(s.shown->positions, context);
+    });
+}
 const std::vector<Vec3>& Deformer::rest_positions() const {
     return state_->rest->positions;
 }

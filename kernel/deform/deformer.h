@@ -192,6 +192,11 @@ class Deformer {
     const std::vector<Vec3>& positions() const;
     /// Rest positions of the region's vertices.
     const std::vector<Vec3>& rest_positions() const;
+    /// Unit normals of the surface at the region's vertices, in the order of `positions()`: what a
+    /// renderer reads beside them. Faces count by their angle, as in `vertex_normals`. Takes a
+    /// small part of a frame. Errors: cancelled; memory_limit.
+    const std::vector<Vec3>& normals() { return normals(context()); }
+    const std::vector<Vec3>& normals(const Context& context);
     /// Writes `positions()` into the region's vertices of `mesh`. Custom normals, tangents and
     /// morph targets in the region and of the vertices next to it are carried by what the surface
     /// did: they keep their angle to its normal and turn about it as its edges do. Errors: as

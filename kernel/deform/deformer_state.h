@@ -15,6 +15,7 @@
 #include "kernel/deform/preparation.h"
 #include "kernel/deform/rest_shape.h"
 #include "kernel/deform/stats.h"
+#include "kernel/mesh/measure/region_normals.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 
@@ -40,6 +41,8 @@ struct Deformer::State {
     FrameScratch scratch;
     /// Of the last preparation, and how many there were.
     DeformStats costs;
+    /// Made at the first call; it follows from the region and its surroundings, which never change.
+    std::unique_ptr<RegionNormals> normals;
 
     State(const Mesh& mesh, const Region& region, const DeformOptions& options,
           const Context& given)

@@ -113,7 +113,7 @@ class Drag {
     }
     /// Each returns the seconds of the next frame: of the first system alone, of a drag, at the end
     /// of a drag where its last frame lies, at once in full quality, and of a drag beyond half a
-    /// turn.
+    /// turn; normals() those of reading the normals of the frame that is shown.
     double preview() {
         deformer_.set_transform(high_, task_.move(frame_++));
         return seconds([&] { deformer_.preview(context_); });
@@ -121,6 +121,9 @@ class Drag {
     double frame() {
         deformer_.set_transform(high_, task_.move(frame_++));
         return seconds([&] { deformer_.solve_draft(context_); });
+    }
+    double normals() {
+        return seconds([&] { deformer_.normals(context_); });
     }
     double solve() {
         frame();
@@ -281,6 +284,9 @@ constexpr const char* kFinishBound =
 constexpr const char* kFarBound =
     "two gradient fields and three polar decompositions instead of one, 30 %, a turn's angle and "
     "axis four times, 27 %, forces on handles 8 %";
+constexpr const char* kNormalsBound =
+    "three corners of each triangle, two angles of them by a rational function, the third from "
+    "their sum; then the faces around each vertex";
 constexpr const char* kFrameBound =
     "the two sweeps over the factor in single precision 50 %, gradients 17, residual 14, polar "
     "decompositions 12";
@@ -325,6 +331,11 @@ void run_size(Report& report, const Task& task, int threads, int rounds) {
     report.add({name + "preview" + on, 1e3 * preview.above, "ms"});
     report.add_ratio(name + "preview / reading its bytes on one thread" + on, "bandwidth", preview,
                      2.0, Better::less, kPreviewBound);
+    const Quotient normals = quotient_of(
+        rounds, [&] { return drag->normals(); }, [&] { return drag->frame(); });
+    report.add({name + "normals" + on, 1e3 * normals.above, "ms"});
+    report.add_ratio(name + "normals / full frame" + on, "full frame", normals, 0.2, Better::less,
+                     kNormalsBound);
     const Quotient solve = quotient_of(
         rounds, [&] { return drag->solve(); }, [&] { return drag->frame(); });
     report.add({name + "full frame" + on, 1e3 * solve.below, "ms"});

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "kernel/core/angle.h"
+
 namespace lissom {
 namespace {
 
@@ -39,6 +41,19 @@ std::vector<Eigen::Vector3f> float_positions(const Mesh& mesh, const Affine& to_
     result.reserve(mesh.positions().size());
     for (const Vec3& p : mesh.positions()) result.push_back(to_picture(p).cast<float>());
     return result;
+}
+
+// The normal of a triangle, weighted by each of its angles.
+std::array<Eigen::Vector3f, 3> weighted_normals(const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+                                                const Eigen::Vector3f& c) {
+    const Eigen::Vector3f ab = b - a, bc = c - b, ca = a - c, area = ab.cross(bc);
+    const float size = area.norm();
+    if (!(size > 0.0f))
+        return {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+    const Eigen::Vector3f normal = area / size;
+    const float at_a = half_plane_angle(size, -ab.dot(ca)),
+                at_b = half_plane_angle(size, -bc.dot(ab));
+    return {at_a * normal, at_b * normal, (float(kPi) - at_a - at_b) * normal};
 }
 
 Point parts(const Eigen::Vector3f& v) {
@@ -94,8 +109,8 @@ void quick_surface_vertices(const Mesh& mesh, const Affine& to_picture,
     for (std::size_t t = 0; t < list.size(); ++t) {
         const Eigen::Vector3f &a = points[list[t][order[0]]], &b = points[list[t][order[1]]],
                               &c = points[list[t][order[2]]];
-        const Eigen::Vector3f area = (b - a).cross(c - a);
-        for (std::size_t i = 0; i < 3; ++i) sums[groups.of_entry[3 * t + i]] += area;
+        const std::array<Eigen::Vector3f, 3> weighted = weighted_normals(a, b, c);
+        for (std::size_t i = 0; i < 3; ++i) sums[groups.of_entry[3 * t + i]] += weighted[i];
     }
     std::vector<std::uint32_t> normals;
     normals.reserve(sums.size());

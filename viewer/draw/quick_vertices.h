@@ -1,5 +1,5 @@
 /// Vertices of a surface that moves, made fast: normals are summed over faces, weighted by their
-/// area, in single precision, and creases stay where they were.
+/// angle, in single precision, and creases stay where they were.
 #pragma once
 
 #include <array>
@@ -28,8 +28,8 @@ struct QuickVertex {
     std::uint32_t normal;
 };
 
-/// What surface_vertices makes of `mesh` where the picture has it, but for the way normals are
-/// weighted, and their last bits.
+/// Writes the vertices of surface_vertices for `mesh` in the picture, with normals in single
+/// precision.
 void quick_surface_vertices(const Mesh& mesh, const Affine& to_picture,
                             const SurfaceTriangles& triangles, const NormalGroups& groups,
                             std::vector<QuickVertex>& result);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/mesh/measure/measures.h"
+
 namespace lissom {
 namespace {
 
@@ -15,13 +17,11 @@ Vec3 unit_or_zero(const Vec3& v) {
     return length > 0.0 ? Vec3(v / length) : Vec3(Vec3::Zero());
 }
 
-Vec3 face_normal(std::span<const Index> face, std::span<const Vec3> positions) {
-    Vec3 area = Vec3::Zero();
-    const Vec3& origin = positions[face[0]];
-    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-        area += (positions[face[i]] - origin).cross(positions[face[i + 1]] - origin);
-    }
-    return unit_or_zero(area);
+Vec3 face_normal(std::span<const Index> face, std::span<const Vec3> positions,
+                 std::vector<Vec3>& corners) {
+    corners.clear();
+    for (const Index v : face) corners.push_back(positions[v]);
+    return polygon_normal(corners);
 }
 
 // One face of the fan around a vertex.
@@ -60,10 +60,9 @@ class CornerNormals {
         for (const Index f : topology_.faces_around(v)) {
             const std::span<const Index> face = topology_.face(f);
             const std::size_t at = std::find(face.begin(), face.end(), v) - face.begin();
-            const Vec3 to_next = positions_[face[(at + 1) % face.size()]] - positions_[v];
-            const Vec3 to_last =
-                positions_[face[(at + face.size() - 1) % face.size()]] - positions_[v];
-            const double angle = std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
+            const double angle =
+                corner_angle(positions_[face[(at + face.size() - 1) % face.size()]], positions_[v],
+                             positions_[face[(at + 1) % face.size()]], normals_[f]);
             fan_.push_back({topology_.first_corner(f) + index_of(at), normals_[f], angle});
         }
     }
@@ -105,8 +104,9 @@ std::vector<Vec3> face_normals(const Topology& topology, std::span<const Vec3> p
                                const Context& context) {
     std::vector<Vec3> normals(topology.face_count());
     context.parallel_for(0, topology.face_count(), kNormalGrain, [&](Index begin, Index end) {
+        std::vector<Vec3> corners;
         for (Index f = begin; f < end; ++f) {
-            normals[f] = face_normal(topology.face(f), positions);
+            normals[f] = face_normal(topology.face(f), positions, corners);
         }
     });
     return normals;

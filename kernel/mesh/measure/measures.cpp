@@ -6,13 +6,11 @@
 #include <string_view>
 
 #include "kernel/core/hasher.h"
+#include "kernel/mesh/measure/flat_face.h"
 #include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
 namespace {
-
-// A face is flat where its area is below this fraction of its longest edge squared.
-constexpr double kFlatFace = 1e-14;
 
 Vec3 mean(std::span<const Vec3> points) {
     Vec3 sum = Vec3::Zero();

@@ -43,12 +43,13 @@ Names of_deformation() {
 }
 
 Names of_merge() {
-    const auto& [configuration, fixed, motion, reach, frames, seam, smooth, collar, source_width,
-                 target_width, suit, weight, trim, turn, refine, intersections, directions,
-                 thesis] = MergeOptions{};
+    const auto& [configuration, place, fixed, motion, reach, frames, seam, smooth, collar,
+                 source_width, target_width, suit, weight, trim, turn, refine, intersections,
+                 directions, thesis] = MergeOptions{};
     const MergeOptions t = MergeOptions::literal(Configuration::fixed);
     CHECK(MergeOptions::literal().configuration == configuration);
     CHECK(MergeOptions::literal().turn_frames);
+    CHECK(place == t.place);
     Names names;
     note(names, "fixed", fixed.size() != t.fixed.size());
     note(names, "features", motion != t.feature_motion);

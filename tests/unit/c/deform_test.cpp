@@ -67,6 +67,26 @@ TEST_CASE("a deformation is that of the kernel, to the bit") {
     }
 }
 
+TEST_CASE("normals of a deformation's rows are those of the mesh that it is applied to") {
+    const Mesh bar = make_bar({});
+    const Host host;
+    const Bend bend(host, bar);
+    const lissom_transform transform = transform_of(rotation(Vec3::UnitZ(), 1.0, Vec3(0, 3, 0)));
+    REQUIRE(lissom_deformer_set_transform(host, bend.deformer, bend.top, &transform) == LISSOM_OK);
+    REQUIRE(lissom_deformer_solve(host, bend.deformer, LISSOM_DRAFT) == LISSOM_OK);
+    std::vector<Vec3> rows(at(lissom_deformer_row_count(host, bend.deformer))), whole = rows;
+    const lissom_output of_rows{rows.data(), rows.size(), 0, LISSOM_FLOAT64};
+    const lissom_output of_mesh{whole.data(), whole.size(), 0, LISSOM_FLOAT64};
+    REQUIRE(lissom_deformer_read_normals(host, bend.deformer, &of_rows) == LISSOM_OK);
+    REQUIRE(lissom_deformer_apply(host, bend.deformer, bend.mesh) == LISSOM_OK);
+    REQUIRE(lissom_mesh_read_normals(host, bend.mesh, &of_mesh) == LISSOM_OK);
+    for (std::size_t i = 0; i < rows.size(); ++i) CHECK((rows[i] - whole[i]).norm() < 1e-13);
+
+    const lissom_output short_list{rows.data(), 3, 0, LISSOM_FLOAT64};
+    CHECK(lissom_deformer_read_normals(host, bend.deformer, &short_list) == LISSOM_OUT_OF_RANGE);
+    CHECK(lissom_deformer_read_normals(host, bend.deformer, nullptr) == LISSOM_INVALID_ARGUMENT);
+}
+
 TEST_CASE("errors of a deformation leave it as it was") {
     const Mesh bar = make_bar({});
     const Host host;

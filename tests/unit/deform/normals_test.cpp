@@ -259,3 +259,21 @@ TEST_CASE("normals: vertices without faces turn with their handle") {
         d.rebase();
     }
 }
+
+TEST_CASE("normals of the surface that is shown are those of the mesh that it is written to") {
+    Mesh mesh = make_sphere({.segments = 24});
+    const Region part =
+        Region::all(mesh.shared_topology()).minus(select_sphere(mesh, Vec3(-1, 0, 0), 0.6));
+    Deformer deformer(mesh, part);
+    const HandleId tip = deformer.add_handle(select_sphere(mesh, Vec3(1, 0, 0), 0.3));
+    for (const double angle : {0.0, 0.4, 0.8}) {
+        deformer.set_transform(tip, rotation(Vec3::UnitZ(), angle, Vec3(0.5, 0, 0)));
+        angle == 0.4 ? deformer.preview() : deformer.solve_draft();
+        const std::vector<Vec3> normals = deformer.normals();
+        deformer.apply_to(mesh);
+        const std::vector<Vec3> expected = vertex_normals(mesh);
+        for (Index row = 0; row < part.size(); ++row) {
+            CHECK((normals[at(row)] - expected[at(part.vertices()[at(row)])]).norm() < 1e-13);
+        }
+    }
+}

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernel/io/mesh_file.h"
+#include "kernel/mesh/edit/triangulate.h"
 #include "tests/unit/engine/basis_scene.h"
 #include "tests/unit/engine/header_in_c.h"
 
@@ -208,6 +209,29 @@ TEST_CASE("normals of a sphere point outward with length one") {
     }
     CHECK(length_error < 1e-6);
     CHECK(least > 0.99);
+}
+
+TEST_CASE("normals are those of the kernel, however a surface is divided into triangles") {
+    // Long and short triangles at each vertex, so that weights by area would turn the normals.
+    Mesh bar = make_bar({});
+    triangulate(bar);
+    for (Vec3& p : bar.edit_positions())
+        p = Vec3(p.x() * p.x() * p.x(), 2.0 * p.y(), p.z() + 0.3 * p.y() * p.x());
+    std::vector<float> positions, normals(3 * at(bar.vertex_count()));
+    for (const Vec3& p : bar.positions()) {
+        for (const double x : p) positions.push_back(static_cast<float>(1e-20 * x));
+    }
+    std::vector<std::uint32_t> triangles;
+    for (const Index v : bar.topology().faces().vertices) triangles.push_back(std::uint32_t(v));
+    lissom_basis_normals(positions.data(), 12, std::uint32_t(bar.vertex_count()), triangles.data(),
+                         std::uint32_t(bar.face_count()), normals.data(), 12);
+    const std::vector<Vec3> expected = vertex_normals(bar);
+    double worst = 0.0;
+    for (Index v = 0; v < bar.vertex_count(); ++v) {
+        const float* const n = &normals[3 * at(v)];
+        worst = std::max(worst, (Vec3(n[0], n[1], n[2]) - expected[at(v)]).norm());
+    }
+    CHECK(worst < 1e-4);
 }
 
 TEST_CASE("what is no basis is told apart") {

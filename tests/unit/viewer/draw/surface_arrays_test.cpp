@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/viewer/viewer_support.h"
 #include "viewer/draw/image/colormap.h"
+#include "viewer/draw/quick_vertices.h"
 
 using namespace lissom;
 
@@ -38,6 +40,16 @@ Vec3 to_vec(const std::array<float, 3>& v) {
     return {v[0], v[1], v[2]};
 }
 
+// The normal of a QuickVertex.
+Vec3 unpacked(std::uint32_t normal) {
+    Vec3 result;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int part = int(normal >> (10 * axis) & 0x3ff);
+        result[axis] = (part >= 512 ? part - 1024 : part) / 511.0;
+    }
+    return result;
+}
+
 // Normal of triangle `t` by its winding.
 Vec3 winding(const std::vector<Corner>& vertices, std::size_t t) {
     const Vec3 a = to_vec(vertices[3 * t].position), b = to_vec(vertices[3 * t + 1].position);
@@ -45,6 +57,30 @@ Vec3 winding(const std::vector<Corner>& vertices, std::size_t t) {
 }
 
 }  // namespace
+
+TEST_CASE("normals of a surface that moves are those of the kernel") {
+    Mesh bar = make_bar({});
+    for (Vec3& p : bar.edit_positions())
+        p = Vec3(p.x() * p.x() * p.x(), 2.0 * p.y(), p.z() + 0.3 * p.y() * p.x());
+    MeshStyle style;
+    style.crease = kPi;
+    const std::vector<Vec3> positions = picture_positions(bar, {});
+    const SurfaceTriangles triangles = surface_triangles(bar, positions, {}, nullptr);
+    const auto vertices = surface_vertices(bar, style, positions, triangles);
+    std::vector<QuickVertex> quick;
+    quick_surface_vertices(bar, {}, triangles, normal_groups(triangles, vertices, Shading::smooth),
+                           quick);
+    const std::vector<Vec3> expected = vertex_normals(bar);
+    double worst = 0.0, still = 0.0;
+    for (std::size_t e = 0; e < quick.size(); ++e) {
+        const Vec3& normal = expected[at(triangles.faces->triangles[e / 3][e % 3])];
+        worst = std::max(worst, (unpacked(quick[e].normal) - normal).norm());
+        still = std::max(still, (to_vec(vertices[e].normal) - normal).norm());
+    }
+    // Ten bits a part.
+    CHECK(worst < 0.005);
+    CHECK(still < 1e-6);
+}
 
 TEST_CASE("the diagonal of a quad is no edge, all sides of a triangle are") {
     const auto quad = build(test::make_square());
