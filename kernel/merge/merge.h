@@ -154,6 +154,14 @@ struct JoinReport {
     bool source_trimmed = false, target_trimmed = false;
     /// Whether faces of the source, and of the target, were split for it.
     bool refined = false, target_refined = false;
+    /// Whether the parts fit: both boundaries are one curve, as they lie or, in the free
+    /// configuration, up to a similarity, and the surface goes on across it. All vertices are kept
+    /// there, the target's where they are and the source's under that similarity, and nothing is
+    /// smoothed, trimmed or refined.
+    bool fits = false;
+    /// In the fixed configuration: whether both parts lie on the same side of the boundary, so that
+    /// the source turns over to meet the target.
+    bool same_side = false;
 };
 
 /// What a merge found and did.

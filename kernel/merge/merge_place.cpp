@@ -136,7 +136,8 @@ std::vector<JudgedTurn> judged_turns(const MergePreparation& preparation, const 
          turn_candidates({&source, &target, &parts.source, &parts.target})) {
         const ParameterPair key{0.0, turn.offset};
         const LoopPair pair = corresponding(source, target, std::span(&key, 1), snap);
-        const BoundaryDeformation deformed = deformed_by(preparation, std::span(&pair, 1), context);
+        const BoundaryDeformation deformed =
+            deformed_by(preparation, std::span(&pair, 1), {}, context);
         turns.push_back({turn, bend_of(from.source.mesh, region, deformed.positions), 0.0});
     }
     find_certainty(turns);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/core/clock.h"
+#include "kernel/merge/fitting.h"
 #include "kernel/merge/loop/loop_fit.h"
 #include "kernel/merge/loop/loop_values.h"
 #include "kernel/merge/merge_stages.h"
@@ -185,6 +186,35 @@ void note_trims(const MergeSide& side, const char* name, std::vector<std::string
     }
 }
 
+// Whether a join's parts fit with its keys. Keys that cannot be are told when they are used.
+bool fits_as_given(const FitSides& sides, const Join& join, Configuration configuration) {
+    if (join.keys.empty()) return parts_may_fit(sides, configuration);
+    try {
+        const auto keys = key_parameters(sides.source_loop, sides.target_loop, join.keys);
+        return part_fit(sides, keys, configuration).has_value();
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::key_conflict) throw;
+        return false;
+    }
+}
+
+// Marks the loops of parts that fit as they were given: what fits is not to be changed.
+void find_fits(std::span<const Join> joins, const MergeOptions& options, Sides& sides) {
+    sides.source.fits.assign(joins.size(), 0);
+    for (MergeSide& side : sides.targets) side.fits.assign(side.loops.size(), 0);
+    if (options.thesis) return;
+    for (std::size_t j = 0; j < joins.size(); ++j) {
+        MergeSide& target = sides.targets[joins[j].target_mesh];
+        const std::size_t place = sides.place[j];
+        const std::vector<Index>& loop = sides.source.loops[j];
+        const Loop from(sides.source.mesh, {loop.rbegin(), loop.rend()});
+        const Loop to(target.mesh, target.loops[place]);
+        const bool fits = fits_as_given({sides.source.mesh, target.mesh, from, to}, joins[j],
+                                        options.configuration);
+        sides.source.fits[j] = target.fits[place] = fits ? 1 : 0;
+    }
+}
+
 void trim_sides(std::span<const Join> joins, const MergeOptions& options, Sides& sides,
                 const Context& context) {
     for (MergeSide& side : sides.targets) {
@@ -323,6 +353,7 @@ void refine_few(Boundaries& boundaries, std::size_t join, LoopMeasure measure,
 
 void refine_coarse(Boundaries& boundaries, LoopMeasure measure, const Context& context) {
     for (std::size_t j = 0; j < boundaries.refined.size(); ++j) {
+        if (boundaries.source.fits[j]) continue;
         refine_few(boundaries, j, measure, context);
         const Loop &from = boundaries.source_curves[j], &to = boundaries.target_curves[j];
         if (loop_scale(from, to) * loop_edge(from) <= kCoarse * loop_edge(to)) continue;
@@ -494,6 +525,7 @@ Sides make_sides(const Mesh& source, std::span<const Mesh* const> targets,
     make_source(source, joins, sides, context);
     make_targets(targets, joins, paths, sides, context);
     note_flips(sides.found);
+    find_fits(joins, options, sides);
     trim_sides(joins, options, sides, context);
     sides.given.target_topology = topologies_together(targets, context);
     return sides;

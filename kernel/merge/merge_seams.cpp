@@ -1,10 +1,12 @@
 // What a merge does last: the seams, and what runs through what.
 #include <algorithm>
 #include <cstdio>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "kernel/merge/blend/fair_seam.h"
+#include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/sew/seam_collar.h"
 #include "kernel/merge/sew/seam_guard.h"
@@ -65,9 +67,37 @@ double greatest_angles(const SewReport& report) {
     return report.after.greatest_dihedral + report.after.greatest_near;
 }
 
-SewOptions sewing(const MergePreparation& preparation, bool collar) {
+// An edge that the surface turns at by more than this is a crease.
+constexpr double kCrease = 30.0 * kDegree;
+
+// The vertices on the loops and next to them that a crease of a side at rest ends at, in the
+// numbers of both sides.
+std::vector<Index> creased_vertices(const Boundaries& boundaries) {
+    std::set<Index> creased;
+    const auto add = [&](const Mesh& mesh, const std::vector<std::vector<Index>>& loops,
+                         Index shift) {
+        const auto look_at = [&](Index v) {
+            for (const Index w : mesh.topology().neighbors(v)) {
+                if (edge_dihedral(mesh, v, w) > kCrease) creased.insert(v + shift);
+            }
+        };
+        for (const std::vector<Index>& loop : loops) {
+            for (const Index v : loop) {
+                look_at(v);
+                for (const Index w : mesh.topology().neighbors(v)) look_at(w);
+            }
+        }
+    };
+    add(boundaries.target, boundaries.target_loops, 0);
+    add(boundaries.source.mesh, boundaries.source.loops, boundaries.target.vertex_count());
+    return {creased.begin(), creased.end()};
+}
+
+SewOptions sewing(const MergePreparation& preparation, const Matching& matching, bool collar) {
     const MergeOptions& options = preparation.options;
     SewOptions how;
+    for (const auto& fit : matching.fits) how.kept.push_back(fit ? 1 : 0);
+    if (!options.thesis) how.firm = creased_vertices(preparation.boundaries);
     how.kind = options.seam;
     how.smooth = options.smooth;
     how.collar = collar;
@@ -86,9 +116,12 @@ std::vector<TransitionWidths> asked_widths(const MergeOptions& options,
 
 void blend(const MergeOptions& options, const Matching& matching, MergedSides& merged,
            const Context& context) {
-    const std::vector<TransitionWidths> widths = options.suit_transition
-                                                     ? suitable_widths(merged.sewn, context)
-                                                     : asked_widths(options, matching.joins);
+    std::vector<TransitionWidths> widths = options.suit_transition
+                                               ? suitable_widths(merged.sewn, context)
+                                               : asked_widths(options, matching.joins);
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+        if (matching.joins[k].fits) widths[k] = {0.0, 0.0};
+    }
     merged.transition = blend_transition(merged.sewn, widths, {}, context);
     for (std::size_t k = 0; k < widths.size(); ++k) {
         note_narrow_band(k, "source", widths[k].source, merged.transition.source[k].width,
@@ -108,12 +141,18 @@ void finish_seams(const MergeOptions& options, const Matching& matching, const M
     const bool blends = options.suit_transition || options.source_transition > 0.0 ||
                         options.target_transition > 0.0;
     Sewn& sewn = merged.sewn;
+    const std::vector<std::vector<Index>> worked = worked_seams(sewn);
+    if (worked.empty()) {
+        merged.transition.target.resize(blends ? sewn.seams.size() : 0);
+        merged.transition.source = merged.transition.target;
+        return;
+    }
     if (moved.thesis) {
         merged.transition = moved.thesis->reconstruct(sewn, context);
     } else if (blends) {
         blend(options, matching, merged, context);
     } else if (options.seam == SeamKind::fair) {
-        fair_seam(sewn.mesh, sewn.seams, {}, context);
+        fair_seam(sewn.mesh, worked, {}, context);
         flip_near_seams(sewn, context);
     }
     if (blends || options.seam == SeamKind::fair) {
@@ -129,8 +168,8 @@ MergedSides sew_well(const MergePreparation& preparation, const Matching& matchi
     const Mesh& target = preparation.boundaries.target;
     const auto sew_with = [&](bool collar) {
         MergedSides merged;
-        merged.sewn =
-            sew(target, moved.source, matching.pairs, sewing(preparation, collar), context);
+        merged.sewn = sew(target, moved.source, matching.pairs,
+                          sewing(preparation, matching, collar), context);
         finish_seams(options, matching, moved, merged, context);
         require_sound(merged.sewn, target, moved.source, matching.pairs);
         return merged;

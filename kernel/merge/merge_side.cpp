@@ -154,6 +154,7 @@ void trim_jagged(MergeSide& side, double greatest_turn, const Context& context) 
         // A loop of few vertices turns by much without being jagged.
         const double smooth = 2.0 * kPi / side.loops[k].size();
         if (side.turns[k] - smooth <= greatest_turn) continue;
+        if (!side.fits.empty() && side.fits[k]) continue;
         try {
             Trim trimmed = trim(side.mesh, boundary, {}, context);
             const std::vector<Index> kept =

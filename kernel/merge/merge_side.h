@@ -27,6 +27,8 @@ struct MergeSide {
     /// Why jagged loops could not be trimmed.
     std::vector<std::string> untrimmed;
     bool flipped = false;
+    /// By loop, or empty for none: those that fit as they are are neither trimmed nor refined.
+    std::vector<char> fits = {};
 
     /// The vertices of `mesh` that are nothing but vertices of `given`.
     Region carried(const Region& given) const;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/deform/rotation/polar.h"
+#include "kernel/merge/fitting.h"
 #include "kernel/merge/loop/loop_fit.h"
 #include "kernel/merge/loop/loop_values.h"
 #include "kernel/merge/merge_stages.h"
@@ -142,9 +143,18 @@ Vec3 rotation_vector(const Mat3& rotation) {
     return turn.angle() * turn.axis();
 }
 
+void turn_as(const CurveFit& fit, std::vector<BoundaryValue>& values) {
+    for (BoundaryValue& value : values) {
+        value.rotation = fit.rotation;
+        value.scale = fit.scale;
+    }
+}
+
 // One value a held vertex; those not on a loop stay as they are.
 std::vector<BoundaryValue> values_of(const MergePreparation& preparation,
-                                     std::span<const LoopPair> pairs, const Region& held) {
+                                     std::span<const LoopPair> pairs,
+                                     std::span<const std::optional<CurveFit>> fits,
+                                     const Region& held) {
     const Boundaries& from = preparation.boundaries;
     const std::vector<Index>& ids = held.vertices();
     std::vector<BoundaryValue> values;
@@ -153,14 +163,25 @@ std::vector<BoundaryValue> values_of(const MergePreparation& preparation,
     }
     for (std::size_t j = 0; j < pairs.size(); ++j) {
         const LoopPair& pair = pairs[j];
-        const std::vector<BoundaryValue> loop = loop_values(
-            from.source_curves[j], from.target_curves[j], pair, preparation.method.values);
+        std::vector<BoundaryValue> loop = loop_values(from.source_curves[j], from.target_curves[j],
+                                                      pair, preparation.method.values);
+        if (!fits.empty() && fits[j]) turn_as(*fits[j], loop);
         for (std::size_t i = 0; i < loop.size(); ++i) {
             values[std::lower_bound(ids.begin(), ids.end(), pair.source[i]) - ids.begin()] =
                 loop[i];
         }
     }
     return values;
+}
+
+// All of the region under one similarity.
+BoundaryDeformation laid(const MergePreparation& preparation, const CurveFit& fit) {
+    BoundaryDeformation result;
+    for (const Index v : preparation.deformer->region().vertices()) {
+        result.positions.push_back(fit(preparation.boundaries.source.mesh.position(v)));
+    }
+    result.transforms.assign(result.positions.size(), fit.scale * fit.rotation);
+    return result;
 }
 
 // Parts of the source without a join go as a whole with what is nearest to them.
@@ -228,48 +249,134 @@ std::vector<ParameterPair> parameters_of(const MergePreparation& preparation, st
     return placed_keys(preparation, join, given).parameters;
 }
 
+namespace {
+
+// Keys of one join, and how its parts fit.
+struct MatchedKeys {
+    std::vector<ParameterPair> keys;
+    std::optional<CurveFit> fit;
+};
+
+// How the parts of a join fit with its keys, or near a place that was found.
+std::optional<CurveFit> fit_of(const MergePreparation& preparation, std::size_t j,
+                               std::span<const ParameterPair> keys, const FoundPlaces* found) {
+    if (preparation.options.thesis) return std::nullopt;
+    const Boundaries& from = preparation.boundaries;
+    const FitSides sides{from.source.mesh, from.target, from.source_curves[j],
+                         from.target_curves[j]};
+    const Configuration configuration = preparation.options.configuration;
+    if (!found) return part_fit(sides, keys, configuration);
+    if (configuration == Configuration::fixed) return std::nullopt;
+    if (found->by == Placing::shape) {
+        if (auto fit = only_part_fit(sides)) return fit;
+    }
+    return part_fit_near(sides, found->keys[j]);
+}
+
+// The key that says how a fit turns the source.
+ParameterPair key_of(const CurveFit& fit, const Loop& source, const Loop& target) {
+    return {source.parameters().front(), target.parameter_of(fit.pair.on_target.front())};
+}
+
+// What fits as it lies needs no place; `find` is called if keys are missing.
+template <typename Find>
+MatchedKeys matched_keys(const MergePreparation& preparation, std::size_t j,
+                         std::vector<ParameterPair> keys, const Find& find, Matching& matching) {
+    const Boundaries& from = preparation.boundaries;
+    JoinReport& join = matching.joins[j];
+    MatchedKeys matched{std::move(keys), {}};
+    matched.fit = fit_of(preparation, j, matched.keys, nullptr);
+    if (!matched.keys.empty()) return matched;
+    join.placed = Placing::as_placed;
+    if (!matched.fit) {
+        const FoundPlaces& found = find();
+        matched.fit = fit_of(preparation, j, {}, &found);
+        matched.keys = {found.keys[j]};
+        note_place(preparation, found, j, join, matching.warnings);
+    }
+    if (matched.fit) {
+        matched.keys = {key_of(*matched.fit, from.source_curves[j], from.target_curves[j])};
+    }
+    return matched;
+}
+
+// One pair of loops, with what the report says of it.
+LoopPair matched_loops(const MergePreparation& preparation, std::size_t j,
+                       const MatchedKeys& matched, JoinReport& join) {
+    const Boundaries& from = preparation.boundaries;
+    const Loop &source = from.source_curves[j], &target = from.target_curves[j];
+    join.refined = from.refined[j] != 0;
+    join.target_refined = from.target_refined[j] != 0;
+    join.source_size = source.size();
+    join.target_size = target.size();
+    join.fits = matched.fit.has_value();
+    join.scale = matched.fit ? matched.fit->scale : loop_scale(source, target);
+    LoopPair pair = matched.fit ? matched.fit->pair
+                                : corresponding(source, target, matched.keys,
+                                                preparation.method.loops == LoopMeasure::robust);
+    if (!from.overlap) join.key = key_of(source, target, matched.keys.front());
+    join.turn = rotation_vector(similarity_of(source, target, pair).rotation);
+    return pair;
+}
+
+// Only the fixed configuration can do nothing about it.
+void note_same_side(const MergePreparation& preparation, std::size_t j, Matching& matching) {
+    if (preparation.options.configuration == Configuration::free) return;
+    const Boundaries& from = preparation.boundaries;
+    JoinReport& join = matching.joins[j];
+    join.same_side =
+        !join.fits && on_same_side(from.source_curves[j], from.target_curves[j], matching.pairs[j]);
+    if (!join.same_side) return;
+    Elements elements{ElementKind::vertex, 0, {}};
+    for (const Index v : preparation.given.source_loops[j].vertices) elements.add(v);
+    matching.warnings.push_back(
+        "join " + std::to_string(j + 1) + ": the source's boundary at " + describe(elements) +
+        " has the source on the same side as the target, so that the source turns over to meet "
+        "it; turn the source round, move it to the other side, or use the free configuration");
+}
+
+}  // namespace
+
 Matching match_boundaries(const MergePreparation& preparation,
                           std::span<const std::vector<KeyPair>> given, const Context& context) {
-    const Boundaries& from = preparation.boundaries;
-    FoundPlaces found;
-    const bool seek = std::any_of(given.begin(), given.end(),
-                                  [](const std::vector<KeyPair>& keys) { return keys.empty(); });
-    if (seek) found = find_places(preparation, context);
+    std::optional<FoundPlaces> found;
+    const auto find = [&]() -> const FoundPlaces& {
+        if (!found) found = find_places(preparation, context);
+        return *found;
+    };
     Matching result;
     result.joins = preparation.found.joins;
     for (std::size_t j = 0; j < given.size(); ++j) {
-        const Loop &source = from.source_curves[j], &target = from.target_curves[j];
         PlacedKeys placed = placed_keys(preparation, j, given[j]);
-        std::vector<ParameterPair>& keys = placed.parameters;
         result.overlap_starts.push_back(placed.start);
-        JoinReport& join = result.joins[j];
-        result.starts.push_back(keys.empty() ? 0 : nearest_vertex(source, keys.front().source));
-        if (keys.empty()) {
-            keys.push_back(found.keys[j]);
-            note_place(preparation, found, j, join, result.warnings);
-        }
-        result.pairs.push_back(
-            corresponding(source, target, keys, preparation.method.loops == LoopMeasure::robust));
-        if (!from.overlap) join.key = key_of(source, target, keys.front());
-        join.turn = rotation_vector(similarity_of(source, target, result.pairs.back()).rotation);
-        join.refined = from.refined[j] != 0;
-        join.target_refined = from.target_refined[j] != 0;
-        join.source_size = source.size();
-        join.target_size = target.size();
-        join.scale = loop_scale(source, target);
+        const Loop& source = preparation.boundaries.source_curves[j];
+        result.starts.push_back(placed.parameters.empty()
+                                    ? 0
+                                    : nearest_vertex(source, placed.parameters.front().source));
+        MatchedKeys matched =
+            matched_keys(preparation, j, std::move(placed.parameters), find, result);
+        result.pairs.push_back(matched_loops(preparation, j, matched, result.joins[j]));
+        result.fits.push_back(std::move(matched.fit));
+        note_same_side(preparation, j, result);
     }
     return result;
 }
 
 BoundaryDeformation deformed_by(const MergePreparation& preparation,
-                                std::span<const LoopPair> pairs, const Context& context) {
+                                std::span<const LoopPair> pairs,
+                                std::span<const std::optional<CurveFit>> fits,
+                                const Context& context) {
+    const Boundaries& from = preparation.boundaries;
+    if (const auto fit = common_fit(fits, from.source_curves, from.target_curves)) {
+        return laid(preparation, *fit);
+    }
     BoundaryDeformer& deformer = *preparation.deformer;
     BoundaryDeformation deformed =
-        deformer.solve(values_of(preparation, pairs, deformer.held()), context);
+        deformer.solve(values_of(preparation, pairs, fits, deformer.held()), context);
     if (!preparation.featured) return deformed;
     BoundaryDeformer& featured = *preparation.featured;
     const Mesh& mesh = preparation.boundaries.source.mesh;
-    std::vector<BoundaryValue> values = values_of(preparation, pairs, featured.held());
+    std::vector<BoundaryValue> values = values_of(preparation, pairs, fits, featured.held());
     const std::vector<Index>& ids = featured.held().vertices();
     for (const Region& feature : preparation.features) {
         Vec3 center;
@@ -290,7 +397,7 @@ BoundaryDeformation deformed_by(const MergePreparation& preparation,
 Moved deform_source(const MergePreparation& preparation, const Matching& matching,
                     const Context& context) {
     const Mesh& rest = preparation.boundaries.source.mesh;
-    BoundaryDeformation deformed = deformed_by(preparation, matching.pairs, context);
+    BoundaryDeformation deformed = deformed_by(preparation, matching.pairs, matching.fits, context);
     Moved result{rest, deformed.seconds, thesis_merge(preparation, matching, context)};
     if (result.thesis) {
         deformed = result.thesis->deform(preparation.deformer->region(), *preparation.kept,

@@ -20,6 +20,7 @@
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/loop/automatic_keys.h"
 #include "kernel/merge/loop/correspondence.h"
+#include "kernel/merge/loop/curve_fit.h"
 #include "kernel/merge/loop/loop.h"
 #include "kernel/merge/loop/loop_pair.h"
 #include "kernel/merge/loop/loop_values.h"
@@ -173,6 +174,8 @@ struct Matching {
     std::vector<Index> starts;
     /// Where regions overlap, the place of the same key on the target's boundary, or 0.
     std::vector<Index> overlap_starts;
+    /// By join: how the parts fit, where they do.
+    std::vector<std::optional<CurveFit>> fits;
     std::vector<JoinReport> joins;
     std::vector<std::string> warnings;
 };
@@ -180,9 +183,12 @@ struct Matching {
 Matching match_boundaries(const MergePreparation& preparation,
                           std::span<const std::vector<KeyPair>> keys, const Context& context);
 
-/// The source as the boundaries of `pairs` deform it. Errors: cancelled.
+/// The source as the boundaries of `pairs` deform it, or move it if parts fit; `fits` by join, or
+/// none. Errors: cancelled.
 BoundaryDeformation deformed_by(const MergePreparation& preparation,
-                                std::span<const LoopPair> pairs, const Context& context);
+                                std::span<const LoopPair> pairs,
+                                std::span<const std::optional<CurveFit>> fits,
+                                const Context& context);
 
 /// A turn of a source with one join, and what it does to it.
 struct JudgedTurn {

@@ -30,16 +30,23 @@ double steepest_rim(const MergeReport& report) {
     return std::max(report.source_rim.greatest_near, report.target_rim.greatest_near);
 }
 
+bool all_fit(const MergeReport& report) {
+    return !report.joins.empty() && std::all_of(report.joins.begin(), report.joins.end(),
+                                                [](const JoinReport& join) { return join.fits; });
+}
+
 // A steep seam is good where the surface was as steep beside it, which is told.
 std::string beside_text(const MergeReport& report) {
     if (report.seam.after.greatest_dihedral <= kSteep) return "";
+    if (all_fit(report)) return "as the parts were given, ";
     return "as beside the boundaries before (" + angle_text(steepest_rim(report)) + "), ";
 }
 
 void judge_angles(const MergeReport& report, std::vector<std::string>& faults) {
     const SeamQuality& seam = report.seam.after;
     const double steepest = steepest_rim(report);
-    if (seam.greatest_dihedral > std::max(kSteep, steepest)) {
+    // Parts that fit are as steep as they were given.
+    if (seam.greatest_dihedral > std::max(kSteep, steepest) && !all_fit(report)) {
         faults.push_back("the surface turns by " + angle_text(seam.greatest_dihedral) +
                          " across the seam, and by " + angle_text(steepest) +
                          " at most beside the boundaries before");
@@ -53,6 +60,14 @@ void judge_angles(const MergeReport& report, std::vector<std::string>& faults) {
     if (triangles && seam.smallest_angle < thinnest) {
         faults.push_back("triangles at the seam have angles down to " +
                          angle_text(seam.smallest_angle));
+    }
+}
+
+void judge_sides(const MergeReport& report, std::vector<std::string>& faults) {
+    for (std::size_t j = 0; j < report.joins.size(); ++j) {
+        if (!report.joins[j].same_side) continue;
+        faults.push_back("both parts lie on the same side of join " + std::to_string(j + 1) +
+                         ", so that the source turns over");
     }
 }
 
@@ -70,6 +85,7 @@ void judge_places(const MergeReport& report, std::vector<std::string>& faults) {
 Verdict verdict_of(const MergeReport& report, bool sought) {
     std::vector<std::string> faults;
     judge_angles(report, faults);
+    judge_sides(report, faults);
     if (!report.intersections.empty()) {
         faults.push_back(std::to_string(report.intersections.size()) +
                          " pairs of faces run through one another that did not before");

@@ -82,7 +82,7 @@ void push_place(const Call& call, const JoinReport& join) {
 }
 
 void push_join(const Call& call, const JoinReport& join) {
-    lua_createtable(call.lua(), 0, 15);
+    lua_createtable(call.lua(), 0, 17);
     push_place(call, join);
     call.set_field("source_size", call.push(join.source_size));
     call.set_field("target_size", call.push(join.target_size));
@@ -93,6 +93,8 @@ void push_join(const Call& call, const JoinReport& join) {
     call.set_field("target_trimmed", call.push(join.target_trimmed));
     call.set_field("refined", call.push(join.refined));
     call.set_field("target_refined", call.push(join.target_refined));
+    call.set_field("fits", call.push(join.fits));
+    call.set_field("same_side", call.push(join.same_side));
 }
 
 void push_joins(const Call& call, const std::vector<JoinReport>& joins) {
@@ -397,7 +399,15 @@ std::vector<Record> merge_records() {
           {"boolean", "source_trimmed", "It was jagged and has been trimmed."},
           {"boolean", "target_trimmed", "The same of the target's."},
           {"boolean", "refined", "Faces of the source were split there."},
-          {"boolean", "target_refined", "Faces of the target were split there."}}},
+          {"boolean", "target_refined", "Faces of the target were split there."},
+          {"boolean", "fits",
+           "The boundaries are one curve, as they lie or, in the free configuration, up to a "
+           "similarity, and the surface goes on across it: all vertices are kept there, and "
+           "nothing "
+           "is smoothed, trimmed or refined."},
+          {"boolean", "same_side",
+           "In the fixed configuration: both parts lie on the same side of the boundary, so that "
+           "the source turns over."}}},
         {"lissom.MergeReport",
          "What a merge found and did.",
          {{"boolean", "ok",

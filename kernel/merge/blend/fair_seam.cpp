@@ -33,9 +33,15 @@ std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> sea
     BandSystem band(region, region, mesh.positions());
     const SeamCore core(band, rings, options.core);
     for (Index i = 0; i < options.umbrella; ++i) core.umbrella(band);
-    for (Index pass = 0; pass < options.passes; ++pass) {
-        progress.update(pass, options.passes);
-        band.bend(core.relaxed(band, band.curvatures(), context), context);
+    try {
+        for (Index pass = 0; pass < options.passes; ++pass) {
+            progress.update(pass, options.passes);
+            band.bend(core.relaxed(band, band.curvatures(), context), context);
+        }
+    } catch (const Error& error) {
+        // A few faces, folded flat, say nothing about how the surface bends.
+        if (error.code() != ErrorCode::not_positive_definite) throw;
+        return {};
     }
     band.write_guarded(mesh, seams, {}, context);
     return region.vertices();

@@ -21,6 +21,9 @@ constexpr double kTubeReach = 3.0;
 // normal is extrapolated; and clamp that turn to so many radians.
 constexpr double kLeastReach = 1.5;
 constexpr double kMostTurn = 0.35;
+// A face beyond those at the boundary goes on with their surface where it turns by less than this
+// about the boundary, radians: caps and floors do not.
+constexpr double kGoesOn = 0.6;
 
 // The normal of the triangles around a vertex, weighted by angle, and how far from the vertex they
 // stand for in the mean: their middles by the same weights.
@@ -28,7 +31,9 @@ struct FanNormal {
     Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
 };
 
-FanNormal fan_normal(const Mesh& mesh, Index v) {
+// Of the triangles whose unit normals `counts` takes; the normal is zero without any.
+template <typename Counts>
+FanNormal fan_normal_of(const Mesh& mesh, Index v, const Counts& counts) {
     FanNormal fan;
     double total = 0.0;
     const Triangulation around =
@@ -38,8 +43,10 @@ FanNormal fan_normal(const Mesh& mesh, Index v) {
             if (t[k] != v) continue;
             const Vec3 a = mesh.position(t[(k + 1) % 3]) - mesh.position(v);
             const Vec3 b = mesh.position(t[(k + 2) % 3]) - mesh.position(v);
+            const Vec3 normal = a.cross(b).normalized();
+            if (!counts(normal)) continue;
             const double angle = angle_between(a, b);
-            fan.normal += angle * a.cross(b).normalized();
+            fan.normal += angle * normal;
             fan.middle += angle * (a + b) / 3.0;
             total += angle;
         }
@@ -49,16 +56,32 @@ FanNormal fan_normal(const Mesh& mesh, Index v) {
     return fan;
 }
 
-// The normal of the surface on the boundary itself: that of the faces there is one a little inside,
-// and goes on as it turned from the vertices within to there. Without it a surface that bends
-// across the seam would be straightened.
-Vec3 boundary_normal(const Mesh& mesh, Index v) {
+FanNormal fan_normal(const Mesh& mesh, Index v) {
+    return fan_normal_of(mesh, v, [](const Vec3&) { return true; });
+}
+
+// Seen along `axis`.
+Vec3 seen_along(const Vec3& v, const Vec3& axis) {
+    return v - v.dot(axis) * axis;
+}
+
+// The normal of the surface on the boundary itself, seen along it: that of the faces there is one a
+// little inside, and goes on as it turned from the vertices within to there. Without it a surface
+// that bends across the seam would be straightened. Only faces that go on with the surface count
+// within: with one ring of faces, those vertices lie on a cap as well.
+Vec3 boundary_normal(const Mesh& mesh, Index v, const Vec3& tangent) {
     const FanNormal at = fan_normal(mesh, v);
+    const Vec3 own = seen_along(at.normal, tangent).normalized();
+    const auto goes_on = [&](const Vec3& normal) {
+        return angle_between(seen_along(normal, tangent), own) <= kGoesOn;
+    };
     Vec3 inner = Vec3::Zero(), arm = Vec3::Zero();
     double count = 0.0;
     for (const Index n : mesh.topology().neighbors(v)) {
         if (mesh.topology().is_boundary(n)) continue;
-        inner += fan_normal(mesh, n).normal;
+        const Vec3 normal = seen_along(fan_normal_of(mesh, n, goes_on).normal, tangent);
+        if (!(normal.norm() > 0.0)) continue;
+        inner += normal.normalized();
         arm += mesh.position(n) - mesh.position(v);
         count += 1.0;
     }
@@ -66,17 +89,22 @@ Vec3 boundary_normal(const Mesh& mesh, Index v) {
     inner.normalize();
     const double near = at.middle.norm(), far = at.middle.normalized().dot(arm) / count;
     if (!(far > kLeastReach * near)) return at.normal;
-    const Vec3 beyond = near / (far - near) * (at.normal - inner);
-    return (at.normal + std::min(1.0, kMostTurn / std::max(beyond.norm(), 1e-12)) * beyond)
-        .normalized();
+    const Vec3 beyond = near / (far - near) * (own - inner);
+    return (own + std::min(1.0, kMostTurn / std::max(beyond.norm(), 1e-12)) * beyond).normalized();
 }
 
 std::vector<Vec3> normals_at(const Mesh& mesh, std::span<const Index> vertices,
                              LoopMeasure measure) {
     std::vector<Vec3> normals;
-    for (const Index v : vertices) {
-        normals.push_back(measure == LoopMeasure::raw ? fan_normal(mesh, v).normal
-                                                      : boundary_normal(mesh, v));
+    const std::size_t n = vertices.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        if (measure == LoopMeasure::raw) {
+            normals.push_back(fan_normal(mesh, vertices[k]).normal);
+            continue;
+        }
+        const Vec3 chord =
+            mesh.position(vertices[(k + 1) % n]) - mesh.position(vertices[(k + n - 1) % n]);
+        normals.push_back(boundary_normal(mesh, vertices[k], chord.normalized()));
     }
     return normals;
 }

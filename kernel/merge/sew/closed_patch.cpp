@@ -12,6 +12,8 @@ namespace lissom {
 namespace {
 
 constexpr int kPasses = 10;
+// Rings around a seam that is kept as it is.
+constexpr int kKeptRings = 2;
 // A flip must make the smallest angle greater by this part, so that equal shapes do not flip back
 // and forth and rounding does not decide.
 constexpr double kGain = 1e-6;
@@ -100,6 +102,21 @@ bool ClosedPatch::can_flip(const Diagonal& quad) const {
     return complete && inner && b != d && !faces_.has_edge(b, d);
 }
 
+void ClosedPatch::keep_edges_near(std::span<const Index> vertices) {
+    kept_.insert(vertices.begin(), vertices.end());
+    for (int ring = 0; ring < kKeptRings; ++ring) {
+        const std::vector<Index> reached(kept_.begin(), kept_.end());
+        for (const Index v : reached) {
+            for (const Index w : faces_.neighbors(v)) kept_.insert(w);
+        }
+    }
+}
+
+bool ClosedPatch::is_kept(const Diagonal& quad) const {
+    return kept_.contains(quad.a.vertex) || kept_.contains(quad.b.vertex) ||
+           kept_.contains(quad.c.vertex) || kept_.contains(quad.d.vertex);
+}
+
 void ClosedPatch::flip(const Diagonal& quad) {
     faces_.replace_both(quad.left, {quad.a, quad.b, quad.d}, quad.right, {quad.b, quad.c, quad.d});
 }
@@ -181,7 +198,8 @@ Index ClosedPatch::flip_all_once(const Dihedrals& allowed) {
                         c = faces_.faces()[f].corners[(k + 1) % 3].vertex;
             Diagonal quad;
             if (!find_diagonal(a, c, faces_.is_source(faces_.faces()[f]) ? 1 : 0, quad)) continue;
-            if (!can_flip(quad) || !improves(quad, allowed) || !same_chart(quad)) continue;
+            if (is_kept(quad) || !can_flip(quad) || !improves(quad, allowed) || !same_chart(quad))
+                continue;
             flip(quad);
             ++flips;
         }

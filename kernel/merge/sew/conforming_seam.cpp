@@ -139,9 +139,9 @@ class ConformingSeam {
 
 }  // namespace
 
-void sew_conforming(SeamWork& work, const LoopPair& join, const SewOptions& options) {
-    ConformingSeam seam(work, join, options.snap);
-    seam.collapse_source(options.snap);
+void sew_conforming(SeamWork& work, const LoopPair& join, double snap) {
+    ConformingSeam seam(work, join, snap);
+    seam.collapse_source(snap);
     seam.split_target();
     seam.split_source();
     seam.connect();

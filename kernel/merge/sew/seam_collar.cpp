@@ -248,6 +248,7 @@ class Remade {
         result.seams = std::move(seams_);
         result.report = old_.report;
         result.first_source_vertex = first_source_vertex_;
+        result.kept = old_.kept;
         return result;
     }
 
@@ -493,6 +494,7 @@ void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& con
 
 void make_collars(Sewn& sewn, const Context& context) {
     for (std::size_t seam = 0; seam < sewn.seams.size(); ++seam) {
+        if (!sewn.kept.empty() && sewn.kept[seam]) continue;
         for (const SeamSide side : {SeamSide::target, SeamSide::source}) {
             make_collar(sewn, seam, side, context);
         }
@@ -502,7 +504,7 @@ void make_collars(Sewn& sewn, const Context& context) {
 void flip_near_seams(Sewn& sewn, const Context& context) {
     const Topology& topology = sewn.mesh.topology();
     std::set<Index> near;
-    for (const std::vector<Index>& seam : sewn.seams) {
+    for (const std::vector<Index>& seam : worked_seams(sewn)) {
         for (const Index v : seam) {
             near.insert(v);
             near.insert(topology.neighbors(v).begin(), topology.neighbors(v).end());

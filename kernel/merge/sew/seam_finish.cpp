@@ -116,6 +116,21 @@ class Assembly {
     std::vector<Index> vertices_;
 };
 
+// Vertices of the sewn mesh that may not be smoothed: what became of `firm`, on the seams too.
+std::vector<Index> firm_vertices(const Sewn& sewn, std::span<const Index> firm) {
+    const auto is_firm = [&](Index v) { return std::binary_search(firm.begin(), firm.end(), v); };
+    std::vector<Index> vertices;
+    for (Index v = 0; v < sewn.mesh.vertex_count(); ++v) {
+        const auto sources = sewn.map.vertices[v];
+        if (std::any_of(sources.begin(), sources.end(), [&](const auto& source) {
+                return source.weight >= 0.5 && is_firm(source.element);
+            })) {
+            vertices.push_back(v);
+        }
+    }
+    return vertices;
+}
+
 }  // namespace
 
 SeamSources sources_of(const SeamWork& work, const LoopPair& join, const LoopPoint& on_target,
@@ -144,9 +159,11 @@ Sewn finish(const SeamWork& work, const SeamFaces& faces, const SewOptions& opti
     }
     sewn.report = work.report;
     sewn.report.before = seam_quality(sewn.mesh, sewn.seams);
+    sewn.kept = options.kept;
     if (options.collar) make_collars(sewn, context);
     sewn.report.smoothed =
-        smooth_seams(sewn.mesh, sewn.seams, options.smooth, options.guard, context);
+        smooth_seams(sewn.mesh, worked_seams(sewn), firm_vertices(sewn, options.firm),
+                     {options.smooth, options.guard}, context);
     if (options.flip && sewn.report.smoothed > 0) flip_near_seams(sewn, context);
     sewn.report.after = seam_quality(sewn.mesh, sewn.seams);
     return sewn;

@@ -62,6 +62,9 @@ class ClosedPatch {
 
     const SeamFaces& faces() const { return faces_; }
 
+    /// Leaves the edges within two rings of these vertices as they are in `flip_edges`.
+    void keep_edges_near(std::span<const Index> vertices);
+
     /// Flips edges between triangles of one side where that makes the smallest angle greater, but
     /// makes no dihedral angle greater than `allowed_dihedral` (radians), the greatest of the
     /// patch, and the greatest of the edges concerned; angles across the seam count by themselves.
@@ -85,6 +88,7 @@ class ClosedPatch {
     void separate_inner_edges();
     bool find_diagonal(Index a, Index c, std::size_t side, Diagonal& diagonal) const;
     bool can_flip(const Diagonal& diagonal) const;
+    bool is_kept(const Diagonal& diagonal) const;
     std::vector<FacePair> crossings(const Context& context) const;
     Dihedrals greatest_dihedrals() const;
     void add_dihedral(Index from, Index to, const Vec3& normal, Dihedrals& greatest) const;
@@ -97,6 +101,7 @@ class ClosedPatch {
     std::unordered_set<std::uint64_t> seam_edges_;
     // Ascending.
     std::vector<Index> seam_vertices_;
+    std::unordered_set<Index> kept_;
 };
 
 /// Ends the splitting. Errors: as ClosedPatch.

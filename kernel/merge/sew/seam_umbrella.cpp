@@ -20,8 +20,9 @@ std::vector<Index> vertices_of(std::span<const std::vector<Index>> seams) {
     return vertices;
 }
 
-// The vertices of seams and next to them that are not on open boundaries, ascending.
-std::vector<Index> umbrella_vertices(const Topology& topology, std::span<const Index> on_seam) {
+// The vertices of seams and next to them that are not on open boundaries or firm, ascending.
+std::vector<Index> umbrella_vertices(const Topology& topology, std::span<const Index> on_seam,
+                                     std::span<const Index> firm) {
     std::vector<Index> vertices(on_seam.begin(), on_seam.end());
     for (const Index v : on_seam) {
         const std::span<const Index> ring = topology.neighbors(v);
@@ -29,7 +30,9 @@ std::vector<Index> umbrella_vertices(const Topology& topology, std::span<const I
     }
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    std::erase_if(vertices, [&](Index v) { return topology.is_boundary(v); });
+    std::erase_if(vertices, [&](Index v) {
+        return topology.is_boundary(v) || std::binary_search(firm.begin(), firm.end(), v);
+    });
     return vertices;
 }
 
@@ -75,13 +78,14 @@ std::vector<Vec3> whole_steps(const Mesh& mesh, std::span<const Index> on_seam,
 
 }  // namespace
 
-Index smooth_seams(Mesh& mesh, std::span<const std::vector<Index>> seams, Index times, bool guarded,
-                   const Context& context) {
+Index smooth_seams(Mesh& mesh, std::span<const std::vector<Index>> seams,
+                   std::span<const Index> firm, const SeamSmoothing& how, const Context& context) {
+    const auto& [times, guarded] = how;
     const std::vector<Index> on_seam = vertices_of(seams);
-    const std::vector<Index> moving = umbrella_vertices(mesh.topology(), on_seam);
+    const std::vector<Index> moving = umbrella_vertices(mesh.topology(), on_seam, firm);
     Index made = guarded ? 0 : times;
     std::vector<std::pair<Index, Vec3>> moved;
-    if (times > 0) {
+    if (times > 0 && !moving.empty()) {
         const std::vector<Vec3> positions =
             guarded ? guarded_steps(mesh, seams, on_seam, moving, times, made, context)
                     : whole_steps(mesh, on_seam, moving, times, context);

@@ -48,8 +48,8 @@ struct SeamWork {
     SewReport report;
 };
 
-/// Sews one join with the vertices of both loops on the seam.
-void sew_conforming(SeamWork& work, const LoopPair& join, const SewOptions& options);
+/// Sews one join with the vertices of both loops on the seam; `snap` as in SewOptions.
+void sew_conforming(SeamWork& work, const LoopPair& join, double snap);
 
 /// Sews one join with a band of new triangles in the place of the target's faces along its loop.
 /// Errors: boundary_conflict where those faces do not leave one simple loop.

@@ -28,12 +28,15 @@ Elements isolated_vertices(const Topology& topology) {
 // Dihedral angles up to this may arise from flips.
 constexpr double kAllowedDihedral = 20.0 * kPi / 180.0;
 
-void require_options(const SewOptions& options) {
+void require_options(const SewOptions& options, std::size_t joins) {
     if (options.smooth < 0) {
         throw Error(ErrorCode::invalid_argument, "smooth must not be negative");
     }
     if (!(options.snap >= 0.0 && options.snap <= 1.0)) {
         throw Error(ErrorCode::invalid_argument, "snap must lie between 0 and 1");
+    }
+    if (!options.kept.empty() && options.kept.size() != joins) {
+        throw Error(ErrorCode::invalid_argument, "say of each join whether it is kept, or of none");
     }
 }
 
@@ -96,6 +99,19 @@ std::vector<LoopPair> joins_of_piece(const MeshPart& piece, const BothSides& bot
     return result;
 }
 
+// With the numbers that firm vertices have in the piece.
+SewOptions options_of_piece(const MeshPart& piece, const SewOptions& options) {
+    SewOptions result = options;
+    result.firm.clear();
+    for (const Index v : options.firm) {
+        const Index k = count_before(piece.vertex_map, v);
+        if (k < count_of(piece.vertex_map) && piece.vertex_map[at(k)] == v) {
+            result.firm.push_back(k);
+        }
+    }
+    return result;
+}
+
 // The sewn piece as the whole would be; nothing where that might differ.
 std::optional<Sewn> put_back_sewn(const BothSides& both, const MeshPart& piece, Sewn sewn,
                                   const Context& context) {
@@ -136,7 +152,21 @@ std::optional<Sewn> put_back_sewn(const BothSides& both, const MeshPart& piece, 
     result.seams = std::move(sewn.seams);
     result.report = sewn.report;
     result.first_source_vertex = made.first_source_vertex;
+    result.kept = std::move(sewn.kept);
     return result;
+}
+
+bool keeps_seam(const SewOptions& options, std::size_t join) {
+    return !options.kept.empty() && options.kept[join];
+}
+
+std::vector<Index> kept_vertices(const SeamWork& work, const SewOptions& options) {
+    std::vector<Index> vertices;
+    for (std::size_t k = 0; k < work.seams.size(); ++k) {
+        if (!keeps_seam(options, k)) continue;
+        vertices.insert(vertices.end(), work.seams[k].begin(), work.seams[k].end());
+    }
+    return vertices;
 }
 
 }  // namespace
@@ -152,15 +182,17 @@ Sewn sewn_whole(const BothSides& both, std::span<const LoopPair> joins, const Se
                   {},
                   {},
                   {}};
-    for (const LoopPair& join : joins) {
+    for (std::size_t k = 0; k < joins.size(); ++k) {
         context.checkpoint();
-        if (options.kind == SeamKind::band) {
-            sew_band(work, join, context);
+        const bool kept = keeps_seam(options, k);
+        if (options.kind == SeamKind::band && !kept) {
+            sew_band(work, joins[k], context);
         } else {
-            sew_conforming(work, join, options);
+            sew_conforming(work, joins[k], kept ? 0.0 : options.snap);
         }
     }
     ClosedPatch closed = close(std::move(work.patch), work.seams);
+    closed.keep_edges_near(kept_vertices(work, options));
     if (options.flip) work.report.flipped = closed.flip_edges(kAllowedDihedral, context);
     return finish(work, closed.faces(), options, context);
 }
@@ -174,7 +206,7 @@ std::optional<Sewn> sewn_piece(const BothSides& both, std::span<const LoopPair> 
                          count_before(piece->face_map, both.first_source_face)};
     try {
         Sewn sewn = sewn_whole(part, joins_of_piece(*piece, both, part.first_source_vertex, joins),
-                               options, context);
+                               options_of_piece(*piece, options), context);
         return put_back_sewn(both, *piece, std::move(sewn), context);
     } catch (const Error& error) {
         // The whole names its own elements.
@@ -185,7 +217,7 @@ std::optional<Sewn> sewn_piece(const BothSides& both, std::span<const LoopPair> 
 
 Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins,
          const SewOptions& options, const Context& context) {
-    require_options(options);
+    require_options(options, joins.size());
     require_joins(target.topology(), source.topology(), joins);
     require_same_joints(target, source, joins);
     Progress progress(context, "sew");
@@ -196,6 +228,14 @@ Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins
     if (const auto skinned = skinned_side(target, source)) extend_skin(sewn, *skinned, context);
     require_sound(sewn, target, source, joins);
     return sewn;
+}
+
+std::vector<std::vector<Index>> worked_seams(const Sewn& sewn) {
+    std::vector<std::vector<Index>> seams;
+    for (std::size_t k = 0; k < sewn.seams.size(); ++k) {
+        if (sewn.kept.empty() || !sewn.kept[k]) seams.push_back(sewn.seams[k]);
+    }
+    return seams;
 }
 
 void require_sound(const Sewn& sewn, const Mesh& target, const Mesh& source,

@@ -51,6 +51,13 @@ struct SewOptions {
     /// Elements beyond the collar stay as they are; the vertices and faces made come after the
     /// others of their side.
     bool collar = false;
+    /// By join, or empty for none: true keeps every vertex of both sides where it is at that seam.
+    /// None is snapped, collapsed or smoothed, no edge is flipped, and there is no collar; a `band`
+    /// is conforming there.
+    std::vector<char> kept = {};
+    /// Vertices that smoothing leaves where they are, ascending: of the target, and after all of
+    /// them those of the source.
+    std::vector<Index> firm = {};
 };
 
 /// What was done to sew two meshes.
@@ -85,6 +92,8 @@ struct Sewn {
     SewReport report;
     /// Vertices from this one on are the source's, or were made on its side.
     Index first_source_vertex = 0;
+    /// By seam, or empty for none: whether SewOptions::kept keeps it.
+    std::vector<char> kept = {};
     /// Among the elements that `map` leads to.
     Places place = {};
 };
@@ -117,6 +126,9 @@ struct Sewn {
 /// a result that is not sound.
 Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins,
          const SewOptions& options = {}, const Context& context = {});
+
+/// The seams that are not kept as they were sewn.
+std::vector<std::vector<Index>> worked_seams(const Sewn& sewn);
 
 /// Throws internal where a sewn mesh is not what two sound meshes and `joins` make: a vertex has
 /// lost all of its faces, or it has another Euler characteristic, or more or fewer components or

@@ -13,6 +13,7 @@
 #include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/query/self_intersections.h"
 #include "kernel/mesh/query/spatial_tree.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -396,7 +397,9 @@ Mesh dented_dome(bool with_tetrahedron) {
 }
 
 MergeResult merged_domes(const Mesh& target, const MergeOptions& options) {
-    const Mesh source = dented_dome(false);
+    Mesh source = dented_dome(false);
+    // Wider one way, so that the parts do not fit as they are.
+    transform(source, scaling({1.1, 1.0, 1.0}, Vec3::Zero()));
     const Mesh* targets[] = {&target};
     return Merge(source, targets, {Join{boundaries(source)[0], boundaries(target)[0]}}, options)
         .solve();
