@@ -137,12 +137,30 @@ class MirrorSearch {
     std::vector<Vec3> probes_;
 };
 
-std::vector<Plane> first_planes(const MirrorSearch& search, const Vec3& axis) {
+// How far a point lies beside the axis of a loop, in its radii.
+Vec3 beside_axis(const Loop& loop, const Vec3& point) {
+    const Vec3 axis = loop.axis(), arm = (point - loop.center()) / loop.radius();
+    return arm - arm.dot(axis) * axis;
+}
+
+// A direction square to the axis of a loop that turns with the loop.
+Vec3 across_axis(const Loop& loop) {
+    Vec3 widest = Vec3::Zero();
+    for (const Vec3& point : loop.points()) {
+        const Vec3 beside = beside_axis(loop, point);
+        if (beside.norm() > 0.5) return beside.normalized();
+        if (beside.norm() > widest.norm()) widest = beside;
+    }
+    return widest.normalized();
+}
+
+std::vector<Plane> first_planes(const MirrorSearch& search, const Loop& loop) {
+    const Vec3 axis = loop.axis();
     std::vector<Plane> planes;
     const Mat3 principal = search.principal_axes();
     for (int k = 0; k < 3; ++k) planes.push_back({search.center(), principal.col(k)});
     if (!(axis.norm() > 0.0)) return planes;
-    const Vec3 x = axis.unitOrthogonal(), y = axis.cross(x);
+    const Vec3 x = across_axis(loop), y = axis.cross(x);
     for (int k = 0; k < kPlanes; ++k) {
         const double turn = kPi * k / kPlanes;
         planes.push_back({search.center(), std::cos(turn) * x + std::sin(turn) * y});
@@ -168,10 +186,10 @@ JudgedPlane judged(const MirrorSearch& search, const Plane& plane,
 }
 
 // All first planes with their asymmetry; the best and the best of a different angle also fitted.
-std::vector<JudgedPlane> judged_planes(const MirrorSearch& search, const Vec3& axis,
+std::vector<JudgedPlane> judged_planes(const MirrorSearch& search, const Loop& loop,
                                        const Context& context) {
     std::vector<JudgedPlane> planes;
-    for (const Plane& plane : first_planes(search, axis)) {
+    for (const Plane& plane : first_planes(search, loop)) {
         context.checkpoint();
         std::span<const MirrorImage> before;
         if (!planes.empty()) before = planes.back().images;
@@ -210,12 +228,6 @@ bool is_round(const MirrorSearch& search, const Loop& loop, const Context& conte
     return true;
 }
 
-// How far a point lies beside the axis of a loop, in its radii.
-Vec3 beside_axis(const Loop& loop, const Vec3& point) {
-    const Vec3 axis = loop.axis(), arm = (point - loop.center()) / loop.radius();
-    return arm - arm.dot(axis) * axis;
-}
-
 // The centroid of the surface near a loop.
 Vec3 neck_center(const Mesh& mesh, const Loop& loop) {
     const double reach = kNeck * loop.radius();
@@ -247,7 +259,7 @@ PartShape part_shape(const Mesh& mesh, const Loop& loop, const Context& context)
     shape.mass = beside_axis(loop, search.center());
     shape.neck = beside_axis(loop, neck_center(mesh, loop));
     shape.round = is_round(search, loop, context);
-    const std::vector<JudgedPlane> planes = judged_planes(search, loop.axis(), context);
+    const std::vector<JudgedPlane> planes = judged_planes(search, loop, context);
     const JudgedPlane& best = planes.front();
     shape.asymmetry = best.asymmetry;
     shape.next_asymmetry = std::numeric_limits<double>::infinity();
