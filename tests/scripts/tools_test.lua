@@ -584,3 +584,45 @@ test("turns of the wheel are recorded and repeated, and told in the journal", fu
     assert(load(host:journal_text()))(other)
     expect.equal(other:hash(), scene:hash())
 end)
+
+test("names that events, views and hosts do not have are told, with what was meant", function()
+    local scene = ball_scene()
+    local function fails_with(act, text)
+        local host = host_of(scene, lissom.tool{ name = "wrong", press = function(_, ev) act(ev) end,
+            draw = function(_, view) act(view) end })
+        expect.error(function() host:click(middle) end, text)
+        expect.error(function() host:draw() end, text)
+    end
+    fails_with(function(it) it:highlight() end, "no field or method 'highlight'; there is: ")
+    fails_with(function(it) it:ht() end, "no field or method 'ht'")
+    fails_with(function(it) return it.camrea end, "did you mean 'camera'?")
+    local host = host_of(scene, lissom.tool{ name = "wrong",
+        press = function(_, ev) return ev.lines, ev.key, ev.parameter, ev.late, ev.button end,
+        draw = function(self, view) self.act(view) end })
+    host:click(middle)
+    local function refuses(act, text)
+        host.tool.act = act
+        expect.error(function() host:draw() end, text)
+    end
+    refuses(function(view) view:circle{ center = { 1, 2 } } end, "no option 'center', did you mean 'at'?")
+    refuses(function(view) view:circle{ at = { 1, 2 }, radus = 3 } end, "did you mean 'radius'?")
+    refuses(function(view) view:line{ whatever = 1 } end, "there is: closed, color, points, width")
+    refuses(function(view) view:lable{} end, "lissom.ToolView: no field or method 'lable', did you mean")
+    expect.error(function() host:clik(middle) end, "did you mean 'click'?")
+    expect.error(function() host:click{ x = 1, y = 2, shfit = true } end, "did you mean 'shift'?")
+end)
+
+test("a tool that cannot begin leaves the one before in hand, and is not recorded", function()
+    local scene = ball_scene()
+    local host = host_of(scene):record():use(pull())
+    local bad = lissom.tool{ name = "bad", params = { a = { type = "number", default = 1 } },
+        activate = function(_, ev) ev.scene:get("ball"):transform{ scale = 2 } error("not today") end }
+    bad.params.a = 2
+    local before = scene:hash()
+    expect.error(function() host:use(bad) end, "not today")
+    expect.equal(scene:hash(), before)
+    expect.equal(host.tool.name, "pull")
+    drag(host, 2)
+    local recorded = read(host:recording())
+    expect.equal(lissom.replay(recorded, { scene = ball_scene(), tools = { pull() } }):hash(), scene:hash())
+end)

@@ -1,10 +1,9 @@
 -- The host of tools: calls a tool's functions with what a hand does, each in a step of the scene. What is
 -- returned is what the binding calls; its reference is in tools.cpp.
-local lissom, hear, guard, now, load_script, find_file = ...
+local lissom, hear, guard, now, load_script, find_file, name_hint = ...
 
 local Tool, Event, View, Host = { __name = "lissom.Tool" }, {}, {}, { __name = "lissom.ToolHost" }
 Tool.__tostring = function(tool) return "lissom.Tool: " .. rawget(tool, "name") end
-Event.__index, View.__index, Host.__index = Event, View, Host
 Host.__tostring = function(host) return "lissom.ToolHost: " .. (host.tool and host.tool.name or "no tool") end
 
 local function set_of(names)
@@ -12,6 +11,36 @@ local function set_of(names)
     for _, name in ipairs(names) do set[name] = true end
     return set
 end
+
+-- The hint behind an error about a name: the nearest of the keys of these tables, or all of them.
+local function hint(name, ...)
+    local names = {}
+    for _, keys in ipairs{ ... } do
+        for key in pairs(keys) do
+            if type(key) == "string" and key:sub(1, 2) ~= "__" then table.insert(names, key) end
+        end
+    end
+    table.sort(names)
+    return name_hint(tostring(name), names)
+end
+
+-- Objects of a class have these fields and its methods, and raise an error about any other name. Fields of
+-- the library's own are not named there.
+local function name_members(class, what, fields, own)
+    class.__index = function(_, key)
+        local method = rawget(class, key)
+        if method ~= nil or fields[key] or own and own[key] then return method end
+        error(what .. ": no field or method '" .. tostring(key) .. "'" .. hint(key, class, fields), 2)
+    end
+end
+
+name_members(Event, "lissom.ToolEvent", set_of{ "kind", "camera", "scene", "size", "x", "y", "start",
+    "button", "shift", "ctrl", "alt", "late", "key", "lines", "parameter" })
+name_members(View, "lissom.ToolView", set_of{ "camera", "scene", "size", "cursor" }, set_of{ "list" })
+name_members(Host, "lissom.ToolHost", set_of{ "scene", "camera", "size", "tool" }, set_of{ "asked", "base",
+    "begun", "depth", "drawn", "draws", "guarded", "held", "hover", "is_made", "journal", "kept",
+    "known_hash", "log", "looked", "numbers", "opened", "prompted", "request", "thread", "typed", "word",
+    "working", "x", "y" })
 
 local function misuse(text, ...) error(string.format(text, ...), 3) end
 
@@ -101,7 +130,9 @@ local function check_event(what, fields)
     if type(fields) ~= "table" then misuse("an event of the %s is a table", what) end
     local known = event_fields[what]
     for key in pairs(fields) do
-        if not known[key] then misuse("an event of the %s has no '%s'", what, tostring(key)) end
+        if not known[key] then
+            misuse("an event of the %s has no '%s'%s", what, tostring(key), hint(key, known))
+        end
     end
     if what == "key" then
         if type(fields.key) ~= "string" then misuse("a key is a string, for instance \"enter\"") end
@@ -346,6 +377,7 @@ function Host:use(tool, word)
     self:ready()
     if tool ~= nil and not is_tool(tool) then error("a tool is what lissom.tool returns", 2) end
     self:cancel_quietly()
+    local before, noted = self.tool, self.log and #self.log
     if self.tool and not tool then self:note{ "tool" } end
     self:step("deactivate", self:event("deactivate"))
     if self.tool then self:keep_parameters() end        -- a tool may have changed them itself
@@ -359,9 +391,18 @@ function Host:use(tool, word)
             if p.value ~= p.default then self:note{ "set", { [p.name] = p.value } } end
         end
     end
+    local done, message = pcall(self.begin_tool, self)
+    if done then return self end
+    -- The one before stays in hand, and nothing of this is repeated.
+    self.tool = before
+    while self.log and #self.log > noted do table.remove(self.log) end
+    pcall(self.begin_tool, self)
+    error(message, 0)
+end
+
+function Host:begin_tool()
     self:step("activate", self:event("activate"))
     self:start_run()
-    return self
 end
 
 -- A camera made of the numbers of another, which is what a recording makes of them.

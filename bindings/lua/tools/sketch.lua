@@ -15,7 +15,9 @@ end
 local function check_stroke(i, stroke)
     if type(stroke) ~= "table" then refuse_stroke(i, "a stroke is a table") end
     for key in pairs(stroke) do
-        if not stroke_fields[key] then refuse_stroke(i, "there is no field '" .. tostring(key) .. "'") end
+        if not stroke_fields[key] then
+            refuse_stroke(i, "there is no field '" .. tostring(key) .. "'" .. hint(key, stroke_fields))
+        end
     end
     local tool, params = stroke.tool, stroke.params
     if tool ~= nil and type(tool) ~= "string" and not is_tool(tool) then

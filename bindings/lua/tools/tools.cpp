@@ -8,12 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "bindings/lua/core/failure.h"
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/host/script_files.h"
 #include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tool_text.h"
 #include "kernel/core/clock.h"
+#include "kernel/core/nearest.h"
 
 namespace lissom::lua {
 namespace {
@@ -53,6 +55,24 @@ int push_seconds(lua_State* L) {
     return 1;
 }
 
+// Of a name and a list of those that there are: the hint behind an error about it.
+int push_name_hint(lua_State* L) {
+    Failure failure;
+    std::string hint;
+    failure.guard([&] {
+        std::vector<std::string> names;
+        for (int i = 1; i <= static_cast<int>(raw_length(L, 2)); ++i) {
+            lua_rawgeti(L, 2, i);
+            if (const char* name = lua_tostring(L, -1)) names.emplace_back(name);
+            lua_pop(L, 1);
+        }
+        const char* name = lua_tostring(L, 1);
+        hint = name_hint(name ? name : "", {names.begin(), names.end()});
+    });
+    lua_pushlstring(L, hint.data(), hint.size());
+    return 1;
+}
+
 // Runs the text and keeps what it returns.
 void load_tool_functions(lua_State* L) {
     Piece piece;
@@ -68,7 +88,8 @@ void load_tool_functions(lua_State* L) {
     lua_pushcfunction(L, push_seconds);
     lua_pushcfunction(L, load_script_file);
     lua_pushcfunction(L, find_script_file);
-    lua_call(L, 6, 1);
+    lua_pushcfunction(L, push_name_hint);
+    lua_call(L, 7, 1);
     lua_pushvalue(L, -1);
     raw_set_pointer(L, LUA_REGISTRYINDEX, &kToolFunctions);
 }
@@ -461,7 +482,8 @@ std::vector<Record> tool_records() {
           {"fun(self: any, options: table)", "label", "{at=, text=, color=}"},
           {"fun(self: any, options: table)", "handle",
            "{at=, color=, radius=}: a ball to take hold of."},
-          {"fun(self: any, gizmo: lissom.Gizmo)", "gizmo", "The gizmo as it is seen now."},
+          {"fun(self: any, gizmo: lissom.Gizmo, chosen: string?)", "gizmo",
+           "The gizmo as it is seen now; the part `chosen` as the one in hand."},
           {"fun(self: any, options: table)", "region", "{mesh=, region=, color=}: colours it."},
           {"fun(self: any, options: table)", "mesh",
            "{mesh=, transform=, color=}: one that is not in the scene, before what it lies on; it "

@@ -41,12 +41,25 @@ local checks = {
     end,
 }
 
+-- What other drawing tools call the options.
+local usual_names = { center = "at", centre = "at", position = "at", pos = "at", point = "at",
+    size = "radius", r = "radius", thickness = "width", colour = "color", alpha = "opacity", label = "text",
+    vertices = "points", matrix = "transform" }
+
+local function option_hint(key, fields)
+    local usual = usual_names[key]
+    return usual and fields[usual] and ", did you mean '" .. usual .. "'?" or hint(key, fields)
+end
+
 local function checked(what, given)
     if type(given) ~= "table" then error("view:" .. what .. " takes a table of options", 3) end
     local fields, copy = view_fields[what], {}
     local count = (what == "outline" or what == "circle") and 2 or 3
     for key, value in pairs(given) do
-        if not fields[key] then error("view:" .. what .. " has no option '" .. tostring(key) .. "'", 3) end
+        if not fields[key] then
+            local name = "'" .. tostring(key) .. "'"
+            error("view:" .. what .. " has no option " .. name .. option_hint(key, fields), 3)
+        end
         if not checks[fields[key]](value, count) then
             error("bad option '" .. key .. "' of view:" .. what .. " (" .. fields[key] .. " expected)", 3)
         end
@@ -89,20 +102,22 @@ local function hexadecimal(color)
     return string.format("#%02x%02x%02x", byte(color[1]), byte(color[2]), byte(color[3]))
 end
 
-function View:gizmo(gizmo)
+local hover_color = "#ffd24a"
+
+-- The part `chosen` is drawn as the one in hand.
+function View:gizmo(gizmo, chosen)
     local cursor = self.cursor and { x = self.cursor[1], y = self.cursor[2] } or nil
     local shape = gizmo:shape(self.camera, self.size, cursor)
     for _, line in ipairs(shape.lines) do
-        local color = hexadecimal(line.color)
+        local color = line.part == chosen and hover_color or hexadecimal(line.color)
         self:line{ points = line.points, closed = line.closed, width = line.width, color = color }
     end
     for _, point in ipairs(shape.points) do
-        self:points{ points = { point.position }, radius = point.radius, color = hexadecimal(point.color) }
+        local color = point.part == chosen and hover_color or hexadecimal(point.color)
+        self:points{ points = { point.position }, radius = point.radius, color = color }
     end
     return self
 end
-
-local hover_color = "#ffd24a"
 
 -- The points of the boundary that was hit, where its object stands.
 local function points_of(scene, hit)
