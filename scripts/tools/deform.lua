@@ -4,14 +4,17 @@
 -- gizmo. Select what shall hold its place and press p: it is pinned, a handle that stays where it is. Then
 -- drag the gizmo. Keys: w moves, e turns, r scales; x, y and z choose an axis; a number says how far, during
 -- the drag or after it and then Enter. Click a handle or press tab to go to another; delete takes it away;
--- f finishes.
+-- f finishes. v sets the pivot that turns and scaling are about: the middle of what is selected, else the
+-- point of the surface under the cursor, and beside the surface the middle of the handle again.
 --
 -- The handles live in the scene, in an object "... deformation" beside the mesh: they are undone and saved.
 local lissom = require "lissom"
 local brush = require "tools.support.brush"
 local grip = require "tools.support.grip"
 local handles = require "tools.support.handles"
+local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
+local vectors = require "vectors"
 
 local axes = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
 
@@ -19,8 +22,26 @@ local axes = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
 local function active(self, scene)
     local list = handles.list(scene)
     local number = handles.number(list, self.handle)
-    if list[number] then self.grip:place(list[number].at) end
-    return list[number], number, list
+    local one = list[number]
+    if one and self.pivot and self.pivot.handle ~= one.handle then self.pivot = nil end
+    if one then self.grip:place(self.pivot and self.pivot.at or one.at) end
+    return one, number, list
+end
+
+-- Where a key sets the pivot: nil for the middle of the handle.
+local function pivot_at(ev, one)
+    local selected = meshes.selection(one.mesh)
+    if #selected == 0 then
+        local hit = ev.x and ev:hit()
+        return hit and hit.position or nil
+    end
+    local middle = { 0, 0, 0 }
+    for _, v in ipairs(selected:vertices()) do
+        local x, y, z = one.mesh:position(v)
+        middle = vectors.plus(middle, { x, y, z }, 1 / #selected)
+    end
+    meshes.select(one.mesh, one.mesh:region{ vertices = {} })
+    return matrices.point(one.place, middle)
 end
 
 -- The handle that has the vertex under the cursor.
@@ -34,7 +55,7 @@ end
 
 -- Selects what the brush comes over.
 local function paint(self, ev)
-    for _, one in ipairs(self.brush:paint(ev, self.params.radius)) do
+    for _, one in ipairs(self.brush:paint(ev, self.params.radius, { through = self.params.through })) do
         meshes.select(one.mesh, meshes.selection(one.mesh):union(one.region))
     end
 end
@@ -46,8 +67,9 @@ local function add_handle(self, scene)
     if not region or #region == 0 then error("nothing is selected: drag over the surface first", 0) end
     local params, size = self.params, one.mesh:size()
     local edit = handles.deformation(scene, one, region, params.reach * size)
+    if not params.through then region = meshes.without_specks(region) end
+    region = meshes.without_pinholes(region)
     for _, other in ipairs(edit:handles()) do region = region:minus(other:region()) end
-    region = meshes.without_specks(region)
     local normal = axes[params.mirror]
     local mirror = normal
         and { point = one.mesh:bounds().center, normal = normal, tolerance = 0.01 * size } or nil
@@ -62,14 +84,20 @@ local keys = {
     tab = function(self, _, one, number, list) self.handle = one and list[number % #list + 1].handle end,
     delete = function(_, scene, one) if one then handles.remove(scene, one) end end,
     f = function(_, scene, one) if one then meshes.end_deformation(scene, one.mesh) end end,
+    v = function(self, _, one, _, _, ev)
+        local at = one and pivot_at(ev, one)
+        self.pivot = at and { handle = one.handle, at = at } or nil
+    end,
 }
 
 return lissom.tool{
     name = "deform",
     help = "Drag over the surface, then Enter: a handle; p: pinned. Drag its gizmo. Keys: w(move) e(turn) "
-        .. "r(scale), x y z, numbers, tab, delete, f(inish).",
+        .. "r(scale), x y z, numbers, v(pivot), tab, delete, f(inish).",
     params = {
         radius = { type = "number", default = 30, min = 1, max = 300, unit = "pixels", help = "brush" },
+        through = { type = "boolean", default = false,
+            help = "The brush takes all that it covers, also what the surface hides." },
         preview = { type = "choice", default = "large meshes", choices = { "large meshes", "always",
             "never" }, help = "Drags are quick, with some shear, and exact when they end." },
         reach = { type = "number", default = 0, min = 0, max = 4, unit = "mesh sizes",
@@ -123,7 +151,7 @@ return lissom.tool{
             assert(one.edit:solve())
             if not self.grip.gizmo:part() then self.grip:release(one.handle:matrix()) end
         elseif not taken and keys[ev.key] and not self.grip.gizmo:part() then
-            keys[ev.key](self, ev.scene, one or list[#list], number, list)
+            keys[ev.key](self, ev.scene, one or list[#list], number, list, ev)
         end
     end,
     draw = function(self, view)

@@ -424,3 +424,85 @@ test("what is pinned stays so in a saved scene, until it is taken away or the wo
     h:key("f")
     expect.equal(h.scene:get("bar"):region("pinned"), nil)
 end)
+
+test("a pivot can be set, and turns are about it", function()
+    hold()
+    local before = handles()[2]:center()
+    -- At the surface under the cursor.
+    h:move{ 0, 0, 0.5 }
+    h:key("v")
+    h.host:draw()
+    local pivot = h.tool.grip.gizmo:origin()
+    expect.near(pivot[1], 0, 0.02)
+    expect.near(pivot[2], 0, 0.02)
+    h:key("e")
+    h:key("z")
+    h.host:type("90"):key{ key = "enter" }
+    local after = handles()[2]:center()
+    expect.near(after[1], -before[2], 0.05)
+    expect.near(after[2], 0, 0.05)
+    -- At the middle of what is selected; beside the surface the handle's own again.
+    h:drag{ { -0.5, -1, 0.5 }, { 0.5, -1, 0.5 } }
+    h:key("v")
+    h.host:draw()
+    expect.near(h.tool.grip.gizmo:origin()[2], -1, 0.3)
+    expect.equal(h.scene:get("bar"):region("selected"), nil)
+    h:move{ 4, 4, 0 }
+    h:key("v")
+    h.host:draw()
+    expect.near(h.tool.grip.gizmo:origin()[1], after[1], 1e-9)
+end)
+
+test("the brush takes the nearest surface, or with 'through' all that it covers", function()
+    local function depths()
+        local mesh, front, back = h.scene:get("bar"), 0, 0
+        for _, v in ipairs(mesh:region("selected"):vertices()) do
+            local _, _, z = mesh:position(v)
+            if z > 0.4 then front = front + 1 end
+            if z < -0.4 then back = back + 1 end
+        end
+        return front, back
+    end
+    h:drag{ { -0.2, 1, 0.5 }, { 0.2, 1, 0.5 } }
+    local front, back = depths()
+    expect.truthy(front > 0)
+    expect.equal(back, 0)
+    h.host:set{ through = true }
+    h:drag{ { -0.2, 1, 0.5 }, { 0.2, 1, 0.5 } }
+    local all_front, all_back = depths()
+    expect.equal(all_front, front)
+    expect.truthy(all_back > 0)
+    h:key("enter")
+    expect.truthy(#handles()[1]:region() >= all_front + all_back)
+end)
+
+test("pinholes of a handle are closed, larger holes and other parts are not", function()
+    local support = require "tools.support.meshes"
+    local grid = lissom.shapes.grid{ segments = 20 }
+    local all = grid:region{ all = true }
+    local function around(vertex, rings) return grid:region{ vertices = { vertex } }:grow(rings) end
+    local middle = math.floor(grid:vertex_count() / 2)
+    local pinhole = around(middle, 1)
+    expect.truthy(#pinhole <= 10)
+    expect.equal(#support.without_pinholes(all:minus(pinhole)), #all)
+    local hole = around(middle, 3)
+    expect.truthy(#hole > 10)
+    expect.equal(#support.without_pinholes(all:minus(hole)), #all - #hole)
+end)
+
+test("the axis that a key has chosen lights up, and a typed number is shown at once", function()
+    hold()
+    local function lit()
+        local count = 0
+        for _, line in ipairs(h.host:draw().lines) do
+            if line.color == "#ffd24a" then count = count + 1 end
+        end
+        return count
+    end
+    h:move{ 4, 4, 0 }
+    expect.equal(lit(), 0)
+    h:key("x")
+    expect.truthy(lit() > 0)
+    h.host:type("1")
+    expect.equal(h.host:draw().labels[1].text, "1")
+end)

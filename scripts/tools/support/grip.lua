@@ -98,8 +98,11 @@ function grip:is_under(view)
     return cursor and self.gizmo:hit(view.camera, view.size, cursor[1], cursor[2]) ~= nil
 end
 
+--- The part that a typed number goes to: the one that is held, or the one chosen by a key.
+function grip:chosen() return self.gizmo:part() or self.part end
+
 function grip:draw(view)
-    view:gizmo(self.gizmo)
+    view:gizmo(self.gizmo, self:chosen())
     if self.typed ~= "" then view:label{ at = self.gizmo:origin(), text = self.typed } end
 end
 

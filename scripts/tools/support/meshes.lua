@@ -72,6 +72,19 @@ function meshes.without_specks(region)
     return kept
 end
 
+--- A region with its pinholes closed, such as a brush leaves: connected parts of up to ten vertices within
+-- it, and at most a quarter of it.
+function meshes.without_pinholes(region)
+    local rest, closed = region:invert(), region
+    while #rest > 0 do
+        local part = rest:connected{ at = rest:vertices()[1] }
+        local is_small = #part <= math.min(10, #region / 4)
+        if is_small and #part:grow(1) > #part then closed = closed:union(part) end
+        rest = rest:minus(part)
+    end
+    return closed
+end
+
 --- What to work on where nothing is pointed at: the first visible mesh of which something is selected, else
 -- the only one; nil where there are several.
 function meshes.subject(scene)
