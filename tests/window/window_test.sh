@@ -81,7 +81,7 @@ wait_for "line size	1.0"
 wait_for "at rest"
 shot script
 # The slider lies in the panel, below its heading.
-drag 60 409 9 0
+drag 60 357 9 0
 wait_for "line size	"
 wait_for "shown "
 sed -i 's/default = 1/default = 2/; s/return box/return missing()/' script.lua
@@ -208,6 +208,9 @@ close_view 0
 
 # --- Files are dropped: a broken one is told and changes nothing; the scene that another replaces is kept
 printf 'ply\nformat nonsense 1.0\n' >broken.ply
+cat >own.lua <<'LUA'
+return require("lissom").tool{ name = "own", help = "Does nothing.", press = function() print("own is pressed") end }
+LUA
 if [ -n "${LISSOM_DROP_FILE:-}" ]; then
     open_view ball.obj --tool bulge.lua
     wait_for "at rest"
@@ -223,6 +226,21 @@ if [ -n "${LISSOM_DROP_FILE:-}" ]; then
     wait_for "history 2 of 2"
     sleep 2
     wait_for "at rest"
+    # A script that fails, and a tool, leave the scene and its history.
+    echo 'error("no")' >fails.lua
+    "$LISSOM_DROP_FILE" "$window" fails.lua
+    wait_for "fails.lua:1: no"
+    "$LISSOM_DROP_FILE" "$window" own.lua
+    wait_for "tool own"
+    drag 700 320 5 2
+    wait_for "line own is pressed"
+    shot own_tool
+    # The file that is open is read again, not the one that failed.
+    xdotool mousemove --window "$window" 700 300 key ctrl+z
+    wait_for "history 1 of 2"
+    xdotool key ctrl+shift+z
+    wait_for "history 2 of 2"
+    sleep 2
     "$LISSOM_DROP_FILE" "$window" box.obj
     wait_for "line the scene before was not saved"
     wait_for "at rest"
@@ -291,6 +309,46 @@ sleep 0.5
 close_view 0
 [ ! -e "$left" ] || fail "a scene that is not wanted stays"
 [ ! -e "$journal" ] || fail "its journal stays"
+
+# --- A window that is terminated: what was saved leaves nothing to recover, what was not is kept
+terminate() {
+    kill "$view"
+    for _ in $(seq 100); do
+        kill -0 "$view" 2>/dev/null || break
+        sleep 0.1
+    done
+    if kill -0 "$view" 2>/dev/null; then fail "it does not end when it is terminated"; fi
+    wait "$view" || fail "terminated it ends with an error"
+}
+rm -rf state/lissom
+open_view ball.obj --tool smooth
+wait_for "at rest"
+drag 700 300 5 2
+wait_for "history 1 of 1"
+sleep 2.5
+wait_for "at rest"
+xdotool key ctrl+s
+wait_for "line saved "
+sleep 0.5
+[ -z "$(find state/lissom -name '*.lissom')" ] || fail "a saved scene leaves a copy to recover"
+terminate
+[ -z "$(find state/lissom -name '*.lissom')" ] || fail "a saved scene is left to recover when its window is terminated"
+open_view ball.obj --tool smooth
+wait_for "at rest"
+drag 700 300 5 2
+wait_for "history 1 of 1"
+sleep 2.5
+terminate
+[ -n "$(find state/lissom -name 'unsaved-*.lissom')" ] || fail "what was not saved is gone with a terminated window"
+rm -rf state/lissom
+
+# --- The console is dragged larger, and cleared
+open_view ball.obj
+wait_for "at rest"
+drag 700 684 0 -20
+wait_for "at rest"
+shot console_large
+close_view 0
 
 # --- Alt counts at once, again and again, also while the cursor rests in the middle of a drag
 cat >alt.lua <<'LUA'

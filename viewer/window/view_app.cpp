@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -35,6 +36,15 @@ constexpr double kBusyAfter = 0.15;
 constexpr const char* kWelcome =
     "Drop meshes, a script or a scene here, or name them on the command line.";
 
+// The program was asked to end: it does so as if its window were closed.
+volatile std::sig_atomic_t terminated = 0;
+
+void listen_to_termination() {
+    for (const int signal : {SIGTERM, SIGHUP}) {
+        std::signal(signal, [](int) { terminated = 1; });
+    }
+}
+
 int threads_of(const cli::Program& program) {
     if (program.threads > 0) return program.threads;
     return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -57,7 +67,8 @@ class ViewApp {
     int run();
 
   private:
-    void open(const std::vector<std::string>& words);
+    void drop(const std::vector<std::string>& files);
+    void add_buttons(const std::vector<std::string>& words);
     double wait_time() const;
     void turn(Clock::time_point heard);
     int end();
@@ -75,6 +86,7 @@ class ViewApp {
 
     // ---- What others have made
     void take_results();
+    void take_opened(const std::vector<std::string>& words);
     void take_news();
     void take_tool_state(ToolState state);
     void see_played(const PlayedHand& hand);
@@ -127,22 +139,41 @@ ViewApp::ViewApp(cli::Program& program, const ViewOptions& options)
     state_.settings.scale = state_.pixels.scale;
     state_.content.driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     if (options.words.empty()) state_.add_line(LineKind::message, kWelcome);
-    state_.content.tools = shipped_tools();
+    add_buttons(shipped_tools());
+    add_buttons(own_tools());
+    add_buttons(options.tools);
     keeping_.offer();
-    if (!options.words.empty()) open(options.words);
+    if (!options.words.empty()) session_.open(options.words);
 }
 
-void ViewApp::open(const std::vector<std::string>& words) {
+void ViewApp::add_buttons(const std::vector<std::string>& words) {
+    auto& buttons = state_.content.tools;
+    for (const std::string& word : words) {
+        const auto is_it = [&](const ToolButton& one) { return one.word == word; };
+        if (std::none_of(buttons.begin(), buttons.end(), is_it)) buttons.push_back(button_of(word));
+    }
+}
+
+void ViewApp::drop(const std::vector<std::string>& files) {
+    const auto scripts = std::count_if(files.begin(), files.end(), is_script);
+    if (scripts == 0 || files.size() == 1) return session_.open(files);
+    const char* const text = "drop either meshes or one script";
+    state_.add_line(LineKind::error, text);
+    state_.tell(std::string("error ") + text);
+}
+
+// It has taken the place of what was open.
+void ViewApp::take_opened(const std::vector<std::string>& words) {
     replay_.forget();
     keeping_.begin(words.front());
-    session_.open(words);
     scripts_.begin(words.front());
     state_.camera_is_placed = false;
     window_.set_title(std::filesystem::path(words.front()).filename().string() + " - lissom");
+    state_.tell("opened " + words.front());
 }
 
 int ViewApp::run() {
-    while (!window_.close_requested() && !closes_) {
+    while (!window_.close_requested() && !closes_ && !terminated) {
         const auto before = Clock::now();
         const double most = wait_time();
         window_.wait(most);
@@ -209,7 +240,7 @@ void ViewApp::take_inputs(Clock::time_point heard) {
 
 void ViewApp::take(const Input& input) {
     if (press_anywhere(input)) return;
-    if (input.kind == Input::Kind::drop) return open(input.files);
+    if (input.kind == Input::Kind::drop) return drop(input.files);
     if (replay_.plays()) return take_while_playing(input);
     const bool is_key = input.kind == Input::Kind::key_down || input.kind == Input::Kind::key_up ||
                         input.kind == Input::Kind::text;
@@ -294,7 +325,7 @@ void ViewApp::answer(const PanelAnswers& answers) {
     if (answers.line) session_.evaluate(*answers.line);
     if (answers.complete) session_.complete(*answers.complete);
     scripts_.answer(answers);
-    if (const auto left = keeping_.answer(answers)) open({*left});
+    if (const auto left = keeping_.answer(answers)) session_.open({*left});
 }
 
 void ViewApp::answer_tool(const ToolAnswers& answers) {
@@ -335,6 +366,8 @@ void ViewApp::take_news() {
         state_.tell("completed");
         state_.changes.owe_frames();
     }
+    if (const auto opened = session_.take_opened()) take_opened(*opened);
+    if (const auto saved = session_.take_saved()) keeping_.take_saved(*saved);
     if (auto declared = session_.take_parameters()) {
         state_.content.parameters = std::move(*declared);
         state_.changes.owe_frames();
@@ -358,10 +391,12 @@ void ViewApp::take_tool_state(ToolState state) {
     // What a person has set since then stays in the panel.
     if (state.tool == known.tool && session_.has_setting()) state.parameters = known.parameters;
     known = std::move(state);
+    keep_button(state_.content.tools, known);
     state_.changes.owe_frames();
     if (known.hand) return see_played(*known.hand);
     if (!known.camera) return;
     state_.camera = *known.camera;
+    state_.camera_is_placed = true;
     state_.changes.add();
 }
 
@@ -422,6 +457,7 @@ void ViewApp::make_again() {
 
 int run_view(cli::Program& program, const ViewOptions& options) {
     keep_driver_memory();
+    listen_to_termination();
     ViewApp app(program, options);
     return app.run();
 }

@@ -15,6 +15,8 @@ struct ViewOptions {
     std::vector<std::string> words;
     /// The tool in hand, and where to record what it does.
     SessionOptions session = {};
+    /// Tools that have a button beside those that ship: files, or names of these.
+    std::vector<std::string> tools = {};
     int width = 1280, height = 800;
     /// Of a recording, in multiples of its own.
     double speed = 1.0;

@@ -39,8 +39,13 @@ int view(Program& program, const std::vector<std::string>& words) {
     app.add_option("FILE", files, "Mesh files, one script, or one recording");
     app.add_option("--size", size, "Width and height of the window (default: 1280x800)")
         ->check(check_size);
-    app.add_option("--tool", options.session.tool,
-                   "The tool in hand: a file, or the name of one that ships");
+    app.add_option(
+           "--tool", options.tools,
+           "The tool in hand: a file, or the name of one that ships; others may follow with "
+           "a --tool each, which get a button, as do the files of lissom/tools in "
+           "$XDG_DATA_HOME or ~/.local/share")
+        ->allow_extra_args(false)
+        ->type_name("TEXT");
     app.add_option("--record", options.session.record,
                    "Write what is done with tools to this file, a script that does it again");
     app.add_option("--journal", options.session.journal,
@@ -68,10 +73,11 @@ int view(Program& program, const std::vector<std::string>& words) {
     if (speed->count() > 0 && !plays) {
         return program.fail("lissom view: --speed is for a recording", kUsage);
     }
-    if (plays && !options.session.tool.empty()) {
+    if (plays && !options.tools.empty()) {
         return program.fail("lissom view: a recording brings its own tools: leave out --tool",
                             kUsage);
     }
+    if (!options.tools.empty()) options.session.tool = options.tools.front();
     flags.apply(options.session.load);
     if (!up.empty()) options.session.load.up = up == "y" ? UpAxis::y : UpAxis::z;
     std::error_code error;

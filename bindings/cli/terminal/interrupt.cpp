@@ -124,6 +124,10 @@ void Interrupt::watch(lua_State* L) {
     set_running(L);
 }
 
+void Interrupt::attend(lua_State* L) {
+    set_running(L);
+}
+
 void Interrupt::press() {
     const std::lock_guard lock(pressing);
     stop_work();

@@ -18,6 +18,8 @@ class Interrupt {
     /// Lets Ctrl-C stop scripts in `L` too, coroutines included: wraps coroutine.resume and
     /// coroutine.wrap there. May raise a Lua error.
     static void watch(lua_State* L);
+    /// From now on it is `L`, watched before, whose scripts are stopped.
+    static void attend(lua_State* L);
     /// As if Ctrl-C were pressed, but never ends the program; from any thread.
     static void press();
     /// The Lua state is about to be closed.

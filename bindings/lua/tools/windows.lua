@@ -19,7 +19,10 @@ end
 
 -- `told` is what a recording calls the tool.
 local function use(host, word, told)
-    if word == "" then return host:use(nil) end
+    if word == "" then
+        host.word = nil
+        return host:use(nil)
+    end
     local old, kept = host.tool, {}
     for _, name in ipairs(tool_modules) do
         kept[name], package.loaded[name] = package.loaded[name], nil
@@ -35,7 +38,7 @@ local function use(host, word, told)
     for name in pairs(package.loaded) do
         if not before[name] then table.insert(tool_modules, name) end
     end
-    local before_run = host.kept
+    local before_run, word_before = host.kept, host.word
     host.kept = nil
     if old and old.name == tool.name then
         tool.state = old.state
@@ -44,7 +47,11 @@ local function use(host, word, told)
         tool.state = before_run.state
         take_values(tool, before_run.values)
     end
-    return host:use(tool, told or word)
+    host.word = word
+    local used, message = pcall(host.use, host, tool, told or word)
+    if used then return host end
+    host.word = word_before
+    error(message, 0)
 end
 
 -- The files that the present tool was read from.
@@ -54,8 +61,46 @@ local function tool_files(word)
     return files
 end
 
+-- Who keeps the camera among the parameters of a scene.
+local view_owner = "window"
+
+-- By scene: the view that it was saved with, until it is seen by that.
+local saved_views = setmetatable({}, { __mode = "k" })
+
+-- A camera as plain numbers.
+local function view_of(camera)
+    local view = { fov = camera:fov(), ortho = camera:ortho() }
+    for name, vector in pairs{ eye = camera:eye(), target = camera:target(), up = camera:up() } do
+        for i = 1, 3 do view[name .. i] = vector[i] end
+    end
+    return view
+end
+
+local function open_for_window(paths, options)
+    local scene = open_scene(paths, options)
+    if type(scene) == "userdata" and is_scene_path(paths[1]) then
+        saved_views[scene] = scene:parameters(view_owner)
+    end
+    return scene
+end
+
+-- The first look at a scene that was saved in a window is the one that it was saved with.
+local function look_in_window(host, numbers)
+    local view = saved_views[host.scene]
+    if not view then return look(host, numbers) end
+    saved_views[host.scene] = nil
+    local saved = { size = numbers.size, fov = view.ortho == nil and view.fov or nil, ortho = view.ortho }
+    for _, name in ipairs{ "eye", "target", "up" } do
+        saved[name] = { view[name .. 1], view[name .. 2], view[name .. 3] }
+    end
+    if not pcall(look, host, saved) then return look(host, numbers) end
+    host.looked = true
+    return host
+end
+
 -- Sentences about what had no place in the file.
 local function save(host, path)
+    host.scene:set_parameters(view_owner, view_of(host.camera))
     local done, left_out, code = host.scene:save(path)
     if not done then error(left_out .. " [" .. code .. "]", 0) end
     return table.concat(left_out, "; ")
@@ -137,7 +182,8 @@ end
 
 local function method(host, name, ...) return host[name](host, ...) end
 
-return { tool = make_tool, host = make_host, replay = replay, open = open_scene, load_tool = load_tool,
-    host_of = host_of, look = look, use = use, tool_files = tool_files, draw = draw, holds = holds,
-    save = save, method = method, sketch = sketch, open_recording = open_recording, play = play,
-    event_kind = event_kind, looked = looked, keep = keep, restore = restore }
+return { tool = make_tool, is_tool = is_tool, host = make_host, replay = replay, open = open_for_window,
+    load_tool = load_tool, host_of = host_of, look = look_in_window, use = use, tool_files = tool_files,
+    draw = draw, holds = holds, save = save, method = method, sketch = sketch,
+    open_recording = open_recording, play = play, event_kind = event_kind, looked = looked, keep = keep,
+    restore = restore }

@@ -1,5 +1,6 @@
 #include "viewer/window/app/keeping.h"
 
+#include <algorithm>
 #include <iostream>
 #include <system_error>
 #include <utility>
@@ -15,7 +16,9 @@ constexpr double kCopyEvery = 1.0;
 void Keeping::begin(const std::string& first) {
     first_ = first;
     saved_path_.clear();
-    if (opened_ != first_) opened_.clear();
+    opened_ = first_ == asked_ ? asked_ : std::filesystem::path();
+    if (!opened_.empty()) std::erase(state_.content.left, opened_);
+    asked_.clear();
 }
 
 void Keeping::copy() {
@@ -30,11 +33,14 @@ std::optional<std::string> Keeping::answer(const PanelAnswers& answers) {
     auto& all = state_.content.left;
     if (all.empty() || !(answers.open_left || answers.forget_left)) return std::nullopt;
     const std::filesystem::path left = all.front();
-    all.erase(all.begin());
     state_.changes.owe_frames();
-    if (answers.forget_left) Recovery::remove(left);
-    if (!answers.open_left) return std::nullopt;
-    opened_ = left;
+    if (answers.forget_left) {
+        all.erase(all.begin());
+        Recovery::remove(left);
+        return std::nullopt;
+    }
+    // It is offered until it was opened.
+    asked_ = left;
     return left.string();
 }
 
@@ -57,13 +63,18 @@ std::string Keeping::scene_path() const {
 
 void Keeping::save() {
     if (saved_path_.empty()) saved_path_ = scene_path();
-    state_.session.save_scene(saved_path_);
-    saved_ = change_;
+    state_.session.save_scene(saved_path_, state_.content.tool.scene, change_);
+}
+
+void Keeping::take_saved(std::uint64_t change) {
+    saved_ = std::max(saved_, change);
+    if (saved_ != change_) return;
+    copied_ = change_;
+    Recovery::remove(recovery_.file());
+    forget_opened();
 }
 
 void Keeping::keep_unsaved() {
-    std::error_code error;
-    if (saved_ == change_ && std::filesystem::exists(saved_path_, error)) forget_opened();
     if (saved_ == change_) return;
     const std::filesystem::path kept = recovery_.keep();
     if (kept.empty()) return;
@@ -91,8 +102,8 @@ void Keeping::offer() {
     if (!journal.empty())
         text += "; lissom run " + journal.string() + " does it again without a window";
     if (all.size() > 1) text += "; there are " + std::to_string(all.size() - 1) + " more beside it";
+    // The panel has a line for it.
     state_.tell("line " + text);
-    state_.add_line(LineKind::warning, std::move(text));
 }
 
 }  // namespace lissom::window

@@ -25,7 +25,10 @@ class Keeping {
     void replace();
     /// Copies the scene where it has changed since it was copied last, at most once a second.
     void copy();
+    /// Writes the scene to its file, which `take_saved` hears of.
     void save();
+    /// The scene was saved as it was after this change: there is nothing to recover then.
+    void take_saved(std::uint64_t change);
     /// At the start: offers what other windows have not saved.
     void offer();
     /// At the end: keeps what was not saved, and tells it.
@@ -44,8 +47,9 @@ class Keeping {
     std::uint64_t change_ = 0, copied_ = 0, saved_ = 0;
     Clock::time_point last_copy_ = Clock::now();
     std::string saved_path_;
-    // What another window left and was opened here: it goes when it is kept elsewhere.
-    std::filesystem::path opened_;
+    // What another window left and is to be opened, or was opened here: it goes when it is kept
+    // elsewhere.
+    std::filesystem::path asked_, opened_;
 };
 
 }  // namespace lissom::window

@@ -43,6 +43,7 @@ void ScriptSide::run_again() {
 }
 
 void ScriptSide::look() {
+    if (state_.session.is_opening()) return;
     if (!state_.session.busy()) watch();
     tool_watch_.set(state_.session.tool_files());
     if (tool_watch_.changed(Clock::now()) && !state_.plays) {

@@ -18,7 +18,7 @@
 namespace lissom::window {
 namespace {
 
-constexpr double kWidth = 290.0, kConsoleHeight = 118.0;
+constexpr double kWidth = 290.0, kConsoleHeight = 118.0, kLeastConsole = 60.0;
 constexpr double kTextHeight = 15.0;
 // The last lines of the console are drawn.
 constexpr std::size_t kShownLines = 2000;
@@ -247,12 +247,16 @@ struct Panel::State {
     std::size_t lines_drawn = 0;
     // Frames after one that took input: lists open in the second.
     int frames_owed = 0;
+    // Of the console, in units of length: a person drags its upper edge.
+    double console_height = kConsoleHeight;
     // Something of the panel lies over the picture, or is dragged there.
     bool is_over_picture = false;
 
     Canvas canvas_of(gl::Extent window) const {
         const int left = static_cast<int>(kWidth * scale);
-        const int below = std::min(static_cast<int>(kConsoleHeight * scale), 2 * window.height / 5);
+        const bool is_usual = console_height == kConsoleHeight;
+        const int most = is_usual ? 2 * window.height / 5 : 4 * window.height / 5;
+        const int below = std::min(static_cast<int>(console_height * scale), most);
         return {left, 0, std::max(window.width - left, 1), std::max(window.height - below, 1)};
     }
     void take_inputs();
@@ -266,7 +270,9 @@ struct Panel::State {
     void console_line(const ConsoleLine& line, const std::optional<SourcePlace>& place,
                       PanelAnswers& answers) const;
     void find_places(const std::vector<ConsoleLine>& lines);
-    void prompt(PanelContent& content, PanelAnswers& answers);
+    void drag_edge(const Canvas& above, gl::Extent window);
+    void clear_console(PanelContent& content);
+    void prompt(PanelContent& content, PanelAnswers& answers, float beside);
     void candidate_list(float left, float bottom, float width);
     void take_candidate(const std::string& word);
     struct PromptFrame;
@@ -499,13 +505,6 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
     if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
         view_section(content, settings, answers);
     }
-    if (ImGui::CollapsingHeader("Objects", ImGuiTreeNodeFlags_DefaultOpen)) {
-        if (content.tool.has_scene) {
-            answers.tool = draw_scene_objects(content.tool);
-        } else {
-            draw_objects(content.objects, settings.hidden);
-        }
-    }
     if (!content.parameters.empty() &&
         ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen)) {
         if (content.presets) preset_row(*content.presets, answers);
@@ -521,6 +520,14 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
             const ToolAnswers asked = draw_history(content.tool);
             answers.tool.undo = asked.undo;
             answers.tool.redo = asked.redo;
+        }
+    }
+    // Last, as it grows: no button moves then.
+    if (ImGui::CollapsingHeader("Objects", ImGuiTreeNodeFlags_DefaultOpen)) {
+        if (content.tool.has_scene) {
+            answers.tool.object = draw_scene_objects(content.tool).object;
+        } else {
+            draw_objects(content.objects, settings.hidden);
         }
     }
     ImGui::EndDisabled();
@@ -611,10 +618,11 @@ struct Panel::State::PromptFrame {
     }
 };
 
-void Panel::State::prompt(PanelContent& content, PanelAnswers& answers) {
+// Leaves room `beside` it.
+void Panel::State::prompt(PanelContent& content, PanelAnswers& answers, float beside) {
     std::array<char, kLongestText> text{};
     line.copy(text.data(), text.size() - 1);
-    ImGui::SetNextItemWidth(-1.0f);
+    ImGui::SetNextItemWidth(-beside);
     if (goes_to_end) ImGui::SetKeyboardFocusHere();
     forget_unfit_history("##prompt", text.data());
     PromptFrame frame{*this, content, answers};
@@ -662,6 +670,33 @@ void Panel::State::console_line(const ConsoleLine& one, const std::optional<Sour
     if (ImGui::IsItemClicked()) answers.place = place;
 }
 
+// The upper edge of the console, which makes it larger or smaller.
+void Panel::State::drag_edge(const Canvas& above, gl::Extent window) {
+    constexpr float kEdge = 7.0f;
+    const ImVec2 begin = ImGui::GetCursorPos();
+    ImGui::SetCursorPos(ImVec2(0.0f, 0.0f));
+    ImGui::InvisibleButton(
+        "edge", ImVec2(static_cast<float>(above.width), kEdge * static_cast<float>(scale)));
+    const bool is_held = ImGui::IsItemActive();
+    if (is_held || ImGui::IsItemHovered()) {
+        const ImVec2 corner = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            corner, ImVec2(end.x, corner.y + 2.0f * static_cast<float>(scale)),
+            ImGui::GetColorU32(ImGuiCol_ButtonActive));
+    }
+    ImGui::SetCursorPos(begin);
+    if (!is_held) return;
+    const double wanted = (window.height - ImGui::GetIO().MousePos.y) / scale;
+    console_height =
+        std::clamp(wanted, kLeastConsole, std::max(kLeastConsole, 0.8 * window.height / scale));
+}
+
+void Panel::State::clear_console(PanelContent& content) {
+    content.lines.clear();
+    places.clear();
+    lines_drawn = 0;
+}
+
 void Panel::State::console(PanelContent& content, PanelAnswers& answers, gl::Extent window) {
     const Canvas above = canvas_of(window);
     ImGui::SetNextWindowPos(ImVec2(static_cast<float>(above.x), static_cast<float>(above.height)));
@@ -670,6 +705,7 @@ void Panel::State::console(PanelContent& content, PanelAnswers& answers, gl::Ext
     ImGui::Begin("console", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
+    drag_edge(above, window);
     draw_left(content, answers);
     const float room = ImGui::GetFrameHeightWithSpacing();
     ImGui::BeginChild("lines", ImVec2(0.0f, -room));
@@ -684,8 +720,12 @@ void Panel::State::console(PanelContent& content, PanelAnswers& answers, gl::Ext
     }
     lines_drawn = count;
     ImGui::EndChild();
-    prompt(content, answers);
+    const float width = ImGui::CalcTextSize("clear").x + 2.0f * ImGui::GetStyle().FramePadding.x +
+                        ImGui::GetStyle().ItemSpacing.x;
+    prompt(content, answers, width);
     const ImVec2 corner = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
+    ImGui::SameLine();
+    if (ImGui::Button("clear")) clear_console(content);
     ImGui::End();
     candidate_list(corner.x, corner.y, end.x - corner.x);
 }

@@ -47,8 +47,8 @@ struct PanelContent {
     std::string stage;
     double fraction = 0.0;
     bool is_ortho = false;
-    /// Names of the tools that ship, and what there is to say of the one in hand.
-    std::vector<std::string> tools;
+    /// Tools that have a button, and what there is to say of the one in hand.
+    std::vector<ToolButton> tools;
     ToolState tool;
     /// What the picture is seen by.
     Camera camera;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "viewer/window/panel/parameter_widgets.h"
@@ -71,21 +72,37 @@ ToolAnswers draw_scene_objects(const ToolState& state) {
     return answers;
 }
 
-ToolAnswers draw_tools(const std::vector<std::string>& names, ToolState& state) {
+ToolButton button_of(const std::string& word) {
+    return {word, std::filesystem::path(word).stem().string()};
+}
+
+void keep_button(std::vector<ToolButton>& buttons, const ToolState& state) {
+    if (state.word.empty()) return;
+    const auto found = std::find_if(buttons.begin(), buttons.end(),
+                                    [&](const ToolButton& one) { return one.word == state.word; });
+    if (found != buttons.end()) {
+        found->label = state.tool;
+    } else {
+        buttons.push_back({state.word, state.tool});
+    }
+}
+
+ToolAnswers draw_tools(const std::vector<ToolButton>& buttons, ToolState& state) {
     ToolAnswers answers;
     const float width = width_of_button();
     if (tool_button("turn", width, state.tool.empty())) answers.tool = "";
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("No tool: the left button turns the picture");
     std::size_t place = 1;
-    bool is_own = !state.tool.empty();
-    for (const std::string& name : names) {
+    for (const ToolButton& button : buttons) {
         if (place++ % kColumns != 0) ImGui::SameLine();
-        is_own = is_own && name != state.tool;
-        if (tool_button(name.c_str(), width, name == state.tool)) answers.tool = name;
-    }
-    if (is_own) {
-        if (place % kColumns != 0) ImGui::SameLine();
-        tool_button(state.tool.c_str(), width, true);
+        ImGui::PushID(button.word.c_str());
+        if (tool_button(button.label.c_str(), width, button.word == state.word)) {
+            answers.tool = button.word;
+        }
+        if (button.word.ends_with(".lua") && ImGui::IsItemHovered()) {
+            ImGui::SetTooltip("%s", button.word.c_str());
+        }
+        ImGui::PopID();
     }
     if (!state.prompt.empty()) ImGui::TextWrapped("%s", state.prompt.c_str());
     answers.parameter = draw_parameters(state.parameters);

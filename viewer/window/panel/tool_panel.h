@@ -12,6 +12,21 @@
 
 namespace lissom::window {
 
+/// A tool that can be taken in hand.
+struct ToolButton {
+    /// A file, or the name of one that ships.
+    std::string word;
+    /// The name that the file gives it, once it was in hand; until then that of the file.
+    std::string label;
+
+    bool operator==(const ToolButton&) const = default;
+};
+
+/// Returns the button of a tool that was never in hand.
+ToolButton button_of(const std::string& word);
+/// The tool in hand has a button from now on, with its name.
+void keep_button(std::vector<ToolButton>& buttons, const ToolState& state);
+
 /// What a person has asked for in one frame.
 struct ToolAnswers {
     /// Another tool; empty for none.
@@ -26,9 +41,8 @@ struct ToolAnswers {
 /// The objects of the scene, each with a box whether it is seen.
 ToolAnswers draw_scene_objects(const ToolState& state);
 
-/// Buttons for the tools called `names`, and the parameters of the one in hand, whose values a
-/// person may change.
-ToolAnswers draw_tools(const std::vector<std::string>& names, ToolState& state);
+/// Buttons for tools, and the parameters of the one in hand, whose values a person may change.
+ToolAnswers draw_tools(const std::vector<ToolButton>& buttons, ToolState& state);
 /// The steps, those that were undone greyed.
 ToolAnswers draw_history(const ToolState& state);
 /// Where a tool draws.

@@ -171,16 +171,20 @@ Session::~Session() {
 // ---- The window's thread
 
 void Session::open(const std::vector<std::string>& words) {
+    const std::uint64_t number = ++asked_;
     {
         const std::lock_guard lock(mutex_);
-        news_.words = words;
-        news_.parameters = std::vector<lua::ScriptParameter>();
+        news_.asked = words;
     }
     give_up();
-    post_only([this, words] { run(words); });
+    post_only([this, words, number] {
+        run(words, true);
+        opened_ = number;
+    });
 }
 
 void Session::run_again(const std::vector<std::string>& words) {
+    if (is_opening()) return;
     {
         const std::lock_guard lock(mutex_);
         if (news_.words.empty()) return;
@@ -189,12 +193,13 @@ void Session::run_again(const std::vector<std::string>& words) {
             news_.words.insert(news_.words.end(), words.begin(), words.end());
         }
     }
+    opened_ = asked_.load();
     give_up();
     post_only([this] {
         std::unique_lock lock(mutex_);
         const std::vector<std::string> now = news_.words;
         lock.unlock();
-        run(now);
+        run(now, false);
     });
 }
 
@@ -296,10 +301,13 @@ void Session::copy_scene(const std::string& path, const std::string& journal) {
     });
 }
 
-void Session::save_scene(const std::string& path) {
-    post_job([this, path] {
+void Session::save_scene(const std::string& path, std::uint64_t scene, std::uint64_t change) {
+    const auto save = [this, path, scene, change] {
         if (!bench_ || !bench_->has_scene() || bench_->is_held()) return;
         begin_work();
+        if (scene != 0 && scene != scene_number_) {
+            return tell(LineKind::warning, "another scene is open by now: nothing was saved");
+        }
         if (bench_->is_empty()) {
             return tell(LineKind::warning, "the scene has no objects: nothing was saved");
         }
@@ -307,7 +315,13 @@ void Session::save_scene(const std::string& path) {
         if (!succeeds(bench_->save(path, left_out))) return;
         tell(LineKind::result, "saved " + path);
         if (!left_out.empty()) tell(LineKind::warning, left_out);
-    });
+        const std::lock_guard lock(mutex_);
+        news_.saved = change;
+    };
+    const std::lock_guard lock(mutex_);
+    news_.takes_inputs_last = false;
+    news_.last_setting.reset();
+    worker_.post(save, true);
 }
 
 void Session::show_object(const std::string& name, bool visible) {
@@ -343,6 +357,11 @@ void Session::set_parameter(const std::shared_ptr<Setting>& setting) {
     show_scene(true);
 }
 
+bool Session::is_opening() const {
+    const std::lock_guard lock(mutex_);
+    return opened_ != asked_ && !news_.words.empty() && news_.asked != news_.words;
+}
+
 bool Session::has_setting() const {
     const std::lock_guard lock(mutex_);
     return news_.last_setting != nullptr;
@@ -374,6 +393,16 @@ std::vector<fs::path> Session::tool_files() const {
 std::pair<std::string, double> Session::progress() const {
     const std::lock_guard lock(mutex_);
     return {news_.stage, news_.fraction};
+}
+
+std::optional<std::vector<std::string>> Session::take_opened() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(news_.opened, std::nullopt);
+}
+
+std::optional<std::uint64_t> Session::take_saved() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(news_.saved, std::nullopt);
 }
 
 std::optional<Shown> Session::take_shown() {
@@ -409,21 +438,72 @@ bool Session::finish(double seconds) {
 
 // ---- The worker's thread
 
-void Session::run(const std::vector<std::string>& words) {
+void Session::run(const std::vector<std::string>& words, bool is_new) {
     begin_work();
     given_up_ = plays_ = shows_hand_ = false;
-    if (!is_script(words.front()) || is_recording(words.front())) {
-        ran_.clear();
-        kept_.clear();
-    }
-    if (is_recording(words.front())) {
-        open_recording(words.front());
-    } else if (is_script(words.front())) {
-        run_script(words);
-    } else {
-        load_files(words);
-    }
+    // Where nothing is open yet, nothing is lost.
+    const bool is_first = is_new && !has_words();
+    if (is_first) adopt(words);
+    if (!opens(words, is_new && !is_first)) let_go();
     wake_();
+}
+
+bool Session::opens(const std::vector<std::string>& words, bool is_new) {
+    if (is_recording(words.front())) return open_recording(words.front(), is_new);
+    if (is_script(words.front())) return run_script(words, is_new);
+    return load_files(words, is_new);
+}
+
+// From now on these words are what is open.
+void Session::adopt(const std::vector<std::string>& words) {
+    const std::lock_guard lock(mutex_);
+    news_.words = words;
+    news_.opened = words;
+    news_.parameters = std::vector<lua::ScriptParameter>();
+}
+
+bool Session::has_words() const {
+    const std::lock_guard lock(mutex_);
+    return !news_.words.empty();
+}
+
+// Whether what fails is what is open, to be mended and read again.
+bool Session::keeps_failed(const std::vector<std::string>& words, bool is_new) const {
+    const std::lock_guard lock(mutex_);
+    const bool is_same_script = is_script(words.front()) && news_.words.front() == words.front();
+    return !is_new || is_same_script || news_.words == words;
+}
+
+// Nothing of a script stays with what is open now.
+void Session::forget_script() {
+    ran_.clear();
+    kept_.clear();
+}
+
+Session::Document Session::put_aside() {
+    return {std::move(script_), std::move(bench_), pictures_};
+}
+
+// What was opened instead has failed.
+void Session::put_back(Document document) {
+    bench_ = std::move(document.bench);
+    script_ = std::move(document.script);
+    pictures_ = document.pictures;
+    if (script_) cli::Interrupt::attend(script_->lua());
+}
+
+// Where something else was shown meanwhile.
+void Session::show_again(const std::optional<Shown>& shown) {
+    if (!shown || !last_shown_ || last_shown_->number == shown->number) return;
+    last_shown_ = shown;
+    show_last();
+}
+
+void Session::show_last() {
+    if (!last_shown_) return;
+    const std::lock_guard lock(mutex_);
+    last_shown_->number = ++news_.number;
+    news_.shown = last_shown_;
 }
 
 // A state of its own, whose prints and pictures come here.
@@ -444,36 +524,70 @@ void Session::open_script(const lua::ScriptArguments& arguments) {
 
 // A script that runs again finds what was selected and the tool as they were; one that fails leaves
 // the scene before it to the tools.
-void Session::run_script(const std::vector<std::string>& words) {
-    if (bench_ && ran_ == words[0]) kept_ = bench_->kept().value_or(kept_);
-    if (ran_ != words[0]) kept_.clear();
-    auto script = std::exchange(script_, nullptr);
-    auto bench = std::exchange(bench_, nullptr);
+bool Session::run_script(const std::vector<std::string>& words, bool is_new) {
+    const bool is_same = ran_ == words[0];
+    if (is_same && bench_) kept_ = bench_->kept().value_or(kept_);
+    const std::optional<Shown> seen = last_shown_;
+    Document before = put_aside();
     open_script({words[0], {words.begin() + 1, words.end()}});
-    lua_State* L = script_->lua();
     const cli::ScriptResult result = script_->run_file(words[0]);
-    publish_parameters();
-    find_files();
-    tell_whether_mended(words[0], result.status == cli::kSuccess);
-    if (!succeeds(result)) {
-        lua_settop(L, 0);
-        if (!bench || !bench->has_scene() || ran_ != words[0]) return;
-        bench_ = std::move(bench);
-        script_ = std::move(script);
-        return;
+    const bool works = result.status == cli::kSuccess;
+    const bool is_tool = works && bench_->is_tool(1, lua_gettop(script_->lua()));
+    tell_whether_mended(words[0], works);
+    if (!works) succeeds(result);
+    const bool is_seen = works && !is_tool && has_shown(words[0]);
+    if (is_tool || (!is_seen && !keeps_failed(words, is_new))) {
+        put_back(std::move(before));
+        show_again(seen);
+        if (is_tool) take_own_tool(words[0]);
+        return false;
     }
+    if (is_new) adopt(words);
+    publish_parameters();
+    find_files(words[0]);
+    if (!works) {
+        settle_failed(std::move(before), is_same);
+        return false;
+    }
+    settle_script(words, is_same);
+    return true;
+}
+
+// Whether a script that has run has anything to be seen; tells where it has not.
+bool Session::has_shown(const std::string& script) {
+    if (pictures_ > 0 || has_values()) return true;
+    tell(LineKind::warning, script +
+                                " shows nothing: let it draw with lissom.render, or return what is "
+                                "to be seen: a mesh, strands, a scene, or a table of them");
+    return bench_->has_scene_among(1, lua_gettop(script_->lua()));
+}
+
+void Session::settle_failed(Document before, bool is_same) {
+    lua_settop(script_->lua(), 0);
+    if (is_same && before.bench && before.bench->has_scene()) put_back(std::move(before));
+}
+
+void Session::settle_script(const std::vector<std::string>& words, bool is_same) {
+    lua_State* L = script_->lua();
+    if (!is_same) kept_.clear();
     ran_ = words[0];
-    const bool returns = show_values();
+    // They were shown before it was known that they would stay.
+    if (pictures_ > 0) show_last();
+    show_values();
     succeeds(bench_->take_values(1, lua_gettop(L)));
     // What its command line said is not in a recording.
     settle_scene(words.size() == 1 ? words : std::vector<std::string>());
-    if (!returns && pictures_ == 0) {
-        tell(LineKind::warning, words[0] +
-                                    " shows nothing: let it draw with lissom.render, or return "
-                                    "what is to be seen: a mesh, strands, a scene, or a table of "
-                                    "them");
-    }
     lua_settop(L, 0);
+}
+
+// A tool was opened: it is taken in hand, now or with the next scene.
+void Session::take_own_tool(const std::string& path) {
+    if (bench_ && bench_->has_scene()) {
+        if (settle_tool(path)) options_.tool = path;
+        return show_scene(true);
+    }
+    options_.tool = path;
+    tell(LineKind::message, path + " is a tool: open what it is to work on");
 }
 
 // Red lines stay: a file that works again is told below them.
@@ -481,6 +595,16 @@ void Session::tell_whether_mended(const std::string& file, bool works) {
     if (works && broken_ == file) tell(LineKind::result, file + " works again");
     if (!works) broken_ = file;
     if (works) broken_.clear();
+}
+
+// Whether what is on the stack can be seen; what cannot be drawn is told when it is shown.
+bool Session::has_values() {
+    lua_State* L = script_->lua();
+    try {
+        return !lua::is_empty(lua::picture_of_values(L, 1, lua_gettop(L)));
+    } catch (const std::exception&) {
+        return true;
+    }
 }
 
 // Shows what is on the stack; false where that is nothing to be seen.
@@ -498,21 +622,20 @@ bool Session::show_values() {
     return true;
 }
 
-void Session::load_files(const std::vector<std::string>& paths) {
-    {
-        const std::lock_guard lock(mutex_);
-        news_.files.assign(paths.begin(), paths.end());
-    }
-    // What was there stays where the files cannot be read.
-    auto script = std::exchange(script_, nullptr);
-    auto bench = std::exchange(bench_, nullptr);
+// What was there stays where the files cannot be read.
+bool Session::load_files(const std::vector<std::string>& paths, bool is_new) {
+    Document before = put_aside();
     open_script({});
-    if (succeeds(bench_->open(paths, options_.load))) {
-        settle_scene(paths);
-        return tell_sizes();
-    }
-    bench_ = std::move(bench);
-    script_ = std::move(script);
+    const bool works = succeeds(bench_->open(paths, options_.load));
+    if (!works) put_back(std::move(before));
+    if (!works && !keeps_failed(paths, is_new)) return false;
+    if (is_new) adopt(paths);
+    set_files({paths.begin(), paths.end()});
+    if (!works) return false;
+    forget_script();
+    settle_scene(paths);
+    tell_sizes();
+    return true;
 }
 
 void Session::tell_sizes() {
@@ -524,27 +647,25 @@ void Session::tell_sizes() {
 // ---- Recordings
 
 // What was there stays where the recording cannot be opened.
-void Session::open_recording(const std::string& path) {
-    {
-        const std::lock_guard lock(mutex_);
-        news_.files = {path};
-    }
-    auto script = std::exchange(script_, nullptr);
-    auto bench = std::exchange(bench_, nullptr);
+bool Session::open_recording(const std::string& path, bool is_new) {
+    Document before = put_aside();
     open_script({});
     Playback playback{path, {}};
     std::vector<std::string> files;
-    if (!succeeds(bench_->open_recording(path, files, playback.times))) {
-        bench_ = std::move(bench);
-        script_ = std::move(script);
-        return;
-    }
+    const bool works = succeeds(bench_->open_recording(path, files, playback.times));
+    if (!works) put_back(std::move(before));
+    if (!works && !keeps_failed({path}, is_new)) return false;
+    if (is_new) adopt({path});
+    set_files({path});
+    if (!works) return false;
+    forget_script();
     settle_scene(files, false);
     event_count_ = playback.times.size();
     events_played_ = 0;
     plays_ = shows_hand_ = event_count_ > 0;
     const std::lock_guard lock(mutex_);
     news_.playback = std::move(playback);
+    return true;
 }
 
 void Session::play(std::size_t event) {
@@ -834,6 +955,7 @@ void Session::show(Picture picture, std::vector<std::string> names) {
     {
         const std::lock_guard lock(mutex_);
         next.number = ++news_.number;
+        last_shown_ = next;
         news_.shown = std::move(next);
     }
     wake_();
@@ -853,14 +975,19 @@ void Session::publish_parameters() {
     if (declared) news_.parameters = declared->list;
 }
 
-void Session::find_files() {
+void Session::find_files(const std::string& script) {
     std::vector<fs::path> files;
     lua_State* L = script_->lua();
     lua_pushlightuserdata(L, &files);
     lua_pushcclosure(L, list_module_files, 1);
     if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
+    files.emplace_back(script);
+    set_files(std::move(files));
+}
+
+// What is open was read from these.
+void Session::set_files(std::vector<fs::path> files) {
     const std::lock_guard lock(mutex_);
-    files.emplace_back(news_.words.front());
     news_.files = std::move(files);
 }
 

@@ -85,11 +85,11 @@ class Session {
     // ---- For the window's thread. All of it returns at once.
 
     /// Opens mesh files, runs a script with the words that follow it on its command line, or opens
-    /// the scene of a recording, whose events are then to be posted.
-    /// What was open before stays in sight until there is something to show.
+    /// the scene of a recording, whose events are then to be posted. A script that returns a tool
+    /// puts that in hand instead. If it fails, all that was open before stays as it was.
     void open(const std::vector<std::string>& words);
     /// Runs the script again, or reads the files again, with `words` as the command line of the
-    /// script. What runs is given up.
+    /// script. What runs is given up; while something else is being opened nothing is done.
     void run_again(const std::vector<std::string>& words);
     /// Evaluates a line of Lua in the state of the script; values that can be seen are shown.
     void evaluate(const std::string& line);
@@ -106,8 +106,9 @@ class Session {
     void post(ToolInput input);
     /// Shows or hides an object of the scene.
     void show_object(const std::string& name, bool visible);
-    /// Writes the scene to a file, and tells that it did.
-    void save_scene(const std::string& path);
+    /// Writes the scene to a file, and tells that it did, if it is still the scene with the number
+    /// `scene`; `take_saved` then returns `change`.
+    void save_scene(const std::string& path, std::uint64_t scene = 0, std::uint64_t change = 0);
     /// Writes the scene and, where no other was asked for, its journal to files, silently.
     void copy_scene(const std::string& path, const std::string& journal);
     /// A parameter of the tool has this value.
@@ -125,10 +126,16 @@ class Session {
     void stop_playing();
 
     bool busy() const { return worker_.busy(); }
+    /// Whether something else than what is open is being opened, which may yet fail.
+    bool is_opening() const;
     /// Whether a value of a parameter waits: what is told of the tool is older.
     bool has_setting() const;
     /// What the running operation does, and the fraction done.
     std::pair<std::string, double> progress() const;
+    /// The words of what was opened since the last call.
+    std::optional<std::vector<std::string>> take_opened();
+    /// The number that the last scene saved since the last call was saved with.
+    std::optional<std::uint64_t> take_saved();
     /// What was finished since the last call.
     std::optional<Shown> take_shown();
     /// Lines of the console since the last call.
@@ -149,13 +156,33 @@ class Session {
     bool finish(double seconds);
 
   private:
-    void run(const std::vector<std::string>& words);
+    // A state of Lua with the scene in it.
+    struct Document {
+        std::unique_ptr<cli::Script> script;
+        std::unique_ptr<ToolBench> bench;
+        std::size_t pictures = 0;
+    };
+    void run(const std::vector<std::string>& words, bool is_new);
+    bool opens(const std::vector<std::string>& words, bool is_new);
+    void adopt(const std::vector<std::string>& words);
+    void forget_script();
+    Document put_aside();
+    void put_back(Document document);
+    void show_last();
+    void show_again(const std::optional<Shown>& shown);
     void open_script(const lua::ScriptArguments& arguments);
-    void run_script(const std::vector<std::string>& words);
+    bool run_script(const std::vector<std::string>& words, bool is_new);
+    bool keeps_failed(const std::vector<std::string>& words, bool is_new) const;
+    bool has_words() const;
+    bool has_shown(const std::string& script);
+    bool has_values();
+    void settle_script(const std::vector<std::string>& words, bool is_same);
+    void settle_failed(Document before, bool is_same);
+    void take_own_tool(const std::string& path);
     bool show_values();
-    void load_files(const std::vector<std::string>& paths);
+    bool load_files(const std::vector<std::string>& paths, bool is_new);
     void tell_sizes();
-    void open_recording(const std::string& path);
+    bool open_recording(const std::string& path, bool is_new);
     void play(std::size_t event);
     void let_go();
     std::string told_path(const std::string& path) const;
@@ -184,7 +211,8 @@ class Session {
     void show(Picture picture, std::vector<std::string> names = {});
     void tell(LineKind kind, const std::string& text);
     void publish_parameters();
-    void find_files();
+    void find_files(const std::string& script);
+    void set_files(std::vector<std::filesystem::path> files);
     static int print(lua_State* L);
 
     cli::Program& program_;
@@ -192,7 +220,10 @@ class Session {
 
     // Shared, under the mutex: what was asked for, and what is there to be taken.
     struct News {
-        std::vector<std::string> words;
+        // Of what is open, and of what is to be opened.
+        std::vector<std::string> words, asked;
+        std::optional<std::vector<std::string>> opened;
+        std::optional<std::uint64_t> saved;
         std::optional<Shown> shown;
         std::vector<ConsoleLine> lines;
         std::optional<std::vector<lua::ScriptParameter>> parameters;
@@ -217,6 +248,8 @@ class Session {
     // What runs is stopped for something else.
     std::atomic<bool> given_up_{false};
     std::atomic<std::size_t> events_played_{0};
+    // Numbers of what was asked to be opened last, and of what was opened, or has failed.
+    std::atomic<std::uint64_t> asked_{0}, opened_{0};
 
     // The worker's own.
     SessionOptions options_;
@@ -237,6 +270,7 @@ class Session {
     FrozenMeshes frozen_;
     SnapshotBounds bounds_;
     std::size_t pictures_ = 0;
+    std::optional<Shown> last_shown_;
     Worker worker_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -310,9 +311,9 @@ void ToolBench::push_tool() const {
 }
 
 bool ToolState::operator==(const ToolState& other) const {
-    return tool == other.tool && prompt == other.prompt && steps == other.steps &&
-           place == other.place && objects == other.objects && overlay == other.overlay &&
-           marks == other.marks;
+    return tool == other.tool && word == other.word && prompt == other.prompt &&
+           steps == other.steps && place == other.place && objects == other.objects &&
+           overlay == other.overlay && marks == other.marks;
 }
 
 // ---- Scenes
@@ -373,6 +374,24 @@ cli::ScriptResult ToolBench::take_values(int first, int last) {
     }
     lua_settop(L, top);
     return result;
+}
+
+bool ToolBench::is_tool(int first, int last) {
+    if (first != last) return false;
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    lua_pushvalue(L, first);
+    const bool done = call("is_tool", 1).status == cli::kSuccess;
+    const bool is = done && lua_toboolean(L, -1) != 0;
+    lua_settop(L, top);
+    return is;
+}
+
+bool ToolBench::has_scene_among(int first, int last) const {
+    for (int i = first; i <= last; ++i) {
+        if (lua::find_holder(script_.lua(), i, lua::SceneObject::kTypeName)) return true;
+    }
+    return false;
 }
 
 void ToolBench::publish_scene() {
@@ -768,6 +787,7 @@ ToolState ToolBench::state() {
     push_tool();
     if (lua_istable(L, -1)) {
         state.tool = raw_text(L, -1, "name");
+        state.word = raw_text(L, host, "word");
         const auto* parameters = raw_object<lua::ParameterSet>(L, -1, "params");
         if (parameters) state.parameters = parameters->list;
     }
@@ -811,6 +831,27 @@ std::vector<std::string> shipped_tools() {
     }
     std::sort(names.begin(), names.end());
     return names;
+}
+
+namespace {
+
+fs::path data_folder() {
+    const char* const data = std::getenv("XDG_DATA_HOME");
+    if (data && *data) return fs::path(data) / "lissom";
+    const char* const home = std::getenv("HOME");
+    return home && *home ? fs::path(home) / ".local" / "share" / "lissom" : fs::path();
+}
+
+}  // namespace
+
+std::vector<std::string> own_tools() {
+    std::vector<std::string> files;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(data_folder() / "tools", error)) {
+        if (entry.path().extension() == ".lua") files.push_back(entry.path().string());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
 }
 
 }  // namespace lissom::window

@@ -83,8 +83,8 @@ struct ToolState {
     std::optional<Camera> camera;
     /// What can be shown by itself, in the order of the scene.
     std::vector<ToolObject> objects;
-    /// Name of the tool in hand; empty for none.
-    std::string tool;
+    /// Name of the tool in hand, and the word that it was taken by; empty for none.
+    std::string tool, word;
     /// What the tool asks, or its help.
     std::string prompt;
     std::vector<lua::ScriptParameter> parameters;
@@ -122,6 +122,10 @@ class ToolBench {
     /// scene can hold. Without any there is no scene afterwards.
     cli::ScriptResult take_values(int first, int last);
     bool has_scene() const { return has_scene_; }
+    /// Whether what is between two stack indices is one tool.
+    bool is_tool(int first, int last);
+    /// Whether one of the values between two stack indices is a scene.
+    bool has_scene_among(int first, int last) const;
     /// Whether there is no scene, or one without objects.
     bool is_empty();
     /// Writes the scene to a file; `left_out` says what had no place there.
@@ -209,5 +213,8 @@ class ToolBench {
 
 /// Names of the tools that ship, in their order.
 std::vector<std::string> shipped_tools();
+/// Files of a person's own tools, in the order of their names: lissom/tools in $XDG_DATA_HOME, else
+/// in ~/.local/share.
+std::vector<std::string> own_tools();
 
 }  // namespace lissom::window

@@ -20,10 +20,10 @@ Worker::~Worker() {
     if (thread_.joinable()) thread_.join();
 }
 
-void Worker::post(Job job) {
+void Worker::post(Job job, bool stays) {
     {
         const std::lock_guard lock(mutex_);
-        jobs_.push_back(std::move(job));
+        jobs_.push_back({std::move(job), stays});
         ++open_;
     }
     changed_.notify_all();
@@ -32,9 +32,9 @@ void Worker::post(Job job) {
 void Worker::post_only(Job job) {
     {
         const std::lock_guard lock(mutex_);
-        open_ -= count_of(jobs_);
-        jobs_.clear();
-        jobs_.push_back(std::move(job));
+        const auto dropped = std::erase_if(jobs_, [](const Waiting& one) { return !one.stays; });
+        open_ -= index_of(dropped);
+        jobs_.push_back({std::move(job)});
         ++open_;
     }
     changed_.notify_all();
@@ -51,7 +51,7 @@ void Worker::run() {
     while (true) {
         changed_.wait(lock, [this] { return ended_ || !jobs_.empty(); });
         if (ended_) return;
-        const Job job = std::move(jobs_.front());
+        const Job job = std::move(jobs_.front().job);
         jobs_.pop_front();
         lock.unlock();
         job();

@@ -20,9 +20,10 @@ class Worker {
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
-    /// Does `job` after all others. It must not throw.
-    void post(Job job);
-    /// The same instead of all others that wait.
+    /// Does `job` after all others. It must not throw. If it `stays`, `post_only` leaves it
+    /// waiting.
+    void post(Job job, bool stays = false);
+    /// The same instead of all others that wait and do not stay.
     void post_only(Job job);
     /// Whether a job runs or waits.
     bool busy() const { return open_ > 0; }
@@ -34,7 +35,11 @@ class Worker {
 
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<Job> jobs_;
+    struct Waiting {
+        Job job;
+        bool stays = false;
+    };
+    std::deque<Waiting> jobs_;
     std::atomic<int> open_{0};
     bool ended_ = false;
     std::thread thread_;

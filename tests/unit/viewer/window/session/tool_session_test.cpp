@@ -2,13 +2,17 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/viewer/window/session/session_host.h"
+#include "viewer/window/panel/tool_panel.h"
 #include "viewer/window/session/tool_input.h"
 
 using namespace lissom;
@@ -207,6 +211,196 @@ TEST_CASE("session: a drag with a tool is one step, which undo takes back and re
     host.wait();
     CHECK(host.shown() == after);
     CHECK(host.lines.empty());
+}
+
+TEST_CASE("session: what cannot be opened changes nothing of what is open") {
+    ToolHost host;
+    host.open(host_tool(host.folder));
+    host.drag(2);
+    REQUIRE(host.session.take_opened());
+    REQUIRE(host.session.take_parameters());
+    const std::vector<Vec3> before = host.shown();
+    const ToolState known = host.state();
+    const std::string drawing =
+        "local lissom = require 'lissom'\n"
+        "lissom.render{ lissom.shapes.torus{}, file = 'x.png', size = { 8, 8 } }\n";
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {host.folder.write("jobs.txt", "to do")},
+             {host.folder.write("broken.ply", "ply")},
+             {host.folder.path("missing.obj")},
+             {host.ball, host.folder.path("broken.ply")},
+             {host.folder.write("syntax.lua", "this is no Lua")},
+             {host.folder.write("fails.lua", drawing + "error('no')")},
+             {host.folder.write("quiet.lua", "x = 1")},
+             {host.folder.write("bad_events.lua", "return require('lissom').replay{ 1 }")}}) {
+        CAPTURE(words.front());
+        host.lines.clear();
+        host.session.open(words);
+        host.wait();
+        CHECK_FALSE(host.session.is_opening());
+        CHECK_FALSE(host.lines.empty());
+        CHECK_FALSE(host.session.take_opened());
+        CHECK_FALSE(host.session.take_parameters());
+        CHECK(host.session.files() == std::vector<std::filesystem::path>{host.ball});
+        CHECK(host.shown() == before);
+        CHECK(host.state().scene == known.scene);
+        CHECK(host.state().tool == "pull");
+        CHECK(host.state().steps == known.steps);
+    }
+    // Tools still work, and can be stopped.
+    host.lines.clear();
+    host.session.post(key("l"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    host.session.cancel();
+    CHECK(host.wait() < 10000.0);
+    CHECK(host.says(LineKind::error, "cancelled"));
+    host.drag(2);
+    CHECK(host.state().steps.size() == 2);
+    // F5 reads what is open, not what has failed.
+    host.session.run_again({});
+    host.wait();
+    CHECK(host.state().steps.empty());
+    CHECK(host.state().scene != known.scene);
+    // What is opened takes its place.
+    host.session.open({host.ball});
+    host.wait();
+    CHECK(host.session.take_opened());
+}
+
+TEST_CASE("session: the first thing that is opened stays to be mended where it fails") {
+    test::SessionHost host;
+    host.session.open({host.folder.write("script.lua", "error('no')")});
+    host.wait();
+    CHECK(host.session.take_opened());
+    CHECK(host.session.files().size() == 1);
+    host.folder.write("script.lua", "return require('lissom').shapes.box{}");
+    host.session.run_again({});
+    host.wait();
+    CHECK(host.session.take_shown());
+    CHECK(host.says(LineKind::result, "works again"));
+}
+
+TEST_CASE("session: a tool that is opened is taken in hand, and the scene stays") {
+    ToolHost host;
+    host.open("select");
+    host.drag(1);
+    const ToolState before = host.state();
+    host.session.take_opened();
+    const std::string own = host_tool(host.folder);
+    host.session.open({own});
+    host.wait();
+    CHECK_FALSE(host.session.take_opened());
+    CHECK(host.state().tool == "pull");
+    CHECK(host.state().word == own);
+    CHECK(host.state().scene == before.scene);
+    host.session.use_tool("select");
+    host.wait();
+    CHECK(host.state().word == "select");
+    CHECK(host.lines.empty());
+    // Without a scene it waits for one.
+    ToolHost empty;
+    empty.session.open({host_tool(empty.folder)});
+    empty.wait();
+    CHECK(empty.says(LineKind::message, "is a tool"));
+    empty.open();
+    CHECK(empty.state().tool == "pull");
+}
+
+TEST_CASE("session: a tool that cannot begin leaves the one before in hand") {
+    ToolHost host;
+    host.open(host_tool(host.folder));
+    const std::string bad =
+        host.folder.write("bad.lua", R"(return require("lissom").tool{ name = "bad",
+    activate = function() error("not today") end }
+)");
+    host.session.use_tool(bad);
+    host.wait();
+    CHECK(host.says(LineKind::error, "not today"));
+    CHECK(host.state().tool == "pull");
+    CHECK(host.state().word == host.folder.path("pull.lua"));
+    host.drag(2);
+    CHECK(host.state().steps == std::vector<std::string>{"pull"});
+}
+
+TEST_CASE("session: a scene is saved though something else is opened at once, and never as that") {
+    ToolHost host;
+    host.open(host_tool(host.folder));
+    host.drag(2);
+    const std::uint64_t scene = host.state().scene;
+    const std::vector<Vec3> moved = host.shown();
+    const std::string path = host.folder.path("kept.lissom");
+    const std::string other = host.folder.path("other.obj");
+    save_mesh(make_box(), other);
+    host.session.save_scene(path, scene, 7);
+    host.session.open({other});
+    host.wait();
+    CHECK(host.session.take_saved() == 7);
+    host.session.save_scene(path, scene, 8);
+    host.wait();
+    CHECK_FALSE(host.session.take_saved());
+    CHECK(host.says(LineKind::warning, "nothing was saved"));
+    host.session.open({path});
+    host.wait();
+    CHECK(host.shown().size() == moved.size());
+}
+
+TEST_CASE("session: a scene that was saved opens with its view") {
+    ToolHost host;
+    host.open();
+    ToolInput look = input(Kind::look);
+    look.camera = Camera({.eye = {3.0, 4.0, 5.0}, .ortho = 2.5});
+    look.size = {640, 480};
+    host.session.post(look);
+    const std::string path = host.folder.path("seen.lissom");
+    host.session.save_scene(path);
+    host.wait();
+    ToolHost other;
+    other.open();
+    CHECK_FALSE(other.state().camera);
+    other.session.open({path});
+    other.wait();
+    const ToolState state = other.state();
+    REQUIRE(state.camera);
+    CHECK((state.camera->eye() - look.camera.eye()).norm() < 1e-12);
+    CHECK(state.camera->options().ortho == 2.5);
+    // From then on the hand moves it.
+    look.camera = Camera({.eye = {0.0, 0.0, 9.0}});
+    other.session.post(look);
+    other.session.use_tool("select");
+    other.wait();
+    CHECK_FALSE(other.state().camera);
+}
+
+TEST_CASE("own tools: those of lissom/tools in the folder for data, by name") {
+    const test::ProgramFolder folder;
+    std::filesystem::create_directories(folder.path("lissom/tools"));
+    folder.write("lissom/tools/b.lua", "");
+    folder.write("lissom/tools/a.lua", "");
+    folder.write("lissom/tools/notes.txt", "");
+    REQUIRE(setenv("XDG_DATA_HOME", folder.path(".").c_str(), 1) == 0);
+    const std::vector<std::string> tools = own_tools();
+    unsetenv("XDG_DATA_HOME");
+    REQUIRE(tools.size() == 2);
+    CHECK(button_of(tools[0]).label == "a");
+    CHECK(button_of(tools[1]).label == "b");
+}
+
+TEST_CASE("tool buttons: each tool that was in hand keeps one, with its name") {
+    std::vector<ToolButton> buttons{button_of("select"), button_of("/tools/my_own.lua")};
+    CHECK(buttons[1].label == "my_own");
+    ToolState state;
+    state.tool = "own";
+    state.word = "/tools/my_own.lua";
+    keep_button(buttons, state);
+    CHECK(buttons[1].label == "own");
+    state.tool = state.word = "select";
+    keep_button(buttons, state);
+    state.tool = "pull";
+    state.word = "pull.lua";
+    keep_button(buttons, state);
+    keep_button(buttons, ToolState());
+    REQUIRE(buttons.size() == 3);
+    CHECK(buttons[2] == ToolButton{"pull.lua", "pull"});
 }
 
 TEST_CASE("session: a slow tool hears every place of a stroke, and which of them are late") {
