@@ -335,13 +335,24 @@ class Inspector {
         warnings_.clear();
         if (is_scene_path(file)) return inspect_scene(file);
         if (is_hair_path(file)) return inspect_hair(file);
-        const Mesh mesh = load_mesh(file, options_, program_.context());
-        add_mesh(meshes, file, mesh);
+        add_mesh(meshes, file, load_mesh_file(file));
     }
 
     Json meshes = Json::array(), hair = Json::array(), scenes = Json::array();
 
   private:
+    // Where the extension is not known, the error names those of hair and scenes too.
+    Mesh load_mesh_file(const std::string& file) const {
+        try {
+            return load_mesh(file, options_, program_.context());
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::unknown_format) throw;
+            std::string text = error.message() + "; of hair ";
+            for (const std::string& known : readable_strand_extensions()) text += known + ", ";
+            throw Error(error.code(), text.substr(0, text.size() - 2) + "; of scenes lissom");
+        }
+    }
+
     void add_mesh(Json& list, const std::string& name, const Mesh& mesh) {
         program_.clear_progress();
         list.push_back(mesh_json(name, mesh, program_.context()));

@@ -14,6 +14,7 @@
 #include "kernel/io/obj/obj.h"
 #include "kernel/io/off/off.h"
 #include "kernel/io/ply/ply.h"
+#include "kernel/io/ply/textures.h"
 #include "kernel/io/record/file_rules.h"
 #include "kernel/io/record/float_loss.h"
 #include "kernel/io/sniff.h"
@@ -52,9 +53,16 @@ MeshData read_obj_file(const FileInput& file, const Context& context) {
     return data;
 }
 
+// PLY refers to pictures.
+MeshData read_ply_file(const FileInput& file, const Context& context) {
+    MeshData data = read_ply(file.bytes, context);
+    read_ply_textures(file, data, context);
+    return data;
+}
+
 constexpr std::array<Format, 6> kFormats{
     {{"obj", "OBJ", read_obj_file, write_obj, false, material_files},
-     {"ply", "PLY", read_alone<read_ply>, write_ply},
+     {"ply", "PLY", read_ply_file, write_ply},
      {"off", "OFF", read_alone<read_off>, write_off},
      {"stl", "STL", read_alone<read_stl>, write_stl},
      {"gltf", "glTF", read_gltf, write_gltf, true},

@@ -600,7 +600,7 @@ class Pictures(Folder):
         tests = self.results("one_test.lua", status=1)
         self.assertIn("unknown option 'szie'", tests["draws"]["message"])
         self.assertEqual(tests["draws"]["at"], {"file": "one_test.lua", "line": 3})
-        self.assertIn("no option \"t\"; there are tolerance and pixels", tests["compares"]["message"])
+        self.assertIn("no option \"t\"; there are tolerance, pixels and connected", tests["compares"]["message"])
 
     @unittest.skipUnless(DRAWS, "the program was built without the viewer")
     def test_without_opengl_pictures_are_left_out_and_told(self):

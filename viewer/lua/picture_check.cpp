@@ -30,7 +30,13 @@ std::string difference_text(const ImageDifference& found, const PictureCheck& ch
                   "%.3g %% of the pixels differ from %s by more than %g (%g %% may), ",
                   100.0 * found.fraction, check.golden.filename().string().substr(0, 60).c_str(),
                   check.tolerance, 100.0 * check.pixels);
-    return text.data() + std::string("most at (") + std::to_string(found.x) + ", " +
+    std::string patch;
+    if (double(found.patch) > check.connected) {
+        patch = std::to_string(found.patch) + " of them touch one another, at (" +
+                std::to_string(found.patch_x) + ", " + std::to_string(found.patch_y) +
+                "): another shape, not noise, ";
+    }
+    return text.data() + patch + std::string("most at (") + std::to_string(found.x) + ", " +
            std::to_string(found.y) + "): expected " + color_text(golden, found.x, found.y) +
            ", got " + color_text(picture, found.x, found.y) +
            "\nthe golden picture, this one and where they differ: " + check.difference.string();
@@ -45,7 +51,7 @@ std::string compare_pictures(const PictureCheck& check) {
                " has, got " + size_text(picture);
     }
     const ImageDifference found = compare_images(picture, golden, check.tolerance);
-    if (found.fraction <= check.pixels) return "";
+    if (found.fraction <= check.pixels && double(found.patch) <= check.connected) return "";
     save_picture(found.shown, check.difference);
     return difference_text(found, check, picture, golden);
 }

@@ -318,13 +318,20 @@ end
 
 -- ---- Pictures
 
-local known_picture_options = { tolerance = true, pixels = true }
+local known_picture_options = { tolerance = true, pixels = true, connected = true }
 
 local function fraction(options, name, standard)
     local value = options[name]
     if value == nil then return standard end
     if type(value) == "number" and value >= 0 and value <= 1 then return value end
     error("expect.picture: " .. name .. " must be a number from 0 to 1, got " .. show(value), 4)
+end
+
+local function pixel_count(options, name, standard)
+    local value = options[name]
+    if value == nil then return standard end
+    if type(value) == "number" and value >= 0 and value < math.huge then return value end
+    error("expect.picture: " .. name .. " must be a number of pixels, got " .. show(value), 4)
 end
 
 -- What the host is to compare, but for the file. Called by the expectation itself, as the functions below.
@@ -337,11 +344,16 @@ local function read_check(picture, golden, options)
     end
     for key in pairs(options) do
         if not known_picture_options[key] then
-            misused("expect.picture: no option " .. show(key) .. "; there are tolerance and pixels", 1)
+            misused("expect.picture: no option " .. show(key) ..
+                "; there are tolerance, pixels and connected", 1)
         end
     end
-    return { golden = golden, tolerance = fraction(options, "tolerance", 0.05),
-        pixels = fraction(options, "pixels", 0.0005) }
+    return {
+        golden = golden,
+        tolerance = fraction(options, "tolerance", 0.05),
+        pixels = fraction(options, "pixels", 0.0005),
+        connected = pixel_count(options, "connected", 8),
+    }
 end
 
 -- Draws into a file of the test: the file, or nil and what went wrong, as lissom.render.

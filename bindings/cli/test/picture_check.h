@@ -14,6 +14,8 @@ struct PictureCheck {
     double tolerance = 0.05;
     /// The part of the pixels that may differ by more.
     double pixels = 0.0005;
+    /// The greatest number of differing pixels that may touch one another.
+    double connected = 8.0;
 };
 
 /// What differs, as a message; empty where nothing does. Throws Error where a file cannot be read.

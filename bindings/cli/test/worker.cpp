@@ -275,7 +275,7 @@ int Worker::no_picture(lua_State* L) {
     return 1;
 }
 
-// picture{ picture =, golden =, tolerance =, pixels = }
+// picture{ picture =, golden =, tolerance =, pixels =, connected = }
 int Worker::picture(lua_State* L) {
     const Json given = record_of(L, 1);
     PictureCheck check;
@@ -283,6 +283,7 @@ int Worker::picture(lua_State* L) {
     check.golden = given.at("golden").get<std::string>();
     check.tolerance = given.at("tolerance");
     check.pixels = given.at("pixels");
+    check.connected = given.at("connected");
     check.difference = check.picture;
     check.difference.replace_extension(".difference.png");
     const std::string message = compare(check);

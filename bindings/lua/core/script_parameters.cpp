@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "bindings/lua/core/file_path.h"
 #include "bindings/lua/core/parser.h"
@@ -172,13 +174,33 @@ bool asks_for_help(const std::vector<std::string>& words) {
                        [](const std::string& word) { return word == "--help" || word == "-h"; });
 }
 
+namespace {
+
+// Says of an option of a verb where it belongs; "" for other names.
+std::string verb_option_text(const std::string& name, const std::string& shown) {
+    constexpr std::pair<std::string_view, std::string_view> kOptions[] = {
+        {"size", "view"},   {"speed", "view"},     {"up", "view"},    {"unit", "view"},
+        {"weld", "view"},   {"no_repair", "view"}, {"tell", "view"},  {"keep_unused", "view"},
+        {"sandbox", "run"}, {"seconds", "run"},    {"memory", "run"}, {"output", "run"},
+        {"read", "run"},    {"write", "run"}};
+    for (const auto& [option, verb] : kOptions) {
+        if (name != option) continue;
+        return "; as an option of lissom " + std::string(verb) + " " + shown +
+               " belongs before the script's name";
+    }
+    return "";
+}
+
+}  // namespace
+
 std::string unknown_flag_text(const std::string& flag, const std::vector<std::string_view>& names) {
     const std::string name = Flag(flag).name, shown = flag.substr(0, flag.find('='));
     std::string text = "no parameter '" + shown + "'";
     for (const char* option : {"debug", "json", "threads"}) {
         if (name == option) return text + "; " + shown + " belongs before the script's name";
     }
-    if (names.empty()) return text + ": the script declares none";
+    const std::string verb = verb_option_text(name, shown);
+    if (names.empty()) return text + ": the script declares none" + verb;
     const std::string_view nearest = nearest_name(name, names);
     if (!nearest.empty()) {
         return text + ", did you mean '--" + with_dashes(std::string(nearest)) + "'?";
@@ -187,7 +209,7 @@ std::string unknown_flag_text(const std::string& flag, const std::vector<std::st
     for (const std::string_view& one : names) {
         text += (&one == names.data() ? "--" : ", --") + with_dashes(std::string(one));
     }
-    return text;
+    return text + verb;
 }
 
 std::string stray_word_text(const std::string& word) {

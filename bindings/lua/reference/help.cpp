@@ -59,8 +59,9 @@ std::string indented(const std::string& lines) {
     return text + "\n";
 }
 
-std::string local_name(const Type& type) {
-    return type.name.substr(type.name.rfind('.') + 1);
+// "Mesh" of "lissom.Mesh".
+std::string local_name(const std::string& name) {
+    return name.substr(name.rfind('.') + 1);
 }
 
 std::string lowered(std::string_view text) {
@@ -126,17 +127,31 @@ std::string help_text(const Type& type) {
     return text;
 }
 
+std::string help_text(const Record& record) {
+    std::string text = record.name + " (a table)\n" + wrapped(record.summary, 2) + "\n";
+    for (const Result& field : record.fields) {
+        text += wrapped(
+            field.name + " (" + field.type + ")" + (field.help.empty() ? "" : ": " + field.help),
+            2);
+    }
+    return text;
+}
+
 std::string help_overview(const Registry& registry) {
-    std::string functions, types;
+    std::string functions, types, tables;
     for (const auto& library : registry.libraries()) {
         for (const Function& f : library->functions) {
             functions += "  " + signature(f, "lissom." + f.name) + "\n";
         }
         for (const Type& type : library->types) {
-            types += "  " + local_name(type) + ": " + type.summary + "\n";
+            types += "  " + local_name(type.name) + ": " + type.summary + "\n";
+        }
+        for (const Record& record : library->records) {
+            tables += "  " + local_name(record.name) + ": " + record.summary + "\n";
         }
     }
-    return "Functions:\n" + functions + "\nTypes:\n" + types;
+    return "Functions:\n" + functions + "\nTypes:\n" + types + "\nTables that functions return:\n" +
+           tables;
 }
 
 std::string help_for(const Registry& registry, std::string_view name) {
@@ -147,6 +162,11 @@ std::string help_for(const Registry& registry, std::string_view name) {
     for (const auto& library : registry.libraries()) {
         for (const Type& type : library->types) {
             if (plain_name(type.name) == plain) add(help_text(type));
+        }
+        for (const Record& record : library->records) {
+            // Scripts know lissom.ToolEvent as an event.
+            const std::string full = plain_name(record.name);
+            if (full == plain || full == "tool" + plain) add(help_text(record));
         }
     }
     for (const auto& entry : registry.entries()) {
@@ -171,6 +191,7 @@ std::vector<std::string> help_names(const Registry& registry) {
     }
     for (const auto& library : registry.libraries()) {
         for (const Type& type : library->types) names.push_back(plain_name(type.name));
+        for (const Record& record : library->records) names.push_back(plain_name(record.name));
     }
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());

@@ -36,11 +36,13 @@ std::string call_of(const Entry& entry);
 std::string help_text(const Entry& entry);
 /// The same of a type: its summary, operators, and a line for each method.
 std::string help_text(const Type& type);
-/// A line for each function of the module and each type.
+/// The same of a table that functions return: its summary and fields.
+std::string help_text(const Record& record);
+/// A line for each function of the module, each type and each such table.
 std::string help_overview(const Registry& registry);
 
 /// The help of all that `name` may mean: "save", "mesh.save", "Mesh:save", "lissom.load",
-/// "shapes.box", "Mesh". Empty where nothing has the name.
+/// "shapes.box", "Mesh", "Bounds". Empty where nothing has the name.
 std::string help_for(const Registry& registry, std::string_view name);
 /// All names that help_for knows.
 std::vector<std::string> help_names(const Registry& registry);

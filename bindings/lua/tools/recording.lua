@@ -46,11 +46,36 @@ function Host:changed_outside(line, failed)
     return true
 end
 
--- The hash that the scene has after the event noted last, where that changed it.
+local function hash_of(object)
+    local done, hash = pcall(function() return object:hash() end)
+    return done and hash or nil
+end
+
+-- The hash of each object of a scene, by its name.
+local function object_hashes(scene)
+    local hashes = {}
+    for _, name in ipairs(scene:names()) do hashes[name] = hash_of(scene:get(name)) end
+    return hashes
+end
+
+-- Pairs of a name and a hash for the objects that differ from those known before; nil for none.
+function Host:changed_objects()
+    local known, list = self.known_objects or {}, {}
+    self.known_objects = object_hashes(self.scene)
+    for name, hash in pairs(self.known_objects) do
+        if known[name] ~= hash then table.insert(list, { name, hash }) end
+    end
+    table.sort(list, function(a, b) return a[1] < b[1] end)
+    return #list > 0 and list or nil
+end
+
+-- The hash that the scene has after the event noted last, if that changed it, and those of the objects that
+-- it changed.
 function Host:mark(changed)
     if not (self.log and changed and #self.log > 0) then return end
+    local last = self.log[#self.log]
     self.known_hash = self.scene:hash()
-    self.log[#self.log].hash = self.known_hash
+    last.hash, last.objects = self.known_hash, self:changed_objects()
 end
 
 -- Begins a recording; `open` names the files of the scene, where it is as they were opened with the
@@ -59,6 +84,7 @@ function Host:record(open, load, timed)
     self:ready()
     if self.tool then error("record before a tool is used: its state is not in a recording", 2) end
     self.known_hash = self.scene:hash()
+    self.known_objects = object_hashes(self.scene)
     self.opened = { open = open and #open > 0 and open or nil, hash = self.scene:hash() }
     self.opened.load = self.opened.open and load and next(load) and load
     self.log = {}
@@ -342,23 +368,61 @@ local function check_beginning(recorded, scene)
     same_or_error(scene, recorded.before, "before its first event: it was made with another scene or mesh")
 end
 
+-- The number of the line of each event in the file of a recording, which has one a line; nil for a file that
+-- is laid out otherwise.
+local function event_lines(path, count)
+    local done, file = pcall(function() return io.open(path, "rb") end)
+    if not (done and file) then return nil end
+    local lines, number, inside = {}, 0, false
+    for line in file:lines() do
+        number = number + 1
+        if inside and line:match("^%s*},?%s*$") then break end
+        if inside and line:match('^%s*{%s*"%a+"') then table.insert(lines, number) end
+        inside = inside or line:match("^%s*events%s*=%s*{%s*$") ~= nil
+    end
+    file:close()
+    return #lines == count and lines or nil
+end
+
+-- "events.lua:12", or nil.
+local function event_place(recorded, i, path)
+    local lines = path and event_lines(path, #recorded.events)
+    return lines and path:match("[^/\\]*$") .. ":" .. lines[i]
+end
+
+-- Which objects are not as they were recorded: "'ball' and 'hat' differ: ", or "".
+local function differing_objects(scene, event)
+    local names = {}
+    for _, pair in ipairs(event.objects or {}) do
+        local object = scene:get(pair[1])
+        if not object or hash_of(object) ~= pair[2] then table.insert(names, "'" .. pair[1] .. "'") end
+    end
+    if #names == 0 then return "" end
+    return table.concat(names, " and ") .. (#names == 1 and " differs: " or " differ: ")
+end
+
 -- Does an event; says where the scene differs then.
-local function play_event(host, recorded, i, tools, folder)
+local function play_event(host, recorded, i, tools, folder, path)
     local event = recorded.events[i]
     local done, message = pcall(player[event[1]], host, event, tools, folder)
     if not done and type(message) == "string" then
         message = message:gsub("^lissom tools:%d+: ", "")
         local place, text = message:match("^(%S-:%d+: )(.*)$")
-        message = (place or "") .. "event " .. i .. ", " .. event[1] .. ": " .. (text or message)
+        local own = event_place(recorded, i, path)
+        message = (place or own and own .. ": " or "") .. "event " .. i .. ", " .. event[1] .. ": " ..
+            (text or message) .. (place and own and " (the event is " .. own .. ")" or "")
     end
     if not done then error(message, 0) end
-    return difference(host.scene, event.hash, "at event " .. i .. ", " .. event[1])
+    local text = difference(host.scene, event.hash, "at event " .. i .. ", " .. event[1])
+    if not text then return nil end
+    local own = event_place(recorded, i, path)
+    return (own and own .. ": " or "") .. differing_objects(host.scene, event) .. text
 end
 
 local function replay(recorded, options)
-    local folder = options.folder
+    local folder, path = options.folder, options.path
     if type(recorded) == "string" then
-        folder = folder_of(recorded)
+        folder, path = folder_of(recorded), recorded
         recorded = recording_of(recorded)
     end
     check_recording(recorded)
@@ -366,7 +430,7 @@ local function replay(recorded, options)
     check_beginning(recorded, scene)
     local host = new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })
     for i in ipairs(recorded.events) do
-        local text = play_event(host, recorded, i, options.tools, folder)
+        local text = play_event(host, recorded, i, options.tools, folder, path)
         if text then error(text, 0) end
     end
     host:use(nil)
@@ -392,7 +456,7 @@ local function open_recording(path)
         last = time > last and time or last
         times[i] = last
     end
-    return scene, paths, { recorded = recorded, folder = folder }, times
+    return scene, paths, { recorded = recorded, folder = folder, path = path }, times
 end
 
 -- Does an event. Returns the first difference where this event brings it, whether there is any, and the tool
@@ -400,7 +464,7 @@ end
 local function play(host, playing, i)
     local recorded = playing.recorded
     local event = recorded.events[i]
-    local text = play_event(host, recorded, i, nil, playing.folder)
+    local text = play_event(host, recorded, i, nil, playing.folder, playing.path)
     if i == #recorded.events and not text then text = difference(host.scene, recorded.after, "at its end") end
     local is_first = text and not playing.differs
     playing.differs = playing.differs or text ~= nil

@@ -157,19 +157,22 @@ int make_host(Call& call) {
     return finish_tool_call(call, 1);
 }
 
-// Pushes the folder of the script that has called, with its separator; empty where that is no file.
-void push_script_folder(lua_State* L) {
+// Pushes the path of the script that has called, or nil, and its folder with its separator, or "".
+void push_script_place(lua_State* L) {
     constexpr int kDeepest = 10;
     lua_Debug frame;
     for (int level = 1; level < kDeepest && lua_getstack(L, level, &frame) != 0; ++level) {
         lua_getinfo(L, "S", &frame);
         if (std::strcmp(frame.what, "C") == 0) continue;
+        if (frame.source[0] != '@') break;
         const char* path = frame.source + 1;
         const char* end = path + std::strlen(path);
-        while (frame.source[0] == '@' && end != path && !std::strchr("/\\", end[-1])) --end;
-        lua_pushlstring(L, path, frame.source[0] == '@' ? static_cast<std::size_t>(end - path) : 0);
+        while (end != path && !std::strchr("/\\", end[-1])) --end;
+        lua_pushstring(L, path);
+        lua_pushlstring(L, path, static_cast<std::size_t>(end - path));
         return;
     }
+    lua_pushnil(L);
     lua_pushliteral(L, "");
 }
 
@@ -177,9 +180,10 @@ int replay(Call& call) {
     lua_State* L = call.lua();
     push_tool_function(L, "replay");
     lua_pushvalue(L, 1);
-    lua_createtable(L, 0, 3);
-    push_script_folder(L);
-    lua_setfield(L, -2, "folder");
+    lua_createtable(L, 0, 4);
+    push_script_place(L);
+    lua_setfield(L, -3, "folder");
+    lua_setfield(L, -2, "path");
     for (const char* name : {"scene", "tools"}) {
         if (!call.has(name)) continue;
         lua_getfield(L, 2, name);

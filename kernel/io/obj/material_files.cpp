@@ -15,6 +15,7 @@
 #include "kernel/io/obj/material_collector.h"
 #include "kernel/io/obj/mtl.h"
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/percent.h"
 #include "kernel/io/stream/read_error.h"
 
 namespace lissom {
@@ -262,11 +263,19 @@ class LibraryWriter {
         return m;
     }
 
+    // A picture that was not found keeps its name.
     std::string file_of(const GltfAsset& asset, const Json* texture_info) {
         if (!texture_info) return "";
         const int image = image_of_texture(asset, texture_info);
+        if (image >= 0 && !asset.images[at(image)]) return name_of_missing(asset, image);
         std::string name = image < 0 ? "" : textures_.name_of(asset, image);
-        if (name.empty()) lost_.insert("textures that are neither PNG nor JPEG, or were not found");
+        if (name.empty()) lost_.insert("textures that are neither PNG nor JPEG");
+        return name;
+    }
+
+    static std::string name_of_missing(const GltfAsset& asset, int image) {
+        std::string name = percent_decoded(text_member(asset.json["images"][at(image)], "uri"));
+        std::replace(name.begin(), name.end(), '\\', '/');
         return name;
     }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kernel/core/geometry.h"
+#include "kernel/io/obj/polypaint.h"
 #include "kernel/io/record/color_reader.h"
 #include "kernel/io/record/index_check.h"
 #include "kernel/io/record/label_reader.h"
@@ -143,7 +144,7 @@ class RegionReader {
 class ObjReader {
   public:
     ObjReader(std::string_view text, const Context& context)
-        : context_(context), text_(text, {.comment = '#', .continuation = true}) {}
+        : context_(context), whole_(text), text_(text, {.comment = '#', .continuation = true}) {}
 
     MeshData read() {
         Progress progress(context_, "read OBJ");
@@ -173,7 +174,13 @@ class ObjReader {
     }
 
     void read_vertex() {
-        const double x = text_.number(), y = text_.number(), z = text_.number();
+        const double x = text_.number(), y = text_.number();
+        if (text_.at_line_end()) {
+            refuse(ErrorCode::file_syntax,
+                   "a vertex has 3 coordinates, found 2; write a third, 0 for a flat shape",
+                   text_.place());
+        }
+        const double z = text_.number();
         mesh_.positions.emplace_back(x, y, z);
         if (text_.at_line_end()) return;
         const double fourth = text_.number();
@@ -311,6 +318,22 @@ class ObjReader {
                std::string(rule) + "; found more: " + in_quotes(text_.word()), text_.place());
     }
 
+    // Colours in comments, for files whose vertices have none.
+    void add_polypaint() {
+        const std::vector<std::uint8_t> bytes = read_polypaint(whole_, skipped_);
+        if (bytes.empty()) return;
+        const std::size_t count = 3 * mesh_.positions.size();
+        Attribute color{"color", Domain::vertex, 3, ScalarType::uint8, {}};
+        for (std::size_t i = 0; i < std::min(count, bytes.size()); ++i) {
+            color.values.push_back(bytes[i] / 255.0);
+        }
+        color.values.resize(count, kNone);
+        if (bytes.size() > count) {
+            skipped_.add("polypaint colours without a vertex", (bytes.size() - count) / 3);
+        }
+        mesh_.attributes.add(std::move(color));
+    }
+
     void finish() {
         const bool has_unknown = first_unknown_.kind != ElementKind::none;
         if (mesh_.positions.empty() && mesh_.faces.size() == 0 && has_unknown) {
@@ -319,6 +342,7 @@ class ObjReader {
         }
         vertices_.require_below(mesh_.positions.size());
         colors_.finish(mesh_.attributes, Domain::vertex, mesh_.positions.size());
+        if (!mesh_.attributes.find("color")) add_polypaint();
         uvs_.finish(mesh_, "uv");
         normals_.finish(mesh_, "normal");
         objects_.finish(mesh_.attributes, "object", mesh_.faces.size());
@@ -331,6 +355,7 @@ class ObjReader {
     }
 
     const Context& context_;
+    std::string_view whole_;
     TextReader text_;
     MeshData mesh_;
     std::vector<Index> face_;

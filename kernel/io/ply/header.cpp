@@ -36,6 +36,8 @@ std::string_view type_name(ScalarType type) {
 // More elements or properties than any program writes, and few enough to look for one among all.
 constexpr std::size_t kMaximumDeclarations = 10000;
 
+constexpr std::size_t kMaximumTextures = 1000;
+
 class HeaderReader {
   public:
     explicit HeaderReader(std::string_view bytes) : bytes_(bytes), text_(bytes, {}) {
@@ -85,6 +87,8 @@ class HeaderReader {
         const std::string_view kind = text_.word();
         if (kind == "lissom_mtllib") {
             header_.material_libraries.push_back(percent_decoded(text_.word()));
+        } else if (kind == "TextureFile" && header_.texture_files.size() < kMaximumTextures) {
+            header_.texture_files.emplace_back(text_.rest_of_line());
         } else if (kind == "lissom") {
             read_label_name();
         }

@@ -41,6 +41,8 @@ struct PlyHeader {
     /// the faces' property "group", and names of material files, as "comment lissom_mtllib a.mtl".
     std::map<std::string, std::vector<std::string>, std::less<>> label_names;
     std::vector<std::string> material_libraries;
+    /// Pictures of the surface, as "comment TextureFile skin.png" of other programs names them.
+    std::vector<std::string> texture_files;
     /// Where the data begin: bytes and, for text, lines of the header.
     std::size_t size = 0, lines = 0;
 };

@@ -18,11 +18,11 @@ namespace lissom {
 /// texcoord, texcoord2, ... as corner attributes "uv", "uv2", ..., lists corner_<width>_<name> as
 /// other attributes of corners, red green blue [alpha] as "color" and nx ny nz as "normal"
 /// ("face_color" and "face_normal" where the vertices have such); of "tristrips": vertex_indices.
-/// Face labels and material files are in comments of the header, see PlyHeader. Other numbers of
-/// vertices and faces are attributes of their name, see PlyLayout. What else there is, is skipped
-/// and named in the report; so are infinite values of attributes. Numbers in text keep all their
-/// digits, whatever type the header gives them. Errors: file_syntax, file_truncated,
-/// file_too_large, face_index, cancelled.
+/// Face labels and material files are in comments of the header, see PlyHeader; for the pictures
+/// that others name there see read_ply_textures. Other numbers of vertices and faces are attributes
+/// of their name, see PlyLayout. What else there is, is skipped and named in the report; so are
+/// infinite values of attributes. Numbers in text keep all their digits, whatever type the header
+/// gives them. Errors: file_syntax, file_truncated, file_too_large, face_index, cancelled.
 MeshData read_ply(std::string_view bytes, const Context& context);
 
 /// Writes what `read_ply` reads: all that a mesh holds but its asset. Positions are "float" where

@@ -29,7 +29,7 @@ const char* const kTwisted = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2
 TEST_CASE("the command line itself") {
     CHECK(run({}).status == kUsage);
     CHECK(run({"--help"}).status == kSuccess);
-    CHECK(run({"--help"}).out.find("lissom inspect MESH...") != std::string::npos);
+    CHECK(run({"--help"}).out.find("lissom inspect FILE...") != std::string::npos);
     CHECK(run({"--version"}).out.find("lissom ") == 0);
     CHECK(Json::parse(run({"--version", "--json"}).out)["name"] == "lissom");
     const Ended unknown = run({"inspct"});
@@ -118,11 +118,15 @@ io.open(arg[1] .. "/events.lua", "w"):write(host:recording()):close())");
     const Ended other = run({"run", events});
     CHECK(other.status == kFailure);
     CHECK(other.out.empty());
+    CAPTURE(other.err);
     CHECK(other.err.find("the recording differs") != std::string::npos);
+    // The press is on the ninth line of the file; with the release the ball has moved.
+    CHECK(other.err.find("events.lua:10: 'ball' differs: ") != std::string::npos);
     with_height("\"high\"");
     const Ended failed = run({"run", events});
     CAPTURE(failed.err);
     CHECK(failed.err.find("tool.lua:3: event 3, press: ") != std::string::npos);
+    CHECK(failed.err.find("(the event is events.lua:9)") != std::string::npos);
     CHECK(failed.err.find("lissom tools") == std::string::npos);
 }
 
@@ -414,6 +418,88 @@ TEST_CASE("run - reads the script from the standard input") {
     CHECK(typed(declare + "assert(p.n == 3)", {"--n", "3"}).status == kSuccess);
     CHECK(typed(declare, {"--help"}).out.find("Usage: lissom run -") == 0);
     CHECK(typed("", {"--m"}).status == kUsage);
+    CHECK(typed("\xef\xbb\xbf#!/usr/bin/env lissom\nerror('no')", {}).err == "stdin:2: no\n");
+}
+
+TEST_CASE("a byte order mark before Lua is passed over: run, test, repl, require") {
+    const Folder folder;
+    const std::string mark = "\xef\xbb\xbf";
+    const std::string script = folder.write("a.lua", mark + "assert(require('b') == 3)");
+    folder.write("b.lua", mark + "return 3");
+    CHECK(run({"run", script}).status == kSuccess);
+    const Ended sandboxed = run({"run", "--sandbox", "--read", folder.path(""), script});
+    CHECK_MESSAGE(sandboxed.status == kSuccess, sandboxed.err);
+    std::istringstream typed(mark + "x = 2\nassert(x == 2)\n" + mark + "error('no')\n");
+    std::streambuf* const old = std::cin.rdbuf(typed.rdbuf());
+    const Ended ended = run({"repl"});
+    std::cin.rdbuf(old);
+    CHECK(ended.err == "repl:1: no\n");
+    CHECK(run({"run", folder.write("c.lua", "x = " + mark + "1")}).status == kFailure);
+}
+
+TEST_CASE("inspect knows hair files and scenes") {
+    const Folder folder;
+    folder.write("two.usda",
+                 "#usda 1.0\ndef BasisCurves \"h\"\n{\nuniform token type = \"linear\"\nint[] "
+                 "curveVertexCounts = [2, 3]\npoint3f[] points = [(0,0,0),(1,0,0),(0,1,0),(0,2,0),"
+                 "(0,3,0)]\n}\n");
+    const std::string make = folder.write("make.lua", R"(local lissom = require "lissom"
+local ball = lissom.shapes.sphere()
+local hair = assert(lissom.load_strands(arg[1] .. "/two.usda"))
+assert(hair:save(arg[1] .. "/a.hair") and hair:save(arg[1] .. "/a.usda") and hair:save(arg[1] .. "/a.data"))
+local scene = lissom.scene{}
+scene:add("ball", ball)
+scene:add("hair", hair)
+scene:add("line", lissom.polyline and lissom.polyline{ points = { { 0, 0, 0 }, { 1, 0, 0 } } } or ball:copy())
+assert(scene:save(arg[1] .. "/a.lissom")))");
+    const Ended made = run({"run", make, folder.path("")});
+    REQUIRE_MESSAGE(made.status == kSuccess, made.err);
+    for (const char* name : {"a.hair", "a.usda", "a.data"}) {
+        CAPTURE(name);
+        const Ended text = run({"inspect", folder.path(name)});
+        CHECK(text.status == kSuccess);
+        CHECK(text.out.find("strands      2\n") != std::string::npos);
+        const Json answer = Json::parse(run({"inspect", folder.path(name), "--json"}).out);
+        CHECK(answer["hair"][0]["strands"] == 2);
+        CHECK(answer["hair"][0]["length"]["max"].get<double>() > 0.01);
+    }
+    const Json scene =
+        Json::parse(run({"inspect", folder.path("a.lissom"), "--json"}).out)["scenes"][0];
+    CHECK(scene["objects"].size() == 3);
+    CHECK(scene["objects"][0]["name"] == "ball");
+    CHECK(scene["objects"][0]["faces"].get<int>() > 10);
+    CHECK(scene["objects"][1]["strands"] == 2);
+    CHECK(run({"inspect", folder.path("a.lissom")}).out.find("a.lissom: ball (mesh)") !=
+          std::string::npos);
+    const std::string gap = std::string("\2\0\0\0\0\0\0\0\0\0\0\0", 12);
+    CHECK(run({"inspect", folder.write("gap.data", gap)}).out.find("2 of 2 strands") !=
+          std::string::npos);
+    const Ended bad = run(
+        {"inspect", folder.write("b.usda", "text"), folder.write("c.lissom", "text"), "--json"});
+    CHECK(bad.status == kFailure);
+    CHECK(Json::parse(bad.out)["hair"][0]["error"]["code"] == "file_syntax");
+    CHECK(Json::parse(bad.out)["scenes"][0].contains("error"));
+
+    const Ended converted = run({"convert", folder.path("a.lissom"), folder.path("a.obj")});
+    CHECK_MESSAGE(converted.status == kSuccess, converted.err);
+    const Json mesh =
+        Json::parse(run({"inspect", folder.path("a.obj"), "--json"}).out)["meshes"][0];
+    CHECK(mesh["labels"]["object"].contains("ball"));
+    CHECK(mesh["vertices"].get<int>() >= scene["objects"][0]["vertices"].get<int>());
+}
+
+TEST_CASE("an option of a verb behind the script is told its place") {
+    const Folder folder;
+    const std::string script = folder.write(
+        "a.lua", "local p = require 'lissom'.params{ n = { type = 'integer', default = 1 } }");
+    CHECK(
+        run({"run", script, "--sandbox"}).err.find("--sandbox belongs before the script's name") !=
+        std::string::npos);
+    CHECK(run({"run", script, "--size", "80x60"})
+              .err.find("as an option of lissom view --size belongs before") != std::string::npos);
+    CHECK(run({"run", folder.write("b.lua", "x = 1"), "--up=z"})
+              .err.find("lissom view --up belongs before") != std::string::npos);
+    CHECK(run({"run", script, "--m"}).err.find("belongs") == std::string::npos);
 }
 
 TEST_CASE("a folder to write to is made before the work") {

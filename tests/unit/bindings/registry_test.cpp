@@ -70,6 +70,9 @@ TEST_CASE("help says how a function is called, under all its names") {
     CHECK(help_for(registry, "save").find("strands:save(") != std::string::npos);
     CHECK(help_for(registry, "shapes.box").find("lissom.shapes.box") == 0);
     CHECK(help_for(registry, "Mesh").find("mesh:smooth{...}") != std::string::npos);
+    CHECK(help_for(registry, "Bounds").find("lissom.Bounds (a table)") == 0);
+    CHECK(help_for(registry, "lissom.bounds").find("diagonal (number)") != std::string::npos);
+    CHECK(help_for(registry, "lissom").find("\n  Bounds: ") != std::string::npos);
     CHECK(help_for(registry, "sav") == "");
     for (const std::string& name : help_names(registry)) {
         CHECK_MESSAGE(help_for(registry, name) != "", name);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace lissom {
 namespace {
@@ -58,18 +60,54 @@ Image side_by_side(const std::array<const Image*, 3>& images) {
     return result;
 }
 
+// Counts the pixels of the patch that holds (x, y), and clears them.
+std::size_t take_patch(std::vector<char>& differs, int width, int height, int x, int y) {
+    std::vector<std::pair<int, int>> open{{x, y}};
+    differs[at(y) * at(width) + at(x)] = 0;
+    std::size_t count = 0;
+    while (!open.empty()) {
+        const auto [u, v] = open.back();
+        open.pop_back();
+        ++count;
+        for (int b = std::max(0, v - 1); b <= std::min(v + 1, height - 1); ++b) {
+            for (int a = std::max(0, u - 1); a <= std::min(u + 1, width - 1); ++a) {
+                char& there = differs[at(b) * at(width) + at(a)];
+                if (there) open.emplace_back(a, b);
+                there = 0;
+            }
+        }
+    }
+    return count;
+}
+
+void find_largest_patch(std::vector<char> differs, int width, int height, ImageDifference& result) {
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (!differs[at(y) * at(width) + at(x)]) continue;
+            const std::size_t count = take_patch(differs, width, height, x, y);
+            if (count <= result.patch) continue;
+            result.patch = count;
+            result.patch_x = x;
+            result.patch_y = y;
+        }
+    }
+}
+
 }  // namespace
 
 ImageDifference compare_images(const Image& picture, const Image& golden, double tolerance) {
     ImageDifference result;
     Image marks(golden.width, golden.height);
     std::size_t count = 0;
+    std::vector<char> differing;
+    differing.reserve(at(golden.width) * at(golden.height));
     for (int y = 0; y < golden.height; ++y) {
         for (int x = 0; x < golden.width; ++x) {
             const double distance =
                 std::max(outside(picture, golden, x, y), outside(golden, picture, x, y));
             const bool differs = distance > tolerance;
             count += differs ? 1 : 0;
+            differing.push_back(differs ? 1 : 0);
             set_pixel(marks, x, y, marked(golden, x, y, differs));
             if (distance <= result.greatest) continue;
             result.greatest = distance;
@@ -78,6 +116,7 @@ ImageDifference compare_images(const Image& picture, const Image& golden, double
         }
     }
     result.fraction = static_cast<double>(count) / (at(golden.width) * golden.height);
+    find_largest_patch(std::move(differing), golden.width, golden.height, result);
     result.shown = side_by_side({&golden, &picture, &marks});
     return result;
 }

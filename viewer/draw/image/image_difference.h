@@ -1,6 +1,8 @@
 /// How far two pictures of the same thing differ, drawn by unlike drivers perhaps.
 #pragma once
 
+#include <cstddef>
+
 #include "viewer/draw/image/image.h"
 
 namespace lissom {
@@ -10,6 +12,10 @@ struct ImageDifference {
     double fraction = 0.0, greatest = 0.0;
     /// The pixel that differs most.
     int x = 0, y = 0;
+    /// Pixels of the largest patch of differing pixels that touch one another, corners included,
+    /// and the first of them: noise is scattered, another shape is not.
+    std::size_t patch = 0;
+    int patch_x = 0, patch_y = 0;
     /// The golden picture, the other one, and where they differ, side by side.
     Image shown;
 };

@@ -30,8 +30,13 @@ std::string joined(const std::set<std::string>& names) {
 }
 
 [[noreturn]] void refuse_extension(const std::string& names) {
-    refuse(ErrorCode::unsupported, "the file cannot be read without the extension " + names +
-                                       ", which is not known here; export it without");
+    const bool is_compression = names.find("_compression") != std::string::npos;
+    refuse(
+        ErrorCode::unsupported,
+        "the file cannot be read without the extension " + names +
+            ", which is not known here; export it without" +
+            (is_compression ? ", or decode it first, for instance with: gltf-transform copy IN OUT"
+                            : ""));
 }
 
 bool has_data(const Json& document, const Json& accessor) {

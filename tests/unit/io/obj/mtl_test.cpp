@@ -257,6 +257,22 @@ TEST_CASE("materials of glTF that MTL can hold are kept in OBJ, and the log name
     CHECK(read_bytes(folder / "a.mtl").find("Kd 1 0.5 0.25") != std::string::npos);
 }
 
+TEST_CASE("a picture that was not found keeps its name from glTF to OBJ") {
+    GltfFile file;
+    Json primitive = file.square_primitive();
+    primitive["material"] = 0;
+    file.add_mesh(primitive);
+    file.json["images"] = {{{"uri", "maps\\gone%20one.png"}}};
+    file.json["textures"] = {{{"source", 0}}};
+    file.json["materials"] = {
+        {{"name", "wood"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    const TemporaryFolder folder;
+    LoggedContext logged;
+    save_mesh(file.load(), folder / "a.obj", {}, logged.context);
+    CHECK_FALSE(logged.mentions("MTL"));
+    CHECK(read_bytes(folder / "a.mtl").find("map_Kd maps/gone one.png\n") != std::string::npos);
+}
+
 TEST_CASE("materials of a glTF file made to harm do none in OBJ") {
     for (const Json& material : std::vector<Json>{
              {{"pbrMetallicRoughness", 1}},

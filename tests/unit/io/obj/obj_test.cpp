@@ -268,3 +268,33 @@ TEST_CASE("names cannot break the lines of an OBJ file") {
     mesh.attributes().labels()["object"] = labels;
     CHECK(label_of_each_face(round_trip(mesh, "obj"), "object")[0] == "two_lines_");
 }
+
+TEST_CASE("polypaint in comments is the colour of the vertices") {
+    const std::string plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const Mesh mesh = decode_mesh(plain + "#MRGB ffff0000FF00ff00\n#MRGB 000000ff\n", "obj");
+    const Attribute* color = mesh.attributes().find("color");
+    REQUIRE(color);
+    CHECK(color->values == std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1});
+    CHECK(color->type == ScalarType::uint8);
+    CHECK(mesh.report().find(FindingKind::content_skipped)->message.find("1 masks") !=
+          std::string::npos);
+    // Colours of the vertices themselves count more; a comment about polypaint is none.
+    const Mesh own =
+        decode_mesh("v 0 0 0 0.5 0.5 0.5\nv 1 0 0\nv 0 1 0\nf 1 2 3\n#MRGB ffff0000\n", "obj");
+    CHECK(own.attributes().find("color")->at(0)[0] == 0.5);
+    CHECK_FALSE(decode_mesh(plain + "# see #MRGB ffff0000\n", "obj").attributes().find("color"));
+    CHECK(decode_mesh(plain + "#MRGB ffff0000\n", "obj").report().findings().empty());
+    CHECK(std::isnan(
+        decode_mesh(plain + "#MRGB ffff0000\n", "obj").attributes().find("color")->at(1)[0]));
+    for (const char* damaged : {"#MRGB ffff000\n", "#MRGB ffff00zz\n", "#MRGB ffff0000f",
+                                "#MRGB \xff\xff\xff\xff\xff\xff\xff\xff",
+                                "#MRGB ffffffffffffffffffffffffffffffffffffffff\n"}) {
+        CAPTURE(damaged);
+        const Mesh read = decode_mesh(plain + damaged, "obj");
+        CHECK(read.face_count() == 1);
+        CHECK(read.report().find(FindingKind::content_skipped));
+    }
+    for (const char* none : {"#MRGB", "#MRGB \n"}) {
+        CHECK_FALSE(decode_mesh(plain + none, "obj").attributes().find("color"));
+    }
+}

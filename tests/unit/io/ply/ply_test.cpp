@@ -386,3 +386,31 @@ TEST_CASE("r g b are colours in PLY as red green blue are") {
         {"b", Domain::vertex, 1, ScalarType::float32, std::vector<double>(8, 0.5)});
     check_same_mesh(round_trip(own, "ply"), own);
 }
+
+TEST_CASE("a picture that a PLY file names is the texture of its faces") {
+    const TemporaryFolder folder;
+    const std::string picture = std::string("\x89PNG\r\n\x1a\n") + "pixels";
+    write_bytes(folder / "skin one.png", picture);
+    const auto file = [](const std::string& comments, const std::string& number,
+                         const std::string& value) {
+        return "ply\nformat ascii 1.0\n" + comments + kVertices + kFaces + number +
+               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2" + value + "\n";
+    };
+    const auto load = [&](const std::string& text) {
+        write_bytes(folder / "a.ply", text);
+        return load_mesh(folder / "a.ply");
+    };
+    const Mesh one = load(file("comment TextureFile skin one.png\n", "", ""));
+    CHECK(label_of_each_face(one, "material") == std::vector<std::string>{"skin one.png"});
+    CHECK(encode_mesh(one, "glb").find(picture) != std::string::npos);
+    CHECK(one.report().findings().empty());
+    const std::string two = "comment TextureFile gone.png\ncomment TextureFile ../skin one.png\n";
+    const Mesh second = load(file(two, "property int texnumber\n", " 1"));
+    CHECK(label_of_each_face(second, "material") == std::vector<std::string>{"../skin one.png"});
+    CHECK(second.report().find(FindingKind::files_missing)->count == 2);
+    for (const char* bad : {" -1", " 2", " 2147483647"}) {
+        CHECK(label_of_each_face(load(file(two, "property int texnumber\n", bad)), "material") ==
+              std::vector<std::string>{""});
+    }
+    CHECK(load(file("comment TextureFile\n", "", "")).face_count() == 1);
+}

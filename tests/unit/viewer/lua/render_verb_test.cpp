@@ -1,10 +1,16 @@
 #include "viewer/lua/render_verb.h"
 
+#include <fstream>
 #include <iostream>
+#include <memory>
 #include <sstream>
 
 #include "kernel/io/mesh_file.h"
+#include "kernel/io/strand_file.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "kernel/scene/mesh_item.h"
+#include "kernel/scene/scene.h"
+#include "kernel/scene/scene_file.h"
 #include "tests/unit/viewer/picture_folder.h"
 
 namespace lissom::cli {
@@ -86,6 +92,35 @@ TEST_CASE("several files fill cells") {
     const std::string box = box_in(folder), out = folder.path("p.png");
     CHECK(run({box, box, "-o", out, "--size", "64x32", "--columns", "2", "--fit", "each"}).status ==
           kSuccess);
+}
+
+TEST_CASE("render draws scenes and hair files, and says which file a message is about") {
+    const PictureFolder folder;
+    if (!test::can_draw()) return;
+    const std::string box = box_in(folder), out = folder.path("p.png");
+    Scene scene;
+    scene.add("box", std::make_shared<MeshItem>(std::make_shared<Mesh>(load_mesh(box))));
+    scene.add("hidden", std::make_shared<MeshItem>(std::make_shared<Mesh>(make_sphere({}))),
+              {.visible = false});
+    save_scene(scene, folder.path("a.lissom"));
+    const std::vector<std::string> options{"-o", out, "--size", "64x48", "--view", "front"};
+    const auto picture = [&](const std::string& file) {
+        std::vector<std::string> words = options;
+        words.push_back(file);
+        const Ended ended = run(words);
+        CHECK_MESSAGE(ended.status == kSuccess, ended.err);
+        return folder.read("p.png");
+    };
+    CHECK(picture(folder.path("a.lissom")) == picture(box));
+    save_strands(Strands({0, 0, 0, 0, 1, 0}, {0, 2}), folder.path("a.hair"));
+    CHECK(picture(folder.path("a.hair")) != picture(box));
+    std::ofstream(folder.path("bad.obj"))
+        << "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    std::vector<std::string> words = options;
+    words.insert(words.end(), {box, folder.path("bad.obj")});
+    const Ended two = run(words);
+    CHECK(two.err.find("bad.obj: 1 file not found") != std::string::npos);
+    CHECK(two.err.find("box.obj: ") == std::string::npos);
 }
 
 TEST_CASE("wrong calls of render end with status 2, faults with status 1") {

@@ -78,3 +78,21 @@ TEST_CASE("the greatest difference is named, and all is shown side by side") {
     CHECK((marked[0] > 200 && marked[1] < 50));
     CHECK(found.shown.pixel(2 * 68 + 8, 9)[1] > 200);
 }
+
+TEST_CASE("pixels that differ and touch are one patch, scattered ones are not") {
+    Image scattered = plain(200), bulge = plain(200);
+    for (int i = 0; i < 12; ++i) {
+        set(scattered, 4 * i + 2, 3 * (i % 3) + 5, 0);
+        // A line that turns, also over corners.
+        set(bulge, 10 + i, 20 + std::abs(i - 6), 0);
+    }
+    const ImageDifference noise = compare_images(scattered, plain(200), 0.05);
+    const ImageDifference shape = compare_images(bulge, plain(200), 0.05);
+    CHECK(noise.fraction == shape.fraction);
+    CHECK(noise.patch == 1);
+    CHECK(shape.patch == 12);
+    CHECK(shape.patch_x == 16);
+    CHECK(shape.patch_y == 20);
+    CHECK(compare_images(plain(0), plain(200), 0.05).patch == 60 * 40);
+    CHECK(compare_images(plain(0), plain(0), 0.05).patch == 0);
+}
