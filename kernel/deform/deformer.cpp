@@ -8,6 +8,7 @@
 #include "kernel/core/memory_error.h"
 #include "kernel/deform/deformer_state.h"
 #include "kernel/deform/frame/frame_steps.h"
+#include "kernel/deform/tears.h"
 
 namespace lissom {
 namespace {
@@ -18,6 +19,7 @@ void require_options(const DeformOptions& o) {
     };
     require(o.coherence == 1 || o.coherence == 2, "coherence must be 1 or 2 rings");
     require(o.refine >= 0 && o.refine <= 2, "refine must be 0, 1 or 2");
+    require(o.free_rings >= 0 && o.free_rings <= 10, "free_rings must be from 0 to 10");
     require(o.coherence_weight > 0.0 && std::isfinite(o.coherence_weight),
             "coherence_weight must be above 0");
     require(o.degenerate_threshold > 1.0, "degenerate_threshold must be above 1");
@@ -47,6 +49,8 @@ void require_applicable(const DeformOptions& o) {
     refuse(o.displacement != defaults.displacement, "displacement");
     refuse(o.refine != defaults.refine, "refine");
     refuse(o.refine_borders != defaults.refine_borders, "refine_borders");
+    refuse(o.flat != defaults.flat, "flat");
+    refuse(o.loose == UnheldParts::follow, "loose = follow");
     refuse(!laplacian && !o.scale_free, "scale_free");
     refuse(o.method == DeformMethod::geodesic && o.weights != defaults.weights, "weights");
 }
@@ -65,6 +69,7 @@ DeformOptions DeformOptions::thesis() {
     options.coherence = 2;
     options.degenerate_threshold = 2e5;
     options.scale_free = false;
+    options.flat = FlatVertices::displaced;
     return options;
 }
 
@@ -151,6 +156,9 @@ const std::vector<Vec3>& Deformer::solve(const Context& context) {
     State& s = *state_;
     with_memory_errors([&] {
         s.show(solve_frame(s.prepare(context), s.poses, s.scratch, FrameQuality::full, context));
+        const std::vector<Tear> tears = tears_of(*s.preparation, s.poses);
+        if (!tears.empty())
+            context.log(LogLevel::warning, tear_warning(*s.preparation, tears.front()));
     });
     return positions();
 }
@@ -222,7 +230,7 @@ DeformStats Deformer::stats() const {
     DeformStats stats = state_->costs;
     stats.region_vertices = rest.region().size();
     stats.zero_area_faces = rest.patch().zero_area_faces;
-    stats.inserted_vertices = rest.patch().vertex_count - rest.patch().real_count;
+    stats.inserted_vertices = rest.patch().first_normal_point() - rest.patch().real_count;
     stats.handles = index_of(
         std::count_if(handles.begin(), handles.end(), [](const auto& h) { return h != nullptr; }));
     return stats;

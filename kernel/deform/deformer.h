@@ -21,6 +21,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
+#include "kernel/deform/deform_report.h"
 #include "kernel/deform/holds/holds.h"
 #include "kernel/deform/mesh_point.h"
 #include "kernel/deform/options.h"
@@ -175,7 +176,7 @@ class Deformer {
     const std::vector<Vec3>& preview() { return preview(context()); }
     const std::vector<Vec3>& preview(const Context& context);
     /// Solves both systems. With every transform the identity the result is the rest shape to the
-    /// bit.
+    /// bit. Logs a warning if handles that nearly touch tear the surface; see DeformReport::tears.
     const std::vector<Vec3>& solve() { return solve(context()); }
     const std::vector<Vec3>& solve(const Context& context);
     /// As `solve`, to about five digits of the size, for the frames of a drag: half the time. Solve
@@ -242,6 +243,13 @@ class Deformer {
     HandleBasis basis() { return basis(context()); }
     HandleBasis basis(const Context& context);
     DeformStats stats() const;
+    /// Measures the result that is shown beside the rest shape, both as they lie in `mesh`. Errors:
+    /// as apply_to; cancelled.
+    DeformReport report(const Mesh& mesh, const DeformReportOptions& options = {}) const {
+        return report(mesh, options, context());
+    }
+    DeformReport report(const Mesh& mesh, const DeformReportOptions& options,
+                        const Context& context) const;
 
   private:
     struct State;

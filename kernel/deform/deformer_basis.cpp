@@ -58,6 +58,16 @@ std::vector<Vec3> solved_directly(const Motion& motion) {
     return pulled_back(motion, x);
 }
 
+// Rigid pieces that follow a surface are no linear function of the handles.
+void require_linear(const Preparation& prepared) {
+    for (const FollowingPart& part : prepared.following) {
+        if (part.owner != kFree) continue;
+        throw Error(ErrorCode::unsupported,
+                    "the handle basis has no parts that follow the surface near them; use loose = "
+                    "'stay', or let a handle hold a vertex of each");
+    }
+}
+
 std::vector<Vec4>& weights_of(HandleBasis& basis, Index handle) {
     const auto place = std::find(basis.handles.begin(), basis.handles.end(), HandleId{handle});
     return basis.weights[place - basis.handles.begin()];
@@ -69,10 +79,27 @@ void add_known(const Motion& motion, HandleBasis& basis) {
     for (Index row = 0; row < rest.region().size(); ++row) {
         const Index v = rest.patch().of_region[row], owner = prepared.owner[v];
         if (!prepared.known.position[v]) continue;
+        if (owner == kLoose) continue;
         if (owner >= 0) {
             weights_of(basis, owner)[row] = homogeneous(rest.positions[row]);
         } else {
             basis.fixed[row] = motion.known_position(v) + rest.origin();
+        }
+    }
+}
+
+// Loose parts stay, or go with the handle that holds all that is near them.
+void add_loose(const Motion& motion, HandleBasis& basis) {
+    const Preparation& prepared = motion.prepared();
+    const RestShape& rest = *prepared.rest;
+    for (const Index row : prepared.resting_rows) basis.fixed[row] = rest.positions[row];
+    for (const FollowingPart& part : prepared.following) {
+        if (part.owner < 0) continue;
+        for (const Index v : part.members) {
+            const Index row = rest.frame_row(prepared.patch(), v);
+            if (row == kNoIndex || row >= rest.region().size()) continue;
+            basis.fixed[row].setZero();
+            weights_of(basis, part.owner)[row] = homogeneous(rest.positions[row]);
         }
     }
 }
@@ -120,6 +147,7 @@ HandleBasis Deformer::basis(const Context& context) {
     require_implicit(s.options(), "the handle basis");
     return with_memory_errors([&] {
         const auto& prepared = s.prepare(context);
+        require_linear(*prepared);
         const AskedPart& asked = asked_part(prepared, s.poses.targets, s.scratch.state().asked);
         const Motion motion(*prepared, s.poses, asked);
         HandleBasis basis;
@@ -129,6 +157,7 @@ HandleBasis Deformer::basis(const Context& context) {
         basis.fixed.assign(rows, Vec3::Zero());
         basis.weights.assign(basis.handles.size(), std::vector<Vec4>(rows, Vec4::Zero()));
         add_known(motion, basis);
+        add_loose(motion, basis);
         if (motion.method().solution) add_free(motion, basis);
         return basis;
     });

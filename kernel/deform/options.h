@@ -20,6 +20,15 @@ enum class SecondSystem { blend, laplacian, poisson };
 /// Whether details keep their size (Eq 2.10) or scale with the surface around them (Eq 2.11).
 enum class LocalSize { keep, scale };
 
+/// How a vertex whose ring is flat gets a deformation gradient: by a point beside it on its normal,
+/// with an unknown of its own, so that what is flat stays flat in motions within its plane; or by
+/// its own displacement (section 2.4.3, Eq 2.9).
+enum class FlatVertices { extended, displaced };
+
+/// What becomes of connected parts that no handle and no constraint holds: an error; they stay; or
+/// each follows the nearest held part as a rigid piece.
+enum class UnheldParts { error, stay, follow };
+
 /// How the region follows its handles. All but `implicit` are the methods that the thesis compares
 /// its own with (sections 2.3 to 2.5). They use the same operators and keep the same promises: hard
 /// positions, the rest shape to the bit, nothing moves outside the region, no factorisation for a
@@ -57,7 +66,8 @@ struct DeformOptions {
     /// distortion, for half a frame each. ARAP iterations, over-relaxed, so that two do what
     /// four or five would; more would wear twisted parts thin. Left alone are places where no
     /// rotation fits, as the surface has caved in, and those whose size handles change. Refined
-    /// parts get thinner: not for surfaces that run through themselves or nearly do.
+    /// parts get thinner; a full frame that would run through itself, and without does not, is
+    /// taken back as far as that. Drafts are not checked.
     int refine = 0;
     /// Rings of neighbours whose gradients are kept similar (the pairs SF of Eq 2.7): 1 or 2.
     int coherence = 1;
@@ -67,12 +77,17 @@ struct DeformOptions {
     /// this (section 2.4.3); above 1. Whatever it is below 2e4, gradients are used up to 2e4: no
     /// displacement brings a ring much below 100.
     double degenerate_threshold = 2e4;
+    FlatVertices flat = FlatVertices::extended;
+    UnheldParts loose = UnheldParts::error;
+    /// Rings of vertices that hard handles give up at their borders where another is nearer than
+    /// three edges: the surface between has room for what would tear it. From 0 to 10.
+    int free_rings = 0;
     /// Works on a surface that is refined along the borders of what is held, where they are coarse
     /// beside the region (section 2.5): else a few held vertices would say where a detailed region
     /// goes. The result is that of the mesh's own vertices; see Deformer::refined_mesh.
     bool refine_borders = true;
-    /// s_disp of Eq 2.9: displacement of degenerate vertices in mean lengths of their edges; above
-    /// 0.
+    /// s_disp of Eq 2.9: how far degenerate vertices are displaced, or points beside flat ones
+    /// lie, in mean lengths of their edges; above 0.
     double displacement = 0.2;
     /// Weights each vertex by its area and each coherence pair by its cotangent, so that the result
     /// does not depend on scale or resolution. Off: both terms literally as Eq 2.6 and 2.7.
@@ -81,7 +96,8 @@ struct DeformOptions {
     /// more, so that the deformation fades into what stays; in units of length.
     double transition = 0.0;
 
-    /// The thesis to the letter: coherence 2, threshold 2e5, literal weights, second system (2.10).
+    /// The thesis to the letter: coherence 2, threshold 2e5, literal weights, flat vertices
+    /// displaced, second system (2.10).
     static DeformOptions thesis();
 };
 

@@ -30,9 +30,25 @@ std::shared_ptr<const WorkingPatch> working_patch(const RestShape& rest, const H
                                                     : work;
 }
 
-void collect_held(Preparation& next) {
+// What holds in fact: handles that nearly touch give up rings of their vertices if asked to.
+Holds holding_in_fact(const RestShape& rest, const Holds& holds) {
+    Holds result = holds;
+    const int rings = rest.options().free_rings;
+    if (rings == 0) return result;
+    Holding holding = find_holding(*rest.work, holds);
+    free_gap_rings(*rest.work, rings, holding);
+    for (std::size_t h = 0; h < result.handles.size(); ++h) {
+        if (!holds.handles[h] || holds.handles[h]->soft()) continue;
+        Handle handle = *holds.handles[h];
+        std::erase_if(handle.local, [&](Index v) { return holding.owner[at(v)] != index_of(h); });
+        result.handles[h] = std::make_shared<const Handle>(std::move(handle));
+    }
+    return result;
+}
+
+void collect_held(Preparation& next, const Holds& holds) {
     const Patch& patch = next.patch();
-    for (const auto& handle : next.holds->handles) {
+    for (const auto& handle : holds.handles) {
         next.held.push_back(handle ? handle->local : std::vector<Index>());
     }
     for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
@@ -40,15 +56,19 @@ void collect_held(Preparation& next) {
     }
 }
 
-void find_who_holds(Preparation& next) {
-    Holding holding = find_holding(*next.work, *next.holds);
+void find_who_holds(Preparation& next, const Holds& holds, const Context& context) {
+    Holding holding = find_holding(*next.work, holds);
+    next.gaps = handle_gaps(*next.rest->work, find_holding(*next.rest->work, holds));
+    next.following = hold_loose_parts(*next.work, next.rest->options().loose, holding, context);
     require_constraints(*next.work, holding.known);
     next.owner = std::move(holding.owner);
     next.known = std::move(holding.known);
     next.asked = std::move(holding.asked);
-    collect_held(next);
+    collect_held(next, holds);
     for (const Index v : next.patch().of_region) {
-        if (next.owner[v] == kPinned) next.resting_rows.push_back(next.rest->region_row[v]);
+        const Index owner = next.owner[v];
+        if (owner == kPinned || owner == kLoose)
+            next.resting_rows.push_back(next.rest->region_row[v]);
     }
 }
 
@@ -115,6 +135,9 @@ void count_costs(Preparation& next, const ImplicitMethod& method) {
         stats.constrained_vertices += next.known.position[v];
     }
     stats.displaced_vertices = count_of(method.gradients.displaced);
+    for (const Index v : next.patch().normal_points) {
+        stats.extended_vertices += method.gradients.defined[at(v)];
+    }
     stats.refined_vertices = count_of(next.patch().inserted);
     stats.first_nonzeros = first.factor_nonzeros;
     stats.second_nonzeros = second.factor_nonzeros;
@@ -168,8 +191,9 @@ std::shared_ptr<const Preparation> prepare_deformation(std::shared_ptr<const Res
     next->hold.resize(rest->positions.size() * kBytesPerVertex);
     next->rest = std::move(rest);
     next->holds = std::move(holds);
-    next->work = working_patch(*next->rest, *next->holds);
-    find_who_holds(*next);
+    const Holds holds_in_fact = holding_in_fact(*next->rest, *next->holds);
+    next->work = working_patch(*next->rest, holds_in_fact);
+    find_who_holds(*next, holds_in_fact, context);
     if (next->rest->options().method == DeformMethod::implicit) {
         prepare_implicit(*next, progress, context);
     } else {

@@ -15,8 +15,10 @@
 #include "kernel/core/memory_hold.h"
 #include "kernel/deform/comparison/method.h"
 #include "kernel/deform/holds/constraints.h"
+#include "kernel/deform/holds/handle_gaps.h"
 #include "kernel/deform/holds/holds.h"
 #include "kernel/deform/holds/known_mask.h"
+#include "kernel/deform/holds/loose_parts.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/patch/working_patch.h"
@@ -108,9 +110,13 @@ struct Preparation {
     /// The local vertices of each handle, with those that a refinement inserted between them.
     std::vector<std::vector<Index>> held;
     KnownMask known;
+    /// Parts that follow the surface near them, once it is where it goes.
+    std::vector<FollowingPart> following;
+    /// Where handles nearly touch.
+    std::vector<HandleGap> gaps;
     /// Local vertices and anchors that take what a target asks, with its number.
     std::vector<std::pair<Index, Index>> asked;
-    /// Rows of the region whose vertices have no faces and nothing that holds them.
+    /// Rows of the region whose vertices stay at rest, as nothing that moves holds them.
     std::vector<Index> resting_rows;
     std::variant<ImplicitMethod, ComparedMethod> method;
     /// Of this preparation alone.

@@ -13,6 +13,8 @@ struct DeformStats {
     /// Degenerate vertices displaced, vertices inserted at corners of the boundary, zero-area
     /// faces.
     Index displaced_vertices = 0, inserted_vertices = 0, zero_area_faces = 0;
+    /// Flat vertices with an unknown of their own beside them.
+    Index extended_vertices = 0;
     /// Vertices that a refinement of coarse borders added.
     Index refined_vertices = 0;
     std::size_t first_nonzeros = 0, second_nonzeros = 0, factor_bytes = 0;

@@ -33,7 +33,8 @@ void add(Hasher& hasher, const MeshPoint& point) {
 void add(Hasher& hasher, const DeformOptions& o) {
     for (const int choice :
          {static_cast<int>(o.method), static_cast<int>(o.second), static_cast<int>(o.local_size),
-          static_cast<int>(o.weights), o.refine, o.coherence}) {
+          static_cast<int>(o.weights), static_cast<int>(o.flat), static_cast<int>(o.loose),
+          o.free_rings, o.refine, o.coherence}) {
         hasher.add(Index{choice});
     }
     for (const double number :

@@ -78,6 +78,19 @@ local function add_handle(self, scene)
         weight = params.softness > 0 and 1 / params.softness or nil })
 end
 
+-- Solves for where the handle is now, and says what that did to the surface.
+local function finish(self, one)
+    assert(one.edit:solve())
+    local report = one.edit:report()
+    local words = { string.format("stretch %.2f", report.stretch) }
+    if report.volume_change then
+        table.insert(words, string.format("volume %+.0f %%", 100 * report.volume_change))
+    end
+    if #report.flipped > 0 then table.insert(words, #report.flipped .. " faces folded over") end
+    for _, warning in ipairs(report.warnings) do table.insert(words, warning) end
+    self.told = table.concat(words, "; ")
+end
+
 local keys = {
     enter = function(self, scene) self.handle = add_handle(self, scene) end,
     p = function(self, scene) handles.pin(add_handle(self, scene)) end,
@@ -112,6 +125,7 @@ return lissom.tool{
     grip = grip.new(),
     brush = brush.new(),
     press = function(self, ev)
+        self.told = nil
         local one, _, list = active(self, ev.scene)
         if one and self.grip:press(ev, one.handle:matrix()) then return end
         local points = {}
@@ -137,18 +151,19 @@ return lissom.tool{
     end,
     release = function(self, ev)
         local one = active(self, ev.scene)
-        if one and self.grip.gizmo:part() then assert(one.edit:solve()) end
+        if one and self.grip.gizmo:part() then finish(self, one) end
         self.grip:release(one and one.handle:matrix())
         self.brush:lift()
     end,
     move = function(self, ev) self.brush:move(ev) end,
     key = function(self, ev)
+        self.told = nil
         local one, number, list = active(self, ev.scene)
         local taken, motion
         if one then taken, motion = self.grip:key(ev, one.handle:matrix()) end
         if motion then
             handles.follow(one, self.grip.before, motion)
-            assert(one.edit:solve())
+            finish(self, one)
             if not self.grip.gizmo:part() then self.grip:release(one.handle:matrix()) end
         elseif not taken and keys[ev.key] and not self.grip.gizmo:part() then
             keys[ev.key](self, ev.scene, one or list[#list], number, list, ev)
@@ -163,8 +178,9 @@ return lissom.tool{
         end
         if at_gizmo then self.grip:draw(view) end
         local busy = at_gizmo and (self.grip.gizmo:part() or self.grip:is_under(view))
+        if at_gizmo and self.told then view:label{ at = at_gizmo.at, text = self.told } end
         if not busy then self.brush:draw(view, self.params.radius) end
     end,
-    cancel = function(self) self.grip:cancel(); self.brush:lift() end,
-    deactivate = function(self) self.grip:cancel(); self.brush:lift() end,
+    cancel = function(self) self.told = nil; self.grip:cancel(); self.brush:lift() end,
+    deactivate = function(self) self.told = nil; self.grip:cancel(); self.brush:lift() end,
 }

@@ -292,3 +292,93 @@ test("a scanned mesh", function()
     expect.truthy(edit:solve())
     expect.truthy(scan:check().zero_area_faces)
 end)
+
+-- A strip of faces in the plane z = 0, and its two ends as regions.
+local function strip()
+    local points, faces = {}, {}
+    for y = 0, 4 do for x = 0, 40 do table.insert(points, { x / 10, y / 10, 0 }) end end
+    for y = 0, 3 do
+        for x = 1, 40 do
+            local a = y * 41 + x
+            table.insert(faces, { a, a + 1, a + 42, a + 41 })
+        end
+    end
+    local mesh = lissom.mesh{ positions = points, faces = faces }
+    return mesh, mesh:region{ box = { max = { 0.25, nil, nil } } },
+        mesh:region{ box = { min = { 3.75, nil, nil } } }
+end
+
+local function off_plane(mesh)
+    local most = 0
+    for i = 1, #mesh do most = math.max(most, math.abs(select(3, mesh:position(i)))) end
+    return most
+end
+
+test("what is flat stays flat when it is bent within its plane", function()
+    for _, refine in ipairs{ 0, 1, 2 } do
+        for _, angle in ipairs{ 10, 45, 90, 180 } do
+            local mesh, first, last = strip()
+            local edit = lissom.deform(mesh, { refine = refine })
+            edit:handle(first)
+            edit:handle(last):rotate{ axis = "z", angle = angle, about = { 2, 0.2, 0 } }
+            edit:solve()
+            expect.truthy(off_plane(mesh) < 1e-9)
+            expect.truthy(edit:stats().extended_vertices > 0)
+        end
+    end
+    local mesh, first, last = strip()
+    local edit = lissom.deform(mesh, { flat = "displaced" })
+    edit:handle(first)
+    edit:handle(last):rotate{ axis = "z", angle = 90, about = { 2, 0.2, 0 } }
+    edit:solve()
+    expect.truthy(off_plane(mesh) > 1e-4)
+end)
+
+test("parts that nothing holds: an error, they stay, or they follow", function()
+    local function dressed()
+        local button = lissom.shapes.sphere{ radius = 0.1, segments = 4 }
+        button:transform{ translate = { 0.65, 0, 0 } }
+        local mesh = lissom.shapes.bar{ across = 4, along = 20 }
+        local count = #mesh
+        mesh:append(button)
+        return mesh, count
+    end
+    local function bent(loose)
+        local mesh, count = dressed()
+        local edit = lissom.deform(mesh, { loose = loose })
+        edit:handle(mesh:region{ box = { max = { nil, -2, nil } } })
+        edit:handle(mesh:region{ box = { min = { nil, 2, nil } } }):rotate{ axis = "z", angle = 60 }
+        local before = { mesh:position(count + 1) }
+        local done, message = edit:solve()
+        return done, message, before, { mesh:position(count + 1) }
+    end
+    local done, message = bent(nil)
+    expect.falsy(done)
+    expect.truthy(message:find("loose = 'follow'", 1, true))
+    local _, _, before, after = bent("stay")
+    expect.equal(before[1], after[1])
+    _, _, before, after = bent("follow")
+    expect.truthy(math.abs(before[1] - after[1]) > 0.05)
+end)
+
+test("a report says what a result did, and handles that nearly touch tear", function()
+    local mesh = lissom.shapes.bar{ across = 4, along = 20 }
+    local low, high = mesh:region{ box = { max = { nil, 0.1, nil } } },
+        mesh:region{ box = { min = { nil, 0.1, nil } } }
+    local stretch = {}
+    for _, rings in ipairs{ 0, 3 } do
+        local edit = lissom.deform(mesh, { free_rings = rings })
+        edit:handle(low)
+        edit:handle(high):rotate{ axis = "y", angle = 90 }
+        edit:solve()
+        local report = edit:report{ crossings = true }
+        stretch[rings] = report.stretch
+        expect.equal(#report.warnings, rings == 0 and 1 or 0)
+        expect.equal(#report.tears > 0, rings == 0)
+        expect.equal(report.crossings == 0, rings == 3)
+        expect.truthy(math.abs(report.volume_change) < 0.5)
+        expect.equal(edit:report().crossings, nil)
+        edit:reset()
+    end
+    expect.truthy(stretch[3] < 0.6 * stretch[0])
+end)

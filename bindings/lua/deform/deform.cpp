@@ -43,8 +43,9 @@ void refuse_options(const Call& call, DeformMethod method) {
                     "option '" + option + "' does not apply to method '" +
                         std::string(method_name(method)) + "'; leave one of them out");
     };
-    for (const char* option : {"local_size", "second", "coherence", "displacement",
-                               "degenerate_threshold", "refine", "refine_borders"}) {
+    for (const char* option :
+         {"local_size", "second", "coherence", "displacement", "degenerate_threshold", "refine",
+          "refine_borders", "flat", "free_rings"}) {
         if (call.has(option)) refuse(option);
     }
     if (call.integer("fidelity") == 1) refuse("fidelity");
@@ -61,6 +62,9 @@ DeformOptions deform_options(const Call& call) {
     if (call.has("coherence")) options.coherence = call.integer("coherence");
     if (call.has("refine")) options.refine = call.integer("refine");
     if (call.has("refine_borders")) options.refine_borders = call.boolean("refine_borders");
+    take_choice(call, "flat", options.flat);
+    options.loose = call.choice<UnheldParts>("loose");
+    if (call.has("free_rings")) options.free_rings = call.integer("free_rings");
     take_number(call, "displacement", options.displacement);
     options.transition = call.number("transition");
     take_number(call, "degenerate_threshold", options.degenerate_threshold);
@@ -217,6 +221,7 @@ int stats(Call& call) {
                   {"constrained_vertices", at(s.constrained_vertices)},
                   {"handles", at(s.handles)},
                   {"displaced_vertices", at(s.displaced_vertices)},
+                  {"extended_vertices", at(s.extended_vertices)},
                   {"inserted_vertices", at(s.inserted_vertices)},
                   {"refined_vertices", at(s.refined_vertices)},
                   {"zero_area_faces", at(s.zero_area_faces)},
@@ -231,9 +236,49 @@ int stats(Call& call) {
                  {"first_factor_seconds", s.first_factor_seconds},
                  {"second_factor_seconds", s.second_factor_seconds},
                  {"basis_seconds", s.basis_seconds}};
-    lua_createtable(call.lua(), 0, 15);
+    lua_createtable(call.lua(), 0, 16);
     for (const auto& count : counts) call.set_field(count.name, call.push_count(count.value));
     for (const auto& time : times) call.set_field(time.name, call.push(time.value));
+    return 1;
+}
+
+void push_tears(Call& call, const std::vector<Tear>& tears) {
+    lua_createtable(call.lua(), count_of(tears), 0);
+    for (std::size_t i = 0; i < tears.size(); ++i) {
+        lua_createtable(call.lua(), 0, 2);
+        call.set_field("vertices", call.push_ids(tears[i].vertices));
+        call.set_field("slip", call.push(tears[i].slip));
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+    }
+}
+
+void push_warnings(Call& call, const std::vector<std::string>& warnings) {
+    lua_createtable(call.lua(), count_of(warnings), 0);
+    for (std::size_t i = 0; i < warnings.size(); ++i) {
+        call.push(warnings[i]);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+    }
+}
+
+int report(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const DeformReportOptions options{call.boolean("crossings")};
+    auto& found = call.hold<DeformReport>();
+    const bool done = call.attempt(
+        [&] { found = edit->deformer().report(edit->mesh->mesh, options, call.context()); });
+    if (!done) return call.fail();
+    lua_createtable(call.lua(), 0, 7);
+    call.set_field("stretch", call.push(found.stretch));
+    if (found.stretched[0] != kNoIndex) {
+        call.set_field("stretched", call.push_ids(found.stretched));
+    }
+    call.set_field("flipped", call.push_ids(found.flipped));
+    if (found.crossings) call.set_field("crossings", call.push(count_of(*found.crossings)));
+    if (found.volume_change) call.set_field("volume_change", call.push(*found.volume_change));
+    push_tears(call, found.tears);
+    call.set_field("tears");
+    push_warnings(call, found.warnings);
+    call.set_field("warnings");
     return 1;
 }
 
@@ -415,6 +460,21 @@ edit:solve())"},
          .results = {{"lissom.DeformStats", "stats", "Times are in seconds, sizes in bytes."}},
          .errors = kEditErrors,
          .example = kBar + "edit:solve()\nassert(edit:stats().handles == 2)"},
+        {.name = "report",
+         .body = report,
+         .summary =
+             "How good the last result is beside the rest shape: what is stretched, folded over, "
+             "torn between handles that nearly touch, or runs through itself.",
+         .options = {boolean("crossings",
+                             "Counts faces that run through one another, which takes longer than "
+                             "to solve.")
+                         .defaults(false)},
+         .results = {{"lissom.DeformReport", "report", "Measures, and warnings in words."}},
+         .errors = kEditErrors,
+         .example = kBar + R"(top:rotate{ axis = "z", angle = 60 }
+edit:solve()
+local report = edit:report{ crossings = true }
+assert(report.stretch < 2 and #report.flipped == 0 and report.crossings == 0))"},
         {.name = "basis",
          .body = basis,
          .summary =
@@ -466,16 +526,36 @@ std::vector<Parameter> deform_parameters() {
         integer("refine",
                 "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
                 "less distortion for half a frame each. For bars and limbs that bend and twist. "
-                "Leave it at 0 where the surface runs through itself or nearly does, since "
-                "refined parts get thinner and cross more; beside handles that change their size "
-                "it fades to nothing. Compared in examples/deform/refine.png.")
+                "Refined parts get thinner: a result that would run through itself, and without "
+                "does not, is taken back as far as that, but a draft does not look. Beside handles "
+                "that change their size it fades to nothing. Compared in "
+                "examples/deform/refine.png.")
             .at_least(0)
             .optional(std::to_string(defaults.refine)),
+        choice("loose", {"error", "stay", "follow"},
+               "What becomes of separate parts that no handle holds, as buttons and eyes: an error "
+               "that names them; they stay; or each follows the surface nearest to it, as a rigid "
+               "piece. A basis has no parts that follow a surface which bends.")
+            .defaults("error"),
+        integer("free_rings",
+                "Rings of vertices that handles give up where they nearly touch another, at most "
+                "two edges apart, so that the surface between has room: handles that go different "
+                "ways would tear it. report says how many help.")
+            .between(0, 10)
+            .optional("0"),
         boolean("refine_borders",
                 "Works on a surface that is refined where the border of what is held is coarse "
                 "beside the region; the mesh keeps its faces.")
             .optional("true"),
-        number("displacement", "How far degenerate vertices are displaced.")
+        choice("flat", {"extended", "displaced"},
+               "How a vertex whose surroundings are flat knows how it turns: extended, by an "
+               "unknown of its own beside it, so that a flat part that is moved within its plane "
+               "stays flat; displaced, by moving it out of the plane while solving.")
+            .optional("\"extended\"")
+            .thesis("2.4.3", "\"displaced\""),
+        number("displacement",
+               "How far degenerate vertices are displaced, and how far beside flat ones their "
+               "unknown lies.")
             .above(0)
             .in("mean lengths of their edges")
             .optional(shown(defaults.displacement)),

@@ -46,6 +46,7 @@ DeformOptions deform_options(const BoundaryDeformOptions& options) {
     result.displacement = options.displacement;
     result.scale_free = options.scale_free;
     result.refine_borders = false;
+    result.flat = FlatVertices::displaced;
     return result;
 }
 

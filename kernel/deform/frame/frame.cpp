@@ -25,6 +25,23 @@ void solve_stretched(const SecondInput& input, std::span<const TakenStretch> tak
     for (std::size_t n = taken.size(); n-- > 0;) scratch.rotations[at(taken[n].vertex)] = before[n];
 }
 
+// Drafts are not chosen among: counting crossings takes longer than a frame.
+void refine_result(const SecondInput& input, std::span<const TakenStretch> taken,
+                   FrameScratch::State& scratch, const Context& context) {
+    Deviation& deviation = scratch.deviation;
+    std::optional<RefinementChoice> choice;
+    if (!input.draft) choice.emplace(input, scratch, context);
+    if (choice) choice->offer(deviation);
+    const int steps = input.motion.options().refine;
+    for (int step = 1; step <= steps; ++step) {
+        const double further = over_relaxation(input.greatest_turn, step == steps);
+        refine_rotations(input, deviation, further, scratch.absolute, context, scratch.rotations);
+        solve_stretched(input, taken, scratch, context);
+        if (choice) choice->offer(deviation);
+    }
+    if (choice) choice->choose(deviation);
+}
+
 // Solves for deviations from the similarity nearest to the base transform, so that similarities of
 // the whole are exact. `deviation` is that of the first system, and then of the second.
 void solve_second(const SecondInput& input, FrameScratch::State& scratch, const Context& context) {
@@ -44,12 +61,7 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
     }
     if (winds) wind_rotations(input, scratch, context);
     solve_stretched(input, taken, scratch, context);
-    const int steps = motion.options().refine;
-    for (int step = 1; step <= steps; ++step) {
-        const double further = over_relaxation(input.greatest_turn, step == steps);
-        refine_rotations(input, deviation, further, scratch.absolute, context, scratch.rotations);
-        solve_stretched(input, taken, scratch, context);
-    }
+    if (motion.options().refine > 0) refine_result(input, taken, scratch, context);
 }
 
 // Whether the full frame takes the same steps up to the last corrections. Refinements start from

@@ -80,15 +80,15 @@ DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const 
     const Preparation& prepared = *preparation;
     const Patch& patch = prepared.patch();
     place_held(prepared, poses, positions);
-    DeformFrame frame{preparation, poses, {}, {}, prepared.work, {}, {}};
     const auto own = std::ssize(prepared.rest->positions);
+    for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
+        if (!prepared.known.position[v]) continue;
+        positions[at(prepared.rest->frame_row(patch, v))] = motion.known_position(v) + patch.origin;
+    }
+    place_followers(prepared, poses, positions);
+    DeformFrame frame{preparation, poses, {}, {}, prepared.work, {}, {}};
     frame.inserted.assign(positions.begin() + own, positions.end());
     positions.resize(own);
-    for (std::size_t k = 0; k < frame.inserted.size(); ++k) {
-        const Index v = patch.mesh_count() + index_of(k);
-        if (!prepared.known.position[v]) continue;
-        frame.inserted[k] = motion.known_position(v) + patch.origin;
-    }
     frame.positions = std::move(positions);
     frame.turns_without_faces = turns_without_faces(prepared, poses);
     return frame;
@@ -117,6 +117,9 @@ std::vector<Mat3> frame_gradients(const DeformFrame& frame, FrameScratch& given)
     for (const Index v : prepared.patch().of_region) {
         gradients.push_back(gradient_of(motion, scratch.deviation, v));
     }
+    std::vector<Vec3> positions = frame.positions;
+    positions.insert(positions.end(), frame.inserted.begin(), frame.inserted.end());
+    turn_followers(prepared, frame.poses, positions, gradients);
     return gradients;
 }
 

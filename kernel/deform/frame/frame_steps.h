@@ -22,6 +22,7 @@
 #include "kernel/deform/preparation.h"
 #include "kernel/deform/system/frame_loops.h"
 #include "kernel/deform/system/rotation_system.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 
@@ -54,6 +55,9 @@ struct FrameScratch::State {
     Rotations rotations;
     std::weak_ptr<const Preparation> sized_for;
     std::vector<Vec4> absolute;
+    /// Triangles of the patch `surface_of`, for crossings.
+    std::shared_ptr<const Topology> surface;
+    std::weak_ptr<const WorkingPatch> surface_of;
     std::vector<Vec3> positions;
     RotationSystem::Scratch second;
 };
@@ -153,10 +157,38 @@ double over_relaxation(double greatest_turn, bool last);
 void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,
                       std::vector<Vec4>& absolute, const Context& context, Rotations& rotations);
 
+/// Takes the last of several results back towards the first as far as it runs the surface through
+/// itself, if the first does not.
+class RefinementChoice {
+  public:
+    RefinementChoice(const SecondInput& input, FrameScratch::State& scratch,
+                     const Context& context);
+
+    /// A result of the second system: the one without refinement first.
+    void offer(const Deviation& result);
+    /// Gives the chosen one. Errors: cancelled.
+    void choose(Deviation& result);
+
+  private:
+    Index crossings(const Deviation& result) const;
+
+    const SecondInput& input_;
+    const Context& context_;
+    std::shared_ptr<const Topology> surface_;
+    std::vector<Index> moving_;
+    std::vector<Deviation> results_;
+};
+
 /// A frame of a comparison method.
 DeformFrame solve_compared(const std::shared_ptr<const Preparation>& preparation,
                            const Poses& poses, FrameScratch::State& scratch,
                            const Context& context);
+
+/// Moves parts that follow the surface, whose other vertices `positions` has.
+void place_followers(const Preparation& prepared, const Poses& poses, std::vector<Vec3>& positions);
+/// Their deformation gradients.
+void turn_followers(const Preparation& prepared, const Poses& poses,
+                    const std::vector<Vec3>& positions, std::vector<Mat3>& gradients);
 
 /// The frame with `positions` for what is free; others lie where they are held, to the bit.
 DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const Motion& motion,

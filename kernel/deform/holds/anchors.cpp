@@ -36,7 +36,7 @@ class AnchorBuilder {
     }
 
   private:
-    // Virtual vertices are as stiff as what surrounds them.
+    // Virtual vertices are as stiff as what surrounds them, and normal points as their vertex.
     void stiffen(const std::vector<double>& given) {
         const Patch& patch = work_.patch;
         work_.stiffness = given;
@@ -45,7 +45,7 @@ class AnchorBuilder {
             for (const auto& [v, c] : row) sum += c * given[v];
             work_.stiffness.push_back(sum);
         }
-        for (Index v = patch.real_count; v < patch.surface_count; ++v) {
+        for (Index v = patch.real_count; v < patch.first_normal_point(); ++v) {
             // The ends of the edge that it splits are among them.
             double sum = 0.0;
             int count = 0;
@@ -55,6 +55,9 @@ class AnchorBuilder {
                 ++count;
             }
             work_.stiffness.push_back(sum / count);
+        }
+        for (const Index v : patch.normal_points) {
+            work_.stiffness.push_back(work_.stiffness[at(v)]);
         }
         for (Index v = 0; v < patch.surface_count; ++v) {
             work_.laplacian.weight[v] *= work_.stiffness[v];

@@ -15,9 +15,13 @@ namespace {
 // Positions count as one plane where their covariance is flatter than this.
 constexpr double kFlat = 1e-10;
 
+constexpr const char* kLooseRemedy =
+    "; loose = 'stay' leaves such parts where they are, loose = 'follow' takes them along";
+
 // What holds one connected part of the patch.
 struct Part {
-    std::vector<Index> free;
+    /// Local vertices, and those of the mesh that are free.
+    std::vector<Index> members, free;
     bool has_gradient = false;
     double positions = 0.0;
     Vec3 sum = Vec3::Zero();
@@ -54,6 +58,7 @@ void add_position(const Vec3& at, Part& part) {
 
 void add_vertex(const Patch& patch, const TiesOfVertices& ties, const KnownMask& known, Index v,
                 Part& part) {
+    if (v >= patch.first_normal_point()) return;
     part.has_gradient = part.has_gradient || known.gradient[v] || ties.turned.count(v) > 0;
     if (known.position[v]) {
         add_position(patch.rest[v], part);
@@ -72,12 +77,17 @@ Part collect_part(const WorkingPatch& work, const TiesOfVertices& ties, const Kn
     while (!stack.empty()) {
         const Index v = stack.back();
         stack.pop_back();
+        part.members.push_back(v);
         add_vertex(work.patch, ties, known, v, part);
         for (const Index n : work.rings.ring(v)) {
             if (!std::exchange(seen[n], 1)) stack.push_back(n);
         }
     }
     return part;
+}
+
+bool is_loose(const Part& part) {
+    return !part.free.empty() && part.positions == 0.0 && !part.has_gradient;
 }
 
 bool is_held(const Part& part) {
@@ -98,7 +108,8 @@ bool is_held(const Part& part) {
               "positions "
               "that are not in one plane";
     throw Error(ErrorCode::unconstrained,
-                "nothing holds the connected part of " + names + ": " + remedy,
+                "nothing holds the connected part of " + names + ": " + remedy +
+                    (part.positions == 0.0 ? kLooseRemedy : ""),
                 std::move(vertices));
 }
 
@@ -113,7 +124,8 @@ bool is_held(const Part& part) {
                 "nothing holds " + std::to_string(parts.size()) + " connected parts, those of " +
                     names +
                     ": each needs a handle; let the region of one hold a vertex of each part that "
-                    "is to move along, or leave parts out of the region",
+                    "is to move along, or leave parts out of the region" +
+                    kLooseRemedy,
                 std::move(vertices));
 }
 
@@ -159,6 +171,19 @@ void turn_around(const SparseRow& row, Index owner, Index point, Holding& holdin
         holding.owner[v] = owner;
         holding.known.gradient[v] = 1;
         if (point != kNoIndex) holding.asked.emplace_back(v, point);
+    }
+}
+
+// A normal point is free as long as its vertex needs a gradient: nothing else asks for it.
+void hold_normal_points(const Patch& patch, Holding& holding) {
+    for (std::size_t k = 0; k < patch.normal_points.size(); ++k) {
+        const Index point = patch.first_normal_point() + index_of(k), v = patch.normal_points[k];
+        const bool free = holding.known.gradient_wanted[at(v)] != 0;
+        // What is asked of a constrained vertex is not asked of its point.
+        const Index owner = holding.owner[at(v)] == kConstrained ? kPinned : holding.owner[at(v)];
+        holding.owner[at(point)] = free ? kFree : owner;
+        holding.known.position[at(point)] = !free;
+        holding.known.gradient[at(point)] = holding.known.gradient_wanted[at(point)] = 0;
     }
 }
 
@@ -212,8 +237,23 @@ Holding find_holding(const WorkingPatch& work, const Holds& holds) {
     for (Index i = 0; i < work.patch.surface_count; ++i) {
         holding.known.gradient_wanted[i] = !holding.known.gradient[i] && work.rings.count(i) > 0;
     }
+    hold_normal_points(work.patch, holding);
     hold_anchors(work, holding);
     return holding;
+}
+
+std::vector<std::vector<Index>> loose_parts(const WorkingPatch& work, const KnownMask& known) {
+    const TiesOfVertices ties(work);
+    std::vector<char> seen(work.patch.surface_count, 0);
+    std::vector<std::vector<Index>> loose;
+    for (Index v = 0; v < work.patch.surface_count; ++v) {
+        if (seen[v]) continue;
+        Part part = collect_part(work, ties, known, v, seen);
+        if (!is_loose(part)) continue;
+        std::sort(part.members.begin(), part.members.end());
+        loose.push_back(std::move(part.members));
+    }
+    return loose;
 }
 
 void require_constraints(const WorkingPatch& work, const KnownMask& known) {

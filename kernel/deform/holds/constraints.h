@@ -19,6 +19,8 @@ namespace lissom {
 inline constexpr Index kFree = -1;
 inline constexpr Index kPinned = -2;
 inline constexpr Index kConstrained = -3;
+/// Of parts that nothing holds: they stay, or follow what is near once that is solved.
+inline constexpr Index kLoose = -4;
 
 /// What is asked of local vertices and anchors, by their number.
 using VertexConstraints = std::map<Index, VertexConstraint>;
@@ -44,6 +46,9 @@ std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest, const Hol
 /// Outside the region, and without faces, vertices are pinned. A hard point that asks for a
 /// gradient gives it to the vertices around it that nobody else holds.
 Holding find_holding(const WorkingPatch& work, const Holds& holds);
+
+/// Local vertices, ascending, of each connected part that nothing holds at all.
+std::vector<std::vector<Index>> loose_parts(const WorkingPatch& work, const KnownMask& known);
 
 /// Throws `unconstrained` where a connected part with free vertices has no known position, or
 /// neither a known gradient nor four known positions that are not in one plane.

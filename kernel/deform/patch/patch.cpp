@@ -216,6 +216,7 @@ void insert_virtual_vertices(Patch& patch) {
     patch.vertex_count = patch.real_count;
     patch.split_triangles = patch.triangles;
     patch.surface_count = patch.vertex_count;
+    patch.normal_points.clear();
     const auto may_be_lonely = [&](Index v) { return patch.in_region[v] && patch.on_boundary[v]; };
     bool any = false;
     for (Index v = 0; v < patch.real_count; ++v) any = any || may_be_lonely(v);

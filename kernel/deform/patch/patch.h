@@ -57,10 +57,11 @@ Rings build_rings(Index vertex_count, const WeightedTriangles& triangles);
 /// The region and as many rings around it as the stencils of free vertices reach.
 ///
 /// Local vertices [0, mesh_count()) are vertices of the mesh. Up to `real_count` follow
-/// those that a local refinement inserted (boundary_refinement.h), and up to `surface_count`
+/// those that a local refinement inserted (boundary_refinement.h), and up to `first_normal_point()`
 /// virtual ones at the midpoint of the edge opposite a boundary vertex of valence 2 (section
-/// 2.4.3), which exist in `split_triangles` only. Beyond, up to `vertex_count`, a preparation may
-/// add anchors, which no triangle uses (ties.h).
+/// 2.4.3), which exist in `split_triangles` only. Up to `surface_count` follow the points beside
+/// flat vertices (normal_points.h) and, up to `vertex_count`, a preparation may add anchors
+/// (ties.h); no triangle uses either.
 struct Patch {
     Index real_count = 0, surface_count = 0, vertex_count = 0;
     /// Mesh vertex of each local vertex that the mesh has.
@@ -73,6 +74,8 @@ struct Patch {
     Vec3 origin = Vec3::Zero();
     /// Triangles of the mesh's polygons, and the same with virtual vertices inserted.
     WeightedTriangles triangles, split_triangles;
+    /// The flat vertex that each normal point belongs to.
+    std::vector<Index> normal_points;
     /// Local number of each vertex of the region, in the region's order.
     std::vector<Index> of_region;
     /// Mesh vertices of the region all of whose faces have no area, and the number of zero-area
@@ -81,6 +84,9 @@ struct Patch {
     Index zero_area_faces = 0;
 
     Index mesh_count() const { return count_of(mesh_vertex); }
+    Index first_normal_point() const { return surface_count - count_of(normal_points); }
+    /// Whether the region has no virtual vertices.
+    bool is_plain() const { return first_normal_point() == real_count; }
 };
 
 /// Mesh vertices of a patch in an order in which neighbours are near each other, so that loops over

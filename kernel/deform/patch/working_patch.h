@@ -11,6 +11,12 @@
 
 namespace lissom {
 
+/// One-rings of real vertices alone, and their geometry.
+struct SurfaceRings {
+    Rings rings;
+    RingGeometry geometry;
+};
+
 /// A patch and what follows from its shape and the options. A preparation may work on a patch with
 /// more vertices than the one that a Deformer was made with: its real vertices, which come first,
 /// are the same in both.
@@ -33,6 +39,9 @@ struct WorkingPatch {
     Ties ties;
     std::vector<GradientTie> gradient_ties;
     std::vector<Index> anchor_owner, anchor_point;
+
+    /// The rings without virtual vertices and normal points, over the mesh's own triangles.
+    SurfaceRings surface_rings() const;
 
     /// Mean stiffness of two vertices.
     double stiffness_between(Index a, Index b) const {

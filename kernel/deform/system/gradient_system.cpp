@@ -92,6 +92,13 @@ class Assembler {
         return work_.stiffness_between(a, b) * edge_coherence(options_, geometry_.cotangent[entry]);
     }
 
+    // A normal point whose vertex has no gradient after all: nothing depends on it.
+    bool is_idle(Index i) const {
+        const Index point = i - work_.patch.first_normal_point();
+        if (point < 0 || i >= work_.patch.surface_count) return false;
+        return !gradients_.defined[at(work_.patch.normal_points[at(point)])];
+    }
+
     // Calls use(b, weight) for every pair (a, b) of SF in Eq 2.7 where both have gradients.
     template <typename Use>
     void for_each_pair(Index a, RowAccumulator<double>& pairs, const Use& use) const {
@@ -231,7 +238,7 @@ class Assembler {
         };
         for (Index r = begin; r < end; ++r) {
             const Index i = free[r];
-            row.add(i, 0.0);
+            row.add(i, is_idle(i) ? 1.0 : 0.0);
             add_terms(i, i);
             for (const Index a : rings_.ring(i)) add_terms(a, i);
             emit(row, gradient_row, rows);

@@ -25,11 +25,15 @@ class Displacer {
               const KnownMask& known, const Vec3& start, const DeformOptions& options)
         : patch_(patch),
           rings_(rings),
+          point_(patch.rest.size(), kNoIndex),
           geometry_(geometry),
           known_(known),
           start_(start),
           options_(options),
           greatest_(std::max(options.degenerate_threshold, kGoodCondition)) {
+        for (std::size_t k = 0; k < patch.normal_points.size(); ++k) {
+            point_[at(patch.normal_points[k])] = patch.first_normal_point() + index_of(k);
+        }
         result_.displaced_rest = patch.rest;
         moved_.assign(patch.rest.size(), 0);
         sound_.assign(patch.rest.size(), 0);
@@ -48,7 +52,7 @@ class Displacer {
         for (const Index i : degenerate_vertices()) {
             if (is_degenerate(i)) repair(i);
         }
-        for (Index i = 0; i < rings_.size(); ++i) {
+        for (Index i = 0; i < patch_.first_normal_point(); ++i) {
             if (result_.displaced_rest[i] != patch_.rest[i]) result_.displaced.push_back(i);
         }
         fill_stencils();
@@ -87,26 +91,35 @@ class Displacer {
         return groups;
     }
 
+    // Without the normal point, which is the last of its ring.
+    std::span<const Index> ring(Index i) const {
+        const std::span<const Index> all = rings_.ring(i);
+        return point_[at(i)] == kNoIndex ? all : all.first(all.size() - 1);
+    }
+
     Vec3 ring_center(Index i) const {
         Vec3 sum = Vec3::Zero();
-        for (const Index j : rings_.ring(i)) sum += result_.displaced_rest[j];
-        return sum / rings_.count(i);
+        for (const Index j : ring(i)) sum += result_.displaced_rest[j];
+        return sum / static_cast<double>(ring(i).size());
     }
 
     // Sum of (v_j - c)(v_j - c)^T over the ring alone.
     Mat3 ring_covariance(Index i, const Vec3& center) const {
         Mat3 covariance = Mat3::Zero();
-        for (const Index j : rings_.ring(i)) {
+        for (const Index j : ring(i)) {
             const Vec3 d = result_.displaced_rest[j] - center;
             covariance.noalias() += d * d.transpose();
         }
         return covariance;
     }
 
-    // V_i V_i^T of Eq 2.5.
+    // V_i V_i^T of Eq 2.5, with the offset of the normal point if there is one.
     Mat3 stencil_covariance(Index i, const Vec3& center) const {
         const Vec3 d = result_.displaced_rest[i] - center;
-        return ring_covariance(i, center) + d * d.transpose();
+        const Mat3 covariance = ring_covariance(i, center) + d * d.transpose();
+        if (point_[at(i)] == kNoIndex) return covariance;
+        const Vec3 offset = result_.displaced_rest[at(point_[at(i)])] - result_.displaced_rest[i];
+        return covariance + offset * offset.transpose();
     }
 
     bool is_degenerate(Index i) const {
@@ -131,10 +144,11 @@ class Displacer {
         if (moved_[target] || known_.position[target] || geometry_.normal[target].isZero())
             return false;
         double length = 0.0;
-        for (const Index j : rings_.ring(target))
-            length += (patch_.rest[target] - patch_.rest[j]).norm();
-        result_.displaced_rest[target] +=
-            options_.displacement * length / rings_.count(target) * geometry_.normal[target];
+        for (const Index j : ring(target)) length += (patch_.rest[target] - patch_.rest[j]).norm();
+        const Vec3 step = options_.displacement * length /
+                          static_cast<double>(ring(target).size()) * geometry_.normal[target];
+        result_.displaced_rest[target] += step;
+        if (point_[at(target)] != kNoIndex) result_.displaced_rest[at(point_[at(target)])] += step;
         moved_[target] = 1;
         sound_[target] = 0;
         for (const Index j : rings_.ring(target)) sound_[j] = 0;
@@ -150,7 +164,7 @@ class Displacer {
             return;
         }
         for (const bool boundary : {false, true}) {
-            for (const Index j : rings_.ring(i)) {
+            for (const Index j : ring(i)) {
                 if (static_cast<bool>(patch_.on_boundary[j]) != boundary || !displace(j)) continue;
                 if (is_degenerate(i)) displace(i);
                 if (!is_degenerate(i)) return;
@@ -166,19 +180,28 @@ class Displacer {
         const auto at = [&](Index k) -> Vector {
             return result_.displaced_rest[k].cast<Extended>();
         };
+        const std::span<const Index> around = ring(i);
+        const auto count = count_of(around);
         Vector center = Vector::Zero();
-        for (const Index j : rings_.ring(i)) center += at(j) / rings_.count(i);
+        for (const Index j : around) center += at(j) / count;
         Matrix covariance = (at(i) - center) * (at(i) - center).transpose();
-        for (const Index j : rings_.ring(i)) {
+        for (const Index j : around) {
             covariance += (at(j) - center) * (at(j) - center).transpose();
         }
+        const Index point = point_[lissom::at(i)];
+        const Vector offset = point == kNoIndex ? Vector(Vector::Zero()) : at(point) - at(i);
+        if (point != kNoIndex) covariance += offset * offset.transpose();
         const Matrix inverse = covariance.inverse();
         const Vector own = inverse * (at(i) - center);
-        result_.self[i] = own.cast<double>();
-        for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
-            const Vector p = inverse * (at(rings_.neighbor[e]) - center);
-            result_.neighbor[e] = (p - own / rings_.count(i)).cast<double>();
+        for (Index k = 0; k < count; ++k) {
+            const Vector p = inverse * (at(around[lissom::at(k)]) - center);
+            result_.neighbor[rings_.begin[i] + k] = (p - own / count).cast<double>();
         }
+        result_.self[i] = own.cast<double>();
+        if (point == kNoIndex) return;
+        const Vector across = inverse * offset;
+        result_.self[i] = (own - across).cast<double>();
+        result_.neighbor[rings_.begin[i] + count] = across.cast<double>();
     }
 
     void fill_stencils() {
@@ -190,10 +213,23 @@ class Displacer {
             result_.defined[i] = 1;
             fill_stencil(i);
         }
+        for (const Index v : patch_.normal_points) {
+            if (!has_turning_neighbor(v)) result_.defined[at(v)] = 0;
+        }
+    }
+
+    // Whether a gradient around i says how its normal point moves.
+    bool has_turning_neighbor(Index i) const {
+        const std::span<const Index> around = ring(i);
+        return std::any_of(around.begin(), around.end(), [&](Index j) {
+            return known_.gradient[at(j)] || result_.defined[at(j)];
+        });
     }
 
     const Patch& patch_;
     const Rings& rings_;
+    /// The normal point of each local vertex, or kNoIndex.
+    std::vector<Index> point_;
     const RingGeometry& geometry_;
     const KnownMask& known_;
     const Vec3& start_;

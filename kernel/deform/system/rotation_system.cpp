@@ -78,14 +78,13 @@ std::vector<double> row_weights(const Rings& rings, const RingGeometry& geometry
 
 RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>& position_known,
                                const DeformOptions& options, const Context& context)
-    : rings_(is_real(work.patch) ? work.rings
-                                 : build_rings(work.patch.real_count, work.patch.triangles)),
-      vertex_count_(work.patch.vertex_count) {
+    : vertex_count_(work.patch.vertex_count) {
     const Patch& patch = work.patch;
+    std::optional<SurfaceRings> own;
+    if (!is_real(patch)) own = work.surface_rings();
+    rings_ = own ? std::move(own->rings) : work.rings;
+    const RingGeometry& geometry = own ? own->geometry : work.geometry;
     const std::span<const Vec3> rest(patch.rest.data(), rings_.begin.size() - 1);
-    std::optional<RingGeometry> own;
-    if (!is_real(patch)) own = ring_geometry(rings_, patch.triangles, rest);
-    const RingGeometry& geometry = own ? *own : work.geometry;
     const double factor = laplacian_factor_of(patch, rings_, options.second);
     row_weight_ = row_weights(rings_, geometry, options, factor);
     if (options.second == SecondSystem::blend) fade_laplacian(patch, position_known);

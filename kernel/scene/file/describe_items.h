@@ -128,6 +128,23 @@ void describe(Archive& a, StrandsRecord& strands) {
 
 // ---- Deformations
 
+// Files without these displaced flat vertices, and do so still.
+template <typename Archive>
+void describe_surface(Archive& a, DeformOptions& options) {
+    static constexpr const char* kFlat[] = {"extended", "displaced"};
+    static constexpr const char* kLoose[] = {"error", "stay", "follow"};
+    std::optional<DeformOptions> given = options;
+    a.optional("surface", given, [](Archive& b, DeformOptions& o) {
+        b.choice("flat", o.flat, kFlat);
+        b.choice("loose", o.loose, kLoose);
+        b.integer("free_rings", o.free_rings);
+    });
+    options.flat = given ? given->flat : FlatVertices::displaced;
+    if (!given) return;
+    options.loose = given->loose;
+    options.free_rings = given->free_rings;
+}
+
 template <typename Archive>
 void describe(Archive& a, DeformOptions& options) {
     static constexpr const char* kMethods[] = {
@@ -143,6 +160,7 @@ void describe(Archive& a, DeformOptions& options) {
     a.integer("coherence", options.coherence);
     a.number("coherence_weight", options.coherence_weight);
     a.number("degenerate_threshold", options.degenerate_threshold);
+    describe_surface(a, options);
     a.flag("refine_borders", options.refine_borders);
     a.number("displacement", options.displacement);
     a.flag("scale_free", options.scale_free);

@@ -23,7 +23,8 @@ void note(Names& names, const char* name, bool differs) {
 
 Names of_deformation() {
     const auto& [method, second, size, weights, refine, coherence, coherence_weight, threshold,
-                 borders, displacement, scale_free, transition] = DeformOptions{};
+                 flat, loose, free_rings, borders, displacement, scale_free, transition] =
+        DeformOptions{};
     const DeformOptions t = DeformOptions::thesis();
     Names names;
     note(names, "method", method != t.method);
@@ -34,6 +35,9 @@ Names of_deformation() {
     note(names, "coherence", coherence != t.coherence);
     note(names, "coherence_weight", coherence_weight != t.coherence_weight);
     note(names, "degenerate_threshold", threshold != t.degenerate_threshold);
+    note(names, "flat", flat != t.flat);
+    note(names, "loose", loose != t.loose);
+    note(names, "free_rings", free_rings != t.free_rings);
     note(names, "refine_borders", borders != t.refine_borders);
     note(names, "displacement", displacement != t.displacement);
     note(names, "transition", transition != t.transition);

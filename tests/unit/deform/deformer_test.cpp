@@ -222,7 +222,8 @@ TEST_CASE("stats: sizes add up") {
     CHECK(s.constrained_vertices == static_cast<Index>(scene.low.size() + scene.high.size()));
     CHECK(s.free_vertices + s.constrained_vertices == s.region_vertices);
     CHECK(s.handles == 2);
-    CHECK(s.displaced_vertices > 0);
+    CHECK(s.displaced_vertices == 0);
+    CHECK(s.extended_vertices > 0);
     CHECK(s.factor_bytes > 0);
 }
 

@@ -56,7 +56,9 @@ Scene reference_torus() {
 // Rest positions with degenerate vertices displaced, as a deformer of the scene displaces them.
 std::vector<Vec3> displaced_rest(const Scene& scene, const Vec3& start,
                                  const DeformOptions& options) {
-    const WorkingPatch work(build_patch(scene.mesh, scene.all(), 1), options);
+    DeformOptions displaced = options;
+    displaced.flat = FlatVertices::displaced;
+    const WorkingPatch work(build_patch(scene.mesh, scene.all(), 1), displaced);
     const auto n = static_cast<std::size_t>(scene.mesh.vertex_count());
     KnownMask known{std::vector<char>(n, 0), std::vector<char>(n, 0), std::vector<char>(n, 1)};
     for (const auto* handle : {&scene.low, &scene.high}) {
@@ -121,8 +123,9 @@ TEST_CASE("reference: with degenerate vertices, displaced and pulled back") {
     const Scene scene = make_scene(bar);
     REQUIRE(greatest_distance(displaced_rest(scene, Vec3::Zero(), {}),
                               {bar.positions().begin(), bar.positions().end()}) > 0.01);
-    for (const auto& formulation : reference_formulations()) {
+    for (auto formulation : reference_formulations()) {
         CAPTURE(formulation.first);
+        formulation.second.flat = FlatVertices::displaced;
         compare(scene, formulation.second, kNearlyDegenerate);
     }
 }
@@ -131,7 +134,9 @@ TEST_CASE("reference: real meshes") {
     for (const std::string name :
          {"decimated-knight.off", "torus_vcg.off", "kitten_lowres.obj", "arap_bar2.off"}) {
         CAPTURE(name);
-        if (const Scene* scene = model_scene(name)) compare(*scene, {}, kNearlyDegenerate);
+        DeformOptions options;
+        options.flat = FlatVertices::displaced;
+        if (const Scene* scene = model_scene(name)) compare(*scene, options, kNearlyDegenerate);
     }
 }
 
@@ -141,7 +146,9 @@ TEST_CASE("reference: the thesis's own result up to a right angle, and near it u
     Mesh egg = make_sphere({1.0, 5, SphereKind::triangles});
     for (Vec3& p : egg.edit_positions()) p.y() *= 2.5;
     for (const Scene& scene : {make_scene(bar), make_scene(egg)}) {
-        Edit edit = make_edit(scene);
+        DeformOptions options;
+        options.flat = FlatVertices::displaced;
+        Edit edit = make_edit(scene, options);
         Deformer& d = edit.deformer;
         const Vec3 low = d.handle_center(edit.low), high = d.handle_center(edit.high);
         const std::vector<Vec3> displaced_at_rest = displaced_rest(scene, low, {});
@@ -187,8 +194,9 @@ TEST_CASE("refinement: each step lowers the energy that it is about") {
                 for (const Index v : scene.low) held[v] = {};
                 const Reference reference(mesh, {mesh.positions().begin(), mesh.positions().end()},
                                           held, options);
-                const double energy = reference.refined_energy(edit.deformer.solve());
-                if (options.refine > 0) CHECK(energy <= before * (1.0 + 1e-9));
+                // Drafts are not taken back where they run through themselves.
+                const double energy = reference.refined_energy(edit.deformer.solve_draft());
+                if (options.refine > 0) CHECK(energy <= before * (1.0 + 1e-6));
                 before = energy;
             }
         }

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "kernel/deform/deformer.h"
+#include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/query/self_intersections.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
@@ -98,4 +100,31 @@ TEST_CASE("refine: no moat beside a handle that grows, and no flare of its rim")
             }
         }
     }
+}
+
+TEST_CASE("refine: the surface does not run through itself where without it does not") {
+    int sound = 0;
+    for (const double degrees : {120.0, 180.0, 270.0}) {
+        CAPTURE(degrees);
+        Pose pose{"bar", make_bar({1.0, 4.0, 6, 24}), {}, {}, {}};
+        const Box box = bounds(pose.mesh);
+        pose.still =
+            vertices_where(pose.mesh, [&](const Vec3& p) { return p.y() < box.min.y() + 1.3; });
+        pose.moved =
+            vertices_where(pose.mesh, [&](const Vec3& p) { return p.y() > box.max.y() - 1.3; });
+        for (const Vec3& axis : {Vec3(Vec3::UnitY()), Vec3(Vec3::UnitX())}) {
+            pose.move = rotation(axis, degrees * kPi / 180.0, Vec3::Zero());
+            const auto crossings = [&](int refine) {
+                Mesh mesh = pose.mesh;
+                mesh.set_positions(solved(pose, LocalSize::keep, refine));
+                return self_intersections(mesh).size();
+            };
+            const std::size_t plain = crossings(0);
+            if (plain > 0) continue;
+            ++sound;
+            CHECK(crossings(1) == 0);
+            CHECK(crossings(2) == 0);
+        }
+    }
+    CHECK(sound > 0);
 }

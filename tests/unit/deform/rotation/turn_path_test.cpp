@@ -223,7 +223,9 @@ TurnReport follow_turns(const Scene& scene, const Way& way, const DeformOptions&
     for (double degrees = 0.0; degrees <= 720.0 + 1e-9; degrees += step) {
         const Stand stand = way(degrees * kDegrees, center, center - from);
         edit.deformer.set_transform(edit.high, stand.transform, stand.about, stand.turn);
-        const std::vector<Vec3> now = edit.deformer.solve();
+        // Refined results that run through themselves are taken back, but drafts are not.
+        const std::vector<Vec3> now =
+            options.refine > 0 ? edit.deformer.solve_draft() : edit.deformer.solve();
         if (!before.empty()) {
             report.speed.take(
                 greatest_motion(before, now, free) / greatest_motion(before, now, scene.high),

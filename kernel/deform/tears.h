@@ -1,0 +1,20 @@
+/// Handles that nearly touch and go different ways; private to kernel/deform.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kernel/deform/deform_report.h"
+#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/preparation.h"
+
+namespace lissom {
+
+/// The gaps of a preparation that `poses` tear, the worst first: those at which handles part by
+/// more than one and a half times the length between them.
+std::vector<Tear> tears_of(const Preparation& preparation, const Poses& poses);
+
+/// Says how bad the worst tear is, and what helps.
+std::string tear_warning(const Preparation& preparation, const Tear& worst);
+
+}  // namespace lissom

@@ -1,0 +1,170 @@
+// What a report says of a result, and handles that nearly touch.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "kernel/deform/deformer.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/deform/scene.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+/// A bar whose two halves are handles, `apart` rows of vertices of it free between them.
+Scene halves(Index apart) {
+    const Mesh bar = make_bar({1.0, 5.0, 6, 30});
+    const Box box = bounds(bar);
+    const double row = (box.max.y() - box.min.y()) / 30.0, middle = box.min.y() + 15.1 * row;
+    Scene scene{bar, {}, {}, surface_radius(bar), Vec3::UnitX()};
+    for (Index v = 0; v < bar.vertex_count(); ++v) {
+        const double y = bar.position(v).y();
+        if (y < middle) scene.low.push_back(v);
+        if (y > middle + apart * row) scene.high.push_back(v);
+    }
+    return scene;
+}
+
+struct Result {
+    DeformReport report;
+    std::vector<Vec3> positions;
+};
+
+Result reported(const Scene& scene, const Affine& move, const DeformOptions& options = {}) {
+    Edit edit = make_edit(scene, options);
+    edit.deformer.set_transform(edit.high, move);
+    std::vector<Vec3> x = edit.deformer.solve();
+    return {edit.deformer.report(scene.mesh, {.crossings = true}), std::move(x)};
+}
+
+Affine turned(const Scene& scene, double degrees) {
+    Vec3 center = Vec3::Zero();
+    for (const Index v : scene.high) {
+        center += scene.mesh.position(v) / static_cast<double>(scene.high.size());
+    }
+    return rotation(Vec3::UnitX(), degrees * kPi / 180.0, center);
+}
+
+bool contains(const std::vector<Index>& list, Index v) {
+    return std::find(list.begin(), list.end(), v) != list.end();
+}
+
+}  // namespace
+
+TEST_CASE("report: at rest nothing has changed") {
+    const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
+    Edit edit = make_edit(scene);
+    const DeformReport report = edit.deformer.report(scene.mesh, {.crossings = true});
+    CHECK(report.stretch == 1.0);
+    CHECK(report.flipped.empty());
+    CHECK(report.crossings->empty());
+    CHECK(*report.volume_change == 0.0);
+    CHECK(report.tears.empty());
+    CHECK(report.warnings.empty());
+    CHECK(!edit.deformer.report(scene.mesh).crossings);
+}
+
+TEST_CASE("report: stretch, its edge and the volume are those of the surface") {
+    const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
+    DeformOptions options;
+    options.local_size = LocalSize::scale;
+    Edit edit = make_edit(scene, options);
+    const Affine twice = scaling(Vec3::Constant(2.0), Vec3::Zero());
+    edit.deformer.set_transform(edit.low, twice);
+    edit.deformer.set_transform(edit.high, twice);
+    edit.deformer.solve();
+    DeformReport report = edit.deformer.report(scene.mesh);
+    CHECK(report.stretch == doctest::Approx(2.0).epsilon(1e-6));
+    CHECK(*report.volume_change == doctest::Approx(7.0).epsilon(1e-6));
+    edit.deformer.set_transform(edit.low, {});
+    edit.deformer.set_transform(edit.high, translation(2.0 * Vec3::UnitY()));
+    const std::vector<Vec3> x = edit.deformer.solve();
+    report = edit.deformer.report(scene.mesh);
+    const auto [a, b] = report.stretched;
+    const double rest = (scene.mesh.position(a) - scene.mesh.position(b)).norm();
+    CHECK(report.stretch == doctest::Approx((x[a] - x[b]).norm() / rest));
+    CHECK(report.stretch > 1.3);
+}
+
+TEST_CASE("report: folds and crossings are counted where there were none at rest") {
+    const Result twisted = reported(halves(1), turned(halves(1), 150.0));
+    CHECK(!twisted.report.crossings->empty());
+    CHECK(!twisted.report.flipped.empty());
+    const Scene far = make_scene(make_bar({1.0, 5.0, 6, 30}));
+    const Result bent = reported(far, turned(far, 30.0));
+    CHECK(bent.report.crossings->empty());
+    CHECK(bent.report.flipped.empty());
+}
+
+TEST_CASE("handles that nearly touch: the report names the vertices that part, and what helps") {
+    for (const Index apart : {0, 1}) {
+        const Scene scene = halves(apart);
+        const DeformReport report = reported(scene, turned(scene, 60.0)).report;
+        REQUIRE(!report.tears.empty());
+        for (const Tear& tear : report.tears) {
+            CHECK(tear.slip > 1.5);
+            CHECK(contains(scene.low, tear.vertices[0]) != contains(scene.low, tear.vertices[1]));
+            CHECK(contains(scene.high, tear.vertices[0]) != contains(scene.high, tear.vertices[1]));
+        }
+        CHECK(report.tears.front().slip >= report.tears.back().slip);
+        REQUIRE(report.warnings.size() == 1);
+        CHECK(report.warnings.front().find("free_rings = ") != std::string::npos);
+    }
+    const Scene apart = halves(4);
+    CHECK(reported(apart, turned(apart, 60.0)).report.tears.empty());
+    const Scene touching = halves(0);
+    CHECK(reported(touching, translation(0.1 * Vec3::UnitX())).report.tears.empty());
+}
+
+TEST_CASE("handles that nearly touch: rings given up at both borders bridge what was torn") {
+    const Scene scene = halves(0);
+    const Affine move = turned(scene, 60.0);
+    const Result torn = reported(scene, move);
+    double before = torn.report.stretch;
+    CHECK(!torn.report.crossings->empty());
+    for (const int rings : {2, 4}) {
+        DeformOptions options;
+        options.free_rings = rings;
+        const Result bridged = reported(scene, move, options);
+        CHECK(bridged.report.stretch < 0.7 * before);
+        before = bridged.report.stretch;
+        // What is farther from the gap is held as before, to the bit.
+        Index held = 0;
+        for (const Index v : scene.high) held += bridged.positions[v] == torn.positions[v];
+        CHECK(held < static_cast<Index>(scene.high.size()));
+        CHECK(held > static_cast<Index>(scene.high.size()) / 2);
+    }
+    DeformOptions options;
+    options.free_rings = 4;
+    CHECK(reported(scene, move, options).report.crossings->empty());
+    CHECK(reported(scene, move, options).report.tears.empty());
+}
+
+TEST_CASE("handles that nearly touch: small ones keep a ring, and rigid motions are exact") {
+    const Scene scene = halves(0);
+    DeformOptions options;
+    options.free_rings = 10;
+    Deformer d(scene.mesh, scene.all(), options);
+    std::vector<Index> ring;
+    const double y = scene.mesh.position(scene.high.front()).y();
+    double lowest = 1e300;
+    for (const Index v : scene.high) lowest = std::min(lowest, scene.mesh.position(v).y());
+    for (const Index v : scene.high) {
+        if (scene.mesh.position(v).y() < lowest + 1e-6) ring.push_back(v);
+    }
+    REQUIRE(y >= lowest);
+    d.add_handle(scene.region(scene.low));
+    const HandleId high = d.add_handle(scene.region(ring));
+    const Affine rigid = rotation({1, -1, 2}, 1.1, {0, 0, 1});
+    for (const HandleId handle : d.handles()) d.set_transform(handle, rigid);
+    CHECK(greatest_distance(d.solve(), mapped(d.rest_positions(), rigid)) < 1e-9);
+    d.set_transform(high, translation(Vec3::UnitX()) * rigid);
+    const std::vector<Vec3> x = d.solve();
+    for (const Index v : ring) {
+        CHECK(x[v] == (translation(Vec3::UnitX()) * rigid)(scene.mesh.position(v)));
+    }
+    CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-9);
+}
