@@ -131,12 +131,12 @@ void describe(Archive& a, StrandsRecord& strands) {
 // Files without these displaced flat vertices, and do so still.
 template <typename Archive>
 void describe_surface(Archive& a, DeformOptions& options) {
-    static constexpr const char* kFlat[] = {"extended", "displaced"};
-    static constexpr const char* kLoose[] = {"error", "stay", "follow"};
+    static constexpr const char* kFlatNames[] = {"extended", "displaced"};
+    static constexpr const char* kLooseNames[] = {"error", "stay", "follow"};
     std::optional<DeformOptions> given = options;
     a.optional("surface", given, [](Archive& b, DeformOptions& o) {
-        b.choice("flat", o.flat, kFlat);
-        b.choice("loose", o.loose, kLoose);
+        b.choice("flat", o.flat, kFlatNames);
+        b.choice("loose", o.loose, kLooseNames);
         b.integer("free_rings", o.free_rings);
     });
     options.flat = given ? given->flat : FlatVertices::displaced;
