@@ -28,6 +28,8 @@ constexpr Index kSampledVertices = 1000;
 constexpr double kThinOutline = 3.0;
 // How far the source deforms in the fixed configuration, in radii of its largest boundary.
 constexpr double kReach = 3.0;
+// How much more slender faces may be where the usual threshold leaves a system without a solution.
+constexpr double kSlenderFaces = 1e3;
 
 std::string degrees(double radians) {
     char text[16];
@@ -458,6 +460,20 @@ Region deforming(const MergePreparation& made) {
     return Region(source.mesh.shared_topology(), std::move(near));
 }
 
+// Faces a hundred times as long as wide, as loops of thousands of vertices have, look flat to the
+// usual threshold, all of them at once. Told apart from flat ones they have a solution.
+std::unique_ptr<BoundaryDeformer> firm_deformer(const Mesh& mesh, const Region& region,
+                                                const Region& held, BoundaryDeformOptions how,
+                                                const Context& context) {
+    try {
+        return std::make_unique<BoundaryDeformer>(mesh, region, held, how, context);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::not_positive_definite) throw;
+    }
+    how.degenerate_threshold *= kSlenderFaces;
+    return std::make_unique<BoundaryDeformer>(mesh, region, held, how, context);
+}
+
 void factor(MergePreparation& made, const Context& context) {
     const MergeSide& source = made.boundaries.source;
     const Region region = deforming(made);
@@ -467,7 +483,7 @@ void factor(MergePreparation& made, const Context& context) {
     made.kept = kept;
     BoundaryDeformOptions how = made.method.deform;
     const auto deformer_with = [&](const Region& held) {
-        return std::make_unique<BoundaryDeformer>(source.mesh, region, held, how, context);
+        return firm_deformer(source.mesh, region, held, how, context);
     };
     if (made.options.configuration == Configuration::fixed) {
         made.deformer = deformer_with(kept);

@@ -678,3 +678,42 @@ test("a thin outline that is to meet a round one is told before anything is solv
     expect.equal(#told, 1)
     expect.truthy(told[1]:find("axes [56]%.%d : 1") and told[1]:find("lissom.paste", 1, true))
 end)
+
+-- A tube of `sides` and four rings from `from` to `to` along x, not quite round.
+local function slender_tube(sides, from, to)
+    local positions, faces = {}, {}
+    for ring = 0, 4 do
+        for k = 0, sides - 1 do
+            local angle = 2 * math.pi * k / sides
+            local radius = 1 + 0.1 * math.cos(3 * angle)
+            positions[#positions + 1] = { from + (to - from) * ring / 4,
+                radius * math.cos(angle), radius * math.sin(angle) }
+        end
+    end
+    for ring = 0, 3 do
+        for k = 1, sides do
+            local a, b = ring * sides + k, ring * sides + k % sides + 1
+            faces[#faces + 1] = { a, b, b + sides, a + sides }
+        end
+    end
+    return lissom.mesh{ positions = positions, faces = faces }
+end
+
+test("loops of thousands of vertices, with faces much longer than wide, are joined", function()
+    local source, target = slender_tube(2000, 0, 2), slender_tube(250, 2.2, 4.2)
+    local function near(part, x)
+        for _, boundary in ipairs(part:boundaries()) do
+            if math.abs(boundary:points()[1][1] - x) < 0.1 then return boundary end
+        end
+    end
+    local joined, told = lissom.merge{ configuration = "fixed", reach = 1.6, collar = false, source = source,
+        target = target, joins = { { source = near(source, 2), target = near(target, 2.2),
+            keys = { { { 2, 1.1, 0 }, { 2.2, 1.1, 0 } } } } } }
+    expect.truthy(joined)
+    expect.equal(#told.intersections, 0)
+    expect.truthy(told.seam.after.greatest_dihedral < 10)
+    local bounds = joined:bounds()
+    expect.near(bounds.min[1], 0, 1e-9)
+    expect.near(bounds.max[1], 4.2, 1e-9)
+    expect.truthy(bounds.max[2] < 1.2 and bounds.min[2] > -1.2)
+end)
