@@ -679,14 +679,14 @@ test("a thin outline that is to meet a round one is told before anything is solv
     expect.truthy(told[1]:find("axes [56]%.%d : 1") and told[1]:find("lissom.paste", 1, true))
 end)
 
--- A tube of `sides` and four rings from `from` to `to` along x, not quite round.
-local function slender_tube(sides, from, to)
+-- A tube of `sides` and four rings from `first` to `last` along x, not quite round.
+local function slender_tube(sides, first, last)
     local positions, faces = {}, {}
     for ring = 0, 4 do
         for k = 0, sides - 1 do
             local angle = 2 * math.pi * k / sides
             local radius = 1 + 0.1 * math.cos(3 * angle)
-            positions[#positions + 1] = { from + (to - from) * ring / 4,
+            positions[#positions + 1] = { first + (last - first) * ring / 4,
                 radius * math.cos(angle), radius * math.sin(angle) }
         end
     end
