@@ -213,13 +213,13 @@ test("queries see the present shape, whatever changed it", function()
 end)
 
 test("a region alone is subdivided, and the mesh stays watertight", function()
-    local box = lissom.shapes.box()
-    local top = box:region{ plane = { point = { 0, 0.3, 0 }, normal = { 0, 1, 0 } } }
-    local fine = box:subdivide(2, { region = top })
+    local cube = lissom.shapes.box()
+    local top = cube:region{ plane = { point = { 0, 0.3, 0 }, normal = { 0, 1, 0 } } }
+    local fine = cube:subdivide(2, { region = top })
     expect.equal(fine:face_count(), 16 + 5)
     expect.equal(fine:is_closed(), true)
     expect.near(fine:volume(), 1, 1e-12)
-    expect.equal(box:subdivide{ region = top, scheme = "loop" }:is_closed(), true)
-    local corner = box:region{ vertices = { 1 } }
-    expect.error(function() assert(box:subdivide{ region = corner }) end, "no face")
+    expect.equal(cube:subdivide{ region = top, scheme = "loop" }:is_closed(), true)
+    local corner = cube:region{ vertices = { 1 } }
+    expect.error(function() assert(cube:subdivide{ region = corner }) end, "no face")
 end)

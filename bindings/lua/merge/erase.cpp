@@ -163,8 +163,8 @@ std::vector<Function> erase_methods_of_mesh() {
          .arguments = {object("region", "lissom.Region", "What is to go, marked casually.")},
          .options = {number("ring",
                             "How far around the region the mesh may be cut, in radii of the "
-                            "region's outline.")
-                         .above(0)
+                            "region's outline. 0: along the outline itself.")
+                         .at_least(0)
                          .defaults(defaults.ring),
                      number("bend",
                             "How much a cut through bent surface costs: an edge costs its length "

@@ -167,6 +167,24 @@ int loop_of_paste(Call& call) {
     return done ? 2 : call.fail();
 }
 
+int clearing_of_paste(Call& call) {
+    const auto setup = call.self<PasteSetup>();
+    auto& found = call.hold<std::optional<PasteClearing>>();
+    const auto region = call.create<RegionObject>();
+    const bool done = call.attempt_quick([&] {
+        found = setup->paste().clearing();
+        if (found) {
+            region.set(std::make_shared<RegionObject>(setup->target, *setup->paste().cleared()));
+        }
+    });
+    if (!done) return call.fail();
+    if (!found) {
+        lua_pushnil(call.lua());
+        return 1;
+    }
+    return 1 + push_clearing(call, *found);
+}
+
 void close_paste(void* object) {
     auto& setup = *static_cast<PasteSetup*>(object);
     setup.content.reset();
@@ -196,7 +214,8 @@ std::vector<Parameter> placement_fields(bool moved) {
                     "Turns the part about the surface's normal, counter-clockwise seen from "
                     "outside, from `toward`.")
                  .in("degrees"),
-             "0 where `toward` is given, else what fits best of twelve"),
+             "0, or what fits best of twelve where `up` does not lie in the surfaces and `toward` "
+             "is not given"),
         kept(
             number("scale", "Size of the part on the target over its size on the source.").above(0),
             "1"),
@@ -209,7 +228,8 @@ std::vector<Parameter> placement_fields(bool moved) {
 Parameter clear_parameter() {
     return either("clear", {boolean("under", ""), object("region", "lissom.Region", "")},
                   "Removes the target's features under the part first, as mesh:erase does: what "
-                  "lies within the part's reach of its place, or a region of the target.")
+                  "lies under the part's boundary and nothing beyond it, or a region of the "
+                  "target with a ring around it. paste:clearing() tells what before.")
         .optional("false");
 }
 
@@ -279,12 +299,14 @@ std::vector<Parameter> paste_parameters() {
         object("region", "lissom.Region",
                "Part of the source around the feature, marked casually: the boundary is sought "
                "between its outline and the feature."),
-        either("feature",
-               {object("region", "lissom.Region", ""),
-                choice("auto", {"auto"}, "What lies deep in the region.")},
-               "Part of the source that keeps out of the search; of any genus, and of several "
-               "parts. auto: what lies farther from the region's outline than the share `ring` of "
-               "the way to its middle, or of the outline's radius where that is less.")
+        either(
+            "feature",
+            {object("region", "lissom.Region", ""),
+             choice("auto", {"auto"}, "What lies deep in the region.")},
+            "Part of the source that keeps out of the search; of any genus, and of several "
+            "parts. auto: what lies farther from the region's outline than the share `ring` of "
+            "the way to its middle, or of the outline's radius where that is less; with the open "
+            "boundaries and the handles inside the region.")
             .optional("auto"),
         object("onto", "lissom.Region",
                "Part of the target that the feature may go to: without holes and handles, and "
@@ -431,7 +453,22 @@ assert(paste:merge():is_closed()))"},
                           {"lissom.Path", "image", "Points of the target's surface."}},
               .errors = {ErrorCode::handle_removed},
               .example = horn + R"(local loop, image = paste:loop()
-assert(#loop:points() == #image:points()))"}},
+assert(#loop:points() == #image:points()))"},
+             {.name = "clearing",
+              .body = clearing_of_paste,
+              .summary = "What `clear` removes of the target under the part, on the target as it "
+                         "was given: to draw it, or to ask before `merge`.",
+              .results = {{"lissom.Region", "region",
+                           "The vertices of the faces that go; nil if nothing goes."},
+                          {"lissom.PasteClearing", "report", "How much that is."}},
+              .errors = {ErrorCode::handle_removed},
+              .example = horn + R"(local nosed = lissom.paste{
+    source = source, target = source, clear = true,
+    region = source:region{ sphere = { center = { 0, 1.3, 0 }, radius = 0.95 } },
+    placement = { at = { 0, 1.8, 0 } },
+}
+local region, report = nosed:clearing()
+assert(#region > 0 and report.height > 0.5))"}},
         .close = close_paste};
 }
 

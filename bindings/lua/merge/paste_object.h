@@ -45,6 +45,8 @@ void read_clearing(const Call& call, PasteOptions& options);
 int push_paste_report(const Call& call, const PasteReport& report);
 /// Pushes what a draft found, but for its mesh, as a table.
 int push_paste_draft(const Call& call, const PasteDraft& draft);
+/// Pushes what was cleared for a part as a table.
+int push_clearing(const Call& call, const PasteClearing& clearing);
 /// Pushes what a search for a boundary found as a table.
 int push_paste_search(const Call& call, const PasteSearch& search);
 

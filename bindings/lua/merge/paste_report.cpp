@@ -57,8 +57,16 @@ int push_paste_search(const Call& call, const PasteSearch& search) {
     return 1;
 }
 
+int push_clearing(const Call& call, const PasteClearing& clearing) {
+    lua_createtable(call.lua(), 0, 3);
+    call.set_field("faces", call.push(clearing.faces));
+    call.set_field("area", call.push(clearing.area));
+    call.set_field("height", call.push(clearing.height));
+    return 1;
+}
+
 int push_paste_report(const Call& call, const PasteReport& report) {
-    lua_createtable(call.lua(), 0, 15);
+    lua_createtable(call.lua(), 0, 18);
     push_paste_search(call, report.search);
     call.set_field("search");
     push_map_quality(call, report.source_map);
@@ -67,6 +75,7 @@ int push_paste_report(const Call& call, const PasteReport& report) {
     call.set_field("target_map");
     call.set_field("angle", call.push(kInDegrees * report.angle));
     call.set_field("angle_chosen", call.push(report.angle_chosen));
+    call.set_field("upright", call.push(report.upright));
     call.set_field("scale", call.push(report.scale));
     push_distortion(call, report.near);
     call.set_field("near");
@@ -77,6 +86,10 @@ int push_paste_report(const Call& call, const PasteReport& report) {
     if (report.outline_near) {
         push_distortion(call, *report.outline_near);
         call.set_field("outline_near");
+    }
+    if (report.clearing) {
+        push_clearing(call, *report.clearing);
+        call.set_field("clearing");
     }
     call.set_field("kept_outline", call.push(report.kept_outline));
     call.set_field("smooth", call.push(report.smooth));
@@ -130,6 +143,13 @@ std::vector<Record> paste_records() {
          {{"number", "anisotropy", "95th percentile of greatest over least stretch of a face."},
           {"number", "energy", "Mean squared difference of the stretches from 1, after scaling."},
           {"integer", "faces", "How many faces that is of."}}},
+        {"lissom.PasteClearing",
+         "What of a target goes under a part.",
+         {{"integer", "faces", "How many faces, of the target as it is split there."},
+          {"number", "area", "Their area."},
+          {"number", "height",
+           "How far they stand out of the surface that takes their place, or are sunk in it, at "
+           "most."}}},
         {"lissom.PasteDraft",
          "What a draft of a paste found.",
          {{"number", "scale", "How much the part grew."},
@@ -144,7 +164,10 @@ std::vector<Record> paste_records() {
           {"lissom.PasteMapQuality", "source_map", "The map of the ring."},
           {"lissom.PasteMapQuality", "target_map", "The map of the target's region."},
           {"number", "angle", "Angle of the placement, in degrees."},
-          {"boolean", "angle_chosen", "It was not given."},
+          {"boolean", "angle_chosen", "It was not given, and is what fits best of twelve."},
+          {"boolean", "upright",
+           "Neither `toward` nor an angle was given, and the part's `up` points the same way on "
+           "the target, as far as the surface allows."},
           {"number", "scale", "How much the part grew."},
           {"lissom.PasteDistortion", "near", "Within three rings of the boundary."},
           {"lissom.PasteDistortion", "laid",
@@ -152,6 +175,8 @@ std::vector<Record> paste_records() {
           {"lissom.PasteDistortion", "feature", "In the feature."},
           {"lissom.PasteDistortion|nil", "outline_near",
            "Near the outline of the region, were it the boundary."},
+          {"lissom.PasteClearing|nil", "clearing",
+           "What was removed of the target under the part, if something was."},
           {"boolean", "kept_outline",
            "The outline was pasted along, since the surface there is distorted less."},
           {"boolean", "smooth", "The boundary runs through faces."},

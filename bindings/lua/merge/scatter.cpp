@@ -49,6 +49,16 @@ std::vector<PastePlacement> read_places(const Call& call) {
     return places;
 }
 
+void push_shrunk(const Call& call, const std::vector<ShrunkPlace>& shrunk) {
+    lua_createtable(call.lua(), count_of(shrunk), 0);
+    for (std::size_t i = 0; i < shrunk.size(); ++i) {
+        lua_createtable(call.lua(), 0, 2);
+        call.set_field("place", call.push(shrunk[i].place + 1));
+        call.set_field("scale", call.push(shrunk[i].scale));
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+    }
+}
+
 void push_refused(const Call& call, const std::vector<RefusedPlace>& refused) {
     lua_createtable(call.lua(), count_of(refused), 0);
     for (std::size_t i = 0; i < refused.size(); ++i) {
@@ -86,6 +96,7 @@ int scatter_part(Call& call) {
         options.merge.smooth = call.integer("smooth");
         options.merge.collar = call.boolean("collar");
         options.merge.lock_scale = call.integer("size") == 1;
+        options.crossings = call.choice<ScatterCrossings>("crossings");
         std::optional<Region> feature;
         if (given) feature = call.object<RegionObject>("feature")->current();
         found = std::make_unique<ScatterResult>(
@@ -97,9 +108,12 @@ int scatter_part(Call& call) {
     if (!done) return call.fail();
     call.remember(made.get());
     call.charge(mesh);
-    lua_createtable(call.lua(), 0, 4);
+    lua_createtable(call.lua(), 0, 6);
     push_refused(call, found->refused);
     call.set_field("refused");
+    push_shrunk(call, found->shrunk);
+    call.set_field("shrunk");
+    call.set_field("crossings", call.push(found->crossings));
     call.set_field("rounds", call.push(found->rounds));
     call.set_field("place_of_face", call.push_ids(found->place_of_face));
     const auto parts = call.create<RegionObject>();
@@ -130,7 +144,8 @@ std::vector<Parameter> scatter_parameters() {
         axis("up", "The direction of the source that belongs to it.").optional("y"),
         numbers("angles", "As of a placement: one for all or one a place.")
             .in("degrees")
-            .optional("0 where `toward` is given, else what fits best of twelve"),
+            .optional("0, or what fits best of twelve where `up` does not lie in the surfaces and "
+                      "`toward` is not given"),
         numbers("scales", "As of a placement: one for all or one a place.").optional("1"),
         integer("iterations", "Of the search for each boundary; 0 takes the outline of the region.")
             .at_least(0)
@@ -146,7 +161,13 @@ std::vector<Parameter> scatter_parameters() {
             .defaults(true),
         choice("size", {"boundary", "lock"},
                "Size of a part: that of its boundary on the target, or what `scales` says.")
-            .defaults("boundary")};
+            .defaults("boundary"),
+        choice("crossings", {"shrink", "leave out", "keep"},
+               "What becomes of a part that would run through itself, the target or a part before "
+               "it. shrink: it is made smaller, by a fifth at a time and by a half at most, and "
+               "left out if it crosses even then. keep: it stays, and the report counts what "
+               "crosses.")
+            .defaults("shrink")};
 }
 
 }  // namespace
@@ -182,18 +203,25 @@ assert(mesh:is_closed() and #report.refused == 1 and report.refused[1].place == 
 }
 
 std::vector<Record> scatter_records() {
-    return {{"lissom.RefusedPlace",
-             "A place that was left out.",
-             {{"integer", "place", "Its number."},
-              {"string", "code", "As of a failure; see lissom explain."},
-              {"string", "message", "Why."}}},
-            {"lissom.ScatterReport",
-             "What lissom.scatter did.",
-             {{"lissom.RefusedPlace[]", "refused", "Places that were left out, by number."},
-              {"lissom.Region", "parts", "All parts, on the new mesh."},
-              {"integer[]", "place_of_face",
-               "For each face the number of the place that its part was put to, or 0."},
-              {"integer", "rounds", "Times that parts were put into the mesh together."}}}};
+    return {
+        {"lissom.RefusedPlace",
+         "A place that was left out.",
+         {{"integer", "place", "Its number."},
+          {"string", "code", "As of a failure; see lissom explain."},
+          {"string", "message", "Why."}}},
+        {"lissom.ShrunkPlace",
+         "A place whose part was made smaller so that it crosses nothing.",
+         {{"integer", "place", "Its number."}, {"number", "scale", "The scale it has."}}},
+        {"lissom.ScatterReport",
+         "What lissom.scatter did.",
+         {{"lissom.RefusedPlace[]", "refused", "Places that were left out, by number."},
+          {"lissom.ShrunkPlace[]", "shrunk", "Places whose parts were made smaller, by number."},
+          {"integer", "crossings",
+           "Pairs of faces that cross, of parts that were kept nevertheless."},
+          {"lissom.Region", "parts", "All parts, on the new mesh."},
+          {"integer[]", "place_of_face",
+           "For each face the number of the place that its part was put to, or 0."},
+          {"integer", "rounds", "Times that parts were put into the mesh together."}}}};
 }
 
 }  // namespace lissom::lua

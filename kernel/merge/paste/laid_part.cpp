@@ -22,12 +22,32 @@ void lay_on_hole(const PartTrials& trials, LaidPart& laid, const Context& contex
 
 }  // namespace
 
-PartTrial outline_trial(const PartTrials& trials, const Context& context) {
+namespace {
+
+// Calls `use` with trials for which the maps alone tell where the ring lies.
+template <typename Use>
+auto as_mapped(const PartTrials& trials, const Use& use) {
     const RingSurface mapped(trials.surface.map(), trials.surface.ring(), trials.placed.mapped);
-    PartTrials marked{trials.options,    trials.regions, mapped,
-                      trials.ring,       trials.placed,  trials.parts,
-                      trials.lock_scale, trials.refines, trials.settles};
-    return marked.along_outline(context);
+    const PartTrials marked{trials.options,    trials.regions, mapped,
+                            trials.ring,       trials.placed,  trials.parts,
+                            trials.lock_scale, trials.refines, trials.settles};
+    return use(marked);
+}
+
+// The outline without teeth, where that distorts the part no more.
+PartTrial smooth_or(const PartTrials& trials, PartTrial outline, const Context& context) {
+    if (trials.options.thesis || trials.options.loop == PasteBoundary::mesh) return outline;
+    std::optional<PartTrial> smooth = as_mapped(
+        trials, [&](const PartTrials& mapped) { return mapped.along_smooth_outline(context); });
+    const bool good = smooth && smooth->near.energy <= outline.plain.energy;
+    return good ? std::move(*smooth) : std::move(outline);
+}
+
+}  // namespace
+
+PartTrial outline_trial(const PartTrials& trials, const Context& context) {
+    return as_mapped(trials,
+                     [&](const PartTrials& mapped) { return mapped.along_outline(context); });
 }
 
 BestTrial best_trial(const PartTrials& trials, bool with_outline, const Context& context) {
@@ -37,7 +57,7 @@ BestTrial best_trial(const PartTrials& trials, bool with_outline, const Context&
     PartTrial outline = outline_trial(trials, context);
     const PasteDistortion near = outline.plain;
     const bool less = outline.near.energy < best.near.energy;
-    return {less ? std::move(outline) : std::move(best), near};
+    return {less ? smooth_or(trials, std::move(outline), context) : std::move(best), near};
 }
 
 LaidPart laid_part(const PartTrials& trials, const Mesh& ground,

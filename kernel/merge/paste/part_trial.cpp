@@ -92,22 +92,42 @@ PartTrial PartTrials::along_loop(const Context& context) const {
 
 std::optional<PartTrial> PartTrials::along_line(const Context& context) const {
     if (!placed.line) return std::nullopt;
+    return along(MovingParts::Boundary::line, *placed.line, context);
+}
+
+std::optional<PartTrial> PartTrials::along(MovingParts::Boundary kind, const FreeLoop& free,
+                                           const Context& context) const {
     std::vector<Vec2> line;
-    for (const RingPoint& point : placed.line->points) line.push_back(point.uv);
+    for (const RingPoint& point : free.points) line.push_back(point.uv);
     try {
         const auto make = [&] {
             return part_inside(surface.map().source_mesh(), regions, surface.map().source(), line,
                                context);
         };
         PartTrial trial =
-            trial_of(parts.inside(line, make, paste_deformation(options.thesis), context),
-                     placed.line->similarity, context);
+            trial_of(parts.inside(kind, line, make, paste_deformation(options.thesis), context),
+                     free.similarity, context);
         trial.smooth = true;
         return trial;
     } catch (const Error& error) {
         if (error.code() != ErrorCode::boundary_conflict) throw;
         return std::nullopt;
     }
+}
+
+std::optional<PartTrial> PartTrials::along_smooth_outline(const Context& context) const {
+    PasteEnergy energy(ring_edges(surface.map(), ring, surface.images()), energy_for(options, 1));
+    const std::vector<Index> edges = energy.edges_of(ring, regions.outer);
+    PasteLoop outline;
+    outline.vertices = regions.outer;
+    const PasteSimilarity start = energy.start(edges);
+    outline.first_scale = start.scale;
+    outline.similarity = energy.improved(edges, start);
+    const std::optional<FreeLoop> line = outline_loop(surface, outline, energy_for(options, 1));
+    if (!line) return std::nullopt;
+    std::optional<PartTrial> trial = along(MovingParts::Boundary::outline_line, *line, context);
+    if (trial) trial->outline = true;
+    return trial;
 }
 
 PartTrial PartTrials::along_outline(const Context& context) const {

@@ -58,6 +58,8 @@ struct PartTrials {
     std::optional<PartTrial> along_line(const Context& context) const;
     /// With a similarity of its own. All of the outline must have an image.
     PartTrial along_outline(const Context& context) const;
+    /// The same without the teeth of the outline. Nothing where that has no such line.
+    std::optional<PartTrial> along_smooth_outline(const Context& context) const;
 
   private:
     bool slide(PartTrial& trial, double part, const Context& context) const;
@@ -66,6 +68,8 @@ struct PartTrials {
                        const Context& context) const;
     std::shared_ptr<MovingPart> inside(MovingParts::Boundary kind, std::span<const Index> loop,
                                        const Context& context) const;
+    std::optional<PartTrial> along(MovingParts::Boundary kind, const FreeLoop& line,
+                                   const Context& context) const;
 };
 
 }  // namespace lissom

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "kernel/core/memory_error.h"
-#include "kernel/merge/paste/erase/cleared_target.h"
 #include "kernel/merge/paste/part_trial.h"
 #include "kernel/merge/paste/paste_state.h"
 #include "kernel/merge/paste/placement/plane_line.h"
@@ -36,6 +35,18 @@ void require_options(const PasteOptions& options) {
             "the ring's share must lie between 0 and 1");
 }
 
+double longest_edge_of(const Mesh& mesh) {
+    double square = 0.0;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const std::span<const Index> face = mesh.topology().face(f);
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const Vec3 side = mesh.position(face[(k + 1) % face.size()]) - mesh.position(face[k]);
+            square = std::max(square, side.squaredNorm());
+        }
+    }
+    return std::sqrt(square);
+}
+
 void require_faces(const Mesh& mesh) {
     if (mesh.face_count() > 0) return;
     throw Error(ErrorCode::mesh_empty, "a mesh without faces cannot be pasted");
@@ -55,7 +66,7 @@ std::unique_ptr<PasteMap> Paste::State::map_of(std::span<const Index> target_fac
                                                const Context& context) const {
     return std::make_unique<PasteMap>(
         *surfaces, source_map, target_chart(target, target_faces, method_for(options), context),
-        options.correspondence == PasteCorrespondence::closest);
+        options.correspondence == PasteCorrespondence::closest || clears());
 }
 
 std::unique_ptr<PasteMap> Paste::State::map_around(const PastePlacement& placement, double room,
@@ -150,7 +161,10 @@ PlacedFeature Paste::State::place(const PasteMap& on, const PastePlacement& plac
     PlacedFeature place;
     place.placement = placement;
     place.angle = placement.angle.value_or(0.0);
-    if (!placement.angle && !placement.toward) choose_angle(on, place, context);
+    if (!placement.angle && !placement.toward) {
+        place.upright = on.planar(placement, 0.0).clear;
+        if (!place.upright) choose_angle(on, place, context);
+    }
     place.images = images_of(on, placement, place.angle);
     place.mapped = place.images;
     place.loop = search_boundary(on, regions, *ring, place.images, start,
@@ -271,39 +285,6 @@ void Paste::State::place_on_disk(const PastePlacement& placement, std::span<cons
     placed = std::move(*found);
 }
 
-Region Paste::State::region_to_clear(const PastePlacement& placement,
-                                     const Context& context) const {
-    if (options.cleared) return *options.cleared;
-    const SurfacePoint point = SpatialTree(given, context).nearest(placement.at);
-    const double reach = placement.scale * source_map.length_ratio * source_map.reach;
-    return region_under(given, point, reach, context);
-}
-
-// Removes the target's features where the part goes, and places it there.
-void Paste::State::place_on_cleared(const PastePlacement& placement, std::span<const Index> start,
-                                    const PasteEffort& effort, const Context& context) {
-    ClearedTarget next = cleared_target(given, onto, region_to_clear(placement, context), context);
-    // A map needs the surfaces that it was made with.
-    std::unique_ptr<PasteSurfaces> before = std::move(surfaces);
-    std::swap(target, next.mesh);
-    try {
-        surfaces = std::make_unique<PasteSurfaces>(source, target);
-        if (next.onto) {
-            std::unique_ptr<PasteMap> on =
-                map_of(target_faces(target, *next.onto, context), context);
-            placed = place(*on, placement, start, effort, context);
-            use_map(std::move(on));
-        } else {
-            place_on_disk(placement, start, effort, context);
-        }
-    } catch (...) {
-        std::swap(target, next.mesh);
-        surfaces = std::move(before);
-        throw;
-    }
-    cleared = std::move(next.map);
-}
-
 // What depends on the source alone.
 void Paste::State::prepare(const Mesh& new_source, const Region& region,
                            const std::optional<Region>& feature, const PasteOptions& wanted,
@@ -322,16 +303,12 @@ void Paste::State::prepare(const Mesh& new_source, const Region& region,
 void Paste::State::begin_on(const Mesh& new_target, const std::optional<Region>& region,
                             const PastePlacement& placement, const Context& context) {
     target = new_target;
+    onto = region;
     own_disk = !region.has_value();
-    if (clears()) {
-        given = target;
-        onto = region;
-        return place_on_cleared(placement, {}, {}, context);
-    }
+    longest_edge = longest_edge_of(target);
     surfaces = std::make_unique<PasteSurfaces>(source, target);
-    if (own_disk) return place_on_disk(placement, {}, {}, context);
-    use_map(map_of(target_faces(target, *region, context), context));
-    placed = place(*used->map, placement, {}, {}, context);
+    if (needs_another(placement)) return place_on_altered(placement, {}, {}, context);
+    place_here(onto, placement, {}, {}, context);
 }
 
 bool Paste::State::covers(const PlacedFeature& place) const {
@@ -401,8 +378,12 @@ Path Paste::optimize(Index iterations, const Context& context) try {
     PlacedFeature placed = state.place(*state.used->map, fixed, {}, {iterations, true}, context);
     placed.placement = state.placed.placement;
     placed.angle_chosen = state.placed.angle_chosen;
+    placed.upright = state.placed.upright;
     state.placed = std::move(placed);
     state.optimized = true;
+    if (state.options.clear && !state.options.cleared) {
+        state.clear_under_boundary({iterations, true}, context);
+    }
     return loop();
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
@@ -433,6 +414,14 @@ Path Paste::image() const {
     return {std::move(points), true};
 }
 
+std::optional<Region> Paste::cleared() const {
+    return state_->gone;
+}
+
+std::optional<PasteClearing> Paste::clearing() const {
+    return state_->clearing;
+}
+
 const PastePlacement& Paste::placement() const {
     return state_->placed.placement;
 }
@@ -444,7 +433,9 @@ std::size_t Paste::memory_bytes() const {
 void Paste::State::move_to(const PastePlacement& placement, const PasteEffort& effort,
                            const Context& context) {
     const std::vector<Index> start = optimized ? placed.loop.vertices : std::vector<Index>();
-    if (clears()) return place_on_cleared(placement, start, effort, context);
+    if (altered || needs_another(placement)) {
+        return place_on_altered(placement, start, effort, context);
+    }
     if (!own_disk) {
         placed = place(*used->map, placement, start, effort, context);
         return;

@@ -49,10 +49,10 @@ struct PasteOptions {
     /// The thesis to the letter: maps that keep angles (LSCM), the energy of Eq 3.1 with its
     /// similarity, a boundary along edges, its deformation.
     bool thesis = false;
-    /// Removes the target's features under the part first (erase_feature): what lies within the
-    /// part's reach of its place.
+    /// Removes the target's features under the part first (erase_feature): what lies under its
+    /// boundary, and nothing beyond that.
     bool clear = false;
-    /// What to remove in place of that; counts as `clear`.
+    /// What to remove in place of that, with a ring around it; counts as `clear`.
     std::optional<Region> cleared = std::nullopt;
 };
 
@@ -103,6 +103,9 @@ struct PasteReport {
     /// chosen.
     double angle = 0.0;
     bool angle_chosen = false;
+    /// Neither an angle nor a way was given, and the part's `up` was turned to that of the target,
+    /// as far as the surface allows.
+    bool upright = false;
     /// How much the part grew.
     double scale = 1.0;
     /// Within three rings of the boundary, by its image, and of the feature's faces.
@@ -115,6 +118,8 @@ struct PasteReport {
     bool kept_outline = false;
     /// The boundary runs through faces.
     bool smooth = false;
+    /// What was removed of the target, if something was.
+    std::optional<PasteClearing> clearing;
     /// A draft was asked for: another merge has the better seam.
     bool draft = false;
     /// Euler characteristic of the result, and what target and part make it.
@@ -130,13 +135,14 @@ struct PasteResult {
 class Paste {
   public:
     /// Checks the regions, lays both surfaces out in the plane and places the part. Meshes may
-    /// change or die afterwards. `onto` absent: a disk of the target around the placement, large
-    /// enough for the ring.
-    /// Errors: topology_mismatch, region_empty, boundary_conflict, not_a_disk for regions (see
-    /// paste_regions and target_faces); boundary_conflict for a point outside the target's region,
-    /// and where the feature's outline does not fit into it, naming vertices; invalid_argument for
-    /// options out of range; not_finite; mesh_empty; not_positive_definite; memory_limit;
-    /// cancelled. Where the target is cleared, also as erase_feature.
+    /// change or die afterwards. Where the target's edges under the part are long, they are halved
+    /// until there is room for it (finer_near). `onto` absent: a disk of the target around the
+    /// placement, large enough for the ring. Errors: topology_mismatch, region_empty,
+    /// boundary_conflict, not_a_disk for regions (see paste_regions and target_faces);
+    /// boundary_conflict for a point outside the target's region, and where the feature's outline
+    /// does not fit into it, naming vertices; invalid_argument for options out of range;
+    /// not_finite; mesh_empty; not_positive_definite; memory_limit; cancelled. Where the target is
+    /// cleared, also as erase_feature.
     Paste(const Mesh& source, const Mesh& target, const Region& region,
           const std::optional<Region>& feature, const std::optional<Region>& onto,
           const PastePlacement& placement, const PasteOptions& options = {},
@@ -157,6 +163,11 @@ class Paste {
     Path loop() const;
     /// The place of the loop on the target: one point for each of `loop`.
     Path image() const;
+
+    /// What of the target as given `merge` removes under the part before it opens it, as vertices
+    /// of the faces that go; nothing if that is nothing.
+    std::optional<Region> cleared() const;
+    std::optional<PasteClearing> clearing() const;
 
     /// Opens the target along the loop's image and pastes the part. Watertight where the target
     /// is. Errors: boundary_conflict where the target is too coarse under the part or the boundary

@@ -137,15 +137,17 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.target_map = state.used->map->target().quality();
     report.angle = placed.angle;
     report.angle_chosen = placed.angle_chosen;
+    report.upright = placed.upright;
     report.draft = options.draft;
+    report.clearing = state.clearing;
     const bool covered = state.covers(placed);
     progress.step(0.6);
     const TargetPiece& piece = state.target_piece(context);
     SewnPart pasted = sewn_onto(trials, piece, covered, report, options, context);
     progress.step(0.4);
-    const PasteOrigins origins{state.cleared ? &*state.cleared : nullptr,
-                               (state.cleared ? state.given : state.target).topology(),
-                               !options.draft, options.find_intersections && !options.draft};
+    const PasteOrigins origins{state.altered ? &*state.altered : nullptr,
+                               state.as_given().topology(), !options.draft,
+                               options.find_intersections && !options.draft};
     const auto put_back = [&](const TargetPiece& onto) {
         return onto.put_back(pasted.laid.opened, pasted.laid.trial.part(), std::move(pasted.sewn),
                              origins, context);

@@ -15,13 +15,14 @@ namespace lissom {
 struct PastePlacement {
     /// The middle of the feature comes to lie on the point of the target that is nearest to this.
     Vec3 at = Vec3::Zero();
-    /// The way on the target that the source's `up` is to point; of any length. Without it the
-    /// same way as on the source, as far as that lies in the surface.
+    /// The way on the target that the source's `up` is to point; of any length. Without it `up`
+    /// points the same way as on the source, as far as it lies in the surface.
     std::optional<Vec3> toward = std::nullopt;
     /// Direction of the source that `toward` is for.
     Vec3 up = Vec3::UnitY();
     /// Turns the part about the surface's normal, counter-clockwise seen from outside, in radians
-    /// from `toward`. Without either the angle is chosen that fits best, of twelve.
+    /// from `toward`. Without either it is 0, or, if `up` does not lie in one of the surfaces (it
+    /// is within 17 degrees of their normal), the one that fits best, of twelve.
     std::optional<double> angle = std::nullopt;
     /// Size of the part on the target, over its size on the source; above 0.
     double scale = 1.0;
@@ -58,6 +59,15 @@ struct PasteSearch {
     Index loop_size = 0;
     /// Rounds of nearest points that were kept.
     Index closest_rounds = 0;
+};
+
+/// What of a target goes under a part before that is pasted.
+struct PasteClearing {
+    /// Their number and their area, of the target as it is split there.
+    Index faces = 0;
+    double area = 0.0;
+    /// How far they stand out of the surface that takes their place, at most, or are sunk in it.
+    double height = 0.0;
 };
 
 /// How much the part was distorted; see PasteReport.

@@ -8,6 +8,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
+#include "kernel/merge/paste/erase/cleared_target.h"
 #include "kernel/merge/paste/part/moving_part.h"
 #include "kernel/merge/paste/part/target_piece.h"
 #include "kernel/merge/paste/paste.h"
@@ -27,7 +28,7 @@ namespace lissom {
 struct PlacedFeature {
     PastePlacement placement;
     double angle = 0.0;
-    bool angle_chosen = false;
+    bool angle_chosen = false, upright = false;
     /// One a place of the source's chart, and where the maps alone put them.
     std::vector<ImagePoint> images, mapped;
     PasteLoop loop;
@@ -52,6 +53,15 @@ struct PasteEffort {
     const FreeLoop* line = nullptr;
 };
 
+/// The target as a part stands on it.
+struct AlteredTarget {
+    Mesh mesh;
+    /// From its elements to those of the target as given; nothing where it is that.
+    std::optional<MeshMap> map;
+    /// The region for parts.
+    std::optional<Region> onto;
+};
+
 struct Paste::State {
     Mesh source, target;
     PasteOptions options;
@@ -65,11 +75,16 @@ struct Paste::State {
     /// Whether the target's region was chosen here.
     bool own_disk = false;
     bool optimized = false;
-    /// Where features of the target are removed: the target as given, its region for parts, and
-    /// where the elements of `target` come from.
-    Mesh given;
+    /// Of the target as given, the region for parts and the longest edge.
     std::optional<Region> onto;
-    std::optional<MeshMap> cleared;
+    double longest_edge = 0.0;
+    /// If `target` is another one, finer under the part or without its features there: the target
+    /// as given, and where the elements of `target` come from.
+    Mesh given;
+    std::optional<MeshMap> altered;
+    /// What of the target as given went, if something did.
+    std::optional<Region> gone;
+    std::optional<PasteClearing> clearing;
     PlacedFeature placed;
     MovingParts parts;
 
@@ -82,9 +97,33 @@ struct Paste::State {
                   const PastePlacement& placement, const Context& context);
     void move_to(const PastePlacement& placement, const PasteEffort& effort,
                  const Context& context);
-    Region region_to_clear(const PastePlacement& placement, const Context& context) const;
-    void place_on_cleared(const PastePlacement& placement, std::span<const Index> start,
+    const Mesh& as_given() const { return altered ? given : target; }
+    bool needs_another(const PastePlacement& placement) const;
+    double reach_of(const PastePlacement& placement) const;
+    AlteredTarget roomy(const PastePlacement& placement, const Context& context) const;
+    void place_here(const std::optional<Region>& region, const PastePlacement& placement,
+                    std::span<const Index> start, const PasteEffort& effort,
+                    const Context& context);
+    void place_on(AlteredTarget next, const PastePlacement& placement, std::span<const Index> start,
+                  const PasteEffort& effort, const Context& context);
+    template <typename Work>
+    void all_or_nothing(const Work& work);
+    /// Places the part on a target that is altered for it. After an error all is as before.
+    void place_on_altered(const PastePlacement& placement, std::span<const Index> start,
                           const PasteEffort& effort, const Context& context);
+    void note_cleared(const ClearedTarget& next);
+    AlteredTarget without_cleared(const AlteredTarget& ground, const Context& context);
+    AlteredTarget base_of(const AlteredTarget& ground, const PastePlacement& placement,
+                          const Context& context) const;
+    std::vector<Vec2> boundary_in_plane() const;
+    Region under_boundary(const AlteredTarget& ground, const PastePlacement& placement,
+                          const Context& context) const;
+    void place_on_cleared(const AlteredTarget& ground, const Region& under,
+                          const PastePlacement& placement, std::span<const Index> start,
+                          const PasteEffort& effort, const Context& context);
+    /// Clears the target under the boundary that was found, and seeks it there again. Where that
+    /// fails all stays.
+    void clear_under_boundary(const PasteEffort& effort, const Context& context);
     std::unique_ptr<PasteMap> map_of(std::span<const Index> target_faces,
                                      const Context& context) const;
     std::unique_ptr<PasteMap> map_around(const PastePlacement& placement, double room,

@@ -12,7 +12,9 @@
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/edit/append.h"
 #include "kernel/mesh/edit/extract.h"
+#include "kernel/mesh/edit/finer_near.h"
 #include "kernel/mesh/query/distances.h"
+#include "kernel/mesh/query/self_intersections.h"
 #include "kernel/mesh/query/spatial_tree.h"
 
 namespace lissom {
@@ -25,6 +27,13 @@ constexpr double kPlaceRoom = 1.5, kLeastRoom = 0.66, kSmallerDisk = 0.85;
 // the part is much denser, the faces beside it must stay as they are, those that reach beyond the
 // disk are not in it, and edges grow longer on the way.
 constexpr double kSeamRoom = 5.0;
+
+// Edges of the target within this many times a part's reach are halved if they are longer than the
+// first of these parts of it, until none is longer than the second.
+constexpr double kFineRoom = 2.0, kCoarseEdge = 1.5, kFineEdge = 0.3;
+// A part that crosses something is made smaller by this, as often as that.
+constexpr double kShrink = 0.8;
+constexpr int kShrinks = 3;
 
 // A mesh while it is put together: for each vertex the one of the mesh before that it is, where
 // others may be the same, and for each face the place it belongs to.
@@ -243,12 +252,18 @@ Piece put_together(const Piece& current, std::vector<PlaceWork> works, const Con
 
 class Scatterer {
   public:
+    /// `crosses` tells whether the feature crosses itself on its source.
     Scatterer(const PasteSource& feature, const Mesh& target,
-              std::span<const PastePlacement> places, const ScatterOptions& options)
-        : feature_(feature), places_(places), options_(options) {
-        current_.mesh = target;
-        current_.same.assign(at(target.vertex_count()), kNoIndex);
-        current_.place.assign(at(target.face_count()), kNoIndex);
+              std::span<const PastePlacement> places, const ScatterOptions& options, bool crosses,
+              const Context& context)
+        : feature_(feature),
+          places_(places.begin(), places.end()),
+          options_(options),
+          crosses_itself_(crosses),
+          shrinks_(places.size(), 0) {
+        current_.mesh = with_room(target, context);
+        current_.same.assign(at(current_.mesh.vertex_count()), kNoIndex);
+        current_.place.assign(at(current_.mesh.face_count()), kNoIndex);
         for (Index i = 0; i < count_of(places); ++i) waiting_.push_back(i);
     }
 
@@ -260,9 +275,10 @@ class Scatterer {
             std::vector<PlaceWork> works = chosen(context);
             paste_all(works, context);
             if (works.empty()) continue;
-            current_ = put_together(current_, std::move(works), context);
+            current_ = without_crossings(std::move(works), context);
             ++result_.rounds;
         }
+        note_shrunk();
         std::sort(result_.refused.begin(), result_.refused.end(),
                   [](const auto& a, const auto& b) { return a.place < b.place; });
         result_.mesh = std::move(current_.mesh);
@@ -273,6 +289,91 @@ class Scatterer {
   private:
     void refuse(Index place, ErrorCode code, const std::string& message) {
         result_.refused.push_back({place, code, message});
+    }
+
+    Mesh with_room(const Mesh& target, const Context& context) const {
+        if (places_.empty()) return target;
+        const SpatialTree tree(target, context);
+        std::vector<FinePlace> fine;
+        for (const PastePlacement& place : places_) {
+            const SurfacePoint point = tree.nearest(place.at);
+            const double reach = feature_.reach(place.scale);
+            fine.push_back({point.face, point.position, kFineRoom * reach, kCoarseEdge * reach,
+                            kFineEdge * reach});
+        }
+        std::optional<FinerMesh> finer = finer_near(target, fine, context);
+        return finer ? std::move(finer->mesh) : target;
+    }
+
+    // The mesh with the parts of a round, but for those that cross something.
+    Piece without_crossings(std::vector<PlaceWork> works, const Context& context) {
+        Piece next = put_together(current_, works, context);
+        const std::vector<std::pair<Index, Index>> pairs = crossings_of(next, works, context);
+        if (options_.crossings == ScatterCrossings::keep) {
+            result_.crossings += count_of(pairs);
+            return next;
+        }
+        if (pairs.empty()) return next;
+        for (const auto& [place, other] : pairs) give_way(works, place, other);
+        std::sort(waiting_.begin(), waiting_.end());
+        return works.empty() ? std::move(current_)
+                             : put_together(current_, std::move(works), context);
+    }
+
+    // For each pair of faces that cross the place that gives way, of two the one that comes later,
+    // and what it crosses.
+    std::vector<std::pair<Index, Index>> crossings_of(const Piece& piece,
+                                                      const std::vector<PlaceWork>& works,
+                                                      const Context& context) const {
+        std::vector<char> is_new(places_.size(), 0);
+        for (const PlaceWork& work : works) is_new[at(work.place)] = 1;
+        SelfIntersectionOptions options;
+        options.faces.emplace();
+        for (Index f = 0; f < piece.mesh.face_count(); ++f) {
+            const Index place = piece.place[at(f)];
+            if (place != kNoIndex && is_new[at(place)]) options.faces->push_back(f);
+        }
+        std::vector<std::pair<Index, Index>> pairs;
+        for (const FacePair& pair : self_intersections(piece.mesh, options, context)) {
+            Index place = piece.place[at(pair.first)], other = piece.place[at(pair.second)];
+            if (place == other && crosses_itself_) continue;
+            const bool gives_way = place != kNoIndex && is_new[at(place)] &&
+                                   (other == kNoIndex || !is_new[at(other)] || other < place);
+            if (!gives_way) std::swap(place, other);
+            pairs.emplace_back(place, other);
+        }
+        return pairs;
+    }
+
+    // Leaves a place out of this round: it waits to be tried smaller, or is refused.
+    void give_way(std::vector<PlaceWork>& works, Index place, Index other) {
+        const auto work = std::find_if(works.begin(), works.end(),
+                                       [&](const PlaceWork& w) { return w.place == place; });
+        if (work == works.end()) return;
+        works.erase(work);
+        const bool smaller = options_.crossings == ScatterCrossings::shrink;
+        if (smaller && shrinks_[at(place)] < kShrinks) {
+            ++shrinks_[at(place)];
+            places_[at(place)].scale *= kShrink;
+            waiting_.push_back(place);
+            return;
+        }
+        shrinks_[at(place)] = 0;
+        const std::string what = other == kNoIndex ? "the target"
+                                 : other == place  ? "itself"
+                                                   : "that of place " + std::to_string(other + 1);
+        refuse(place, ErrorCode::boundary_conflict, "its part would run through " + what);
+    }
+
+    void note_shrunk() {
+        for (std::size_t i = 0; i < shrinks_.size(); ++i) {
+            const bool refused =
+                std::any_of(result_.refused.begin(), result_.refused.end(),
+                            [&](const RefusedPlace& r) { return r.place == index_of(i); });
+            if (shrinks_[i] > 0 && !refused) {
+                result_.shrunk.push_back({index_of(i), places_[i].scale});
+            }
+        }
     }
 
     // Waiting places whose disks do not meet those of ones before them.
@@ -339,8 +440,11 @@ class Scatterer {
     }
 
     const PasteSource& feature_;
-    std::span<const PastePlacement> places_;
+    std::vector<PastePlacement> places_;
     const ScatterOptions& options_;
+    bool crosses_itself_;
+    // How often each place was made smaller.
+    std::vector<int> shrinks_;
     Piece current_;
     std::vector<Index> waiting_;
     ScatterResult result_;
@@ -369,7 +473,10 @@ ScatterResult scatter(const Mesh& source, const Mesh& target, const Region& regi
         throw Error(ErrorCode::mesh_empty, "parts cannot be scattered over a mesh without faces");
     }
     const PasteSource part(source, region, feature, options.paste, context);
-    return Scatterer(part, target, places, options).run(context);
+    SelfIntersectionOptions marked;
+    marked.faces = region.faces();
+    const bool crosses = !self_intersections(source, marked, context).empty();
+    return Scatterer(part, target, places, options, crosses, context).run(context);
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
 }

@@ -18,6 +18,17 @@
 
 namespace lissom {
 
+/// What becomes of a part that would run through itself, the target or a part before it.
+enum class ScatterCrossings {
+    /// It is made smaller, by a fifth at a time and by a half at most; one that crosses even then
+    /// is refused.
+    shrink,
+    /// Its place is refused.
+    leave_out,
+    /// It stays, and what crosses is counted.
+    keep,
+};
+
 struct ScatterOptions {
     /// `clear` and `cleared` must not be set.
     PasteOptions paste;
@@ -25,6 +36,7 @@ struct ScatterOptions {
     PasteMergeOptions merge = {.find_intersections = false, .compare = false};
     /// Of the search for each boundary; 0 takes the outline of the region.
     Index iterations = 4;
+    ScatterCrossings crossings = ScatterCrossings::shrink;
 };
 
 /// A place where the feature does not go, and why.
@@ -34,20 +46,31 @@ struct RefusedPlace {
     std::string message;
 };
 
+/// A place whose part was made smaller so that it crosses nothing, and the scale that it has.
+struct ShrunkPlace {
+    Index place = kNoIndex;
+    double scale = 1.0;
+};
+
 struct ScatterResult {
     Mesh mesh;
     /// For each face the place that it belongs to, or kNoIndex for those of the target.
     std::vector<Index> place_of_face;
     /// In the order of their numbers.
     std::vector<RefusedPlace> refused;
+    std::vector<ShrunkPlace> shrunk;
+    /// Pairs of faces that cross, of parts that were kept nevertheless.
+    Index crossings = 0;
     /// Times that pastes were put into the mesh together.
     Index rounds = 0;
 };
 
 /// Pastes the feature at all `places`, those with lower numbers first where two meet: a place that
 /// lies on a part, or has no room for the ring between parts, is refused, and so is each whose
-/// paste fails. The result does not depend on the number of threads. The target's faces away from
-/// parts keep their order and their values to the bit, its vertices too.
+/// paste fails or would cross what is there. Where the target's edges are long beside a place they
+/// are halved until there is room (finer_near). The result does not depend on the number of
+/// threads. The target's faces away from places keep their order and their values to the bit, its
+/// vertices too.
 /// Errors: as Paste's constructor for the source and its regions; topology_mismatch; mesh_empty;
 /// invalid_argument for options out of range, a scale that is not above 0 or a target to be
 /// cleared; not_finite; memory_limit; cancelled.

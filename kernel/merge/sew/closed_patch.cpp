@@ -14,6 +14,8 @@ namespace {
 constexpr int kPasses = 10;
 // Rings around a seam that is kept as it is.
 constexpr int kKeptRings = 2;
+// Edges of a surface that turns by more than this are not flipped.
+constexpr double kCrease = 30.0 * kDegree;
 // A flip must make the smallest angle greater by this part, so that equal shapes do not flip back
 // and forth and rounding does not decide.
 constexpr double kGain = 1e-6;
@@ -27,6 +29,15 @@ double normal_angle(const Vec3& n, const Vec3& m) {
 
 Vec3 normal(const Vec3& a, const Vec3& b, const Vec3& c) {
     return (b - a).cross(c - a);
+}
+
+// Whether two faces as they were before a seam meet in an edge of their surface that would show
+// if it went.
+bool is_crease(const Mesh& mesh, Index f, Index g) {
+    if (f == g) return false;
+    const Vec3 n = area_vector(mesh, f), m = area_vector(mesh, g);
+    if (n.isZero(0.0) || m.isZero(0.0)) return false;
+    return angle_between(n, m) > kCrease;
 }
 
 }  // namespace
@@ -174,6 +185,8 @@ bool ClosedPatch::improves(const Diagonal& quad, const Dihedrals& allowed) const
     const double old_angle = std::min(smallest_angle(a, c, d), smallest_angle(c, a, b));
     const double new_angle = std::min(smallest_angle(a, b, d), smallest_angle(b, c, d));
     if (!(new_angle > old_angle * (1.0 + kGain) + kSameAngle)) return false;
+    const Index left = faces_.faces()[quad.left].origin, right = faces_.faces()[quad.right].origin;
+    if (is_crease(faces_.mesh(), left, right)) return false;
     const Vec3 old_left = normal(a, c, d), old_right = normal(c, a, b);
     const Vec3 new_left = normal(a, b, d), new_right = normal(b, c, d);
     Dihedrals before{0.0, normal_angle(old_left, old_right)};

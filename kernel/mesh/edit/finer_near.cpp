@@ -373,7 +373,7 @@ std::optional<FinerMesh> finer_near(const Mesh& mesh, std::span<const FinePlace>
         context.checkpoint();
         std::vector<Index> near = faces_touching(mesh, place);
         if (std::none_of(near.begin(), near.end(),
-                         [&](Index f) { return has_longer_edge(mesh, f, place.length); })) {
+                         [&](Index f) { return has_longer_edge(mesh, f, place.coarse); })) {
             continue;
         }
         faces.push_back(std::move(near));

@@ -13,11 +13,13 @@
 
 namespace lissom {
 
-/// A ball around a point of a surface, and the greatest length of edges in it.
+/// A ball around a point of a surface, and how long edges in it may be.
 struct FinePlace {
     Index face = kNoIndex;
     Vec3 point = Vec3::Zero();
-    double radius = 0.0, length = 0.0;
+    double radius = 0.0;
+    /// Edges are halved if one is longer than `coarse`, until none is longer than `length`.
+    double coarse = 0.0, length = 0.0;
 };
 
 struct FinerMesh {
@@ -30,12 +32,13 @@ struct FinerMesh {
 /// the order in which they are reached.
 std::vector<Index> faces_touching(const Mesh& mesh, const FinePlace& place);
 
-/// Halves edges until no face that touches the ball of a place has an edge longer than its length.
-/// The longest edge of a triangle is halved before its others (Rivara 1984), so that no angle
-/// becomes smaller than half of what it was. The shape stays, and the mesh conforms: polygons in a
-/// ball are triangulated, those beside it take the new vertices in. The faces made from one face
-/// follow each other in its place; attributes are interpolated within faces. Nothing if no edge is
-/// that long. Errors: memory_limit; cancelled.
+/// Halves edges until no face that touches the ball of a place has an edge longer than its length,
+/// at places with an edge that is too long. The longest edge of a triangle is halved before its
+/// others (Rivara 1984), so that no angle becomes smaller than half of what it was. The shape
+/// stays, and the mesh conforms: polygons in a ball are triangulated, those beside it take the new
+/// vertices in. The faces made from one face follow each other in its place; attributes are
+/// interpolated within faces. Nothing if all places are fine enough. Errors: memory_limit;
+/// cancelled.
 std::optional<FinerMesh> finer_near(const Mesh& mesh, std::span<const FinePlace> places,
                                     const Context& context);
 

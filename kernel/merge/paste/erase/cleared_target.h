@@ -3,8 +3,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
+#include "kernel/merge/paste/paste_options.h"
+#include "kernel/merge/paste/placement/paste_map.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/spatial_tree.h"
@@ -18,15 +23,28 @@ struct ClearedTarget {
     MeshMap map;
     /// The region for parts, with the patch in place of what was removed from it.
     std::optional<Region> onto;
+    /// Of the target as given: the vertices of the faces that went.
+    Region gone;
+    PasteClearing found;
 };
 
-/// What lies under a part: the vertices within `radius` of a point of the surface, in a straight
-/// line, that hang together with it. Errors: cancelled.
+/// Where a part comes to lie at most: the vertices within `radius` of a point of the surface, in a
+/// straight line, that hang together with it. Errors: cancelled.
 Region region_under(const Mesh& target, const SurfacePoint& point, double radius,
                     const Context& context);
 
-/// Errors: as erase_feature.
+/// What lies under the boundary of a part: the vertices that hang together with `face` and whose
+/// nearest point on the surface `base`, which is the target without its features, lies inside the
+/// line, of the plane of `base`. Errors: cancelled.
+Region region_under_line(const Mesh& target, Index face, const PasteMap& base,
+                         std::span<const Vec2> line, const Context& context);
+
+/// Removes a region with its ring. Errors: as erase_feature.
 ClearedTarget cleared_target(const Mesh& target, const std::optional<Region>& onto,
                              const Region& gone, const Context& context);
+/// Removes what lies in a region and nothing beyond it. Nothing where it is a face wide. Errors: as
+/// erase_feature.
+std::optional<ClearedTarget> cleared_inside(const Mesh& target, const std::optional<Region>& onto,
+                                            const Region& under, const Context& context);
 
 }  // namespace lissom

@@ -16,6 +16,7 @@
 #include "kernel/merge/piece/face_set.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/mesh/edit/extract.h"
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/distances.h"
 
 namespace lissom {
@@ -35,12 +36,14 @@ constexpr double kDensities[] = {1.0, 2.0, 4.0};
 // Curvature is continued where it varies, around the cut, by less than this part of its mean.
 constexpr double kEvenCurvature = 0.05;
 constexpr Index kRimRings = 3;
+// A surface that has turned away by more than this is another side of a crease.
+constexpr double kReliefCrease = 60.0 * kDegree;
 // Times that curvatures are averaged with those around.
 constexpr int kCurvatureAverages = 2;
 
 void check_options(const EraseOptions& options) {
-    require(options.ring > 0.0 && std::isfinite(options.ring),
-            "the width of the ring around a region must be above 0");
+    require(options.ring >= 0.0 && std::isfinite(options.ring),
+            "the width of the ring around a region must be 0 or more");
     require(options.bend >= 0.0 && std::isfinite(options.bend),
             "the weight of curvature must be 0 or more");
     require(options.maximum_vertices >= 0, "maximum_vertices must be 0 or more");
@@ -63,8 +66,8 @@ double outline_radius(const Mesh& mesh, const Region& region) {
 }
 
 // A band around the surface has two outlines, of which a cut can follow one only.
-void require_one_outline(const Mesh& mesh, const PasteRegions& regions) {
-    std::vector<std::vector<Index>> loops = FaceSet(mesh.topology(), regions.region).loops();
+void require_one_outline(const Mesh& mesh, std::span<const Index> region) {
+    std::vector<std::vector<Index>> loops = FaceSet(mesh.topology(), region).loops();
     std::erase_if(loops, [&](const std::vector<Index>& loop) {
         return std::all_of(loop.begin(), loop.end(),
                            [&](Index v) { return mesh.topology().is_boundary(v); });
@@ -85,15 +88,80 @@ struct Surrounded {
     double width = 0.0;
 };
 
-// The region with a ring around it: as wide as was asked for, or as there is.
-Surrounded surrounded(const Mesh& mesh, const Region& region, double width,
-                      const Context& context) {
-    const std::vector<double> distance =
-        edge_distances(mesh, region.vertices(), std::max(width, 0.0), context);
-    for (int step = 0;; ++step, width *= kNarrower) {
+// What an erasure may take beside its region: distances from that, infinite beyond the ring and
+// across creases.
+class ErasureReach {
+  public:
+    ErasureReach(const Mesh& mesh, const Region& region, double width, const Context& context)
+        : mesh_(mesh),
+          distance_(edge_distances(mesh, region.vertices(), width, context)),
+          origin_(at(mesh.vertex_count()), kNoIndex) {
+        const std::vector<char> marked = region.mask();
         std::vector<Index> near;
         for (Index v = 0; v < mesh.vertex_count(); ++v) {
-            if (distance[at(v)] <= width) near.push_back(v);
+            if (marked[at(v)]) origin_[at(v)] = v;
+            if (!marked[at(v)] && distance_[at(v)] <= width) near.push_back(v);
+        }
+        std::stable_sort(near.begin(), near.end(),
+                         [&](Index a, Index b) { return distance_[at(a)] < distance_[at(b)]; });
+        find_normals(region);
+        for (const Index v : near) go_on_to(v);
+    }
+
+    bool holds(Index v) const { return origin_[at(v)] != kNoIndex; }
+    double distance(Index v) const {
+        return holds(v) ? distance_[at(v)] : std::numeric_limits<double>::infinity();
+    }
+    bool holds_all(std::span<const Index> vertices) const {
+        return std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return holds(v); });
+    }
+
+  private:
+    // Of the region its own side counts where its outline runs along a crease.
+    void find_normals(const Region& region) {
+        normals_ = vertex_normals(mesh_);
+        std::vector<Vec3> own(normals_.size(), Vec3::Zero());
+        for (const Index f : region.faces()) {
+            const Vec3 area = area_vector(mesh_, f);
+            for (const Index v : mesh_.topology().face(f)) own[at(v)] += area;
+        }
+        for (std::size_t v = 0; v < own.size(); ++v) {
+            if (own[v].squaredNorm() > 0.0) normals_[v] = own[v].stableNormalized();
+        }
+    }
+
+    // From a neighbour that is held, unless the surface has turned away since the region.
+    void go_on_to(Index v) {
+        Index nearest = kNoIndex;
+        for (const Index n : mesh_.topology().neighbors(v)) {
+            if (!holds(n) || !(distance_[at(n)] < distance_[at(v)])) continue;
+            if (turns_away(origin_[at(n)], v)) continue;
+            if (nearest == kNoIndex || distance_[at(n)] < distance_[at(nearest)]) nearest = n;
+        }
+        if (nearest != kNoIndex) origin_[at(v)] = origin_[at(nearest)];
+    }
+
+    bool turns_away(Index origin, Index v) const {
+        const Vec3& up = normals_[at(origin)];
+        const bool falls = (mesh_.position(v) - mesh_.position(origin)).dot(up) < 0.0;
+        return falls && up.dot(normals_[at(v)]) < std::cos(kReliefCrease);
+    }
+
+    const Mesh& mesh_;
+    std::vector<double> distance_;
+    std::vector<Index> origin_;
+    std::vector<Vec3> normals_;
+};
+
+// The region with a ring around it: as wide as was asked for, or as there is, but for `narrower`
+// steps.
+Surrounded surrounded(const Mesh& mesh, const Region& region, const ErasureReach& reach,
+                      double width, int narrower_steps, const Context& context) {
+    width *= std::pow(kNarrower, narrower_steps);
+    for (int step = narrower_steps;; ++step, width *= kNarrower) {
+        std::vector<Index> near;
+        for (Index v = 0; v < mesh.vertex_count(); ++v) {
+            if (reach.distance(v) <= width) near.push_back(v);
         }
         const Region fewest = region.grown(kFewestRings);
         const Region around = step > kNarrowings
@@ -101,7 +169,7 @@ Surrounded surrounded(const Mesh& mesh, const Region& region, double width,
                                   : Region(mesh.shared_topology(), std::move(near)).united(fewest);
         try {
             Surrounded found{paste_regions(mesh, around, region, 0.5, context), width};
-            require_one_outline(mesh, found.regions);
+            require_one_outline(mesh, found.regions.region);
             return found;
         } catch (const Error& error) {
             const ErrorCode code = error.code();
@@ -124,7 +192,9 @@ double curvature_at(const Mesh& mesh, Index v) {
 }
 
 // Of the ring's edges; infinite at open boundaries, which a patch cannot take the place of.
-std::vector<double> cut_costs(const Mesh& mesh, const LoopSearch& ring, double scale) {
+// So are they beyond the reach of the erasure.
+std::vector<double> cut_costs(const Mesh& mesh, const LoopSearch& ring, const ErasureReach& reach,
+                              double scale) {
     std::vector<double> curvature(at(mesh.vertex_count()), 0.0);
     std::vector<char> counts(curvature.size(), 0);
     for (const auto& [a, b] : ring.edges()) counts[at(a)] = counts[at(b)] = 1;
@@ -143,7 +213,8 @@ std::vector<double> cut_costs(const Mesh& mesh, const LoopSearch& ring, double s
     }
     std::vector<double> costs;
     for (const auto& [a, b] : ring.edges()) {
-        const bool open = mesh.topology().is_boundary(a) || mesh.topology().is_boundary(b);
+        const bool open = mesh.topology().is_boundary(a) || mesh.topology().is_boundary(b) ||
+                          !reach.holds(a) || !reach.holds(b);
         const double bent = 0.5 * (curvature[at(a)] + curvature[at(b)]);
         costs.push_back(open ? std::numeric_limits<double>::infinity()
                              : (mesh.position(a) - mesh.position(b)).norm() * (1.0 + scale * bent));
@@ -303,6 +374,110 @@ MeshMap with_patch(const MeshPart& rest, const Topology& old, const Mesh& filled
     return map;
 }
 
+// What is cut out, and along which loop.
+struct Excision {
+    std::vector<Index> faces, loop;
+    double cost = 0.0, width = 0.0;
+};
+
+[[noreturn]] void refuse_open_boundary() {
+    throw Error(ErrorCode::boundary_conflict,
+                "no loop around the region stays off the open boundaries of the mesh; mark a "
+                "smaller region, or fill the boundary first");
+}
+
+// Of the faces that would go, those beyond the reach of the erasure.
+Elements taken_beyond(const Mesh& mesh, const ErasureReach& reach, std::span<const Index> faces) {
+    Elements elements{ElementKind::face, 0, {}};
+    for (const Index f : faces) {
+        if (!reach.holds_all(mesh.topology().face(f))) elements.add(f);
+    }
+    return elements;
+}
+
+Excision cut_in_ring(const Mesh& mesh, const Surrounded& around, const ErasureReach& reach,
+                     double scale, const Context& context) {
+    const LoopSearch ring(mesh, around.regions, context);
+    const std::vector<double> costs = cut_costs(mesh, ring, reach, scale);
+    Excision cut;
+    cut.loop = ring.cheapest(costs, context);
+    if (cut.loop.empty()) refuse_open_boundary();
+    cut.cost = cost_of(ring, cut.loop, costs);
+    cut.width = around.width;
+    const PastePart gone = part_inside(mesh, around.regions, cut.loop, context);
+    for (Index f = 0; f < gone.mesh.face_count(); ++f) {
+        cut.faces.push_back(gone.map.faces.main_source(f));
+    }
+    return cut;
+}
+
+[[noreturn]] void refuse_to_run_around(const Elements& beyond) {
+    throw Error(ErrorCode::not_a_disk,
+                "the region runs around " + describe(beyond) +
+                    ", which it does not hold; mark these as well, or a part that does not run "
+                    "around them",
+                beyond);
+}
+
+// Of the parts of the surface beside a region the largest is the rest; others go with the region,
+// so that they must lie within its reach, or be pinholes of single vertices.
+void require_no_islands(const Mesh& mesh, const Region& region, const ErasureReach& reach) {
+    const std::vector<char> marked = region.mask();
+    const auto is_beside = [&](Index v) {
+        const auto around = mesh.topology().neighbors(v);
+        return marked[at(v)] ||
+               std::any_of(around.begin(), around.end(), [&](Index n) { return marked[at(n)]; });
+    };
+    const FaceSet faces(mesh.topology(), region.faces());
+    std::vector<std::vector<Index>> outside = faces.outside_parts(nullptr);
+    std::erase_if(outside, [&](const std::vector<Index>& part) {
+        return std::none_of(part.begin(), part.end(), [&](Index f) {
+            const std::span<const Index> face = mesh.topology().face(f);
+            return std::any_of(face.begin(), face.end(), [&](Index v) { return marked[at(v)]; });
+        });
+    });
+    for (std::size_t k = 1; k < outside.size(); ++k) {
+        std::vector<Index> inner = outside[k];
+        std::erase_if(inner, [&](Index f) {
+            const std::span<const Index> face = mesh.topology().face(f);
+            return std::all_of(face.begin(), face.end(), is_beside);
+        });
+        const Elements beyond = taken_beyond(mesh, reach, inner);
+        if (beyond.count > 0) refuse_to_run_around(beyond);
+    }
+}
+
+// A ring that closes around what was not marked is made narrower.
+Excision cut_around(const Mesh& mesh, const Region& region, const EraseOptions& options,
+                    const Context& context) {
+    const double radius = outline_radius(mesh, region), width = options.ring * radius;
+    const ErasureReach reach(mesh, region, width, context);
+    require_no_islands(mesh, region, reach);
+    for (int step = 0;; ++step) {
+        const Surrounded around = surrounded(mesh, region, reach, width, step, context);
+        Excision cut = cut_in_ring(mesh, around, reach, options.bend * radius, context);
+        // What joins the parts of the region, at bow-ties too, has to go with it.
+        const FaceSet feature(mesh.topology(), around.regions.feature);
+        std::vector<Index> others = cut.faces;
+        std::erase_if(others, [&](Index f) { return feature.contains(f); });
+        const Elements beyond = taken_beyond(mesh, reach, others);
+        if (beyond.count == 0) return cut;
+        if (step > kNarrowings) refuse_to_run_around(beyond);
+    }
+}
+
+Excision cut_along_outline(const Mesh& mesh, const Region& region, const Context& context) {
+    Excision cut;
+    cut.faces = outlined_faces(mesh, region, context);
+    require_one_outline(mesh, cut.faces);
+    cut.loop = FaceSet(mesh.topology(), cut.faces).loops().front();
+    cut.cost = length_of(mesh, cut.loop);
+    const bool open = std::any_of(cut.loop.begin(), cut.loop.end(),
+                                  [&](Index v) { return mesh.topology().is_boundary(v); });
+    if (open) refuse_open_boundary();
+    return cut;
+}
+
 }  // namespace
 
 ErasedFeature erase_feature(const Mesh& mesh, const Region& region, const EraseOptions& options,
@@ -310,35 +485,22 @@ ErasedFeature erase_feature(const Mesh& mesh, const Region& region, const EraseO
     check_options(options);
     require_same_topology(mesh, region.topology(), "the region");
     Progress progress(context, "erase");
-    progress.step(0.4);
-    const double radius = outline_radius(mesh, region);
-    const Surrounded around = surrounded(mesh, region, options.ring * radius, context);
-    const LoopSearch ring(mesh, around.regions, context);
-    const std::vector<double> costs = cut_costs(mesh, ring, options.bend * radius);
-    const std::vector<Index> loop = ring.cheapest(costs, context);
-    if (loop.empty()) {
-        throw Error(ErrorCode::boundary_conflict,
-                    "no loop around the region stays off the open boundaries of the mesh; mark a "
-                    "smaller region, or fill the boundary first");
-    }
-    progress.step(0.2);
-    const PastePart gone = part_inside(mesh, around.regions, loop, context);
-    std::vector<Index> faces;
-    for (Index f = 0; f < gone.mesh.face_count(); ++f) {
-        faces.push_back(gone.map.faces.main_source(f));
-    }
-    MeshPart rest = without_faces(mesh, faces, context);
+    progress.step(0.6);
     EraseReport report;
-    report.loop_size = count_of(loop);
-    report.loop_cost = cost_of(ring, loop, costs);
-    report.ring = around.width;
-    report.removed_faces = count_of(faces);
-    report.removed_vertices = gone.mesh.vertex_count() - report.loop_size;
+    const Excision cut = options.ring > 0.0 ? cut_around(mesh, region, options, context)
+                                            : cut_along_outline(mesh, region, context);
+    MeshPart rest = without_faces(mesh, cut.faces, context);
+    report.loop_size = count_of(cut.loop);
+    report.loop_cost = cut.cost;
+    report.ring = cut.width;
+    report.removed_faces = count_of(cut.faces);
+    report.removed_vertices = mesh.vertex_count() - rest.mesh.vertex_count();
     progress.step(0.4);
-    Mesh filled = closed_rest(rest, hole_in(rest, loop), options, report, context);
+    Mesh filled = closed_rest(rest, hole_in(rest, cut.loop), options, report, context);
     continue_values(filled, report.patch.first_vertex, report.patch.first_face, context);
     MeshMap map = with_patch(rest, mesh.topology(), filled);
-    return {std::move(filled), std::move(map), Path(mesh.shared_topology(), loop, true), report};
+    return {std::move(filled), std::move(map), Path(mesh.shared_topology(), cut.loop, true),
+            report};
 }
 
 }  // namespace lissom

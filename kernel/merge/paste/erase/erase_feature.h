@@ -2,9 +2,8 @@
 /// around it closes over the place (the fill of thesis section 3.4.1).
 #pragma once
 
-#include <vector>
-
 #include <string>
+#include <vector>
 
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
@@ -19,8 +18,8 @@ namespace lissom {
 
 struct EraseOptions {
     /// How far around the region the surface may be cut, along edges, in radii of the region's
-    /// outline (its length over 2 pi); above 0. Less is used where the surface around is no ring
-    /// that far.
+    /// outline (its length over 2 pi); 0 cuts along the outline itself. Less is used where the
+    /// surface around is no ring that far.
     double ring = 0.5;
     /// Weight of curvature in the cost of the cut: an edge costs |e| (1 + bend R k), with the
     /// outline's radius R and k = |k1| + |k2| of the surface around its ends. 0 or more; 0 cuts
@@ -69,16 +68,18 @@ struct ErasedFeature {
 
 /// Removes what `region` marks: cuts along the least-cost loop around it, which runs where the
 /// surface is even, and closes the hole by a patch as dense as its surroundings, or up to four
-/// times as dense where that lets it bend more evenly from a steep rim. The region may
-/// have any genus, several parts and open boundaries; the place is a disk afterwards. Everything
-/// outside the loop keeps its order and its values to the bit. On the patch, labels and attributes
-/// of faces are those of the nearest faces around; values of vertices and corners are continued
-/// harmonically from its rim, from one side of a seam of corner values where one meets it; normals
-/// are those of the patch. Joints and weights are blended as in `fill`.
-/// Errors: topology_mismatch; region_empty where the region holds no face, or nothing lies around
-/// it; not_a_disk, naming vertices, where the surface around it is no ring; boundary_conflict where
-/// an open boundary is so near that no loop around the region stays off it; invalid_argument for
-/// options out of range; not_positive_definite; memory_limit; cancelled.
+/// times as dense where that lets it bend more evenly from a steep rim. Nothing goes beyond the
+/// region and the ring around it, nor across a crease at which the surface around it falls away by
+/// more than 60 degrees. The region may have any genus, several parts and open boundaries; the
+/// place is a disk afterwards. Everything outside the loop keeps its order and its values to the
+/// bit. On the patch, labels and attributes of faces are those of the nearest faces around; values
+/// of vertices and corners are continued harmonically from its rim, from one side of a seam of
+/// corner values where one meets it; normals are those of the patch. Joints and weights are blended
+/// as in `fill`. Errors: topology_mismatch; region_empty where the region holds no face, or nothing
+/// lies around it; not_a_disk, naming vertices, where the surface around it is no ring, or naming
+/// faces that it runs around and does not hold; boundary_conflict where an open boundary is so near
+/// that no loop around the region stays off it; invalid_argument for options out of range;
+/// not_positive_definite; memory_limit; cancelled.
 ErasedFeature erase_feature(const Mesh& mesh, const Region& region,
                             const EraseOptions& options = {}, const Context& context = {});
 

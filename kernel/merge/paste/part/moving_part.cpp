@@ -59,10 +59,11 @@ std::shared_ptr<MovingPart> MovingParts::inside(Boundary kind, std::span<const I
     return kept.part;
 }
 
-std::shared_ptr<MovingPart> MovingParts::inside(std::span<const Vec2> line, const Make& make,
+std::shared_ptr<MovingPart> MovingParts::inside(Boundary kind, std::span<const Vec2> line,
+                                                const Make& make,
                                                 const BoundaryDeformOptions& options,
                                                 const Context& context) {
-    Kept& kept = kept_[static_cast<std::size_t>(Boundary::line)];
+    Kept& kept = kept_[static_cast<std::size_t>(kind)];
     if (!kept.part || !std::equal(line.begin(), line.end(), kept.line.begin(), kept.line.end())) {
         auto part = std::make_shared<MovingPart>(make(), options, context);
         kept = {{}, {line.begin(), line.end()}, std::move(part)};

@@ -51,14 +51,14 @@ class MovingPart {
 /// lies, and not which one it is.
 class MovingParts {
   public:
-    enum class Boundary { line, loop, outline };
+    enum class Boundary { line, loop, outline, outline_line };
     using Make = std::function<PastePart()>;
 
     /// The part inside a boundary, `make` where it is not the last one of its kind.
     std::shared_ptr<MovingPart> inside(Boundary kind, std::span<const Index> loop, const Make& make,
                                        const BoundaryDeformOptions& options,
                                        const Context& context);
-    std::shared_ptr<MovingPart> inside(std::span<const Vec2> line, const Make& make,
+    std::shared_ptr<MovingPart> inside(Boundary kind, std::span<const Vec2> line, const Make& make,
                                        const BoundaryDeformOptions& options,
                                        const Context& context);
 
@@ -68,7 +68,7 @@ class MovingParts {
         std::vector<Vec2> line;
         std::shared_ptr<MovingPart> part;
     };
-    std::array<Kept, 3> kept_;
+    std::array<Kept, 4> kept_;
 };
 
 }  // namespace lissom

@@ -284,8 +284,9 @@ double PasteMap::target_ratio(const Vec2& point, double radius) const {
     }
 }
 
-double PasteMap::base_angle(const PastePlacement& placement, const Vec2& point,
-                            double radius) const {
+// Adds the angle of the base direction.
+void PasteMap::turn_to_base(const PastePlacement& placement, double radius,
+                            PlanarMap& plane) const {
     std::vector<Vec3> points;
     for (const Index v : source_.map.vertex) points.push_back(surfaces_.source.position(v));
     const PlaneFit source(source_.map.uv, points);
@@ -295,13 +296,16 @@ double PasteMap::base_angle(const PastePlacement& placement, const Vec2& point,
         uv.clear();
         points.clear();
         for (std::size_t i = 0; i < target_.map.uv.size(); ++i) {
-            if ((target_.map.uv[i] - point).norm() > limit) continue;
+            if ((target_.map.uv[i] - plane.point).norm() > limit) continue;
             uv.push_back(target_.map.uv[i]);
             points.push_back(surfaces_.target.position(target_.map.vertex[i]));
         }
     }
-    return angle_between_fits(source, PlaneFit(uv, points), placement.up,
-                              placement.toward.value_or(placement.up));
+    const PlaneFit target(uv, points);
+    const Vec3 toward = placement.toward.value_or(placement.up);
+    plane.angle += angle_between_fits(source, target, placement.up, toward);
+    plane.clear = source.in_plane(placement.up).norm() >= kClearDirection &&
+                  target.in_plane(toward).norm() >= kClearDirection;
 }
 
 PlanarMap PasteMap::planar(const PastePlacement& placement, double angle) const {
@@ -320,7 +324,8 @@ PlanarMap PasteMap::planar(const PastePlacement& placement, double angle) const 
     const double wanted = placement.scale * source_.length_ratio;
     const double ratio = target_ratio(plane.point, wanted * source_.reach);
     plane.factor = wanted / target_ratio(plane.point, wanted / ratio * source_.reach);
-    plane.angle = angle + base_angle(placement, plane.point, plane.factor * source_.reach);
+    plane.angle = angle;
+    turn_to_base(placement, plane.factor * source_.reach, plane);
     return plane;
 }
 

@@ -58,6 +58,8 @@ struct ImagePoint {
 struct PlanarMap {
     Vec2 center = Vec2::Zero(), point = Vec2::Zero();
     double factor = 1.0, angle = 0.0;
+    /// The directions that its base is taken from lie clearly in both surfaces.
+    bool clear = false;
     Vec2 operator()(const Vec2& p) const;
 };
 
@@ -97,7 +99,7 @@ class PasteMap {
     ImagePoint image_at(const Triangle& places, const Vec3& weights) const;
     Vec2 point_of(const PastePlacement& placement) const;
     double target_ratio(const Vec2& point, double radius) const;
-    double base_angle(const PastePlacement& placement, const Vec2& point, double radius) const;
+    void turn_to_base(const PastePlacement& placement, double radius, PlanarMap& plane) const;
 
     const PasteSurfaces& surfaces_;
     PasteChart source_, target_;

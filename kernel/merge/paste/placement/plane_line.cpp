@@ -152,6 +152,13 @@ bool crosses_itself(std::span<const Vec2> line) {
     return false;
 }
 
+std::vector<char> lie_inside(std::span<const Vec2> points, std::span<const Vec2> line) {
+    const LineRows rows(line);
+    std::vector<char> inside;
+    for (const Vec2& point : points) inside.push_back(rows.contains(point) ? 1 : 0);
+    return inside;
+}
+
 bool set_line_values(const Topology& topology, std::span<const Index> vertices,
                      std::span<const Vec2> uv, std::span<const Vec2> line,
                      std::vector<double>& value) {

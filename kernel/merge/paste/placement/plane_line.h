@@ -14,6 +14,9 @@ namespace lissom {
 /// Whether a closed line crosses itself.
 bool crosses_itself(std::span<const Vec2> line);
 
+/// For each point whether a closed line runs around it.
+std::vector<char> lie_inside(std::span<const Vec2> points, std::span<const Vec2> line);
+
 /// Writes a value for every one of `vertices`, which lie at `uv`: above 0 inside the line, and the
 /// distance to the line wherever a neighbour lies on its other side. Others count as outside, so
 /// `value`, one for every vertex of the topology, is to hold what is below 0 for them, or above 0.

@@ -17,6 +17,9 @@ namespace {
 constexpr double kShrink = 0.85;
 constexpr int kShrinks = 6;
 
+// Of a ring that is sought: what its share is made smaller by, and the least that is tried.
+constexpr double kNarrowerShare = 0.6, kLeastShare = 0.05;
+
 Elements vertices_named(std::span<const Index> vertices) {
     Elements elements{ElementKind::vertex, 0, {}};
     for (const Index v : vertices) elements.add(v);
@@ -166,10 +169,35 @@ FaceSet deep_faces(const Mesh& source, const FaceSet& region, double share,
     return deep;
 }
 
+// Open boundaries inside the region, and what lies around them, belong to the feature that is
+// sought, unless they touch the region's outline.
+void add_open_boundaries(const FaceSet& region, FaceSet& feature) {
+    const Topology& topology = region.topology();
+    const std::vector<Index> outline = outline_of(region);
+    std::vector<char> outer(at(topology.vertex_count()), 0);
+    for (const Index v : outline) outer[at(v)] = 1;
+    for (const std::vector<Index>& loop : region.loops()) {
+        std::vector<Index> around;
+        bool apart = true;
+        for (const Index v : loop) {
+            for (const Index f : topology.faces_around(v)) {
+                const std::span<const Index> face = topology.face(f);
+                apart = apart && region.contains(f) &&
+                        std::none_of(face.begin(), face.end(),
+                                     [&](Index n) { return outer[at(n)] != 0; });
+                around.push_back(f);
+            }
+        }
+        if (!apart) continue;
+        for (const Index f : around) feature.add(f);
+    }
+}
+
 FaceSet clean_feature(const Mesh& source, const FaceSet& region,
                       const std::optional<Region>& feature, double share, const Context& context) {
     FaceSet set = feature ? FaceSet(source.topology(), feature->faces())
                           : deep_faces(source, region, share, context);
+    if (!feature) add_open_boundaries(region, set);
     for (const Index f : set.faces()) {
         if (!region.contains(f)) set.remove(f);
     }
@@ -256,11 +284,11 @@ void require_disk(const FaceSet& set) {
 
 }  // namespace
 
-PasteRegions paste_regions(const Mesh& source, const Region& region,
-                           const std::optional<Region>& feature, double share,
-                           const Context& context) {
-    require_same_topology(source, region.topology(), "the region");
-    if (feature) require_same_topology(source, feature->topology(), "the feature");
+namespace {
+
+PasteRegions regions_with(const Mesh& source, const Region& region,
+                          const std::optional<Region>& feature, double share,
+                          const Context& context) {
     const std::vector<Index> seed = feature ? feature->faces() : std::vector<Index>();
     const FaceSet whole = clean_region(source, region, seed, "region");
     const FaceSet core = clean_feature(source, whole, feature, share, context);
@@ -279,6 +307,35 @@ PasteRegions paste_regions(const Mesh& source, const Region& region,
     result.ring = ring.faces();
     result.inner = outline_of(core);
     return result;
+}
+
+}  // namespace
+
+PasteRegions paste_regions(const Mesh& source, const Region& region,
+                           const std::optional<Region>& feature, double share,
+                           const Context& context) {
+    require_same_topology(source, region.topology(), "the region");
+    if (feature) require_same_topology(source, feature->topology(), "the feature");
+    std::optional<Error> first;
+    for (double width = share; width >= kLeastShare || !first; width *= kNarrowerShare) {
+        try {
+            return regions_with(source, region, feature, width, context);
+        } catch (const Error& error) {
+            // A narrower ring leaves more of the handles of the surface to the feature.
+            if (feature || error.code() != ErrorCode::not_a_disk) throw;
+            if (!first) first = error;
+        }
+    }
+    throw Error(*first);
+}
+
+std::vector<Index> outlined_faces(const Mesh& mesh, const Region& region, const Context& context) {
+    context.checkpoint();
+    require_same_topology(mesh, region.topology(), "the region");
+    const FaceSet set = clean_region(mesh, region, {}, "region");
+    if (!outline_of(set).empty()) return set.faces();
+    throw Error(ErrorCode::region_empty,
+                "the region has no outline inside its mesh; mark a part of the surface only");
 }
 
 std::vector<Index> target_faces(const Mesh& target, const Region& onto, const Context& context) {

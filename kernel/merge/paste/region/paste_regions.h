@@ -27,7 +27,8 @@ struct PasteRegions {
 /// where their faces meet at a vertex only, islands in them are filled, and several parts of a
 /// feature are joined by the faces between them. Without a feature it is what lies farther from the
 /// region's outline, along edges, than `share`, 0 to 1, of the way to the farthest vertex or of the
-/// outline's radius, its length over 2 pi, whichever is less.
+/// outline's radius, its length over 2 pi, whichever is less; with the open boundaries inside the
+/// region, and with its handles, for which the ring is made narrower.
 /// The feature may have any genus, and open boundaries of its own.
 /// Errors, naming vertices: topology_mismatch for regions of another mesh; region_empty where
 /// region or feature holds no face, or the region has no outline; invalid_argument for a share out
@@ -36,6 +37,11 @@ struct PasteRegions {
 PasteRegions paste_regions(const Mesh& source, const Region& region,
                            const std::optional<Region>& feature, double share,
                            const Context& context);
+
+/// Faces of a region that were marked, cleaned the same way, with islands in them: they may have
+/// handles. Errors: topology_mismatch; region_empty where there are none, or nothing around them;
+/// cancelled.
+std::vector<Index> outlined_faces(const Mesh& mesh, const Region& region, const Context& context);
 
 /// Faces of the target that were marked, cleaned the same way. Errors: topology_mismatch;
 /// region_empty; not_a_disk, naming vertices, where they have a hole or a handle; cancelled.

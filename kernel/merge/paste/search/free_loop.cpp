@@ -21,6 +21,10 @@ constexpr double kSampling = 0.8;
 constexpr double kFilterWidth = 4.0;
 constexpr int kFilterReach = 42;
 constexpr int kFilterRounds = 2;
+// An outline is smoothed as often, and drawn inward by the least of these parts of its mean edge
+// that leaves it in the ring.
+constexpr int kOutlineRounds = 4;
+constexpr double kInward[] = {0.25, 0.5, 0.75, 1.0, 1.5, 2.0};
 
 std::vector<Triangle> ring_triangles(const PasteChart& chart, const PasteRegions& regions) {
     std::vector<Triangle> triangles;
@@ -277,6 +281,29 @@ std::optional<std::vector<RingPoint>> clamped(const RingSurface& surface,
     return points;
 }
 
+// A line that runs counter-clockwise, by a distance to its left.
+std::vector<Vec2> drawn_inward(const std::vector<Vec2>& line, double distance) {
+    const std::size_t n = line.size();
+    std::vector<Vec2> drawn;
+    for (std::size_t k = 0; k < n; ++k) {
+        const Vec2 along = (line[(k + 1) % n] - line[(k + n - 1) % n]).stableNormalized();
+        drawn.push_back(line[k] + distance * Vec2(-along.y(), along.x()));
+    }
+    return drawn;
+}
+
+// The points of a line, if all of them lie in the ring and on the target's region.
+std::optional<std::vector<RingPoint>> located(const RingSurface& surface,
+                                              std::span<const Vec2> line) {
+    std::vector<RingPoint> points;
+    for (const Vec2& place : line) {
+        const std::optional<RingPoint> point = surface.locate(place);
+        if (!point || !point->image.inside) return std::nullopt;
+        points.push_back(*point);
+    }
+    return points;
+}
+
 bool is_simple(std::span<const RingPoint> points) {
     std::vector<Vec2> images;
     for (const RingPoint& point : points) images.push_back(point.image.uv);
@@ -383,6 +410,28 @@ std::optional<FreeLoop> free_loop(const RingSurface& surface, const PasteLoop& f
         if (!points || !is_simple(*points)) continue;
         FreeLoop loop = judged(std::move(*points), from, options);
         if (loop.energy <= from.energy) return loop;
+    }
+    return std::nullopt;
+}
+
+std::optional<FreeLoop> outline_loop(const RingSurface& surface, const PasteLoop& outline,
+                                     const EnergyOptions& options) {
+    const PasteChart& chart = surface.map().source();
+    std::vector<Vec2> corners;
+    double side = 0.0;
+    for (const Index v : outline.vertices) corners.push_back(chart.map.uv[at(chart.place_of(v))]);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        side += (corners[(k + 1) % corners.size()] - corners[k]).norm();
+    }
+    side /= static_cast<double>(corners.size());
+    const std::vector<Vec2> even = resampled(corners, kSampling * side);
+    std::vector<Vec2> smooth = even;
+    for (int round = 0; round < kOutlineRounds; ++round) smooth = filtered(smooth);
+    for (const double inward : kInward) {
+        std::optional<std::vector<RingPoint>> points =
+            located(surface, drawn_inward(smooth, inward * side));
+        if (!points || !is_simple(*points)) continue;
+        return judged(std::move(*points), outline, options);
     }
     return std::nullopt;
 }

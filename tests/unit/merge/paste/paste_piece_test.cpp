@@ -274,15 +274,20 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("paste: a part alone is refused as the paste is, and stays where it was") {
+TEST_CASE("paste: a part alone finds room as the paste does, and stays where it was") {
     const Mesh horn = horned_ball();
-    // No vertex lies under the part.
+    // No vertex of the target as given lies under the part.
     const Mesh coarse = egg(2);
     Paste paste = horn_on_egg(horn, coarse, {.at = triangle_middle(coarse, 0), .scale = 0.1});
-    const Error alone = error_of([&] { paste.draft(); });
-    const Error whole = error_of([&] { paste.merge(); });
-    CHECK(alone.code() == ErrorCode::boundary_conflict);
-    CHECK(std::string(alone.what()) == whole.what());
+    check_part(paste);
+    const PasteResult whole = paste.merge();
+    CHECK(whole.merged.mesh.topology().is_closed());
+    for (const ElementMap::Source& source : whole.merged.provenance.vertices[0]) {
+        CHECK(source.element == 0);
+    }
+    for (Index v = 0; v < coarse.vertex_count(); ++v) {
+        CHECK(whole.merged.mesh.position(v) == coarse.position(v));
+    }
     const Mesh fine = egg(40);
     Paste good = horn_on_egg(horn, fine, kHere);
     const PasteDraft before = good.draft();

@@ -76,7 +76,7 @@ const std::vector<RealPaste>& real_pastes() {
              kPlanck,
              either(within(flap_base, 30), flap),
              either(within(flap_base, 20), flap),
-             {.at = {.29, .2, -.1}, .scale = .006},
+             {.at = {.29, .2, -.1}, .angle = 120 * kDegree, .scale = .006},
              .005,
              .0012,
              "other marks: LSCM and Eq 3.1 with our deformation gave .0032 there, here .0141, and "

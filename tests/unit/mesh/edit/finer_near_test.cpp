@@ -14,7 +14,7 @@ namespace {
 
 FinePlace place_at(const Mesh& mesh, const Vec3& point, double radius, double length) {
     const SurfacePoint on = SpatialTree(mesh).nearest(point);
-    return {on.face, on.position, radius, length};
+    return {on.face, on.position, radius, length, length};
 }
 
 // The longest edge among the faces that touch the ball of a place.
@@ -86,7 +86,9 @@ TEST_CASE("finer near: no angle falls below half of the smallest, on needles nei
 
 TEST_CASE("finer near: what is fine enough, and what lies on another sheet, stays") {
     const Mesh fine = make_sphere({.segments = 40, .kind = SphereKind::triangles});
-    const FinePlace enough = place_at(fine, {0, 1, 0}, 0.4, 0.4);
+    FinePlace enough = place_at(fine, {0, 1, 0}, 0.4, 0.4);
+    CHECK(!finer_near(fine, {&enough, 1}, {}));
+    enough.length = 0.01;
     CHECK(!finer_near(fine, {&enough, 1}, {}));
     const Mesh plate = make_box({.size = {4, 0.01, 4}});
     const FinePlace top = place_at(plate, {0.3, 0.005, 0.2}, 0.3, 0.1);

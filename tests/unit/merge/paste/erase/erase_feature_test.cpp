@@ -245,7 +245,7 @@ TEST_CASE("erase: what cannot be erased is refused, with vertices") {
     CHECK(
         (border.code() == ErrorCode::boundary_conflict || border.code() == ErrorCode::not_a_disk));
     EraseOptions bad;
-    bad.ring = 0.0;
+    bad.ring = -1.0;
     CHECK(error_of([&] { erase_feature(ball, around_horn(ball), bad); }).code() ==
           ErrorCode::invalid_argument);
 }

@@ -1,0 +1,215 @@
+// The target that a part is placed on: as it was given, or finer under the part where that is
+// coarse, and without the features that are to go.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/merge/paste/erase/cleared_target.h"
+#include "kernel/merge/paste/paste_state.h"
+#include "kernel/merge/provenance.h"
+#include "kernel/mesh/edit/finer_near.h"
+
+namespace lissom {
+namespace {
+
+// Edges under a part that are longer than this part of its reach are halved, until none is longer
+// than the other one.
+constexpr double kCoarse = 0.6, kFine = 0.3;
+
+// A region of a mesh on one that was made of it: the vertices that come from its vertices alone.
+Region carried(const Region& region, const Mesh& mesh, const MeshMap& map) {
+    const std::vector<char> inside = region.mask();
+    std::vector<Index> vertices;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        const auto sources = map.vertices[v];
+        if (std::all_of(sources.begin(), sources.end(),
+                        [&](const auto& source) { return inside[at(source.element)] != 0; })) {
+            vertices.push_back(v);
+        }
+    }
+    return {mesh.shared_topology(), std::move(vertices)};
+}
+
+// The target without what was cleared of it.
+AlteredTarget after(const AlteredTarget& ground, ClearedTarget next) {
+    MeshMap map = ground.map ? composed(next.map, *ground.map) : std::move(next.map);
+    return {std::move(next.mesh), std::move(map), std::move(next.onto)};
+}
+
+// Its vertices that the target as given has: the first ones.
+Region on_given(const Region& region, const Mesh& given) {
+    std::vector<Index> vertices = region.vertices();
+    std::erase_if(vertices, [&](Index v) { return v >= given.vertex_count(); });
+    return {given.shared_topology(), std::move(vertices)};
+}
+
+}  // namespace
+
+double Paste::State::reach_of(const PastePlacement& placement) const {
+    require(placement.scale > 0.0 && std::isfinite(placement.scale),
+            "the scale of a placement must be above 0");
+    if (!placement.at.allFinite() || !placement.offset.allFinite()) {
+        throw Error(ErrorCode::not_finite, "the point of a placement is NaN or infinite");
+    }
+    return placement.scale * source_map.length_ratio * source_map.reach;
+}
+
+bool Paste::State::needs_another(const PastePlacement& placement) const {
+    return clears() || longest_edge > kCoarse * reach_of(placement);
+}
+
+AlteredTarget Paste::State::roomy(const PastePlacement& placement, const Context& context) const {
+    const Mesh& mesh = as_given();
+    const double reach = reach_of(placement);
+    if (!(longest_edge > kCoarse * reach)) return {mesh, std::nullopt, onto};
+    const SurfacePoint point = SpatialTree(mesh, context).nearest(placement.at);
+    const FinePlace place{point.face, point.position, reach + placement.offset.norm(),
+                          kCoarse * reach, kFine * reach};
+    std::optional<FinerMesh> finer = finer_near(mesh, {&place, 1}, context);
+    if (!finer) return {mesh, std::nullopt, onto};
+    if (onto) require_same_topology(mesh, onto->topology(), "the target's region");
+    std::optional<Region> region;
+    if (onto) region = carried(*onto, finer->mesh, finer->map);
+    return {std::move(finer->mesh), std::move(finer->map), std::move(region)};
+}
+
+void Paste::State::place_here(const std::optional<Region>& region, const PastePlacement& placement,
+                              std::span<const Index> start, const PasteEffort& effort,
+                              const Context& context) {
+    if (!region) return place_on_disk(placement, start, effort, context);
+    std::unique_ptr<PasteMap> on = map_of(target_faces(target, *region, context), context);
+    placed = place(*on, placement, start, effort, context);
+    use_map(std::move(on));
+}
+
+void Paste::State::place_on(AlteredTarget next, const PastePlacement& placement,
+                            std::span<const Index> start, const PasteEffort& effort,
+                            const Context& context) {
+    used.reset();
+    surfaces.reset();
+    target = std::move(next.mesh);
+    altered = std::move(next.map);
+    surfaces = std::make_unique<PasteSurfaces>(source, target);
+    place_here(next.onto, placement, start, effort, context);
+}
+
+// Runs what alters the target. After an error all is as before.
+template <typename Work>
+void Paste::State::all_or_nothing(const Work& work) {
+    if (!altered) given = target;
+    Mesh target_before = target, given_before = given;
+    std::optional<MeshMap> altered_before = altered;
+    std::optional<Region> gone_before = std::exchange(gone, std::nullopt);
+    const std::optional<PasteClearing> clearing_before = std::exchange(clearing, std::nullopt);
+    std::unique_ptr<PasteSurfaces> surfaces_before = std::move(surfaces);
+    std::unique_ptr<TargetOnMap> used_before = std::move(used);
+    PlacedFeature placed_before = placed;
+    try {
+        work();
+    } catch (...) {
+        used = std::move(used_before);
+        surfaces = std::move(surfaces_before);
+        target = std::move(target_before);
+        given = std::move(given_before);
+        altered = std::move(altered_before);
+        gone = std::move(gone_before);
+        clearing = clearing_before;
+        placed = std::move(placed_before);
+        throw;
+    }
+}
+
+void Paste::State::place_on_altered(const PastePlacement& placement, std::span<const Index> start,
+                                    const PasteEffort& effort, const Context& context) {
+    const AlteredTarget ground = roomy(placement, context);
+    all_or_nothing([&] {
+        if (options.cleared) {
+            place_on(without_cleared(ground, context), placement, start, effort, context);
+        } else if (options.clear) {
+            place_on(base_of(ground, placement, context), placement, start, effort, context);
+            const Region under = under_boundary(ground, placement, context);
+            place_on_cleared(ground, under, placement, start, effort, context);
+        } else {
+            place_on(ground, placement, start, effort, context);
+        }
+    });
+}
+
+void Paste::State::note_cleared(const ClearedTarget& next) {
+    gone = on_given(next.gone, given);
+    clearing = next.found;
+}
+
+// The target without what it was asked to be cleared of.
+AlteredTarget Paste::State::without_cleared(const AlteredTarget& ground, const Context& context) {
+    require_same_topology(given, options.cleared->topology(), "the region to clear");
+    const Region region =
+        ground.map ? carried(*options.cleared, ground.mesh, *ground.map) : *options.cleared;
+    ClearedTarget next = cleared_target(ground.mesh, ground.onto, region, context);
+    note_cleared(next);
+    return after(ground, std::move(next));
+}
+
+// The surface that features within the part's reach stand on, as far as it is known.
+AlteredTarget Paste::State::base_of(const AlteredTarget& ground, const PastePlacement& placement,
+                                    const Context& context) const {
+    const SurfacePoint point = SpatialTree(ground.mesh, context).nearest(placement.at);
+    const Region near = region_under(ground.mesh, point, reach_of(placement), context);
+    try {
+        return after(ground, cleared_target(ground.mesh, ground.onto, near, context));
+    } catch (const Error& error) {
+        const ErrorCode code = error.code();
+        if (code == ErrorCode::cancelled || code == ErrorCode::memory_limit) throw;
+        return ground;
+    }
+}
+
+std::vector<Vec2> Paste::State::boundary_in_plane() const {
+    std::vector<Vec2> line;
+    if (placed.line) {
+        for (const RingPoint& point : placed.line->points) line.push_back(point.image.uv);
+        return line;
+    }
+    for (const Index v : placed.loop.vertices) {
+        line.push_back(placed.images[at(source_map.place_of(v))].uv);
+    }
+    return line;
+}
+
+// What of a target lies under the boundary as it is.
+Region Paste::State::under_boundary(const AlteredTarget& ground, const PastePlacement& placement,
+                                    const Context& context) const {
+    const SurfacePoint point = SpatialTree(ground.mesh, context).nearest(placement.at);
+    return region_under_line(ground.mesh, point.face, *used->map, boundary_in_plane(), context);
+}
+
+void Paste::State::place_on_cleared(const AlteredTarget& ground, const Region& under,
+                                    const PastePlacement& placement, std::span<const Index> start,
+                                    const PasteEffort& effort, const Context& context) {
+    std::optional<ClearedTarget> next = cleared_inside(ground.mesh, ground.onto, under, context);
+    if (!next) return place_on(ground, placement, start, effort, context);
+    note_cleared(*next);
+    place_on(after(ground, std::move(*next)), placement, start, effort, context);
+}
+
+void Paste::State::clear_under_boundary(const PasteEffort& effort, const Context& context) {
+    PastePlacement fixed = placed.placement;
+    fixed.angle = placed.angle;
+    const PlacedFeature before = placed;
+    const AlteredTarget ground = roomy(fixed, context);
+    const Region under = under_boundary(ground, fixed, context);
+    try {
+        all_or_nothing([&] { place_on_cleared(ground, under, fixed, {}, effort, context); });
+    } catch (const Error& error) {
+        // It stays cleared under the outline.
+        const ErrorCode code = error.code();
+        if (code == ErrorCode::cancelled || code == ErrorCode::memory_limit) throw;
+        return;
+    }
+    placed.placement = before.placement;
+    placed.angle_chosen = before.angle_chosen;
+    placed.upright = before.upright;
+}
+
+}  // namespace lissom
