@@ -24,7 +24,7 @@ function merge_pictures.print(name, mesh, report, parts)
     print(string.format("  seam: greatest angle between faces %.1f degrees (%.1f before smoothing), "
         .. "rms %.1f, smallest angles %.1f", after.greatest_dihedral, before.greatest_dihedral,
         after.rms_dihedral, after.low_angle))
-    print("  " .. report.verdict)
+    print("  " .. tostring(report))
     for _, warning in ipairs(parts and parts.warnings or {}) do print("  " .. warning) end
     for _, warning in ipairs(report.warnings) do print("  " .. warning) end
 end

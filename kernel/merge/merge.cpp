@@ -69,8 +69,25 @@ std::size_t Merge::memory_bytes() const {
     return bytes;
 }
 
+namespace {
+
+// The surface around one seam, against the parts as they were joined.
+BandQuality band_of(const MergePreparation& preparation, const Sewn& sewn, const JoinReport& join,
+                    std::size_t j, const Context& context) {
+    const std::vector<Index>& seam = sewn.seams[j];
+    const std::vector<Index> of_target = faces_on(sewn.side_of_face, SeamSide::target);
+    const std::vector<Index> of_source = faces_on(sewn.side_of_face, SeamSide::source);
+    const Boundaries& from = preparation.boundaries;
+    return band_quality({&sewn.mesh, of_target, seam}, {&sewn.mesh, of_source, seam},
+                        {&from.target, {}, from.target_loops[j]},
+                        {&from.source.mesh, {}, from.source.loops[j]}, join.scale,
+                        preparation.options.configuration == Configuration::fixed, context);
+}
+
+}  // namespace
+
 MergeReport report_of(const MergePreparation& preparation, const Matching& matching,
-                      const Moved& moved, const MergedSides& merged) {
+                      const Moved& moved, const MergedSides& merged, const Context& context) {
     MergeReport report;
     report.source_rim = preparation.source_rim;
     report.target_rim = preparation.target_rim;
@@ -89,9 +106,10 @@ MergeReport report_of(const MergePreparation& preparation, const Matching& match
     report.transition = merged.transition;
     report.intersections = merged.intersections;
     report.prepare_seconds = preparation.seconds;
-    const Verdict verdict = verdict_of(report, preparation.options.find_intersections);
-    report.ok = verdict.good;
-    report.verdict = verdict.text;
+    for (std::size_t j = 0; j < report.joins.size(); ++j) {
+        report.joins[j].band = band_of(preparation, merged.sewn, report.joins[j], j, context);
+    }
+    judge(report, preparation.options.find_intersections);
     return report;
 }
 
@@ -107,7 +125,7 @@ MergeResult Merge::solve(const Context& context) try {
     const Moved moved = deform_source(preparation, matching, context);
     progress.step(0.5);
     MergedSides merged = sew_sides(preparation, matching, moved, context);
-    MergeReport report = report_of(preparation, matching, moved, merged);
+    MergeReport report = report_of(preparation, matching, moved, merged, context);
     report.solve_seconds = seconds_since(start);
     const Boundaries& from = preparation.boundaries;
     const MeshMap origins =

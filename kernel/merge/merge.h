@@ -22,6 +22,7 @@
 #include "kernel/deform/stats.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/loop/correspondence.h"
+#include "kernel/merge/sew/band_quality.h"
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/derive.h"
@@ -162,16 +163,60 @@ struct JoinReport {
     /// In the fixed configuration: whether both parts lie on the same side of the boundary, so that
     /// the source turns over to meet the target.
     bool same_side = false;
+    /// The surface around the seam, against both sides before. Not measured of drafts.
+    BandQuality band;
+};
+
+/// Kinds of fault that a merge may have.
+enum class MergeFault {
+    /// Faces run through one another that did not before.
+    crossings,
+    /// In the fixed configuration both parts lie on the same side of their boundary.
+    side,
+    /// The surface folds back beside the seam where it did not before.
+    folds,
+    /// The band around the seam is rougher than the parts were there.
+    roughness,
+    /// A part lost volume, or was turned inside out.
+    volume,
+    /// The surface turns more across the band than beside the boundaries before.
+    bend,
+    /// The surface turns more at an edge of the seam than beside the boundaries before.
+    seam,
+    /// Where the boundaries meet is a guess that may be wrong.
+    place,
+    /// Triangles at the seam are so thin that they have no reliable normals.
+    slivers,
+};
+
+/// The name of a fault, as scripts see it: "crossings", "folds" and so on.
+const char* fault_name(MergeFault fault);
+
+/// Why a merge is not good.
+struct MergeReason {
+    MergeFault fault = MergeFault::crossings;
+    /// The join concerned; kNoIndex if it is all of them.
+    Index join = kNoIndex;
+    /// What was measured and the limit that it passes: radians for angles, radii of the seam for
+    /// the length of folds, a count of pairs of faces, the part of the volume that was kept, the
+    /// certainty of a guess.
+    double value = 0.0, limit = 0.0;
+    /// What is wrong, in plain words with both figures, and what may help.
+    std::string text, remedy;
 };
 
 /// What a merge found and did.
 struct MergeReport {
-    /// Whether the seams are good, and in one line why not; see verdict_of.
+    /// Whether the result is good, and in one line why not; see verdict_of.
     bool ok = false;
     std::string verdict;
+    /// Each fault, the gravest kind first; empty if the result is good.
+    std::vector<MergeReason> reasons;
     /// The parts beside their boundaries before they were joined: the steepest angles there are
     /// what a seam is measured by.
     SeamQuality source_rim, target_rim;
+    /// Angle, in radians, at which the options let the parts meet (PasteOptions::crease).
+    double crease = 0.0;
     /// Parts of the source without a boundary that is joined: in the free configuration each moves
     /// along with what is nearest to it.
     Index loose_parts = 0;

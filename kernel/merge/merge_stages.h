@@ -229,6 +229,6 @@ std::vector<FacePair> new_intersections(const Mesh& target, const Mesh& source, 
                                         const Context& context);
 
 MergeReport report_of(const MergePreparation& preparation, const Matching& matching,
-                      const Moved& moved, const MergedSides& merged);
+                      const Moved& moved, const MergedSides& merged, const Context& context);
 
 }  // namespace lissom

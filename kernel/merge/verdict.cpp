@@ -1,7 +1,9 @@
 #include "kernel/merge/verdict.h"
 
 #include <algorithm>
+#include <cstdarg>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 namespace lissom {
@@ -10,14 +12,33 @@ namespace {
 constexpr double kRadian = 180.0 / kPi;
 // Pairs of real models whose seams nobody sees turn by up to this angle at one edge, in radians.
 constexpr double kSteep = 30.0 / kRadian;
+// And by up to this in the mean along it; a paste may meet its target at a crease, which is the
+// greatest angle around it and about two thirds of that in the mean.
+constexpr double kSteepMean = 20.0 / kRadian, kMeanOfCrease = 2.0 / 3.0;
 // Triangles thinner than this have no reliable normals.
 constexpr double kThin = 2.0 / kRadian;
+// Bands of real models that look smooth are up to 1.34 times as rough as their sides were, crumpled
+// ones 1.5 times and more. Edges that turn by less in the mean do not show beside flat sides.
+constexpr double kRougher = 1.4, kSmooth = 8.0 / kRadian;
+// Folds shorter than this, in radii of the seam, are single edges of its smallest triangles.
+constexpr double kFold = 0.02;
+// A part that keeps less of its volume has visibly caved in.
+constexpr double kVolumeKept = 0.75;
+// What planes on either side of a seam may differ by on surfaces that were flat, and times as much
+// as they did before on others: in the mean, and at one place.
+constexpr double kBent = 25.0 / kRadian, kBentMost = 50.0 / kRadian, kMoreBent = 1.3;
+
+[[gnu::format(printf, 1, 2)]] std::string text_of(const char* format, ...) {
+    char text[256];
+    va_list values;
+    va_start(values, format);
+    std::vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    return text;
+}
 
 std::string angle_text(double radians) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f degrees", radians * kRadian < 10.0 ? 1 : 0,
-                  radians * kRadian);
-    return text;
+    return text_of("%.*f degrees", radians * kRadian < 10.0 ? 1 : 0, radians * kRadian);
 }
 
 std::string joined_by(const std::vector<std::string>& texts, const char* separator) {
@@ -42,61 +63,207 @@ std::string beside_text(const MergeReport& report) {
     return "as beside the boundaries before (" + angle_text(steepest_rim(report)) + "), ";
 }
 
-void judge_angles(const MergeReport& report, std::vector<std::string>& faults) {
-    const SeamQuality& seam = report.seam.after;
-    const double steepest = steepest_rim(report);
-    // Parts that fit are as steep as they were given.
-    if (seam.greatest_dihedral > std::max(kSteep, steepest) && !all_fit(report)) {
-        faults.push_back("the surface turns by " + angle_text(seam.greatest_dihedral) +
-                         " across the seam, and by " + angle_text(steepest) +
-                         " at most beside the boundaries before");
+using Reasons = std::vector<MergeReason>;
+
+// Of several joins the one that is meant.
+std::string at_join(const MergeReport& report, Index join) {
+    return report.joins.size() > 1 ? " at join " + std::to_string(join + 1) : "";
+}
+
+void judge_crossings(const MergeReport& report, Reasons& reasons) {
+    const std::size_t count = report.intersections.size();
+    if (count == 0) return;
+    reasons.push_back(
+        {MergeFault::crossings, kNoIndex, static_cast<double>(count), 0.0,
+         std::to_string(count) + " pairs of faces run through one another that did not before",
+         "move, turn or shrink the part, cut it or the target elsewhere, or give "
+         "keys that turn it less"});
+}
+
+void judge_sides(const MergeReport& report, Reasons& reasons) {
+    for (Index j = 0; j < count_of(report.joins); ++j) {
+        if (!report.joins[at(j)].same_side) continue;
+        reasons.push_back({MergeFault::side, j, 0.0, 0.0,
+                           "both parts lie on the same side of join " + std::to_string(j + 1) +
+                               ", so that the source turns over",
+                           "put the source on the other side, or use the free configuration"});
     }
+}
+
+void judge_folds(const MergeReport& report, Index j, Reasons& reasons) {
+    const BandQuality& band = report.joins[at(j)].band;
+    const double limit = band.rest_folded + kFold;
+    if (!(band.folded > limit)) return;
+    reasons.push_back({MergeFault::folds, j, band.folded, limit,
+                       text_of("the surface folds back beside the seam%s, along %.2f of its "
+                               "radius (%.2f before)",
+                               at_join(report, j).c_str(), band.folded, band.rest_folded),
+                       "cut the parts where they are smoother, give keys that turn the part less, "
+                       "or subdivide the coarser side"});
+}
+
+void judge_roughness(const MergeReport& report, Index j, Reasons& reasons) {
+    const BandQuality& band = report.joins[at(j)].band;
+    const double limit = std::max(kRougher * band.rest_roughness, kSmooth);
+    if (!(band.roughness > limit)) return;
+    reasons.push_back({MergeFault::roughness, j, band.roughness, limit,
+                       text_of("the surface around the seam%s is rough: its edges turn by %s, and "
+                               "turned by %s before",
+                               at_join(report, j).c_str(), angle_text(band.roughness).c_str(),
+                               angle_text(band.rest_roughness).c_str()),
+                       "cut the parts where they are smoother and of like size, leave the "
+                       "transition out, or smooth more"});
+}
+
+void judge_volume(const MergeReport& report, Index j, Reasons& reasons) {
+    const BandQuality& band = report.joins[at(j)].band;
+    for (const auto& [side, kept] :
+         {std::pair("source", band.source_volume), std::pair("target", band.target_volume)}) {
+        if (!(kept < kVolumeKept)) continue;
+        reasons.push_back(
+            {MergeFault::volume, j, kept, kVolumeKept,
+             kept > 0.0 ? text_of("the %s lost %.0f %% of its volume%s", side, 100.0 * (1.0 - kept),
+                                  at_join(report, j).c_str())
+                        : text_of("the %s turned inside out%s", side, at_join(report, j).c_str()),
+             "give keys that turn the part less, fix a region of it that keeps its shape, or put "
+             "it on the other side of the boundary"});
+    }
+}
+
+void judge_bend(const MergeReport& report, Index j, Reasons& reasons) {
+    // Parts that fit bend as they were given.
+    if (report.joins[at(j)].fits) return;
+    const BandQuality& band = report.joins[at(j)].band;
+    const double limit = std::max(kMoreBent * band.rest_bend, kBent + report.crease);
+    const double most = std::max(kMoreBent * band.rest_greatest_bend, kBentMost + report.crease);
+    const bool all_around = band.bend > limit;
+    if (!all_around && !(band.greatest_bend > most)) return;
+    const double value = all_around ? band.bend : band.greatest_bend;
+    const double before = all_around ? band.rest_bend : band.rest_greatest_bend;
+    reasons.push_back(
+        {MergeFault::bend, j, value, all_around ? limit : most,
+         text_of("the surface bends by %s from one side of the seam%s to the other%s, "
+                 "and by %s beside the boundaries before",
+                 angle_text(value).c_str(), at_join(report, j).c_str(),
+                 all_around ? "" : " at one place", angle_text(before).c_str()),
+         "use the seam \"fair\" or a transition, or cut where both parts have the "
+         "same shape"});
+}
+
+void note_seam(double turn, double limit, const std::string& text, Reasons& reasons) {
+    reasons.push_back({MergeFault::seam, kNoIndex, turn, limit, text,
+                       "use the seam \"fair\" or a transition, smooth more, or subdivide the "
+                       "coarser side"});
+}
+
+// All of the seams together: at their steepest edge, else in the mean.
+void judge_seam(const MergeReport& report, Reasons& reasons) {
+    if (all_fit(report)) return;
+    const double turn = report.seam.after.greatest_dihedral, steepest = steepest_rim(report);
+    const double limit = std::max(kSteep, steepest);
+    if (turn > limit) {
+        return note_seam(turn, limit,
+                         "the surface turns by " + angle_text(turn) + " across the seam, and by " +
+                             angle_text(steepest) + " at most beside the boundaries before",
+                         reasons);
+    }
+    double rough = 0.0;
+    for (const JoinReport& join : report.joins) rough = std::max(rough, join.band.rest_roughness);
+    const double mean = report.seam.after.rms_dihedral;
+    const double usual = std::max({kSteepMean, kMeanOfCrease * report.crease, rough});
+    if (!(mean > usual)) return;
+    note_seam(mean, usual,
+              "the surface turns by " + angle_text(mean) + " in the mean across the seam, and by " +
+                  angle_text(rough) + " at the edges beside the boundaries before",
+              reasons);
+}
+
+void judge_places(const MergeReport& report, Reasons& reasons) {
+    for (std::size_t j = 0; j < report.joins.size(); ++j) {
+        const JoinReport& join = report.joins[j];
+        if (!join.guessed || join.any_turn || join.certainty >= kCertain) continue;
+        reasons.push_back(
+            {MergeFault::place, index_of(j), join.certainty, kCertain,
+             "where the boundaries of join " + std::to_string(j + 1) + " meet is a guess",
+             "give a key: one point of each boundary that meet"});
+    }
+}
+
+void judge_slivers(const MergeReport& report, Reasons& reasons) {
+    const SeamQuality& seam = report.seam.after;
     double thinnest = kThin;
     for (const SeamQuality* rim : {&report.source_rim, &report.target_rim}) {
         if (rim->smallest_angle > 0.0) thinnest = std::min(thinnest, rim->smallest_angle);
     }
     // Both are 0 where there are no triangles.
     const bool triangles = seam.smallest_angle > 0.0 || seam.low_angle > 0.0;
-    if (triangles && seam.smallest_angle < thinnest) {
-        faults.push_back("triangles at the seam have angles down to " +
-                         angle_text(seam.smallest_angle));
-    }
+    if (!(triangles && seam.smallest_angle < thinnest)) return;
+    reasons.push_back(
+        {MergeFault::slivers, kNoIndex, seam.smallest_angle, thinnest,
+         "triangles at the seam have angles down to " + angle_text(seam.smallest_angle),
+         "leave the collar on, or subdivide the coarser side"});
 }
 
-void judge_sides(const MergeReport& report, std::vector<std::string>& faults) {
-    for (std::size_t j = 0; j < report.joins.size(); ++j) {
-        if (!report.joins[j].same_side) continue;
-        faults.push_back("both parts lie on the same side of join " + std::to_string(j + 1) +
-                         ", so that the source turns over");
+Reasons reasons_of(const MergeReport& report) {
+    Reasons reasons;
+    judge_crossings(report, reasons);
+    judge_sides(report, reasons);
+    for (const auto& judge_join : {judge_folds, judge_roughness, judge_volume, judge_bend}) {
+        for (Index j = 0; j < count_of(report.joins); ++j) judge_join(report, j, reasons);
     }
-}
-
-void judge_places(const MergeReport& report, std::vector<std::string>& faults) {
-    for (std::size_t j = 0; j < report.joins.size(); ++j) {
-        const JoinReport& join = report.joins[j];
-        if (!join.guessed || join.any_turn || join.certainty >= kCertain) continue;
-        faults.push_back("where the boundaries of join " + std::to_string(j + 1) +
-                         " meet is a guess");
-    }
+    judge_seam(report, reasons);
+    judge_places(report, reasons);
+    judge_slivers(report, reasons);
+    return reasons;
 }
 
 }  // namespace
 
-Verdict verdict_of(const MergeReport& report, bool sought) {
-    std::vector<std::string> faults;
-    judge_angles(report, faults);
-    judge_sides(report, faults);
-    if (!report.intersections.empty()) {
-        faults.push_back(std::to_string(report.intersections.size()) +
-                         " pairs of faces run through one another that did not before");
+const char* fault_name(MergeFault fault) {
+    switch (fault) {
+        case MergeFault::crossings:
+            return "crossings";
+        case MergeFault::side:
+            return "side";
+        case MergeFault::folds:
+            return "folds";
+        case MergeFault::roughness:
+            return "roughness";
+        case MergeFault::volume:
+            return "volume";
+        case MergeFault::bend:
+            return "bend";
+        case MergeFault::seam:
+            return "seam";
+        case MergeFault::place:
+            return "place";
+        case MergeFault::slivers:
+            break;
     }
-    judge_places(report, faults);
-    if (!faults.empty()) return {false, "not good: " + joined_by(faults, "; ")};
-    return {true, "good: the surface turns by at most " +
-                      angle_text(report.seam.after.greatest_dihedral) + " across the seam, " +
-                      beside_text(report) + "and " +
-                      (sought ? "no faces run through one another that did not before"
-                              : "faces that run through one another were not looked for")};
+    return "slivers";
+}
+
+Verdict verdict_of(const MergeReport& report, bool sought) {
+    Reasons reasons = reasons_of(report);
+    if (!reasons.empty()) {
+        std::vector<std::string> faults;
+        for (const MergeReason& reason : reasons) faults.push_back(reason.text);
+        return {false, "not good: " + joined_by(faults, "; "), std::move(reasons)};
+    }
+    return {true,
+            "good: the surface turns by at most " +
+                angle_text(report.seam.after.greatest_dihedral) + " across the seam, " +
+                beside_text(report) + "and " +
+                (sought ? "no faces run through one another that did not before"
+                        : "faces that run through one another were not looked for"),
+            {}};
+}
+
+void judge(MergeReport& report, bool sought) {
+    Verdict verdict = verdict_of(report, sought);
+    report.ok = verdict.good;
+    report.verdict = std::move(verdict.text);
+    report.reasons = std::move(verdict.reasons);
 }
 
 }  // namespace lissom

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "kernel/merge/merge.h"
 
@@ -10,14 +11,28 @@ namespace lissom {
 struct Verdict {
     bool good = false;
     std::string text;
+    std::vector<MergeReason> reasons;
 };
 
-/// A seam is good where the surface turns by no more than 30 degrees across it, or by no more than
-/// it does beside the boundaries as they were given; where no triangle at it has an angle under 2
-/// degrees, or under the smallest that was there; where no faces run through one another that did
-/// not before; where source and target do not lie on the same side of their boundary; and where its
-/// place is not a toss. The angles of parts that fit (JoinReport::fits) are theirs. The text says
-/// what holds, or all that does not. `sought`: intersections were looked for.
+/// Judges the whole band around each seam against the parts as they were before. It is good if
+/// - no faces run through one another that did not before (`sought`: they were looked for);
+/// - source and target do not lie on the same side of their boundary;
+/// - the surface does not fold back within one radius of the seam where it did not before;
+/// - within half a radius it is at most 1.4 times as rough as both sides were, or turns by less
+///   than 8 degrees an edge;
+/// - each part keeps three quarters of its volume at its scale;
+/// - planes fitted to either side of the seam differ by at most 25 degrees in the mean and 50 at
+/// one
+///   place, and by the crease of a paste, or 1.3 times as much as they did beside the boundaries;
+/// - the surface turns by no more than 30 degrees at an edge of the seam and 20 in the mean (two
+///   thirds of the crease of a paste), or by no more than at edges beside the boundaries;
+/// - its place is not a toss;
+/// - no triangle at the seam has an angle under 2 degrees, or under the smallest that was there.
+/// Angles of parts that fit (JoinReport::fits) are theirs. The text says what holds, or all that
+/// does not.
 Verdict verdict_of(const MergeReport& report, bool sought);
+
+/// Judges a report, and writes verdict and reasons into it.
+void judge(MergeReport& report, bool sought);
 
 }  // namespace lissom

@@ -341,8 +341,33 @@ end)
 
 test("the verdict", function()
     expect.truthy(report.ok and report.verdict:find("^good: "))
+    expect.equal(#report.reasons, 0)
+    expect.equal(tostring(report), report.verdict)
+    local band = report.joins[1].band
+    expect.truthy(band.roughness > 0 and band.rest_roughness > 0 and band.source_volume > 0.75)
     local _, of_folded = lissom.merge{ joins = { join{ { from, to } } }, smooth = 0, intersections = false }
     expect.truthy(of_folded.verdict:find("were not looked for", 1, true) or not of_folded.ok)
+end)
+
+test("a verdict names each fault with its figure, its limit and what may help", function()
+    -- Between loops of 6 and 400 vertices there are slivers, which collars take away.
+    local function open_tube(segments)
+        return lissom.shapes.cylinder{ height = 2, segments = segments, rings = 6, caps = false }
+    end
+    local coarse, dense = open_tube(6), open_tube(400)
+    local function joined(collar)
+        return select(2, lissom.merge{ smooth = 0, collar = collar, joins = { { source = rim(coarse),
+            target = rim(dense), keys = { { extreme(rim(coarse), 1), extreme(rim(dense), 1) } } } } })
+    end
+    expect.truthy(joined(true).ok)
+    local of_slivers = joined(false)
+    expect.truthy(not of_slivers.ok and #of_slivers.reasons == 1)
+    local reason = of_slivers.reasons[1]
+    expect.equal(reason.fault, "slivers")
+    expect.truthy(reason.value < reason.limit and reason.limit <= 2)
+    expect.truthy(of_slivers.verdict:find(reason.text, 1, true) and reason.remedy:find("collar"))
+    expect.equal(tostring(reason), reason.text .. "; " .. reason.remedy)
+    expect.equal(tostring(of_slivers), of_slivers.verdict .. "\n  slivers: " .. reason.remedy)
 end)
 
 test("loose parts are told", function()

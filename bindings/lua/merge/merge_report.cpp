@@ -81,8 +81,82 @@ void push_place(const Call& call, const JoinReport& join) {
     call.set_field("key");
 }
 
+void push_band_quality(const Call& call, const BandQuality& band) {
+    lua_createtable(call.lua(), 0, 11);
+    call.set_field("roughness", call.push(kDegrees * band.roughness));
+    call.set_field("rest_roughness", call.push(kDegrees * band.rest_roughness));
+    call.set_field("bend", call.push(kDegrees * band.bend));
+    call.set_field("rest_bend", call.push(kDegrees * band.rest_bend));
+    call.set_field("greatest_bend", call.push(kDegrees * band.greatest_bend));
+    call.set_field("rest_greatest_bend", call.push(kDegrees * band.rest_greatest_bend));
+    call.set_field("folded", call.push(band.folded));
+    call.set_field("rest_folded", call.push(band.rest_folded));
+    call.set_field("source_volume", call.push(band.source_volume));
+    call.set_field("target_volume", call.push(band.target_volume));
+    call.set_field("radius", call.push(band.radius));
+}
+
+bool is_angle(MergeFault fault) {
+    return fault == MergeFault::roughness || fault == MergeFault::bend ||
+           fault == MergeFault::seam || fault == MergeFault::slivers;
+}
+
+// Its text with what may help, for tostring.
+int reason_text(lua_State* L) {
+    lua_getfield(L, 1, "text");
+    lua_pushliteral(L, "; ");
+    lua_getfield(L, 1, "remedy");
+    lua_concat(L, 3);
+    return 1;
+}
+
+void push_reason(const Call& call, const MergeReason& reason) {
+    lua_State* L = call.lua();
+    lua_createtable(L, 0, 6);
+    const double unit = is_angle(reason.fault) ? kDegrees : 1.0;
+    call.set_field("fault", call.push(fault_name(reason.fault)));
+    if (reason.join != kNoIndex) call.set_field("join", call.push_id(reason.join));
+    call.set_field("value", call.push(unit * reason.value));
+    call.set_field("limit", call.push(unit * reason.limit));
+    call.set_field("text", call.push(reason.text));
+    call.set_field("remedy", call.push(reason.remedy));
+    lua_createtable(L, 0, 1);
+    lua_pushcfunction(L, reason_text);
+    lua_setfield(L, -2, "__tostring");
+    lua_setmetatable(L, -2);
+}
+
+void push_reasons(const Call& call, const std::vector<MergeReason>& reasons) {
+    lua_createtable(call.lua(), count_of(reasons), 0);
+    for (std::size_t i = 0; i < reasons.size(); ++i) {
+        push_reason(call, reasons[i]);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+    }
+}
+
+// The verdict and below it what may help for each reason, for tostring.
+int report_text(lua_State* L) {
+    lua_settop(L, 1);
+    lua_getfield(L, 1, "verdict");
+    lua_getfield(L, 1, "reasons");
+    for (int i = 1; lua_istable(L, 3); ++i) {
+        lua_rawgeti(L, 3, i);
+        if (!lua_istable(L, 4)) break;
+        lua_pushvalue(L, 2);
+        lua_pushliteral(L, "\n  ");
+        lua_getfield(L, 4, "fault");
+        lua_pushliteral(L, ": ");
+        lua_getfield(L, 4, "remedy");
+        lua_concat(L, 5);
+        lua_replace(L, 2);
+        lua_settop(L, 3);
+    }
+    lua_settop(L, 2);
+    return 1;
+}
+
 void push_join(const Call& call, const JoinReport& join) {
-    lua_createtable(call.lua(), 0, 17);
+    lua_createtable(call.lua(), 0, 18);
     push_place(call, join);
     call.set_field("source_size", call.push(join.source_size));
     call.set_field("target_size", call.push(join.target_size));
@@ -95,6 +169,8 @@ void push_join(const Call& call, const JoinReport& join) {
     call.set_field("target_refined", call.push(join.target_refined));
     call.set_field("fits", call.push(join.fits));
     call.set_field("same_side", call.push(join.same_side));
+    push_band_quality(call, join.band);
+    call.set_field("band");
 }
 
 void push_joins(const Call& call, const std::vector<JoinReport>& joins) {
@@ -276,11 +352,13 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     call.charge(provenance);
     lua_pushvalue(call.lua(), first);
     call.remember(owner.get());
-    lua_createtable(call.lua(), 0, 23);
+    lua_createtable(call.lua(), 0, 24);
     push_joins(call, result.report.joins);
     call.set_field("joins");
     call.set_field("ok", call.push(result.report.ok));
     call.set_field("verdict", call.push(result.report.verdict));
+    push_reasons(call, result.report.reasons);
+    call.set_field("reasons");
     call.set_field("loose_parts", call.push(result.report.loose_parts));
     push_texts(call, result.report.warnings);
     call.set_field("warnings");
@@ -312,6 +390,10 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     call.set_field("source");
     lua_pushvalue(call.lua(), first + 3);
     call.set_field("target");
+    lua_createtable(call.lua(), 0, 1);
+    lua_pushcfunction(call.lua(), report_text);
+    lua_setfield(call.lua(), -2, "__tostring");
+    lua_setmetatable(call.lua(), -2);
     return 2;
 }
 
@@ -407,14 +489,60 @@ std::vector<Record> merge_records() {
            "is smoothed, trimmed or refined."},
           {"boolean", "same_side",
            "In the fixed configuration: both parts lie on the same side of the boundary, so that "
-           "the source turns over."}}},
+           "the source turns over."},
+          {"lissom.BandQuality", "band",
+           "The surface around the seam, against both sides before; zeros of a draft."}}},
+        {"lissom.BandQuality",
+         "The surface around a seam, against the parts before they were joined; angles in degrees.",
+         {{"number", "roughness",
+           "The RMS angle at the edges within half a radius of the seam, weighted by length, "
+           "without the seam's own."},
+          {"number", "rest_roughness", "The same beside both boundaries before."},
+          {"number", "bend",
+           "The RMS angle between planes fitted to the surface on either side of points of the "
+           "seam, to strips a third of the radius wide."},
+          {"number", "rest_bend",
+           "The same before on the side that bends more, from the strip at the boundary to the one "
+           "behind it."},
+          {"number", "greatest_bend", "The greatest of the angles in `bend`."},
+          {"number", "rest_greatest_bend", "The greatest of those in `rest_bend`."},
+          {"number", "folded",
+           "Length of the edges within one radius at which the surface folds back by more than "
+           "135 degrees, in radii of the seam."},
+          {"number", "rest_folded",
+           "That of the edges of both sides before that turned by more than 105 degrees."},
+          {"number", "source_volume",
+           "Volume between source and seam, over that of the source at rest at its scale: 1 where "
+           "it was kept, negative where it turned inside out."},
+          {"number", "target_volume", "The same of the target; 1 of a paste."},
+          {"number", "radius", "Radius of the seam."}}},
+        {"lissom.MergeReason",
+         "Why a merge is not good. tostring gives text and remedy.",
+         {{"string", "fault",
+           "crossings, side, folds, roughness, volume, bend, seam, place or slivers."},
+          {"integer|nil", "join", "The join that it is of; nil of all of them."},
+          {"number", "value",
+           "What was measured: degrees for roughness, bend, seam and slivers; radii of the seam "
+           "for folds; pairs of faces for crossings; the part that was kept for volume; the "
+           "certainty for place."},
+          {"number", "limit", "The limit that it passes."},
+          {"string", "text", "What is wrong, in plain words."},
+          {"string", "remedy", "What may help."}}},
         {"lissom.MergeReport",
          "What a merge found and did.",
          {{"boolean", "ok",
-           "Whether the seams are good: they turn by no more than 30 degrees, or than the surfaces "
-           "did beside the boundaries; no triangle at them has less than 2 degrees, or than there "
-           "were; no faces run through one another that did not before; and no place is a toss."},
+           "Whether the result is good: no faces run through one another that did not before; the "
+           "surface around the seam does not fold back, is at most 1.4 times as rough as the parts "
+           "were there (or turns by less than 8 degrees an edge), and bends by no more than 25 "
+           "degrees from one side to the other and 50 at one place, or 1.3 times what it did "
+           "before (and by the crease of a paste); each part keeps "
+           "three quarters of its volume; the seam turns by no more than 30 degrees and 20 in "
+           "the mean, or than the surfaces did beside the boundaries; no place is a toss; no "
+           "triangle at the seam has less than 2 degrees, or than there were."},
           {"string", "verdict", "The same in one line: what holds, or what does not."},
+          {"lissom.MergeReason[]", "reasons",
+           "Each fault with what was measured, its limit and what may help; empty if ok. "
+           "tostring(report) lists them."},
           {"lissom.JoinReport[]", "joins", "One a join."},
           {"string[]", "warnings", "What to look at, in plain words."},
           {"integer", "loose_parts",

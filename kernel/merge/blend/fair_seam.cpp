@@ -19,6 +19,16 @@ void check_fairing(const SeamFairing& options) {
     }
 }
 
+// A seam that turns by less does not show among edges that turn as much; fairing may leave more of
+// it than there was, where it takes steeper edges beside it away.
+constexpr double kFaintSeam = 20.0 * kDegree;
+
+SeamQuality faint_seam() {
+    SeamQuality quality;
+    quality.greatest_dihedral = kFaintSeam;
+    return quality;
+}
+
 }  // namespace
 
 std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> seams,
@@ -43,7 +53,7 @@ std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> sea
         if (error.code() != ErrorCode::not_positive_definite) throw;
         return {};
     }
-    band.write_guarded(mesh, seams, {}, context);
+    band.write_guarded(mesh, seams, faint_seam(), context);
     return region.vertices();
 }
 

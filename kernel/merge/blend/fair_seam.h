@@ -31,9 +31,11 @@ struct SeamFairing {
 /// continue those around it. Seams whose bands meet are solved together. Vertices on open
 /// boundaries stay, and where a component has nothing else outside the band, those farthest from
 /// its seams. Every other vertex stays to the bit; "normal" attributes turn with the surface. The
-/// way there is gone only as far as it does no harm: no dihedral angle at the seams may become
-/// greater than the greatest before, and no face may run through another that it did not. A surface
-/// so folded that it does not say how it bends stays as it is.
+/// way there is gone only as far as it does no harm: no dihedral angle across the seams may become
+/// greater than the greatest before, or than 20 degrees, and none near them than the greatest
+/// before; the band may not become rougher by more than a tenth (SeamGuard), and no face may run
+/// through another that it did not. A surface so folded that it does not say how it bends stays as
+/// it is.
 /// Returns the vertices of the band, ascending; none if nothing moved for that.
 /// Errors: invalid_argument for options out of range, or where two consecutive vertices of a seam
 /// share no edge; out_of_range naming the vertices; not_positive_definite; memory_limit; cancelled.

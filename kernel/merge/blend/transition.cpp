@@ -24,13 +24,15 @@ constexpr double kShareOfSide = 0.9;
 // share of the side, whose end is to stay recognisable.
 constexpr double kSuitableRadii = 0.9, kSuitableEdges = 3.0, kSuitableShare = 0.5;
 
-// Angles up to this do not show among the details that fade across a seam: smoothing may have left
-// smaller ones, and a transition need not.
-constexpr double kFaint = 10.0 * kDegree;
+// Angles up to these do not show among the details that fade across a seam: smoothing may have left
+// smaller ones, and a transition need not. Across the seam itself it may leave more, where it takes
+// steeper edges beside it away.
+constexpr double kFaint = 10.0 * kDegree, kFaintSeam = 20.0 * kDegree;
 
 SeamQuality faint_angles() {
     SeamQuality quality;
-    quality.greatest_dihedral = quality.greatest_near = kFaint;
+    quality.greatest_dihedral = kFaintSeam;
+    quality.greatest_near = kFaint;
     return quality;
 }
 

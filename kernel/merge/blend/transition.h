@@ -65,9 +65,10 @@ struct TransitionReport {
 /// in the core of the seam what continues that around it. The bands take the shape with these
 /// curvatures in the least squares, weighted by area; everything else stays to the bit, open
 /// boundaries included. "normal" attributes turn with the surface. The way there is gone only as
-/// far as it does no harm: no dihedral angle at the seams may become greater than the greatest
-/// before, or than 10 degrees, which do not show, and no face may run through another that it did
-/// not.
+/// far as it does no harm: no dihedral angle across the seams may become greater than the greatest
+/// before, or than 20 degrees, and none near them than the greatest before, or than 10, which do
+/// not show; the bands may not become rougher by more than a tenth (SeamGuard), and no face may run
+/// through another that it did not.
 /// Errors: invalid_argument for a number of widths other than that of seams, widths that are
 /// negative or not finite, and options out of range; not_positive_definite; memory_limit;
 /// cancelled. The mesh is then unchanged.

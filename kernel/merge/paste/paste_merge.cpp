@@ -68,9 +68,10 @@ SewnPart sewn_along(const PartTrials& trials, const TargetPiece& target, PartTri
 }
 
 // `sewn` is that of the whole target.
-MergeReport merge_report(const Mesh& target, const LaidPart& laid, const Sewn& sewn,
+MergeReport merge_report(const Mesh& target, const LaidPart& laid, const Sewn& sewn, double crease,
                          const PasteMergeOptions& options, const Context& context) {
     MergeReport report;
+    report.crease = crease;
     const PastePart& part = laid.trial.part();
     const std::vector<Index> loops[] = {part.loop, laid.opened.loop};
     report.source_rim = seam_quality(part.mesh, {&loops[0], 1});
@@ -86,9 +87,15 @@ MergeReport merge_report(const Mesh& target, const LaidPart& laid, const Sewn& s
     if (sought) {
         report.intersections = new_intersections(target, part.mesh, sewn, context);
     }
-    const Verdict verdict = verdict_of(report, sought);
-    report.ok = verdict.good;
-    report.verdict = verdict.text;
+    if (!options.draft) {
+        const std::vector<Index> of_target = faces_on(sewn.side_of_face, SeamSide::target);
+        const std::vector<Index> of_source = faces_on(sewn.side_of_face, SeamSide::source);
+        report.joins[0].band = band_quality(
+            {&sewn.mesh, of_target, sewn.seams[0]}, {&sewn.mesh, of_source, sewn.seams[0]},
+            {&laid.opened.mesh, {}, laid.opened.loop, true}, {&part.mesh, {}, part.loop},
+            join.scale, false, context);
+    }
+    judge(report, sought);
     return report;
 }
 
@@ -168,7 +175,8 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.feature =
         feature_distortion(trial.part(), trial.moved.mesh, report.scale, state.regions.feature);
     PasteResult result{{}, std::move(report)};
-    result.merged.report = merge_report(state.target, pasted.laid, sewn, options, context);
+    result.merged.report =
+        merge_report(state.target, pasted.laid, sewn, state.options.crease, options, context);
     result.merged.report.solve_seconds = seconds_since(start);
     result.merged.provenance = std::move(made->provenance);
     result.report.euler_characteristic = euler_characteristic(sewn.mesh.topology());

@@ -17,6 +17,8 @@ namespace {
 
 // A side whose edges are this many times as long as the seam's is sparse.
 constexpr double kSparse = 1.5;
+// Triangles at the seam that are thinner have no reliable normals: they are made anew on any side.
+constexpr double kSliver = 2.0 * kDegree;
 // How fast edges grow with the distance from the seam: 1.43 times a ring.
 constexpr double kGradation = 0.5;
 constexpr double kSharp = 20.0 * kDegree, kAllEdges = 1.0 * kDegree;
@@ -159,6 +161,18 @@ class CollarSide {
             }
         }
         return {faces.begin(), faces.end()};
+    }
+
+    // Of the triangles at the seam.
+    double smallest_angle() const {
+        double least = kPi;
+        for (const Index v : seam_) {
+            for (const Index f : side_faces(v)) {
+                if (mesh_.topology().face(f).size() != 3) continue;
+                least = std::min(least, smallest_face_angle(mesh_, f));
+            }
+        }
+        return least;
     }
 
     std::vector<Vec3> points() const {
@@ -459,8 +473,11 @@ SheetLimits limits_of(const SeamQuality& now, double allowed) {
 
 void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& context) {
     const CollarSide at(sewn, seam, side);
-    const double side_edge = at.side_edge();
-    if (!(side_edge > kClearlyLonger * kSparse * at.seam_edge())) return;
+    const double seam_edge = at.seam_edge();
+    // A side may have no edges but the seam's, and slivers beside it.
+    const double side_edge = std::max(at.side_edge(), seam_edge);
+    const bool sparse = side_edge > kClearlyLonger * kSparse * seam_edge;
+    if (!sparse && !(at.smallest_angle() < kSliver)) return;
     const SeamSizes sizes(at.points(), side_edge);
     const std::vector<Index> faces = at.faces(sizes, side_edge);
     const SeamQuality now = seam_quality(sewn.mesh, sewn.seams);

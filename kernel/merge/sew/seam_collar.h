@@ -7,8 +7,9 @@
 
 namespace lissom {
 
-/// Remeshes each side of each seam whose edges are more than 1.5 times as long as the seam's, as
-/// far as edges must grow from the one length to the other by half their distance from the seam.
+/// Remeshes each side of each seam whose edges are more than 1.5 times as long as the seam's, or
+/// which has triangles with angles below 2 degrees at the seam, as far as edges must grow from the
+/// one length to the other by half their distance from the seam.
 /// Seam, the end of the collar and open boundaries stay; features (edges above 20 degrees, borders
 /// of charts and labels) keep their shape. A collar is not kept where it makes the seam worse or
 /// faces run through one another. Then, and where it has angles below 15 degrees at the seam, it is

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kernel/merge/loop/face_angles.h"
+#include "kernel/merge/sew/band_quality.h"
 
 namespace lissom {
 namespace {
@@ -13,6 +14,10 @@ namespace {
 constexpr double kEqualAngles = 1e-6;
 // Angles of triangles above this may become smaller.
 constexpr double kGoodAngle = 15.0 * kPi / 180.0;
+// The whole of a step carries details along: on 21 merges of real models that nobody called rough
+// the roughest was 1.063 times as rough as before. Vertices that move each by themselves have no
+// such excuse, and crumple smooth surfaces under a limit that one steep edge has set.
+constexpr double kRougher = 1.1, kNoRougher = 1.0;
 
 std::vector<Index> faces_at(const Topology& topology, std::span<const Index> vertices) {
     std::vector<Index> faces;
@@ -46,7 +51,7 @@ SeamGuard::SeamGuard(const Mesh& mesh, std::span<const std::vector<Index>> seams
         }
     }
     now_ = {places(), seam_quality(shape_, seams_),
-            self_intersections(shape_, {faces_, std::nullopt}, context_)};
+            self_intersections(shape_, {faces_, std::nullopt}, context_), roughness()};
 }
 
 std::vector<Vec3> SeamGuard::places() const {
@@ -68,8 +73,12 @@ double SeamGuard::near_limit() const {
     return std::max(now_.quality.greatest_near, allowed_.greatest_near);
 }
 
+double SeamGuard::roughness() const {
+    return rms_dihedral(shape_, faces_);
+}
+
 // Measures the shape, and compares it with that of before.
-bool SeamGuard::is_harmless(State& state) {
+bool SeamGuard::is_harmless(State& state, double rougher) {
     const SeamQuality& before = now_.quality;
     state.quality = seam_quality(shape_, seams_);
     const double least = std::min(before.smallest_angle, kGoodAngle);
@@ -78,6 +87,8 @@ bool SeamGuard::is_harmless(State& state) {
         state.quality.smallest_angle < least - kEqualAngles) {
         return false;
     }
+    state.roughness = roughness();
+    if (state.roughness > rougher * now_.roughness + kEqualAngles) return false;
     state.crossings = self_intersections(shape_, {faces_, std::nullopt}, context_);
     return std::includes(now_.crossings.begin(), now_.crossings.end(), state.crossings.begin(),
                          state.crossings.end());
@@ -92,7 +103,7 @@ double SeamGuard::move_all(std::span<const Vec3> to, State& state) {
             state.places.push_back(now_.places[i] + way * (to[i] - now_.places[i]));
         }
         place(state.places);
-        if (is_harmless(state)) return way;
+        if (is_harmless(state, kRougher)) return way;
     }
     return 0.0;
 }
@@ -144,7 +155,7 @@ bool SeamGuard::move_each(std::span<const Vec3> to, State& state) {
         }
     }
     state.places = places();
-    return is_harmless(state);
+    return is_harmless(state, kNoRougher);
 }
 
 double SeamGuard::move(std::span<const Vec3> to) {

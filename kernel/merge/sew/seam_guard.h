@@ -20,7 +20,9 @@ namespace lissom {
 
 /// Moves vertices around seams as far as that does no harm. Harm is a greater greatest dihedral
 /// angle across the seams or near them (SeamQuality), a smaller smallest angle where that is below
-/// 15 degrees, or a pair of faces that run through one another and did not.
+/// 15 degrees, a rougher surface (the RMS dihedral angle, weighted by length, of the edges of all
+/// faces that move), or a pair of faces that run through one another and did not. The whole of a
+/// move may be rougher by a tenth, since it may bring details along; a part of it may not.
 class SeamGuard {
   public:
     /// Takes the present shape of `mesh`; `moving` are the vertices that may move. Dihedral angles
@@ -47,6 +49,7 @@ class SeamGuard {
         std::vector<Vec3> places;
         SeamQuality quality;
         std::vector<FacePair> crossings;
+        double roughness = 0.0;
     };
     // Of the faces around one vertex.
     struct Star {
@@ -56,7 +59,9 @@ class SeamGuard {
 
     std::vector<Vec3> places() const;
     void place(std::span<const Vec3> places);
-    bool is_harmless(State& state);
+    // `rougher`: times the roughness of before that does no harm.
+    bool is_harmless(State& state, double rougher);
+    double roughness() const;
     double move_all(std::span<const Vec3> to, State& state);
     bool move_each(std::span<const Vec3> to, State& state);
     Star star(Index v) const;

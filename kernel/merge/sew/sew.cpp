@@ -238,6 +238,14 @@ std::vector<std::vector<Index>> worked_seams(const Sewn& sewn) {
     return seams;
 }
 
+std::vector<Index> faces_on(std::span<const SeamSide> side_of_face, SeamSide side) {
+    std::vector<Index> faces;
+    for (Index f = 0; f < count_of(side_of_face); ++f) {
+        if (side_of_face[at(f)] == side) faces.push_back(f);
+    }
+    return faces;
+}
+
 void require_sound(const Sewn& sewn, const Mesh& target, const Mesh& source,
                    std::span<const LoopPair> joins) {
     const auto fail = [](const std::string& what, Elements elements) {

@@ -18,6 +18,9 @@ namespace lissom {
 /// The side of a seam that a face comes from.
 enum class SeamSide : char { target, source };
 
+/// The faces that come from a side, given that of each, ascending.
+std::vector<Index> faces_on(std::span<const SeamSide> side_of_face, SeamSide side);
+
 /// How two meshes meet at a seam.
 enum class SeamKind {
     /// The seam runs along the target's loop: vertices of either loop are inserted into the faces
@@ -45,7 +48,8 @@ struct SewOptions {
     /// Flips edges within two rings of the seam that make slivers.
     bool flip = true;
     /// Remeshes the collar: the faces beside a seam on a side whose edges there are more than 1.5
-    /// times as long as the seam's, which holds the vertices of both loops. Their edges grow from
+    /// times as long as the seam's, which holds the vertices of both loops, or that has triangles
+    /// with angles below 2 degrees there. Their edges grow from
     /// the seam's length to the side's by half the distance from it; sharp edges and borders of
     /// charts and labels keep their shape, and what vertices and corners carry is interpolated.
     /// Elements beyond the collar stay as they are; the vertices and faces made come after the

@@ -208,6 +208,32 @@ TEST_CASE("a transition region hides the seam further, and moves nothing beyond 
     }
 }
 
+TEST_CASE("neither fairing nor a transition crumples the band that it was to smooth") {
+    // The dense penguin stands on the rim of a coarse torso, which is steep between its halves.
+    const RealPair penguin{"penguin on Venus",
+                           {"penguin.obj", 0, Vec3(0, .2234, 0), Vec3(0, 1, 0), Vec3(0, 1, 0)},
+                           {"venus_torso_711.off", 1},
+                           {{Vec3(0, 0, 1), Vec3(0, 0, 1)}}};
+    std::vector<LoadedPair> pairs = loaded_pairs();
+    auto source = load_part(penguin.source), target = load_part(penguin.target);
+    if (source && target) pairs.push_back({&penguin, std::move(*source), std::move(*target)});
+    for (const LoadedPair& pair : pairs) {
+        CAPTURE(pair.pair->name);
+        const double plain = pair.merged().report.joins[0].band.roughness;
+        MergeOptions fair, transition;
+        fair.seam = SeamKind::fair;
+        transition.suit_transition = true;
+        for (const MergeOptions& options : {fair, transition}) {
+            const MergeReport report = pair.merged(options).report;
+            CHECK(report.joins[0].band.roughness < 1.05 * plain);
+            for (const MergeReason& reason : report.reasons) {
+                CHECK(reason.fault != MergeFault::roughness);
+                CHECK(reason.fault != MergeFault::folds);
+            }
+        }
+    }
+}
+
 TEST_CASE("a part that was cut off and moved comes back where it was") {
     const RealPair* const necks[] = {&real_pairs()[2], &real_pairs()[7]};
     for (const RealPair* neck : necks) {

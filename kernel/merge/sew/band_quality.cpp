@@ -1,0 +1,247 @@
+#include "kernel/merge/sew/band_quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_set>
+#include <utility>
+
+#include "kernel/merge/loop/face_angles.h"
+#include "kernel/mesh/query/distances.h"
+
+namespace lissom {
+namespace {
+
+// In radii of a seam: the band whose roughness counts, the one whose folds count, and the width of
+// the strips that planes are fitted to. Within one radius the roughness of crumpled and of smooth
+// bands differs less.
+constexpr double kBand = 0.5, kFolds = 1.0, kStrip = 1.0 / 3.0;
+// An edge where the surface turns back, and one where it nearly did before: edges of thin parts
+// turn by more or less as these bend, faces that turned over turn by nearly half a turn.
+constexpr double kFolded = 135.0 * kDegree, kNearlyFolded = 105.0 * kDegree;
+// Points of a seam at which planes are fitted, at most.
+constexpr std::size_t kPlanes = 48;
+// A side is flat that has less volume than this many cubes of the radius: a dome as steep as a
+// third of a half sphere.
+constexpr double kFlat = 0.7;
+
+// Adds up edges by their lengths.
+struct EdgeSum {
+    double length = 0.0, squares = 0.0, folded = 0.0, nearly_folded = 0.0;
+
+    void add(const Mesh& mesh, Index a, Index b) {
+        const Index left = face_left_of(mesh.topology(), a, b);
+        const Index right = face_left_of(mesh.topology(), b, a);
+        if (left == kNoIndex || right == kNoIndex) return;
+        const Vec3 n = clear_area_vector(mesh, left), m = clear_area_vector(mesh, right);
+        if (!(n.squaredNorm() > 0.0 && m.squaredNorm() > 0.0)) return;
+        const double angle = angle_between(n, m);
+        const double edge = (mesh.position(b) - mesh.position(a)).norm();
+        length += edge;
+        squares += edge * angle * angle;
+        if (angle > kFolded) folded += edge;
+        if (angle > kNearlyFolded) nearly_folded += edge;
+    }
+    double rms() const { return length > 0.0 ? std::sqrt(squares / length) : 0.0; }
+};
+
+EdgeSum edges_of(const Mesh& mesh, std::span<const Index> faces,
+                 const std::unordered_set<std::uint64_t>& left_out) {
+    std::unordered_set<std::uint64_t> seen = left_out;
+    EdgeSum sum;
+    for (const Index f : faces) {
+        const std::span<const Index> face = mesh.topology().face(f);
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const Index a = face[k], b = face[(k + 1) % face.size()];
+            if (seen.insert(edge_key(a, b)).second) sum.add(mesh, std::min(a, b), std::max(a, b));
+        }
+    }
+    return sum;
+}
+
+std::vector<Index> all_faces(const BandSide& side) {
+    if (!side.faces.empty()) return {side.faces.begin(), side.faces.end()};
+    std::vector<Index> faces(at(side.mesh->face_count()));
+    for (Index f = 0; f < side.mesh->face_count(); ++f) faces[at(f)] = f;
+    return faces;
+}
+
+Vec3 middle_of(const Mesh& mesh, std::span<const Index> loop) {
+    Vec3 sum = Vec3::Zero();
+    double length = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vec3 &a = mesh.position(loop[k]), &b = mesh.position(loop[(k + 1) % loop.size()]);
+        const double edge = (b - a).norm();
+        sum += 0.5 * edge * (a + b);
+        length += edge;
+    }
+    return length > 0.0 ? Vec3(sum / length) : Vec3(mesh.position(loop[0]));
+}
+
+double radius_of(const Mesh& mesh, std::span<const Index> loop, const Vec3& middle) {
+    double squares = 0.0, length = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vec3 &a = mesh.position(loop[k]), &b = mesh.position(loop[(k + 1) % loop.size()]);
+        const double edge = (b - a).norm();
+        squares += 0.5 * edge * ((a - middle).squaredNorm() + (b - middle).squaredNorm());
+        length += edge;
+    }
+    return length > 0.0 ? std::sqrt(squares / length) : 0.0;
+}
+
+// Angles between planes on either side of points of a seam.
+struct Bends {
+    double rms = 0.0, greatest = 0.0;
+};
+
+Bends bends_between(std::span<const Vec3> first, std::span<const Vec3> second) {
+    GreatestAngle greatest;
+    double squares = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < std::min(first.size(), second.size()); ++k) {
+        if (!(first[k].squaredNorm() > 0.0 && second[k].squaredNorm() > 0.0)) continue;
+        const double angle = angle_between(first[k], second[k]);
+        greatest.add(angle);
+        squares += angle * angle;
+        count += 1.0;
+    }
+    return {count > 0.0 ? std::sqrt(squares / count) : 0.0, greatest.value()};
+}
+
+// One side as it is measured: its loop's size, and how far its faces are from it.
+class Side {
+  public:
+    Side(const BandSide& given, const Context& context)
+        : mesh_(*given.mesh), loop_(given.loop), faces_(all_faces(given)) {
+        middle_ = middle_of(mesh_, loop_);
+        radius_ = radius_of(mesh_, loop_, middle_);
+        distance_ = edge_distances(mesh_, loop_, kFolds * radius_, context);
+        for (std::size_t k = 0; k < loop_.size(); ++k) {
+            seam_.insert(edge_key(loop_[k], loop_[(k + 1) % loop_.size()]));
+        }
+    }
+
+    const Mesh& mesh() const { return mesh_; }
+    std::span<const Index> loop() const { return loop_; }
+    const Vec3& middle() const { return middle_; }
+    double radius() const { return radius_; }
+
+    // Of the faces with a vertex within that many radii, without the seam's edges.
+    EdgeSum edges(double radii) const {
+        std::vector<Index> near;
+        for (const Index f : faces_) {
+            if (nearest(f) <= radii * radius_) near.push_back(f);
+        }
+        return edges_of(mesh_, near, seam_);
+    }
+
+    // Directions of the planes through the faces whose middles lie in the strip from `begin` to
+    // `end`, in radii from the loop, and no farther than that from one of its points.
+    std::vector<Vec3> planes(double begin, double end) const {
+        std::vector<std::pair<Vec3, Vec3>> strip;
+        for (const Index f : faces_) {
+            const double far = middle_distance(f);
+            if (far < begin * radius_ || far > end * radius_) continue;
+            strip.emplace_back(center_of(f), area_vector(mesh_, f));
+        }
+        std::vector<Vec3> result;
+        const std::size_t step = std::max<std::size_t>(1, loop_.size() / kPlanes);
+        for (std::size_t k = 0; k < loop_.size(); k += step) {
+            const Vec3& from = mesh_.position(loop_[k]);
+            Vec3 sum = Vec3::Zero();
+            for (const auto& [center, area] : strip) {
+                if ((center - from).norm() <= end * radius_) sum += area;
+            }
+            result.push_back(sum);
+        }
+        return result;
+    }
+
+    // Between the planes of the strip at the loop and of the one behind it.
+    Bends own_bends() const {
+        return bends_between(planes(0.0, kStrip), planes(kStrip, 2.0 * kStrip));
+    }
+
+    // Between the surface and a point.
+    double volume(const Vec3& apex) const {
+        double volume = 0.0;
+        for (const Index f : faces_) {
+            const Vec3 arm = mesh_.position(mesh_.topology().face(f)[0]) - apex;
+            volume += arm.dot(area_vector(mesh_, f)) / 6.0;
+        }
+        return volume;
+    }
+
+  private:
+    double nearest(Index f) const {
+        double least = INFINITY;
+        for (const Index v : mesh_.topology().face(f)) least = std::min(least, distance_[at(v)]);
+        return least;
+    }
+    double middle_distance(Index f) const {
+        double sum = 0.0;
+        for (const Index v : mesh_.topology().face(f)) sum += distance_[at(v)];
+        return sum / static_cast<double>(mesh_.topology().face(f).size());
+    }
+    Vec3 center_of(Index f) const {
+        Vec3 sum = Vec3::Zero();
+        for (const Index v : mesh_.topology().face(f)) sum += mesh_.position(v);
+        return sum / static_cast<double>(mesh_.topology().face(f).size());
+    }
+
+    const Mesh& mesh_;
+    std::span<const Index> loop_;
+    std::vector<Index> faces_;
+    std::vector<double> distance_;
+    std::unordered_set<std::uint64_t> seam_;
+    Vec3 middle_ = Vec3::Zero();
+    double radius_ = 0.0;
+};
+
+double volume_kept(double after, double before, double radius) {
+    return before > kFlat * radius * radius * radius ? after / before : 1.0;
+}
+
+}  // namespace
+
+double rms_dihedral(const Mesh& mesh, std::span<const Index> faces) {
+    return edges_of(mesh, faces, {}).rms();
+}
+
+BandQuality band_quality(const BandSide& made_target, const BandSide& made_source,
+                         const BandSide& target, const BandSide& source, double scale, bool stays,
+                         const Context& context) {
+    const Side on_target(made_target, context), on_source(made_source, context);
+    const Side old_target(target, context), old_source(source, context);
+    BandQuality result;
+    result.radius = on_target.radius();
+    const auto rms = [](const EdgeSum& a, const EdgeSum& b, double size) {
+        const double length = a.length + size * b.length;
+        return length > 0.0 ? std::sqrt((a.squares + size * b.squares) / length) : 0.0;
+    };
+    result.roughness = rms(on_target.edges(kBand), on_source.edges(kBand), 1.0);
+    result.rest_roughness = rms(old_target.edges(kBand), old_source.edges(kBand), scale);
+    const Bends across =
+        bends_between(on_target.planes(0.0, kStrip), on_source.planes(0.0, kStrip));
+    const Bends own[] = {old_target.own_bends(), old_source.own_bends()};
+    result.bend = across.rms;
+    result.greatest_bend = across.greatest;
+    result.rest_bend = std::max(own[0].rms, own[1].rms);
+    result.rest_greatest_bend = std::max(own[0].greatest, own[1].greatest);
+    const auto folds = [](const Side& side, double EdgeSum::*length) {
+        return side.radius() > 0.0 ? side.edges(kFolds).*length / side.radius() : 0.0;
+    };
+    result.folded = folds(on_target, &EdgeSum::folded) + folds(on_source, &EdgeSum::folded);
+    result.rest_folded =
+        folds(old_target, &EdgeSum::nearly_folded) + folds(old_source, &EdgeSum::nearly_folded);
+    const Vec3& middle = on_target.middle();
+    if (!target.is_piece) {
+        result.target_volume = volume_kept(on_target.volume(middle),
+                                           old_target.volume(old_target.middle()), result.radius);
+    }
+    const double rest = stays ? old_source.volume(middle)
+                              : scale * scale * scale * old_source.volume(old_source.middle());
+    result.source_volume = volume_kept(on_source.volume(middle), rest, result.radius);
+    return result;
+}
+
+}  // namespace lissom

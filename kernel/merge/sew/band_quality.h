@@ -1,0 +1,60 @@
+/// The surface around a seam against the surfaces that were joined: how rough it became, what
+/// turned over, how much of the parts is left.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/index.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// Measures the band around one seam and the sides behind it. Angles in radians, volumes over those
+/// at rest and at the same scale.
+struct BandQuality {
+    /// The RMS dihedral angle of the edges within half a radius of the seam, without the seam's,
+    /// weighted by length; and the same of both sides beside their boundaries before.
+    double roughness = 0.0, rest_roughness = 0.0;
+    /// Angles between planes fitted to the surface on either side of points of the seam, each to a
+    /// strip a third of the radius wide: the RMS, and the greatest. And those on either side
+    /// before, from the strip next to the boundary to the one behind it, of the side that bends
+    /// more.
+    double bend = 0.0, greatest_bend = 0.0, rest_bend = 0.0, rest_greatest_bend = 0.0;
+    /// Length of the edges within one radius at which the surface folds back by more than 135
+    /// degrees, in radii of the seam; and of those of both sides before that turned by more than
+    /// 105, and may have become such without a face turning over.
+    double folded = 0.0, rest_folded = 0.0;
+    /// Volume of the source and of the target between the surface and the middle of the seam, over
+    /// that at rest at the source's scale: 1 where a part kept it. 1 as well where a side has less
+    /// than the seam's own dome.
+    double source_volume = 1.0, target_volume = 1.0;
+    /// Radius of the seam: the RMS distance of its points to their middle.
+    double radius = 0.0;
+};
+
+/// A side of a seam: a mesh, the faces of it that count (all, if there are none), and the vertices
+/// of the seam on it.
+struct BandSide {
+    const Mesh* mesh = nullptr;
+    std::span<const Index> faces = {};
+    std::span<const Index> loop = {};
+    /// The mesh is a piece of a larger one: its volume is not known.
+    bool is_piece = false;
+};
+
+/// Measures the band around a seam that `target` and `source` were joined at; `scale` is how much
+/// the source grew. `made_target` and `made_source` are their faces in the merged mesh with the
+/// seam as the loop of both. `stays`: the source was not brought to the seam but lies where it was.
+/// The work is linear in the sizes of the meshes, with small factors.
+/// Errors: out_of_range; cancelled.
+BandQuality band_quality(const BandSide& made_target, const BandSide& made_source,
+                         const BandSide& target, const BandSide& source, double scale, bool stays,
+                         const Context& context = {});
+
+/// The RMS dihedral angle, weighted by length, of the edges of `faces`, in radians; 0 without any.
+/// Open edges and those of faces without area do not count.
+double rms_dihedral(const Mesh& mesh, std::span<const Index> faces);
+
+}  // namespace lissom

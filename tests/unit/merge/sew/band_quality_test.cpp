@@ -1,0 +1,162 @@
+// What the surface around a seam is measured by, and the guard that it gives every step.
+#include "kernel/merge/sew/band_quality.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/core/geometry.h"
+#include "kernel/merge/sew/seam_guard.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/merge/loop/loop_shapes.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+constexpr Index kAround = 48, kRows = 48;
+
+// A closed cylinder of radius 1 from y = -2 to 2, with the circle at y = 0 as its seam.
+struct Barrel {
+    Mesh mesh = make_cylinder({.radius = 1.0, .height = 4.0, .segments = kAround, .rings = kRows});
+    std::vector<Index> seam, below, above;
+
+    Barrel() {
+        for (Index v = 0; v < mesh.vertex_count(); ++v) {
+            if (std::abs(mesh.position(v).y()) < 1e-9) seam.push_back(v);
+        }
+        const auto angle = [&](Index v) {
+            return std::atan2(mesh.position(v).x(), mesh.position(v).z());
+        };
+        std::sort(seam.begin(), seam.end(), [&](Index a, Index b) { return angle(a) < angle(b); });
+        for (Index f = 0; f < mesh.face_count(); ++f) {
+            double y = 0.0;
+            for (const Index v : mesh.topology().face(f)) y += mesh.position(v).y();
+            (y < 0.0 ? below : above).push_back(f);
+        }
+    }
+
+    BandQuality measured(const Mesh& made, double scale = 1.0, bool stays = false) const {
+        return band_quality({&made, below, seam}, {&made, above, seam}, {&mesh, below, seam},
+                            {&mesh, above, seam}, scale, stays);
+    }
+
+    template <typename Move>
+    Mesh moved(const Move& move) const {
+        Mesh made = mesh;
+        for (Vec3& p : made.edit_positions()) move(p);
+        return made;
+    }
+};
+
+double row_of(const Vec3& p) {
+    return p.y() * kRows / 4.0;
+}
+
+}  // namespace
+
+TEST_CASE("a band that is as it was is no rougher, folds nowhere and keeps both volumes") {
+    const Barrel barrel;
+    REQUIRE(count_of(barrel.seam) == kAround);
+    const BandQuality same = barrel.measured(barrel.mesh);
+    CHECK(same.radius == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(same.rest_roughness > 0.0);
+    CHECK(same.roughness == doctest::Approx(same.rest_roughness));
+    CHECK(same.bend < 1e-6);
+    CHECK(same.greatest_bend < 1e-6);
+    CHECK(same.folded == 0.0);
+    CHECK(same.source_volume == doctest::Approx(1.0));
+    CHECK(same.target_volume == doctest::Approx(1.0));
+}
+
+TEST_CASE("crumples, ledges, folds and lost volume of a band are each seen by their own measure") {
+    const Barrel barrel;
+    const BandQuality crumpled = barrel.measured(barrel.moved([](Vec3& p) {
+        if (std::abs(p.y()) > 0.45 || std::abs(p.y()) < 1e-9) return;
+        const double angle = std::atan2(p.x(), p.z()) * kAround / (2.0 * kPi);
+        const auto number = std::lround(angle) + std::lround(row_of(p));
+        const double out = number % 2 == 0 ? 1.02 : 0.98;
+        p.x() *= out;
+        p.z() *= out;
+    }));
+    CHECK(crumpled.roughness > 1.5 * crumpled.rest_roughness);
+    CHECK(crumpled.bend < 10.0 * kDegree);
+
+    const BandQuality ledge = barrel.measured(barrel.moved([](Vec3& p) {
+        const double out = 1.0 + 0.4 * std::exp(-30.0 * p.y() * p.y());
+        p.x() *= out;
+        p.z() *= out;
+    }));
+    CHECK(ledge.bend > 30.0 * kDegree);
+    CHECK(ledge.rest_bend < 1e-6);
+
+    const BandQuality folded = barrel.measured(barrel.moved([](Vec3& p) {
+        if (p.y() > 0.2 && p.y() < 0.6) p.y() = 0.4 - 0.5 * (p.y() - 0.2);
+    }));
+    CHECK(folded.folded > 1.0);
+    CHECK(folded.rest_folded == 0.0);
+
+    const BandQuality caved = barrel.measured(barrel.moved([](Vec3& p) {
+        if (p.y() > 0.0) p.y() *= 0.5;
+    }));
+    CHECK(caved.source_volume == doctest::Approx(0.5));
+    CHECK(caved.target_volume == doctest::Approx(1.0));
+    const BandQuality inside_out = barrel.measured(barrel.moved([](Vec3& p) {
+        if (p.y() > 0.0) p.y() *= -0.5;
+    }));
+    CHECK(inside_out.source_volume < 0.0);
+}
+
+TEST_CASE("volume is compared at the source's scale, or in its place where it stays") {
+    const Barrel barrel;
+    const Mesh grown = barrel.moved([](Vec3& p) { p *= 1.5; });
+    const auto measure = [&](double scale, bool stays) {
+        return band_quality({&grown, barrel.below, barrel.seam},
+                            {&grown, barrel.above, barrel.seam},
+                            {&grown, barrel.below, barrel.seam},
+                            {&barrel.mesh, barrel.above, barrel.seam}, scale, stays);
+    };
+    CHECK(measure(1.5, false).source_volume == doctest::Approx(1.0));
+    CHECK(measure(1.0, false).source_volume == doctest::Approx(3.375));
+    // In its place it is measured from the middle of the seam.
+    CHECK(measure(1.5, true).source_volume == doctest::Approx(3.375));
+}
+
+TEST_CASE("a step that crumples the band is refused, though one edge there is steeper before it") {
+    Barrel barrel;
+    // One steep tooth beside the seam: every limit of a greatest angle is set by it.
+    Index tooth = kNoIndex;
+    for (Index v = 0; v < barrel.mesh.vertex_count(); ++v) {
+        const Vec3& p = barrel.mesh.position(v);
+        if (std::lround(row_of(p)) == 1 && p.z() > 0.999) tooth = v;
+    }
+    REQUIRE(tooth != kNoIndex);
+    Mesh mesh = barrel.mesh;
+    Vec3 out = mesh.position(tooth);
+    out.x() *= 1.12;
+    out.z() *= 1.12;
+    mesh.set_position(tooth, out);
+    std::vector<Index> moving;
+    std::vector<Vec3> to;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        const Vec3 p = mesh.position(v);
+        if (std::abs(p.y()) > 0.45 || std::abs(p.y()) < 1e-9 || v == tooth) continue;
+        const double angle = std::atan2(p.x(), p.z()) * kAround / (2.0 * kPi);
+        const auto number = std::lround(angle) + std::lround(row_of(p));
+        const double by = number % 2 == 0 ? 1.02 : 0.98;
+        moving.push_back(v);
+        to.push_back({by * p.x(), p.y(), by * p.z()});
+    }
+    const std::vector<std::vector<Index>> seams{barrel.seam};
+    const auto roughness = [&](std::span<const Vec3> positions) {
+        const Mesh shape({positions.begin(), positions.end()}, mesh.shared_topology());
+        return barrel.measured(shape).roughness;
+    };
+    const double before = roughness(mesh.positions());
+    SeamGuard guard(mesh, seams, moving, {});
+    guard.move(to);
+    CHECK(roughness(guard.positions()) < 1.15 * before);
+}
