@@ -12,6 +12,7 @@
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/edit/joined_morphs.h"
 #include "kernel/mesh/query/distances.h"
 
 namespace lissom {
@@ -172,6 +173,18 @@ void note_flips(SidesFound& found) {
     for (const Index t : found.targets_flipped) {
         found.warnings.push_back("target " + std::to_string(t + 1) +
                                  " was inside out and has been turned over");
+    }
+}
+
+// On one surface a morph target has one weight.
+void note_morphs(Sides& sides) {
+    std::vector<const Mesh*> meshes;
+    for (const MergeSide& side : sides.targets) meshes.push_back(&side.mesh);
+    meshes.push_back(&sides.source.mesh);
+    for (std::size_t k = 1; k < meshes.size(); ++k) {
+        for (std::string& text : morph_conflicts(*meshes.front(), *meshes[k])) {
+            sides.found.warnings.push_back(std::move(text));
+        }
     }
 }
 
@@ -541,6 +554,7 @@ Sides make_sides(const Mesh& source, std::span<const Mesh* const> targets,
     make_source(source, joins, sides, context);
     make_targets(targets, joins, paths, sides, context);
     note_flips(sides.found);
+    note_morphs(sides);
     find_fits(joins, options, sides);
     trim_sides(joins, options, sides, context);
     sides.given.target_topology = topologies_together(targets, context);

@@ -19,7 +19,14 @@ bool is_discrete(const Attribute& attribute) {
     return role == AttributeRole::joints || (!real && role == AttributeRole::value);
 }
 
-double blend(const Attribute& attribute, std::span<const ElementMap::Source> sources, Index k) {
+bool is_of_morph(AttributeRole role) {
+    return role == AttributeRole::morph_position || role == AttributeRole::morph_normal ||
+           role == AttributeRole::morph_tangent;
+}
+
+// `counts_missing`: an element without a value has zero, where another one has a value.
+double blend(const Attribute& attribute, std::span<const ElementMap::Source> sources, Index k,
+             bool counts_missing) {
     double sum = 0.0, weight = 0.0;
     for (const ElementMap::Source& s : sources) {
         const double value = attribute.at(s.element)[k];
@@ -28,7 +35,7 @@ double blend(const Attribute& attribute, std::span<const ElementMap::Source> sou
         weight += s.weight;
     }
     // An unchanged weight is not divided by, so that copies stay equal to the bit.
-    if (weight == 1.0) return sum;
+    if (weight == 1.0 || (counts_missing && weight > 0.0)) return sum;
     return weight > 0.0 ? sum / weight : kNone;
 }
 
@@ -53,7 +60,7 @@ Attribute carried(const Attribute& old, const ElementMap& map) {
             std::copy(from.begin(), from.end(), to.begin());
             continue;
         }
-        for (Index k = 0; k < old.width; ++k) to[k] = blend(old, sources, k);
+        for (Index k = 0; k < old.width; ++k) to[k] = blend(old, sources, k, is_of_morph(role));
         if (role == AttributeRole::normal) normalize(to);
         if (role == AttributeRole::tangent) {
             normalize(to.first(3));
@@ -219,19 +226,23 @@ Index ElementMap::main_source(Index element) const {
 }
 
 std::vector<Vec3> blend_positions(const Mesh& source, const ElementMap& vertices) {
-    std::vector<Vec3> positions;
-    positions.reserve(vertices.size());
+    return blend_points(source.positions(), vertices);
+}
+
+std::vector<Vec3> blend_points(std::span<const Vec3> points, const ElementMap& vertices) {
+    std::vector<Vec3> result;
+    result.reserve(vertices.size());
     for (Index v = 0; v < vertices.size(); ++v) {
         const std::span<const ElementMap::Source> sources = vertices[v];
         if (sources.size() == 1) {
-            positions.push_back(source.position(sources[0].element));
+            result.push_back(points[at(sources[0].element)]);
             continue;
         }
         Vec3 sum = Vec3::Zero();
-        for (const auto& [element, weight] : sources) sum += weight * source.position(element);
-        positions.push_back(sum);
+        for (const auto& [element, weight] : sources) sum += weight * points[at(element)];
+        result.push_back(sum);
     }
-    return positions;
+    return result;
 }
 
 Mesh derive(const Mesh& source, std::vector<Vec3> positions, FaceList faces, const MeshMap& map,

@@ -58,11 +58,13 @@ struct MeshMap {
 
 /// Blends positions of `source` as `vertices` says. An element from nowhere gets the origin.
 std::vector<Vec3> blend_positions(const Mesh& source, const ElementMap& vertices);
+/// The same of one point, or displacement, for each vertex of the source.
+std::vector<Vec3> blend_points(std::span<const Vec3> points, const ElementMap& vertices);
 
 /// The mesh with the given positions and faces that carries what `source` holds:
-/// - attributes are blended; a source without a value (NaN) does not count. "normal" attributes are
-///   made unit again; integer attributes other than "color", "normal" and "uv" take the value of
-///   the heaviest source;
+/// - attributes are blended; a source without a value (NaN) does not count, but for morph targets,
+///   which add nothing there. "normal" attributes are made unit again; integer attributes other
+///   than "color", "normal" and "uv" take the value of the heaviest source;
 /// - a face gets the labels of its heaviest source;
 /// - a vertex is in a named region when all of its sources are;
 /// - material libraries are kept.

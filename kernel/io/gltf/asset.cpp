@@ -202,7 +202,10 @@ void describe_images(Json& json, const std::vector<SharedBytes>& images) {
 std::shared_ptr<const Asset> GltfAsset::joined(const Asset& other, LabelRenames& renames) const {
     auto result = std::make_shared<GltfAsset>(*this);
     const auto* added = dynamic_cast<const GltfAsset*>(&other);
-    if (added && added != this && added->json != json) join_assets(*result, *added, renames);
+    if (added && added->origin != origin && added->json != json) {
+        join_assets(*result, *added, renames);
+        result->origin = std::make_shared<const int>(0);
+    }
     result->from_libraries = from_libraries && (!added || added->from_libraries);
     return result;
 }

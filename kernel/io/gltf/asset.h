@@ -14,6 +14,7 @@
 #include "kernel/io/gltf/file/uri.h"
 #include "kernel/io/gltf/nodes.h"
 #include "kernel/mesh/asset.h"
+#include "kernel/mesh/morph_asset.h"
 #include "kernel/mesh/report.h"
 #include "kernel/mesh/skinned_asset.h"
 
@@ -28,7 +29,7 @@ struct KeptAccessor {
 /// The document without buffers, buffer views and accessors. Primitives have only what is not
 /// surface: material, extras and extensions. Accessors that skins and animations name by number are
 /// those of `accessors`.
-class GltfAsset : public Asset, public SkinnedAsset {
+class GltfAsset : public Asset, public SkinnedAsset, public MorphAsset {
   public:
     Json json = Json::object();
     std::vector<KeptAccessor> accessors;
@@ -37,11 +38,17 @@ class GltfAsset : public Asset, public SkinnedAsset {
     /// The node that each label "object" stands for, and the material of each label "material".
     std::map<std::string, std::size_t> node_of_object, material_of_label;
     bool from_libraries = false;
+    /// Of objects without a node.
+    std::vector<MorphTarget> new_morphs;
+    /// The same in assets that differ by morph targets only.
+    std::shared_ptr<const int> origin = std::make_shared<const int>(0);
 
     std::shared_ptr<const Asset> joined(const Asset& other, LabelRenames& renames) const override;
     std::size_t memory_bytes() const override;
     bool is_of_libraries() const override { return from_libraries; }
     std::vector<std::string> joints_of(std::string_view object) const override;
+    std::vector<MorphTarget> morphs_of(std::string_view object) const override;
+    std::shared_ptr<const Asset> with_morphs(const std::vector<MorphTarget>& all) const override;
 };
 
 /// Keeps what is left of a document once its surface was read; `document` is used up.

@@ -14,6 +14,7 @@
 #include "kernel/io/gltf/gltf.h"
 #include "kernel/io/gltf/mesh/mesh_writer.h"
 #include "kernel/io/gltf/mesh/surface.h"
+#include "kernel/io/gltf/mesh/told_morphs.h"
 #include "kernel/io/gltf/nodes.h"
 
 namespace lissom {
@@ -177,6 +178,7 @@ class DocumentWriter {
         const std::string label = label_of(object);
         const std::optional<std::size_t> old_node = node_of(label);
         ObjectPlace place = old_node ? place_at(*old_node) : ObjectPlace();
+        if (!old_node && asset_) tell_morphs(place.mesh, asset_->new_morphs);
         if (!old_node && !label.empty()) place.mesh["name"] = label;
         const std::size_t node =
             moved_node(old_node, label, pools.pool(number).vertices, place.to_node);
@@ -313,16 +315,26 @@ class DocumentWriter {
         Json* animations = member(json_, "animations");
         if (!animations) return;
         Json rest = Json::array();
+        std::size_t lost = 0;
         for (Json& animation : *animations) {
             Json channels = Json::array();
             for (Json& channel : list_in(animation, "channels")) {
-                if (!is_idle(channel)) channels.push_back(std::move(channel));
+                if (is_idle(channel)) {
+                    ++lost;
+                } else {
+                    channels.push_back(std::move(channel));
+                }
             }
             if (channels.empty()) continue;
             animation["channels"] = std::move(channels);
             rest.push_back(std::move(animation));
         }
         *animations = std::move(rest);
+        if (lost == 0) return;
+        context_.log(LogLevel::warning,
+                     std::to_string(lost) +
+                         " animations of morph weights were not saved: their objects have no "
+                         "targets, or are part of other objects now");
     }
 
     void clean_nodes() {

@@ -36,10 +36,23 @@ void BandSystem::measure() {
     laplacian_ = make_laplacian(rings_, geometry_, LaplacianWeights::cotangent, true);
 }
 
-std::vector<double> BandSystem::curvatures() const {
-    std::vector<double> result(x_.size(), 0.0);
-    for (Index i = 0; i < vertex_count(); ++i) {
-        if (is_row(i)) result[i] = curvature(i);
+void BandSystem::take_morphs(const Mesh& mesh) {
+    for (const Attribute& attribute : mesh.attributes().all()) {
+        if (!is_morph_position(attribute)) continue;
+        const std::vector<Vec3> all = morph_displacements(mesh, attribute);
+        Morph morph{attribute.name, {}};
+        for (Index i = 0; i < vertex_count(); ++i) morph.x.push_back(all[at(mesh_vertex(i))]);
+        morphs_.push_back(std::move(morph));
+    }
+}
+
+std::vector<std::vector<double>> BandSystem::curvatures() const {
+    std::vector<std::vector<double>> result;
+    for (Index s = 0; s < shape_count(); ++s) {
+        std::vector<double>& values = result.emplace_back(x_.size(), 0.0);
+        for (Index i = 0; i < vertex_count(); ++i) {
+            if (is_row(i)) values[at(i)] = curvature(i, s);
+        }
     }
     return result;
 }
@@ -74,13 +87,12 @@ SymmetricMatrix BandSystem::normal_matrix() const {
 }
 
 // Solved for displacements, so that a band that has the wanted coordinates does not move.
-void BandSystem::bend(std::span<const Vec3> wanted, const Context& context) {
-    const SymmetricMatrix matrix = normal_matrix();
-    const std::size_t n = matrix.size();
+std::vector<Vec3> BandSystem::bent(Index s, std::span<const Vec3> wanted) const {
+    const std::size_t n = at(unknown_count_);
     std::vector<double> b(3 * n, 0.0);
     for (Index i = 0; i < patch_.real_count; ++i) {
         if (!is_row(i)) continue;
-        const Vec3 missing = laplacian_.weight[i] * (wanted[i] - coordinates(i));
+        const Vec3 missing = laplacian_.weight[i] * (wanted[i] - coordinates(i, s));
         const auto add = [&](Index j, double value) {
             if (unknown_[j] == kNoIndex) return;
             for (std::size_t k = 0; k < 3; ++k) b[k * n + unknown_[j]] += value * missing[k];
@@ -90,14 +102,39 @@ void BandSystem::bend(std::span<const Vec3> wanted, const Context& context) {
             add(rings_.neighbor[e], laplacian_.neighbor[e]);
         }
     }
-    if (system_.size() == 0) system_.analyze(matrix, context);
-    system_.factor(matrix, context);
     system_.solve(b, b, 3);
+    std::vector<Vec3> x = shape(s);
     for (Index i = 0; i < patch_.real_count; ++i) {
         if (!moves(i)) continue;
-        for (std::size_t k = 0; k < 3; ++k) x_[i][k] += b[k * n + unknown_[i]];
+        for (std::size_t k = 0; k < 3; ++k) x[i][k] += b[k * n + unknown_[i]];
+    }
+    return x;
+}
+
+void BandSystem::bend(std::span<const std::vector<Vec3>> wanted, const Context& context) {
+    const SymmetricMatrix matrix = normal_matrix();
+    if (system_.size() == 0) system_.analyze(matrix, context);
+    system_.factor(matrix, context);
+    for (Index s = 0; s < shape_count(); ++s) {
+        context.checkpoint();
+        set_shape(s, bent(s, wanted[at(s)]));
     }
     measure();
+}
+
+// `parts` of the way from where the mesh has them, for each local vertex.
+MorphColumns BandSystem::moved_morphs(const Mesh& mesh, std::span<const double> parts) const {
+    MorphColumns columns;
+    for (const Morph& morph : morphs_) {
+        std::vector<Vec3> all = morph_displacements(mesh, *mesh.attributes().find(morph.name));
+        for (Index i = 0; i < vertex_count(); ++i) {
+            if (!moves(i)) continue;
+            Vec3& here = all[at(mesh_vertex(i))];
+            here += parts[at(i)] * (morph.x[at(i)] - here);
+        }
+        columns.emplace(morph.name, std::move(all));
+    }
+    return columns;
 }
 
 void BandSystem::write(Mesh& mesh) const {
@@ -106,28 +143,34 @@ void BandSystem::write(Mesh& mesh) const {
     for (Index i = 0; i < vertex_count(); ++i) {
         if (moves(i)) positions[mesh_vertex(i)] = x_[i] + patch_.origin;
     }
+    const MorphColumns morphs = moved_morphs(mesh, std::vector<double>(x_.size(), 1.0));
     mesh.set_positions(std::move(positions));
+    set_morphs(mesh, morphs);
     directions.follow(mesh);
 }
 
 double BandSystem::write_guarded(Mesh& mesh, std::span<const std::vector<Index>> seams,
                                  const SeamQuality& allowed, const Context& context) const {
-    std::vector<std::pair<Index, Vec3>> wanted;
+    std::vector<Index> locals;
     for (Index i = 0; i < vertex_count(); ++i) {
-        if (moves(i)) wanted.emplace_back(mesh_vertex(i), x_[i] + patch_.origin);
+        if (moves(i)) locals.push_back(i);
     }
-    std::sort(wanted.begin(), wanted.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::sort(locals.begin(), locals.end(),
+              [&](Index a, Index b) { return mesh_vertex(a) < mesh_vertex(b); });
     std::vector<Index> moving;
     std::vector<Vec3> to;
-    for (const auto& [v, place] : wanted) {
-        moving.push_back(v);
-        to.push_back(place);
+    for (const Index i : locals) {
+        moving.push_back(mesh_vertex(i));
+        to.emplace_back(x_[at(i)] + patch_.origin);
     }
     SeamGuard guard(mesh, seams, std::move(moving), context, allowed);
     const double kept = guard.move(to);
+    std::vector<double> parts(x_.size(), 0.0);
+    for (std::size_t k = 0; k < locals.size(); ++k) parts[at(locals[k])] = guard.parts()[k];
     const DirectionCarrier directions(mesh);
+    const MorphColumns morphs = moved_morphs(mesh, parts);
     mesh.set_positions({guard.positions().begin(), guard.positions().end()});
+    set_morphs(mesh, morphs);
     directions.follow(mesh);
     return kept;
 }

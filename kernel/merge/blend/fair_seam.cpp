@@ -41,6 +41,7 @@ std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> sea
 
     Progress progress(context, "fair the seam");
     BandSystem band(region, region, mesh.positions());
+    band.take_morphs(mesh);
     const SeamCore core(band, rings, options.core);
     for (Index i = 0; i < options.umbrella; ++i) core.umbrella(band);
     try {

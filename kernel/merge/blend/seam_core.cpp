@@ -79,72 +79,101 @@ SeamCore::SeamCore(const BandSystem& band, std::span<const Index> rings, Index w
 }
 
 void SeamCore::umbrella(BandSystem& band) const {
-    std::vector<Vec3> next;
-    next.reserve(vertices_.size());
-    for (std::size_t k = 0; k < vertices_.size(); ++k) {
+    const auto step = [&](std::size_t k, const std::vector<Vec3>& x) {
         const Index i = vertices_[k];
         Vec3 mean = Vec3::Zero();
+        for (const Index j : band.ring(i)) mean += x[at(j)];
+        mean /= band.ring(i).size();
+        const Vec3 way = mean - x[at(i)], along = band.normal(i).dot(way) * band.normal(i);
+        return Vec3(strength_[k] * (way - along));
+    };
+    std::vector<char> stays;
+    for (std::size_t k = 0; k < vertices_.size(); ++k) {
+        const Index i = vertices_[k];
         double shortest = std::numeric_limits<double>::infinity();
         for (const Index j : band.ring(i)) {
-            mean += band.position(j);
             shortest = std::min(shortest, (band.position(j) - band.position(i)).norm());
         }
-        mean /= band.ring(i).size();
-        const Vec3 way = mean - band.position(i), along = band.normal(i).dot(way) * band.normal(i);
-        Vec3 step = strength_[k] * (way - along);
-        if (step.norm() > kLongestStep * shortest) step.setZero();
-        next.push_back(band.position(i) + step);
+        const bool is_long = step(k, band.shape(0)).norm() > kLongestStep * shortest;
+        stays.push_back(is_long || !band.moves(i) ? 1 : 0);
     }
-    for (std::size_t k = 0; k < vertices_.size(); ++k) {
-        if (band.moves(vertices_[k])) band.set_position(vertices_[k], next[k]);
+    for (Index s = 0; s < band.shape_count(); ++s) {
+        std::vector<Vec3> next = band.shape(s);
+        for (std::size_t k = 0; k < vertices_.size(); ++k) {
+            if (!stays[k]) next[at(vertices_[k])] += step(k, band.shape(s));
+        }
+        band.set_shape(s, std::move(next));
     }
     band.measure();
 }
 
-std::vector<Vec3> SeamCore::relaxed(const BandSystem& band, std::span<const double> curvature,
-                                    const Context& context) const {
-    std::vector<Vec4> values(curvature.size(), Vec4::Zero());
-    std::vector<Vec3> wanted(curvature.size(), Vec3::Zero());
-    for (Index i = 0; i < band.vertex_count(); ++i) {
-        if (!band.is_row(i)) continue;
-        values[i] << curvature[i], band.normal(i);
-        wanted[i] = band.coordinates(i) + (curvature[i] - band.curvature(i)) * band.normal(i);
+std::vector<std::vector<Vec3>> SeamCore::relaxed(const BandSystem& band,
+                                                 std::span<const std::vector<double>> curvature,
+                                                 const Context& context) const {
+    std::vector<Values> values(curvature.size());
+    std::vector<std::vector<Vec3>> wanted(curvature.size());
+    for (std::size_t s = 0; s < curvature.size(); ++s) {
+        values[s].assign(curvature[s].size(), Vec4::Zero());
+        wanted[s].assign(curvature[s].size(), Vec3::Zero());
+        for (Index i = 0; i < band.vertex_count(); ++i) {
+            if (!band.is_row(i)) continue;
+            const double own = curvature[s][at(i)];
+            values[s][at(i)] << own, band.normal(i);
+            wanted[s][at(i)] = band.coordinates(i, index_of(s)) +
+                               (own - band.curvature(i, index_of(s))) * band.normal(i);
+        }
     }
     values = fill(band, std::move(values), context);
-    for (const Index i : vertices_) {
-        wanted[i] = values[i][0] * values[i].tail<3>().normalized();
+    for (std::size_t s = 0; s < values.size(); ++s) {
+        for (const Index i : vertices_) {
+            const Vec4& value = values[s][at(i)];
+            wanted[s][at(i)] = value[0] * value.tail<3>().normalized();
+        }
     }
     return wanted;
 }
 
-std::vector<double> SeamCore::filled(const BandSystem& band, std::span<const double> curvature,
-                                     const Context& context) const {
-    std::vector<Vec4> values(curvature.size(), Vec4::Zero());
-    for (std::size_t i = 0; i < values.size(); ++i) values[i][0] = curvature[i];
+std::vector<std::vector<double>> SeamCore::filled(const BandSystem& band,
+                                                  std::span<const std::vector<double>> curvature,
+                                                  const Context& context) const {
+    std::vector<Values> values;
+    for (const std::vector<double>& of_shape : curvature) {
+        Values& all = values.emplace_back(of_shape.size(), Vec4::Zero());
+        for (std::size_t i = 0; i < all.size(); ++i) all[i][0] = of_shape[i];
+    }
     values = fill(band, std::move(values), context);
-    std::vector<double> result;
-    for (const Vec4& value : values) result.push_back(value[0]);
+    std::vector<std::vector<double>> result;
+    for (const Values& all : values) {
+        std::vector<double>& of_shape = result.emplace_back();
+        for (const Vec4& value : all) of_shape.push_back(value[0]);
+    }
     return result;
 }
 
-std::vector<Vec4> SeamCore::fill(const BandSystem& band, std::vector<Vec4> values,
-                                 const Context& context) const {
+std::vector<SeamCore::Values> SeamCore::fill(const BandSystem& band, std::vector<Values> values,
+                                             const Context& context) const {
     if (vertices_.empty()) return values;
     const auto n = vertices_.size();
     std::vector<Triplet> entries;
-    std::vector<double> b(4 * n, 0.0);
+    std::vector<std::vector<double>> right(values.size(), std::vector<double>(4 * n, 0.0));
     for (const Index i : vertices_) {
-        const auto add = [&](double weight, const Vec4& value) {
+        const auto add = [&](double weight, Index from, bool is_known) {
             entries.push_back({unknown_[i], unknown_[i], weight});
-            for (std::size_t k = 0; k < 4; ++k) b[k * n + unknown_[i]] += weight * value[k];
+            if (!is_known) return;
+            for (std::size_t s = 0; s < values.size(); ++s) {
+                const Vec4& value = values[s][at(from)];
+                for (std::size_t k = 0; k < 4; ++k) {
+                    right[s][k * n + at(unknown_[i])] += weight * value[static_cast<Index>(k)];
+                }
+            }
         };
-        add(kHold, values[i]);
+        add(kHold, i, true);
         for (std::size_t e = 0; e < band.ring(i).size(); ++e) {
             const Index j = band.ring(i)[e];
             // Rows on open boundaries have no mean curvature.
             if (!contains(j) && (!band.is_row(j) || band.on_boundary(j))) continue;
             const double weight = std::max(kLeastCoreWeight, band.cotangents(i)[e]);
-            add(weight, contains(j) ? Vec4(Vec4::Zero()) : values[j]);
+            add(weight, j, !contains(j));
             if (contains(j)) entries.push_back({unknown_[i], unknown_[j], -weight});
         }
     }
@@ -152,9 +181,13 @@ std::vector<Vec4> SeamCore::fill(const BandSystem& band, std::vector<Vec4> value
     SparseSystem system;
     system.analyze(matrix, context);
     system.factor(matrix, context);
-    system.solve(b, b, 4);
-    for (const Index i : vertices_) {
-        for (std::size_t k = 0; k < 4; ++k) values[i][k] = b[k * n + unknown_[i]];
+    for (std::size_t s = 0; s < values.size(); ++s) {
+        system.solve(right[s], right[s], 4);
+        for (const Index i : vertices_) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                values[s][at(i)][static_cast<Index>(k)] = right[s][k * n + at(unknown_[i])];
+            }
+        }
     }
     return values;
 }

@@ -37,20 +37,25 @@ class SeamCore {
     /// ring away from it. Along the normal it would sink, and take with it the curvature that is
     /// to be kept around it. Where the way is more than a quarter of a vertex's shortest edge, as
     /// in the fans between loops of unlike density, triangles would turn over: that vertex stays.
+    /// All shapes of the band make the step of its positions.
     void umbrella(BandSystem& band) const;
 
-    /// Laplacian coordinates for `band` to bend to, one for each local vertex: those of the shape
-    /// last measured, with the mean curvature given for every row. In the core the curvature and
-    /// the normals are filled harmonically from around it, and there is nothing along the surface.
-    std::vector<Vec3> relaxed(const BandSystem& band, std::span<const double> curvature,
-                              const Context& context) const;
-    /// The given curvatures with those of the core filled.
-    std::vector<double> filled(const BandSystem& band, std::span<const double> curvature,
-                               const Context& context) const;
+    /// Laplacian coordinates for each shape of `band` to bend to, one for each local vertex: those
+    /// of the shape last measured, with the mean curvature given for every row. In the core the
+    /// curvature and the normals are filled harmonically from around it, and there is nothing along
+    /// the surface.
+    std::vector<std::vector<Vec3>> relaxed(const BandSystem& band,
+                                           std::span<const std::vector<double>> curvature,
+                                           const Context& context) const;
+    /// The given curvatures of each shape with those of the core filled.
+    std::vector<std::vector<double>> filled(const BandSystem& band,
+                                            std::span<const std::vector<double>> curvature,
+                                            const Context& context) const;
 
   private:
-    std::vector<Vec4> fill(const BandSystem& band, std::vector<Vec4> values,
-                           const Context& context) const;
+    using Values = std::vector<Vec4>;
+    std::vector<Values> fill(const BandSystem& band, std::vector<Values> values,
+                             const Context& context) const;
     std::vector<Index> vertices_;
     // Unknown of each local vertex in `fill`, or kNoIndex where it is not of the core.
     std::vector<Index> unknown_;

@@ -279,13 +279,18 @@ TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> 
     }
     const std::vector<Index> rings = seam_rings(sewn.mesh.topology(), sewn.seams, options.core);
     BandSystem band(read, moving, sewn.mesh.positions());
+    band.take_morphs(sewn.mesh);
     const SeamCore core(band, rings, options.core);
-    const std::vector<double> curvature = core.filled(band, band.curvatures(), context);
+    const std::vector<std::vector<double>> curvature =
+        core.filled(band, band.curvatures(), context);
     const std::vector<Index> local = local_numbers(band, sewn.mesh.vertex_count());
-    std::vector<double> blended = curvature;
+    std::vector<std::vector<double>> blended = curvature;
     for (const Transition& t : transitions) {
         const auto blend = [&](const Side& side, const Side& across) {
-            return blend_side(side, across, t.own_share(), local, curvature, blended);
+            for (std::size_t s = 1; s < blended.size(); ++s) {
+                blend_side(side, across, t.own_share(), local, curvature[s], blended[s]);
+            }
+            return blend_side(side, across, t.own_share(), local, curvature[0], blended[0]);
         };
         report.target.push_back(blend(t.target, t.source));
         report.source.push_back(blend(t.source, t.target));

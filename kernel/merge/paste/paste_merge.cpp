@@ -13,6 +13,7 @@
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/merge/verdict.h"
+#include "kernel/mesh/edit/joined_morphs.h"
 #include "kernel/mesh/measure/measures.h"
 
 namespace lissom {
@@ -83,6 +84,7 @@ MergeReport merge_report(const Mesh& target, const LaidPart& laid, const Sewn& s
     report.joins.push_back(join);
     report.deform = laid.trial.moved.stats;
     report.seam = sewn.report;
+    report.warnings = morph_conflicts(target, part.mesh);
     const bool sought = options.find_intersections && !options.draft;
     if (sought) {
         report.intersections = new_intersections(target, part.mesh, sewn, context);

@@ -8,6 +8,7 @@
 
 #include "kernel/mesh/edit/corner_twins.h"
 #include "kernel/mesh/edit/joined_content.h"
+#include "kernel/mesh/edit/joined_morphs.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {
@@ -176,7 +177,8 @@ Mesh spliced(const Mesh& first, const Mesh& second, const SplicedElements& eleme
     Mesh mesh(std::move(positions), Topology::create_paired(vertices, faces.take(), twins, context),
               context);
     std::optional<Mesh> first_copy, second_copy;
-    take_content(joined_content(with_split_charts(first, first_copy),
+    const std::optional<Mesh> renumbered = with_morph_numbers(first, joined_morphs(first, second));
+    take_content(joined_content(with_split_charts(renumbered ? *renumbered : first, first_copy),
                                 with_split_charts(second, second_copy), {}, context),
                  elements, corners, mesh, context);
     mesh.set_asset(second.asset());

@@ -50,8 +50,11 @@ SeamGuard::SeamGuard(const Mesh& mesh, std::span<const std::vector<Index>> seams
             seam_edges_.insert(edge_key(seam[k], seam[(k + 1) % seam.size()]));
         }
     }
-    now_ = {places(), seam_quality(shape_, seams_),
-            self_intersections(shape_, {faces_, std::nullopt}, context_), roughness()};
+    now_ = {places(),
+            seam_quality(shape_, seams_),
+            self_intersections(shape_, {faces_, std::nullopt}, context_),
+            roughness(),
+            {}};
 }
 
 std::vector<Vec3> SeamGuard::places() const {
@@ -99,6 +102,7 @@ double SeamGuard::move_all(std::span<const Vec3> to, State& state) {
     for (const double way : {1.0, 0.5, 0.25, 0.125}) {
         context_.checkpoint();
         state.places.clear();
+        state.parts.assign(moving_.size(), way);
         for (std::size_t i = 0; i < moving_.size(); ++i) {
             state.places.push_back(now_.places[i] + way * (to[i] - now_.places[i]));
         }
@@ -144,6 +148,7 @@ bool SeamGuard::spares(const Star& before, const Star& after) const {
 
 bool SeamGuard::move_each(std::span<const Vec3> to, State& state) {
     place(now_.places);
+    state.parts.assign(moving_.size(), 0.0);
     for (std::size_t i = 0; i < moving_.size(); ++i) {
         if (i % 256 == 0) context_.checkpoint();
         const Index v = moving_[i];
@@ -151,6 +156,7 @@ bool SeamGuard::move_each(std::span<const Vec3> to, State& state) {
         const Vec3 way = to[i] - now_.places[i];
         for (const double part : {1.0, 0.5, 0.25, 0.0}) {
             shape_.edit_positions()[v] = now_.places[i] + part * way;
+            state.parts[i] = part;
             if (part == 0.0 || spares(before, star(v))) break;
         }
     }
@@ -160,6 +166,7 @@ bool SeamGuard::move_each(std::span<const Vec3> to, State& state) {
 
 double SeamGuard::move(std::span<const Vec3> to) {
     const State before = now_;
+    parts_.assign(moving_.size(), 0.0);
     try {
         State all = before, each = before;
         const double way = move_all(to, all);
@@ -171,7 +178,10 @@ double SeamGuard::move(std::span<const Vec3> to) {
                                 greatest_sum(each.quality) < limit;
             if (better) best = &each;
         }
-        if (best) now_ = std::move(*best);
+        if (best) {
+            parts_ = best->parts;
+            now_ = std::move(*best);
+        }
     } catch (const Error&) {
         place(before.places);
         throw;

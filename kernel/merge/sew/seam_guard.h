@@ -39,6 +39,9 @@ class SeamGuard {
     /// is then as it was.
     double move(std::span<const Vec3> to);
 
+    /// The part of its way that each moving vertex was moved by in the last `move`, in their order.
+    const std::vector<double>& parts() const { return parts_; }
+
     const std::vector<Index>& moving() const { return moving_; }
     const Vec3& position(Index v) const { return shape_.position(v); }
     std::span<const Vec3> positions() const { return shape_.positions(); }
@@ -50,6 +53,7 @@ class SeamGuard {
         SeamQuality quality;
         std::vector<FacePair> crossings;
         double roughness = 0.0;
+        std::vector<double> parts;
     };
     // Of the faces around one vertex.
     struct Star {
@@ -76,6 +80,7 @@ class SeamGuard {
     SeamQuality allowed_;
     std::unordered_set<std::uint64_t> seam_edges_;
     State now_;
+    std::vector<double> parts_;
     const Context& context_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "kernel/merge/sew/seam_attributes.h"
 #include "kernel/merge/sew/seam_guard.h"
+#include "kernel/mesh/measure/morph_maps.h"
 
 namespace lissom {
 namespace {
@@ -51,29 +52,39 @@ std::vector<Vec3> umbrella_places(const Topology& topology, std::span<const Inde
     return to;
 }
 
-// The positions after up to `times` steps, none of which does harm; `made` counts them.
+// What the seams' vertices went through: the steps that were made, and the part of each that every
+// moving vertex was moved by.
+struct Umbrella {
+    std::span<const Index> on_seam, moving;
+    std::vector<std::vector<double>> parts;
+};
+
+// Up to `times` steps, none of which does harm.
 std::vector<Vec3> guarded_steps(const Mesh& mesh, std::span<const std::vector<Index>> seams,
-                                std::span<const Index> on_seam, std::span<const Index> moving,
-                                Index times, Index& made, const Context& context) {
-    SeamGuard guard(mesh, seams, {moving.begin(), moving.end()}, context);
+                                Index times, Umbrella& made, const Context& context) {
+    SeamGuard guard(mesh, seams, {made.moving.begin(), made.moving.end()}, context);
     const auto position = [&](Index v) -> const Vec3& { return guard.position(v); };
-    for (; made < times; ++made) {
-        const auto to = umbrella_places(mesh.topology(), on_seam, guard.moving(), position);
+    for (Index step = 0; step < times; ++step) {
+        const auto to = umbrella_places(mesh.topology(), made.on_seam, guard.moving(), position);
         if (!(guard.move(to) > 0.0)) break;
+        made.parts.push_back(guard.parts());
     }
     return {guard.positions().begin(), guard.positions().end()};
 }
 
-std::vector<Vec3> whole_steps(const Mesh& mesh, std::span<const Index> on_seam,
-                              std::span<const Index> moving, Index times, const Context& context) {
-    std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
-    const auto position = [&](Index v) -> const Vec3& { return positions[v]; };
-    for (Index step = 0; step < times; ++step) {
+// The steps that were made, of positions or displacements.
+std::vector<Vec3> stepped(const Topology& topology, const Umbrella& made, std::vector<Vec3> x,
+                          const Context& context) {
+    const auto position = [&](Index v) -> const Vec3& { return x[at(v)]; };
+    for (const std::vector<double>& parts : made.parts) {
         context.checkpoint();
-        const auto to = umbrella_places(mesh.topology(), on_seam, moving, position);
-        for (std::size_t k = 0; k < to.size(); ++k) positions[moving[k]] = to[k];
+        const auto to = umbrella_places(topology, made.on_seam, made.moving, position);
+        for (std::size_t k = 0; k < to.size(); ++k) {
+            Vec3& here = x[at(made.moving[k])];
+            here = parts[k] == 1.0 ? to[k] : Vec3(here + parts[k] * (to[k] - here));
+        }
     }
-    return positions;
+    return x;
 }
 
 }  // namespace
@@ -83,22 +94,28 @@ Index smooth_seams(Mesh& mesh, std::span<const std::vector<Index>> seams,
     const auto& [times, guarded] = how;
     const std::vector<Index> on_seam = vertices_of(seams);
     const std::vector<Index> moving = umbrella_vertices(mesh.topology(), on_seam, firm);
-    Index made = guarded ? 0 : times;
+    Umbrella made{on_seam, moving, {}};
     std::vector<std::pair<Index, Vec3>> moved;
+    const auto follow = [&](std::vector<Vec3> x) {
+        return stepped(mesh.topology(), made, std::move(x), context);
+    };
+    if (!guarded) made.parts.assign(at(times), std::vector<double>(moving.size(), 1.0));
     if (times > 0 && !moving.empty()) {
         const std::vector<Vec3> positions =
-            guarded ? guarded_steps(mesh, seams, on_seam, moving, times, made, context)
-                    : whole_steps(mesh, on_seam, moving, times, context);
+            guarded ? guarded_steps(mesh, seams, times, made, context)
+                    : follow({mesh.positions().begin(), mesh.positions().end()});
         for (const Index v : moving) {
             if (positions[v] != mesh.position(v)) moved.emplace_back(v, positions[v]);
         }
     }
     std::vector<Index> vertices;
     for (const auto& [v, position] : moved) vertices.push_back(v);
+    const MorphColumns morphs = mapped_morphs(mesh, follow);
     SeamNormals normals(mesh, std::move(vertices));
     for (const auto& [v, position] : moved) mesh.set_position(v, position);
+    set_morphs(mesh, morphs);
     normals.follow(seams);
-    return made;
+    return count_of(made.parts);
 }
 
 }  // namespace lissom

@@ -20,8 +20,8 @@ struct SeamSmoothing {
 /// (Kobbelt et al. 1998): half of the way to the mean of their neighbours, up to `times` times.
 /// With `guarded` each step is guarded (SeamGuard), and the first that would do harm is the last;
 /// otherwise all are made whole. Vertices on open boundaries stay, and those of `firm`,
-/// ascending; normals turn with the surface and become those of the surface on the seams. Returns
-/// how many steps were made.
+/// ascending; normals turn with the surface and become those of the surface on the seams, and
+/// displacements of morph targets make the same steps. Returns how many steps were made.
 Index smooth_seams(Mesh& mesh, std::span<const std::vector<Index>> seams,
                    std::span<const Index> firm, const SeamSmoothing& how, const Context& context);
 

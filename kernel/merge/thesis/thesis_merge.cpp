@@ -426,7 +426,7 @@ TransitionReport ThesisMerge::reconstruct(Sewn& sewn, const Context& context) co
     std::vector<Vec3> wanted = coordinates_of(band);
     want_at_seams(band, local, wanted);
     want_in_regions(local, wanted);
-    band.bend(wanted, context);
+    band.bend({&wanted, 1}, context);
     band.write(sewn.mesh);
     TransitionReport report;
     for (const Matches& region : of_target_) report.target.push_back(region.report);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/mesh/edit/corner_twins.h"
 #include "kernel/mesh/edit/joined_content.h"
+#include "kernel/mesh/edit/joined_morphs.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {
@@ -67,8 +69,12 @@ void append(Mesh& mesh, const Mesh& other, const Context& context) {
     positions.insert(positions.end(), other.positions().begin(), other.positions().end());
     Mesh result(std::move(positions), joined_topology(mesh, other, context), context);
     LabelRenames renames;
-    result.set_asset(joined_asset(mesh, other, renames));
-    JoinedContent content = joined_content(mesh, other, renames, context);
+    const std::vector<MorphTarget> morphs = joined_morphs(mesh, other);
+    result.set_asset(with_morphs(joined_asset(mesh, other, renames), morphs));
+    const std::optional<Mesh> first = with_morph_numbers(mesh, morphs),
+                              second = with_morph_numbers(other, morphs);
+    JoinedContent content =
+        joined_content(first ? *first : mesh, second ? *second : other, renames, context);
     result.attributes() = std::move(content.attributes);
     for (auto& [name, vertices] : content.regions) {
         result.set_region(name, Region(result.shared_topology(), std::move(vertices)));

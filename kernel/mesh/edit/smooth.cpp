@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "kernel/mesh/measure/directions.h"
+#include "kernel/mesh/measure/morph_maps.h"
 #include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
@@ -132,14 +134,20 @@ void smooth(Mesh& mesh, const SmoothOptions& options, const Context& context) {
     const Stencils stencils = stencils_for(mesh, options);
     // Taubin's second factor: 1 / strength + 1 / outward = pass band.
     const double outward = 1.0 / (kPassBand - 1.0 / options.strength);
-    std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
-    std::vector<Vec3> next = positions;
-    for (Index i = 0; i < options.iterations; ++i) {
-        progress.update(i, options.iterations);
-        step(stencils, options.strength, positions, next, context);
-        if (options.keep_volume) step(stencils, outward, positions, next, context);
-    }
-    mesh.set_positions(std::move(positions));
+    const std::int64_t steps = std::int64_t{options.iterations} * (1 + morph_count(mesh));
+    std::int64_t done = 0;
+    const auto smoothed = [&](std::vector<Vec3> x) {
+        std::vector<Vec3> next = x;
+        for (Index i = 0; i < options.iterations; ++i) {
+            progress.update(done++, steps);
+            step(stencils, options.strength, x, next, context);
+            if (options.keep_volume) step(stencils, outward, x, next, context);
+        }
+        return x;
+    };
+    const MorphColumns morphs = mapped_morphs(mesh, smoothed);
+    mesh.set_positions(smoothed({mesh.positions().begin(), mesh.positions().end()}));
+    set_morphs(mesh, morphs);
     directions.follow(mesh);
 }
 

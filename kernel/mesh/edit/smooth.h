@@ -33,7 +33,8 @@ struct SmoothOptions {
 
 /// Smooths `mesh` in place by explicit Laplacian steps. Cotangents are those of the shape at the
 /// start, of the triangulated polygons, negative ones taken as zero. "normal" attributes turn with
-/// the surface. Vertices without faces stay.
+/// the surface; displacements of morph targets are smoothed by the same weights. Vertices without
+/// faces stay.
 /// Errors: invalid_argument; topology_mismatch; cancelled: the mesh is then unchanged.
 void smooth(Mesh& mesh, const SmoothOptions& options = {}, const Context& context = {});
 

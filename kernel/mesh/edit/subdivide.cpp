@@ -12,6 +12,7 @@
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/half_edges.h"
+#include "kernel/mesh/measure/morph_maps.h"
 #include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
@@ -48,7 +49,11 @@ class Step {
             }
         }
         context.checkpoint();
-        return derive(mesh_, positions(), std::move(faces_), map_, context);
+        const std::span<const Vec3> old = mesh_.positions();
+        Mesh result =
+            derive(mesh_, places({old.begin(), old.end()}), std::move(faces_), map_, context);
+        set_morphs(result, mapped_morphs(mesh_, [&](std::vector<Vec3> x) { return places(x); }));
+        return result;
     }
 
     /// For each new face whether the face that it was made from was split.
@@ -232,17 +237,18 @@ class Step {
         }
     }
 
-    std::vector<Vec3> positions() const {
-        std::vector<Vec3> result = blend_positions(mesh_, map_.vertices);
+    // The scheme's weights applied to positions, or displacements, of the old vertices.
+    std::vector<Vec3> places(const std::vector<Vec3>& x) const {
+        std::vector<Vec3> result = blend_points(x, map_.vertices);
         if (scheme_ == SubdivisionScheme::midpoint) return result;
         const bool is_loop = scheme_ == SubdivisionScheme::loop;
         for (Index e = 0; e < topology_.edge_count(); ++e) {
             const Index left = edge_faces_[2 * e], right = edge_faces_[2 * e + 1];
             if (!is_split(left) || !is_split(right)) continue;
             const auto [a, b] = topology_.edge(e);
-            const Vec3 ends = mesh_.position(a) + mesh_.position(b);
+            const Vec3 ends = x[at(a)] + x[at(b)];
             if (is_loop) {
-                const Vec3 across = opposite(left, a, b) + opposite(right, a, b);
+                const Vec3 across = opposite(x, left, a, b) + opposite(x, right, a, b);
                 result[edge_point(e)] = (3.0 * ends + across) / 8.0;
             } else {
                 const Vec3 faces = result[face_point(left)] + result[face_point(right)];
@@ -254,10 +260,10 @@ class Step {
             if (topology_.is_boundary(v)) {
                 // The neighbours along the boundary are the first and the last of the ring.
                 const std::span<const Index> ring = topology_.neighbors(v);
-                const Vec3 ends = mesh_.position(ring.front()) + mesh_.position(ring.back());
-                result[v] = (6.0 * mesh_.position(v) + ends) / 8.0;
+                const Vec3 ends = x[at(ring.front())] + x[at(ring.back())];
+                result[v] = (6.0 * x[at(v)] + ends) / 8.0;
             } else {
-                result[v] = is_loop ? loop_vertex(v) : catmull_clark_vertex(v, result);
+                result[v] = is_loop ? loop_vertex(x, v) : catmull_clark_vertex(x, v, result);
             }
         }
         return result;
@@ -268,30 +274,31 @@ class Step {
         return std::all_of(faces.begin(), faces.end(), [&](Index f) { return is_split(f); });
     }
 
-    Vec3 opposite(Index triangle, Index a, Index b) const {
+    Vec3 opposite(const std::vector<Vec3>& x, Index triangle, Index a, Index b) const {
         for (const Index v : topology_.face(triangle)) {
-            if (v != a && v != b) return mesh_.position(v);
+            if (v != a && v != b) return x[at(v)];
         }
         return Vec3::Zero();
     }
 
-    Vec3 loop_vertex(Index v) const {
+    Vec3 loop_vertex(const std::vector<Vec3>& x, Index v) const {
         const std::span<const Index> ring = topology_.neighbors(v);
         const double n = ring.size();
         const double root = 3.0 / 8.0 + std::cos(2.0 * kPi / n) / 4.0;
         const double beta = (5.0 / 8.0 - root * root) / n;
         Vec3 sum = Vec3::Zero();
-        for (const Index u : ring) sum += mesh_.position(u);
-        return (1.0 - n * beta) * mesh_.position(v) + beta * sum;
+        for (const Index u : ring) sum += x[at(u)];
+        return (1.0 - n * beta) * x[at(v)] + beta * sum;
     }
 
-    Vec3 catmull_clark_vertex(Index v, const std::vector<Vec3>& result) const {
+    Vec3 catmull_clark_vertex(const std::vector<Vec3>& x, Index v,
+                              const std::vector<Vec3>& result) const {
         const std::span<const Index> ring = topology_.neighbors(v);
         const double n = ring.size();
         Vec3 faces = Vec3::Zero(), edges = Vec3::Zero();
         for (const Index f : topology_.faces_around(v)) faces += result[face_point(f)] / n;
-        for (const Index u : ring) edges += (mesh_.position(u) + mesh_.position(v)) / (2.0 * n);
-        return (faces + 2.0 * edges + (n - 3.0) * mesh_.position(v)) / n;
+        for (const Index u : ring) edges += (x[at(u)] + x[at(v)]) / (2.0 * n);
+        return (faces + 2.0 * edges + (n - 3.0) * x[at(v)]) / n;
     }
 
     const Mesh& mesh_;

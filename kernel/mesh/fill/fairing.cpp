@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "kernel/mesh/measure/morph_maps.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
@@ -94,10 +95,9 @@ Laplacian cotangent_laplacian(const Topology& topology, std::span<const Vec3> po
 class FairingSystem {
   public:
     FairingSystem(const Region& region, std::span<const Vec3> positions)
-        : region_(region),
+        : region_(&region),
           positions_(positions.begin(), positions.end()),
-          unknown_(positions.size(), kNoIndex),
-          right_(3 * at(region.size()), 0.0) {
+          unknown_(positions.size(), kNoIndex) {
         for (Index i = 0; i < region.size(); ++i) unknown_[region.vertices()[i]] = i;
     }
 
@@ -134,17 +134,28 @@ class FairingSystem {
     }
 
     std::vector<Vec3> solve(const Context& context) {
-        const SymmetricMatrix matrix = symmetric_from_triplets(region_.size(), entries_);
-        SparseSystem system;
-        system.analyze(matrix, context);
-        system.factor(matrix, context);
-        system.solve(right_, right_, 3);
-        for (Index i = 0; i < region_.size(); ++i) {
-            for (int k = 0; k < 3; ++k) {
-                positions_[region_.vertices()[i]][k] = right_[at(k) * region_.size() + i];
+        const SymmetricMatrix matrix = symmetric_from_triplets(region_->size(), entries_);
+        system_.analyze(matrix, context);
+        system_.factor(matrix, context);
+        return solved(positions_);
+    }
+
+    // The same system for other values of the vertices around, once it was solved.
+    std::vector<Vec3> solved(std::vector<Vec3> x) const {
+        const std::size_t n = at(region_->size());
+        std::vector<double> right(3 * n, 0.0);
+        for (const Known& known : known_) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                right[k * n + at(known.row)] -=
+                    known.value * x[at(known.vertex)][static_cast<Index>(k)];
             }
         }
-        return positions_;
+        system_.solve(right, right, 3);
+        for (std::size_t i = 0; i < n; ++i) {
+            Vec3& to = x[at(region_->vertices()[i])];
+            for (std::size_t k = 0; k < 3; ++k) to[static_cast<Index>(k)] = right[k * n + i];
+        }
+        return x;
     }
 
   private:
@@ -167,6 +178,12 @@ class FairingSystem {
         return {sum.begin(), sum.end()};
     }
 
+    // What a vertex outside the region adds to the right side of a row.
+    struct Known {
+        Index row, vertex;
+        double value;
+    };
+
     // Adds scale * left^T right: to the matrix between unknowns, to the right side for known
     // positions.
     void add_product(const Terms& left, const Terms& right, double scale) {
@@ -179,18 +196,17 @@ class FairingSystem {
                     if (unknown_[w] <= row) entries_.push_back({row, unknown_[w], value});
                     continue;
                 }
-                for (int k = 0; k < 3; ++k) {
-                    right_[at(k) * region_.size() + row] -= value * positions_[w][k];
-                }
+                known_.push_back({row, w, value});
             }
         }
     }
 
-    const Region& region_;
+    const Region* region_;
     std::vector<Vec3> positions_;
     std::vector<Index> unknown_;
     std::vector<Triplet> entries_;
-    std::vector<double> right_;
+    std::vector<Known> known_;
+    SparseSystem system_;
 };
 
 }  // namespace
@@ -204,19 +220,23 @@ void fair(Mesh& mesh, const Region& region, FairContinuity continuity, const Con
     membrane.add_membrane(uniform_laplacian(mesh.topology(), region));
     const std::vector<Vec3> flat = membrane.solve(context);
     progress.step(0.7);
-    FairingSystem plate(region, flat);
-    plate.add_plate(cotangent_laplacian(mesh.topology(), flat, region));
-    std::vector<Vec3> shape = plate.solve(context);
+    FairingSystem last(region, flat);
+    last.add_plate(cotangent_laplacian(mesh.topology(), flat, region));
+    std::vector<Vec3> shape = last.solve(context);
     if (continuity == FairContinuity::curvature) {
         const Region around = region.grown(1);
         for (int pass = 0; pass < kVariationPasses; ++pass) {
-            FairingSystem smooth(region, shape);
-            smooth.add_variation(cotangent_laplacian(mesh.topology(), shape, around),
-                                 mesh.topology());
-            shape = smooth.solve(context);
+            last = FairingSystem(region, shape);
+            last.add_variation(cotangent_laplacian(mesh.topology(), shape, around),
+                               mesh.topology());
+            shape = last.solve(context);
         }
     }
+    // What the last system makes of its unknowns does not depend on where they were.
+    const MorphColumns morphs =
+        mapped_morphs(mesh, [&](std::vector<Vec3> x) { return last.solved(std::move(x)); });
     mesh.set_positions(std::move(shape));
+    set_morphs(mesh, morphs);
 }
 
 }  // namespace lissom

@@ -22,8 +22,9 @@ enum class FairContinuity {
 /// without folds, then to a thin plate over it (cotangent weights), which meets the surface around
 /// at its tangents, and from there, where that is asked for, to the shape with the least change of
 /// curvature, sum of w_ij |L x_i - L x_j|^2 over edges with the pointwise cotangent Laplacian L,
-/// for which three rings around count. Each connected part of the region needs a neighbour outside
-/// it. Errors: not_positive_definite; memory_limit; cancelled. The mesh is then unchanged.
+/// for which three rings around count. Displacements of morph targets are faired by the last
+/// system's weights. Each connected part of the region needs a neighbour outside it. Errors:
+/// not_positive_definite; memory_limit; cancelled. The mesh is then unchanged.
 void fair(Mesh& mesh, const Region& region, FairContinuity continuity = FairContinuity::tangents,
           const Context& context = {});
 

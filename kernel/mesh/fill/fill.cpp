@@ -12,6 +12,7 @@
 #include "kernel/mesh/fill/hole_triangulation.h"
 #include "kernel/mesh/half_edges.h"
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/morph_maps.h"
 
 namespace lissom {
 namespace {
@@ -50,7 +51,11 @@ Mesh closed_mesh(const HolePatch& patch, const Context& context) {
         map.faces.add_new();
         for (int k = 0; k < 3; ++k) map.corners.add_new();
     }
-    return derive(mesh, std::move(positions), std::move(faces), map, context);
+    Mesh result = derive(mesh, std::move(positions), std::move(faces), map, context);
+    set_morphs(result, mapped_morphs(mesh, [&](std::vector<Vec3> x) {
+                   return patch.with_middles(std::move(x));
+               }));
+    return result;
 }
 
 Index folded_edges(const Mesh& mesh, Index first_face) {

@@ -57,7 +57,8 @@ struct FillReport {
 /// The topology is a new
 /// one; named regions move to it, and a new vertex is in those that its sources are all in. Vertex
 /// attributes of new vertices are blended from the loop; corner and face attributes of new faces
-/// are NaN and their labels none.
+/// are NaN and their labels none. What morph targets add goes through refinement and fairing with
+/// the weights that positions have there.
 /// Errors: topology_mismatch; invalid_argument where `boundary` is not an open boundary of the
 /// mesh, or options are out of range; memory_limit; cancelled. The mesh is then unchanged.
 FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options = {},

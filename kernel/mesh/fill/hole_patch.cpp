@@ -54,8 +54,20 @@ Index HolePatch::add_middle_vertex(std::span<const Index> around) {
                      [](const auto& a, const auto& b) { return a.weight > b.weight; });
     if (sources.size() > kMaximumSources) sources.resize(kMaximumSources);
     new_positions_.push_back(middle);
+    around_.emplace_back(around.begin(), around.end());
     sources_.push_back(std::move(sources));
     return mesh_.vertex_count() + new_vertex_count() - 1;
+}
+
+std::vector<Vec3> HolePatch::with_middles(std::vector<Vec3> x) const {
+    x.reserve(x.size() + around_.size());
+    for (const std::vector<Index>& around : around_) {
+        Vec3 middle = Vec3::Zero();
+        const double share = 1.0 / static_cast<double>(around.size());
+        for (const Index v : around) middle += share * x[at(v)];
+        x.push_back(middle);
+    }
+    return x;
 }
 
 Index HolePatch::triangle_at(Index from, Index to) const {

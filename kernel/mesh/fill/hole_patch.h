@@ -26,6 +26,9 @@ class HolePatch {
     const std::vector<Triangle>& triangles() const { return triangles_; }
     Index new_vertex_count() const { return count_of(new_positions_); }
     const std::vector<Vec3>& new_positions() const { return new_positions_; }
+    /// The mean that each new vertex was put at, of positions or displacements of the mesh's
+    /// vertices: those of the new ones after them.
+    std::vector<Vec3> with_middles(std::vector<Vec3> x) const;
     /// Mesh vertices that a new vertex blends, with weights.
     const std::vector<ElementMap::Source>& sources(Index new_vertex) const {
         return sources_[at(new_vertex)];
@@ -63,6 +66,8 @@ class HolePatch {
     const Mesh& mesh_;
     std::vector<Triangle> triangles_;
     std::vector<Vec3> new_positions_;
+    // The vertices that each new one is in the middle of.
+    std::vector<std::vector<Index>> around_;
     std::vector<std::vector<ElementMap::Source>> sources_;
     // The triangle on the left of each directed edge.
     std::unordered_map<std::uint64_t, Index> left_;

@@ -34,11 +34,15 @@ bool is_unit(AttributeRole role) {
     return role == AttributeRole::normal || role == AttributeRole::tangent;
 }
 
+// What morph targets add to positions goes through the map that positions went through.
+bool turns_with_surface(const Attribute& attribute) {
+    return is_direction(attribute) && attribute.domain != Domain::face &&
+           role_of(attribute) != AttributeRole::morph_position;
+}
+
 bool has_directions(const Mesh& mesh) {
     const std::vector<Attribute>& all = mesh.attributes().all();
-    return std::any_of(all.begin(), all.end(), [](const Attribute& a) {
-        return is_direction(a) && a.domain != Domain::face;
-    });
+    return std::any_of(all.begin(), all.end(), turns_with_surface);
 }
 
 // The map without its scale, so that what is added to unit vectors keeps its size.
@@ -62,7 +66,7 @@ void DirectionCarrier::follow(Mesh& mesh) const {
     if (before_.empty()) return;
     const std::vector<Vec3> after = vertex_normals(mesh);
     for (Attribute& attribute : mesh.attributes().all()) {
-        if (!is_direction(attribute) || attribute.domain == Domain::face) continue;
+        if (!turns_with_surface(attribute)) continue;
         const bool unit = is_unit(role_of(attribute));
         for (Index i = 0; i < attribute.size(); ++i) {
             const Index v = vertex_of(mesh, attribute, i);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/mesh/measure/directions.h"
+#include "kernel/mesh/measure/morph_maps.h"
 #include "kernel/mesh/query/path_smooth.h"
 #include "kernel/mesh/query/shortest_path.h"
 
@@ -220,9 +221,17 @@ void smooth_path(Mesh& mesh, const Path& path, Index iterations, double strength
     }
     std::vector<Vec3> points = path.points(mesh);
     smooth_polyline(points, path.closed(), iterations, strength, context);
+    const MorphColumns morphs = mapped_morphs(mesh, [&](std::vector<Vec3> x) {
+        std::vector<Vec3> line;
+        for (const Index v : path.vertices()) line.push_back(x[at(v)]);
+        smooth_polyline(line, path.closed(), iterations, strength, context);
+        for (std::size_t i = 0; i < line.size(); ++i) x[at(path.vertices()[i])] = line[i];
+        return x;
+    });
     const DirectionCarrier directions(mesh);
     const std::span<Vec3> positions = mesh.edit_positions();
     for (std::size_t i = 0; i < points.size(); ++i) positions[path.vertices()[i]] = points[i];
+    set_morphs(mesh, morphs);
     directions.follow(mesh);
 }
 

@@ -8,6 +8,7 @@
 #include "kernel/io/gltf/file/extras.h"
 #include "kernel/io/gltf/file/tiny_gltf.h"
 #include "kernel/io/gltf/mesh/fans.h"
+#include "kernel/io/gltf/mesh/told_morphs.h"
 #include "kernel/io/gltf/mesh/values.h"
 
 namespace lissom {
@@ -69,9 +70,6 @@ class MeshWriter::Object {
     }
 
     Json finish() {
-        if (Json* weights = member(mesh_, "weights")) {
-            if (weights->size() != target_count_) mesh_.erase("weights");
-        }
         put_extras(mesh_, extras(), pool_.size(), faces_.size());
         return std::move(mesh_);
     }
@@ -95,6 +93,9 @@ class MeshWriter::Object {
             target_count_ = std::max(target_count_, at(morph.name.target));
             morphs_[at(morph.name.target)].push_back(&morph);
         }
+        // Names, weights and animations of weights are of as many targets as there were.
+        if (target_count_ > 0) target_count_ = std::max(target_count_, told_morph_count(mesh_));
+        fit_morphs(mesh_, target_count_);
     }
 
     void find_joints() {

@@ -9,6 +9,7 @@
 
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/morph_maps.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
 namespace lissom {
@@ -265,6 +266,8 @@ void continue_values(Mesh& mesh, Index first_vertex, Index first_face, const Con
     const PatchGraph graph(mesh, first_vertex, first_face);
     for (Attribute& attribute : mesh.attributes().all()) {
         const AttributeRole role = role_of(attribute);
+        // The patch has displacements of morph targets: those that its own shape was made by.
+        if (is_morph_position(attribute)) continue;
         if (role == AttributeRole::normal) {
             set_normals(mesh, attribute, first_vertex, first_face);
         } else if (attribute.domain == Domain::corner) {

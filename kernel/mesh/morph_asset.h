@@ -1,0 +1,45 @@
+/// What an asset tells of the morph targets of objects.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/core/index.h"
+#include "kernel/mesh/asset.h"
+
+namespace lissom {
+
+/// A morph target. Where a file gives it no name it is called "target N" by its number, from 1.
+struct MorphTarget {
+    std::string name;
+    /// How much of it shows at rest.
+    double weight = 0.0;
+    bool is_named = false;
+};
+
+/// An Asset that knows morph targets is a MorphAsset as well; found by dynamic_cast.
+class MorphAsset {
+  public:
+    /// The targets, in the order of their numbers, that the faces with the label `object` have by
+    /// the names and weights in the asset; there may be more, of which it tells nothing.
+    virtual std::vector<MorphTarget> morphs_of(std::string_view object) const = 0;
+    /// The asset in which every object has these targets, paired with its own by name; their
+    /// weights are its own, or else those given, and animations of weights follow. Null where
+    /// nothing differs.
+    virtual std::shared_ptr<const Asset> with_morphs(const std::vector<MorphTarget>& all) const = 0;
+
+  protected:
+    ~MorphAsset() = default;
+};
+
+/// What a target without a name is called.
+std::string morph_call_name(Index number);
+
+/// For each of an object's own targets, the place in `all` of the one with its name: of the second
+/// with that name the second, and so on. kNoIndex where there is none.
+std::vector<Index> morph_places(const std::vector<MorphTarget>& own,
+                                const std::vector<MorphTarget>& all);
+
+}  // namespace lissom
