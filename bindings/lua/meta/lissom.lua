@@ -110,6 +110,16 @@
 ---@field files_missing lissom.Finding|nil Textures and other files that were not found.
 ---@field extensions_dropped lissom.Finding|nil Extensions of the format that are not understood; dropped.
 
+---The last result of a deformation beside its rest shape.
+---@class lissom.DeformReport
+---@field stretch number The greatest factor by which an edge is longer or shorter than at rest; 1 is none.
+---@field stretched integer[]|nil The vertices of that edge; nil where none changed.
+---@field flipped integer[] Faces that look against those around them, and did not at rest.
+---@field crossings integer|nil Pairs of faces that run through one another, and did not at rest; where asked for.
+---@field volume_change number|nil Volume over that at rest, less 1; nil without one.
+---@field tears table[] Where handles nearly touch and tear the surface, the worst first: `vertices`, a pair that different handles hold, and `slip`, how far they part in lengths of the edges between.
+---@field warnings string[] What to look at, and what helps, in plain words.
+
 ---Sizes and times of the last preparation of a deformation.
 ---@class lissom.DeformStats
 ---@field region_vertices integer Vertices of the region.
@@ -117,6 +127,7 @@
 ---@field constrained_vertices integer Those that one holds.
 ---@field handles integer Handles.
 ---@field displaced_vertices integer Degenerate vertices displaced.
+---@field extended_vertices integer Flat vertices with an unknown beside them.
 ---@field inserted_vertices integer Vertices inserted at corners of the boundary.
 ---@field refined_vertices integer Vertices that a refinement of coarse borders added.
 ---@field zero_area_faces integer Faces without area.
@@ -236,19 +247,50 @@
 ---@field source_size integer Vertices of the source's boundary as it was joined.
 ---@field target_size integer Vertices of the target's.
 ---@field scale number How much the source grew there.
----@field guessed boolean No keys were given.
----@field certainty number|nil Where it was guessed: runner-up cost / best cost; below 1.5 give a key.
+---@field placed string What decided how the source is turned: keys, as placed, directions or shape.
+---@field guessed boolean The shapes decided, or directions that contradict each other.
+---@field certainty number|nil Where it was guessed: the probability, 0 to 1, that it is right; below .75 give a key.
+---@field any_turn boolean The parts are round: no turn is better than another.
+---@field turn table How the source turns from how it lies: axis, a unit vector, and angle in degrees.
+---@field key number[][]|nil A point of the source's boundary and the point of the target's that it meets: keys = { key } makes the same result. nil in the thesis's transition.
 ---@field source_turn number Mean turn of the source's boundary at a vertex, as given.
 ---@field target_turn number The same of the target's.
 ---@field source_trimmed boolean It was jagged and has been trimmed.
 ---@field target_trimmed boolean The same of the target's.
 ---@field refined boolean Faces of the source were split there.
 ---@field target_refined boolean Faces of the target were split there.
+---@field fits boolean The boundaries are one curve, as they lie or, in the free configuration, up to a similarity, and the surface goes on across it: all vertices are kept there, and nothing is smoothed, trimmed or refined.
+---@field same_side boolean In the fixed configuration: both parts lie on the same side of the boundary, so that the source turns over.
+---@field band lissom.BandQuality The surface around the seam, against both sides before; zeros of a draft.
+
+---The surface around a seam, against the parts before they were joined; angles in degrees.
+---@class lissom.BandQuality
+---@field roughness number The RMS angle at the edges within half a radius of the seam, weighted by length, without the seam's own.
+---@field rest_roughness number The same beside both boundaries before.
+---@field bend number The RMS angle between planes fitted to the surface on either side of points of the seam, to strips a third of the radius wide.
+---@field rest_bend number The same before on the side that bends more, from the strip at the boundary to the one behind it.
+---@field greatest_bend number The greatest of the angles in `bend`.
+---@field rest_greatest_bend number The greatest of those in `rest_bend`.
+---@field folded number Length of the edges within one radius at which the surface folds back by more than 135 degrees, in radii of the seam.
+---@field rest_folded number That of the edges of both sides before that turned by more than 105 degrees.
+---@field source_volume number Volume between source and seam, over that of the source at rest at its scale: 1 where it was kept, negative where it turned inside out.
+---@field target_volume number The same of the target; 1 of a paste.
+---@field radius number Radius of the seam.
+
+---Why a merge is not good. tostring gives text and remedy.
+---@class lissom.MergeReason
+---@field fault string crossings, side, folds, roughness, volume, bend, seam, place or slivers.
+---@field join integer|nil The join that it is of; nil of all of them.
+---@field value number What was measured: degrees for roughness, bend, seam and slivers; radii of the seam for folds; pairs of faces for crossings; the part that was kept for volume; the certainty for place.
+---@field limit number The limit that it passes.
+---@field text string What is wrong, in plain words.
+---@field remedy string What may help.
 
 ---What a merge found and did.
 ---@class lissom.MergeReport
----@field ok boolean Whether the seams are good: they turn by no more than 30 degrees, or than the surfaces did beside the boundaries; no triangle at them has less than 2 degrees, or than there were; no faces run through one another that did not before; and no place is a toss.
+---@field ok boolean Whether the result is good: no faces run through one another that did not before; the surface around the seam does not fold back, is at most 1.4 times as rough as the parts were there (or turns by less than 8 degrees an edge), and bends by no more than 25 degrees from one side to the other and 50 at one place, or 1.3 times what it did before (and by the crease of a paste); each part keeps three quarters of its volume; the seam turns by no more than 30 degrees and 20 in the mean, or than the surfaces did beside the boundaries; no place is a toss; no triangle at the seam has less than 2 degrees, or than there were.
 ---@field verdict string The same in one line: what holds, or what does not.
+---@field reasons lissom.MergeReason[] Each fault with what was measured, its limit and what may help; empty if ok. tostring(report) lists them.
 ---@field joins lissom.JoinReport[] One a join.
 ---@field warnings string[] What to look at, in plain words.
 ---@field loose_parts integer Parts of the source without a joined boundary: in the free configuration they move along with what is nearest.
@@ -301,6 +343,12 @@
 ---@field energy number Mean squared difference of the stretches from 1, after scaling.
 ---@field faces integer How many faces that is of.
 
+---What of a target goes under a part.
+---@class lissom.PasteClearing
+---@field faces integer How many faces, of the target as it is split there.
+---@field area number Their area.
+---@field height number How far they stand out of the surface that takes their place, or are sunk in it, at most.
+
 ---What a draft of a paste found.
 ---@class lissom.PasteDraft
 ---@field scale number How much the part grew.
@@ -315,12 +363,14 @@
 ---@field source_map lissom.PasteMapQuality The map of the ring.
 ---@field target_map lissom.PasteMapQuality The map of the target's region.
 ---@field angle number Angle of the placement, in degrees.
----@field angle_chosen boolean It was not given.
+---@field angle_chosen boolean It was not given, and is what fits best of twelve.
+---@field upright boolean Neither `toward` nor an angle was given, and the part's `up` points the same way on the target, as far as the surface allows.
 ---@field scale number How much the part grew.
 ---@field near lissom.PasteDistortion Within three rings of the boundary.
 ---@field laid lissom.PasteDistortion The same once the part lies on the target as it was opened.
 ---@field feature lissom.PasteDistortion In the feature.
 ---@field outline_near lissom.PasteDistortion|nil Near the outline of the region, were it the boundary.
+---@field clearing lissom.PasteClearing|nil What was removed of the target under the part, if something was.
 ---@field kept_outline boolean The outline was pasted along, since the surface there is distorted less.
 ---@field smooth boolean The boundary runs through faces.
 ---@field draft boolean It is a draft: merged without that option its seam is better.
@@ -351,9 +401,16 @@
 ---@field code string As of a failure; see lissom explain.
 ---@field message string Why.
 
+---A place whose part was made smaller so that it crosses nothing.
+---@class lissom.ShrunkPlace
+---@field place integer Its number.
+---@field scale number The scale it has.
+
 ---What lissom.scatter did.
 ---@class lissom.ScatterReport
 ---@field refused lissom.RefusedPlace[] Places that were left out, by number.
+---@field shrunk lissom.ShrunkPlace[] Places whose parts were made smaller, by number.
+---@field crossings integer Pairs of faces that cross, of parts that were kept nevertheless.
 ---@field parts lissom.Region All parts, on the new mesh.
 ---@field place_of_face integer[] For each face the number of the place that its part was put to, or 0.
 ---@field rounds integer Times that parts were put into the mesh together.
@@ -612,6 +669,7 @@
 ---@field shift boolean? Whether this key is down.
 ---@field ctrl boolean? Likewise.
 ---@field alt boolean? Likewise.
+---@field late boolean? A later place of the same drag is known already; of a move.
 
 ---What a tool is called with.
 ---@class lissom.ToolEvent
@@ -625,6 +683,7 @@
 ---@field shift boolean Whether this key is down.
 ---@field ctrl boolean Likewise.
 ---@field alt boolean Likewise.
+---@field late boolean? A later place of the same drag is known already, of drag: a slow tool takes this one, and leaves out what is only seen until then.
 ---@field camera lissom.Camera What the scene is seen by.
 ---@field scene lissom.Scene The scene.
 ---@field size integer[] {width, height} of the picture in pixels.
@@ -645,7 +704,7 @@
 ---@field curve fun(self: any, options: table) The same.
 ---@field label fun(self: any, options: table) {at=, text=, color=}
 ---@field handle fun(self: any, options: table) {at=, color=, radius=}: a ball to take hold of.
----@field gizmo fun(self: any, gizmo: lissom.Gizmo) The gizmo as it is seen now.
+---@field gizmo fun(self: any, gizmo: lissom.Gizmo, chosen: string?) The gizmo as it is seen now; the part `chosen` as the one in hand.
 ---@field region fun(self: any, options: table) {mesh=, region=, color=}: colours it.
 ---@field mesh fun(self: any, options: table) {mesh=, transform=, color=}: one that is not in the scene, before what it lies on; it must not change afterwards.
 ---@field outline fun(self: any, options: table) {pixels=, color=, width=, closed=, opacity=}: a line in the picture, of {x, y}.
@@ -821,6 +880,7 @@ function Mesh:copy() end
 
 ---@class lissom.Mesh.SubdivideOptions
 ---@field scheme? "midpoint"|"loop"|"catmull_clark" midpoint keeps the shape; the others smooth it. Default: "midpoint".
+---@field region? lissom.Region Splits the faces of this region only. Triangles beside it are divided where their edges are, and polygons take the new vertices in, so that the mesh stays watertight. Default: all.
 
 ---A finer mesh. Old vertices keep their ids.
 ---@param levels? integer How often each face is split. Default: 1.
@@ -884,6 +944,7 @@ function Mesh:distances(options) end
 function Mesh:distortion(rest) end
 
 ---@class lissom.Mesh.SaveOptions
+---@field normals? boolean Write the normals of the surface, one a vertex, for a mesh without the attribute "normal". STL has those of its triangles in any case. Default: false.
 ---@field up? "y"|"z" The up axis that the file shall have. Default: as it is.
 ---@field unit? number Length of the file's unit in the unit of the mesh: positions are divided by it. In mesh units. Default: 1.
 ---@field binary? boolean Binary or text, for .ply and .stl. Default: true.
@@ -1053,7 +1114,7 @@ function Mesh:fill(boundary, options) end
 function Mesh:cut(options) end
 
 ---@class lissom.Mesh.EraseOptions
----@field ring? number How far around the region the mesh may be cut, in radii of the region's outline. Default: 0.5.
+---@field ring? number How far around the region the mesh may be cut, in radii of the region's outline. 0: along the outline itself. Default: 0.5.
 ---@field bend? number How much a cut through bent surface costs: an edge costs its length times 1 + bend R k, with the outline's radius R and k the sum of both principal curvatures, without signs. 0: the shortest loop. Default: 1.
 ---@field continuity? "tangents"|"curvature" What of the surface around it the patch continues: curvature where that is even around the cut, else tangents. Default: "curvature".
 ---@field maximum_vertices? integer Vertices that the patch may have. Default: 200000.
@@ -1071,10 +1132,10 @@ function Mesh:erase(region, options) end
 ---@field feature? lissom.Region|"auto" As in lissom.paste. Default: auto.
 ---@field toward? "x"|"y"|"z"|lissom.Vector The way on the target that `up` of the source is to point, as far as both lie in the surfaces. Default: the same as `up`.
 ---@field up? "x"|"y"|"z"|lissom.Vector The direction of the source that belongs to it. Default: y.
----@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: 0 where `toward` is given, else what fits best of twelve.
+---@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: 0, or what fits best of twelve where `up` does not lie in the surfaces and `toward` is not given.
 ---@field scale? number Size of the part on the target over its size on the source. Default: 1.
 ---@field offset? number[] {x, y}: moves the part in the plane of the target's map, in lengths of the target; the way of placing of thesis 3.4.1. Default: {0, 0}.
----@field clear? boolean|lissom.Region Removes the target's features under the part first, as mesh:erase does: what lies within the part's reach of its place, or a region of the target. Default: false.
+---@field clear? boolean|lissom.Region Removes the target's features under the part first, as mesh:erase does: what lies under the part's boundary and nothing beyond it, or a region of the target with a ring around it. paste:clearing() tells what before. Default: false.
 ---@field ring? number Share of the region that is searched where no feature is given. Default: 0.5.
 ---@field normals? number Weight of the normals in the energy of a boundary. Default: 0.
 ---@field smooth? integer Umbrella steps at the seam, at most, as in lissom.merge. Default: 3.
@@ -1411,6 +1472,14 @@ function Deformation:apply() end
 ---@return lissom.DeformStats stats # Times are in seconds, sizes in bytes.
 function Deformation:stats() end
 
+---@class lissom.Deformation.ReportOptions
+---@field crossings? boolean Counts faces that run through one another, which takes longer than to solve. Default: false.
+
+---How good the last result is beside the rest shape: what is stretched, folded over, torn between handles that nearly touch, or runs through itself.
+---@param options? lissom.Deformation.ReportOptions
+---@return lissom.DeformReport report # Measures, and warnings in words.
+function Deformation:report(options) end
+
 ---The first system's solution as a linear function of the handles: what an engine needs to follow a drag by itself.
 ---@return lissom.HandleBasis basis # Weights of every vertex for every handle.
 ---@return string? message # What is wrong, where the first result is nil.
@@ -1550,6 +1619,10 @@ function Merging:set_keys(join, keys) end
 ---@return lissom.MergeReport report # What was found and done.
 function Merging:solve() end
 
+---Returns what was found before anything is solved, such as a thin outline that is to meet a round one; the report has it as well.
+---@return string[] warnings # In plain words.
+function Merging:warnings() end
+
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Merging:close() end
 
@@ -1633,6 +1706,11 @@ function Paste:search() end
 ---@return lissom.Path loop # On the source, as by `optimize`.
 ---@return lissom.Path image # Points of the target's surface.
 function Paste:loop() end
+
+---What `clear` removes of the target under the part, on the target as it was given: to draw it, or to ask before `merge`.
+---@return lissom.Region region # The vertices of the faces that go; nil if nothing goes.
+---@return lissom.PasteClearing report # How much that is.
+function Paste:clearing() end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Paste:close() end
@@ -2993,6 +3071,7 @@ lissom.pick = {}
 
 ---@class lissom.LoadOptions
 ---@field weld? "seams"|"all"|boolean Which vertices at the same place become one. "seams": those that join open edges at the same place and of opposite direction, so that surfaces that only touch, as closed lips do, stay apart; "all": all of them; false: none. Default: "all" for .stl, "seams" for others.
+---@field unused? "drop"|"keep" What becomes of vertices that no face uses. "keep" leaves them in their order, for programs that match vertices by number; with weld = false all vertices of a sound file keep their numbers. Default: "drop".
 ---@field repair? boolean false makes each defect that would be mended, and each face without area, an error that names the elements. Default: true.
 ---@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: as it is.
 ---@field unit? number Length of the file's unit in the unit of the mesh: positions are multiplied by it. In mesh units. Default: 1.
@@ -3117,9 +3196,12 @@ function lissom.shapes.head(options) end
 ---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian where the surface has to be as smooth as can be and may stretch, poisson where it may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend"; as in the thesis "laplacian".
 ---@field coherence? integer Rings of neighbours that turn alike. Default: 1; as in the thesis 2.
 ---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
----@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Leave it at 0 where the surface runs through itself or nearly does, since refined parts get thinner and cross more; beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
+---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Refined parts get thinner: a result that would run through itself, and without does not, is taken back as far as that, but a draft does not look. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
+---@field loose? "error"|"stay"|"follow" What becomes of separate parts that no handle holds, as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece. A basis has no parts that follow a surface which bends. Default: "error".
+---@field free_rings? integer Rings of vertices that handles give up where they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
 ---@field refine_borders? boolean Works on a surface that is refined where the border of what is held is coarse beside the region; the mesh keeps its faces. Default: true.
----@field displacement? number How far degenerate vertices are displaced. In mean lengths of their edges. Default: 0.2.
+---@field flat? "extended"|"displaced" How a vertex whose surroundings are flat knows how it turns: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
+---@field displacement? number How far degenerate vertices are displaced, and how far beside flat ones their unknown lies. In mean lengths of their edges. Default: 0.2.
 ---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate and is displaced. Below about 100 that is nearly every vertex. Default: 20000; as in the thesis 200000.
 ---@field transition? number Within this geodesic distance of the region's outline the deformation fades into what stays. In mesh units. Default: 0.
 ---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "default".
@@ -3139,9 +3221,10 @@ function lissom.deform(mesh, options) end
 ---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
 ---@class lissom.MergeOptions
----@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, with the directions below and, where all these leave a choice, with the planes of symmetry of the parts; in the fixed configuration, without directions, what lies nearest meets. The report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
+---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the directions below decide, or else `place`; the report says which turn was taken and how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@field place? "as placed"|"shape" How joins without keys and directions are turned about the axis of the boundary. as placed: least from how the source lies beside the target, so that a part that was laid roughly, or both as they were modelled, come right; the result is the same if both are moved together, or if the source is moved without a turn and scaled. shape: as the shapes of both parts suggest, the same wherever the source lies; the report says how certain that is. A part that must be turned over by more than 150 degrees is placed by shape as well. Default: "as placed".
 ---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
 ---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: where a face looks.
@@ -3173,9 +3256,10 @@ function lissom.merge(options) end
 ---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
 ---@class lissom.MergingOptions
----@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the best fit is taken, with the directions below and, where all these leave a choice, with the planes of symmetry of the parts; in the fixed configuration, without directions, what lies nearest meets. The report says how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
+---@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the directions below decide, or else `place`; the report says which turn was taken and how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@field place? "as placed"|"shape" How joins without keys and directions are turned about the axis of the boundary. as placed: least from how the source lies beside the target, so that a part that was laid roughly, or both as they were modelled, come right; the result is the same if both are moved together, or if the source is moved without a turn and scaled. shape: as the shapes of both parts suggest, the same wherever the source lies; the report says how certain that is. A part that must be turned over by more than 150 degrees is placed by shape as well. Default: "as placed".
 ---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
 ---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: where a face looks.
@@ -3207,7 +3291,7 @@ function lissom.merging(options) end
 ---@field at lissom.Vector The middle of the feature comes to lie on the point of the target that is nearest to this.
 ---@field toward? "x"|"y"|"z"|lissom.Vector The way on the target that `up` of the source is to point, as far as both lie in the surfaces. Default: the same as `up`.
 ---@field up? "x"|"y"|"z"|lissom.Vector The direction of the source that belongs to it. Default: y.
----@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: 0 where `toward` is given, else what fits best of twelve.
+---@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: 0, or what fits best of twelve where `up` does not lie in the surfaces and `toward` is not given.
 ---@field scale? number Size of the part on the target over its size on the source. Default: 1.
 ---@field offset? number[] {x, y}: moves the part in the plane of the target's map, in lengths of the target; the way of placing of thesis 3.4.1. Default: {0, 0}.
 
@@ -3215,10 +3299,10 @@ function lissom.merging(options) end
 ---@field source lissom.Mesh The mesh that has the feature; it stays as it is.
 ---@field target lissom.Mesh The mesh that it is pasted onto; it stays as it is.
 ---@field region lissom.Region Part of the source around the feature, marked casually: the boundary is sought between its outline and the feature.
----@field feature? lissom.Region|"auto" Part of the source that keeps out of the search; of any genus, and of several parts. auto: what lies farther from the region's outline than the share `ring` of the way to its middle, or of the outline's radius where that is less. Default: auto.
+---@field feature? lissom.Region|"auto" Part of the source that keeps out of the search; of any genus, and of several parts. auto: what lies farther from the region's outline than the share `ring` of the way to its middle, or of the outline's radius where that is less; with the open boundaries and the handles inside the region. Default: auto.
 ---@field onto? lissom.Region Part of the target that the feature may go to: without holes and handles, and larger than the region of the source will be. Default: a disk around the placement.
 ---@field placement lissom.PasteOptions.Placement Where the feature goes.
----@field clear? boolean|lissom.Region Removes the target's features under the part first, as mesh:erase does: what lies within the part's reach of its place, or a region of the target. Default: false.
+---@field clear? boolean|lissom.Region Removes the target's features under the part first, as mesh:erase does: what lies under the part's boundary and nothing beyond it, or a region of the target with a ring around it. paste:clearing() tells what before. Default: false.
 ---@field ring? number Share of the region that is searched where no feature is given. Default: 0.5.
 ---@field correspondence? "map"|"closest" map: vertices lie where the plane maps of both surfaces put them. closest: `optimize` then draws them, in rounds, to the nearest point of the target, where that distorts the surface near the boundary less. Default: "closest".
 ---@field loop? "smooth"|"mesh" smooth: the boundary runs through faces, near the best loop of edges, so that the seam has no teeth. mesh: it is that loop. Default: "smooth".
@@ -3242,7 +3326,7 @@ function lissom.paste(options) end
 ---@field at lissom.Vector[] Places: the middle of the feature comes to lie on the nearest point of the target. Those before others come first where two meet.
 ---@field toward? lissom.Vector[] As of a placement of lissom.paste: one for all or one a place. Default: the same as `up`.
 ---@field up? "x"|"y"|"z"|lissom.Vector The direction of the source that belongs to it. Default: y.
----@field angles? number[] As of a placement: one for all or one a place. In degrees. Default: 0 where `toward` is given, else what fits best of twelve.
+---@field angles? number[] As of a placement: one for all or one a place. In degrees. Default: 0, or what fits best of twelve where `up` does not lie in the surfaces and `toward` is not given.
 ---@field scales? number[] As of a placement: one for all or one a place. Default: 1.
 ---@field iterations? integer Of the search for each boundary; 0 takes the outline of the region. Default: 4.
 ---@field ring? number Share of the region that is searched where no feature is given. Default: 0.5.
@@ -3250,6 +3334,7 @@ function lissom.paste(options) end
 ---@field smooth? integer Umbrella steps at a seam, at most. Default: 3.
 ---@field collar? boolean Makes faces anew beside a seam where one side is coarser. Default: true.
 ---@field size? "boundary"|"lock" Size of a part: that of its boundary on the target, or what `scales` says. Default: "boundary".
+---@field crossings? "shrink"|"leave out"|"keep" What becomes of a part that would run through itself, the target or a part before it. shrink: it is made smaller, by a fifth at a time and by a half at most, and left out if it crosses even then. keep: it stays, and the report counts what crosses. Default: "shrink".
 
 ---Pastes one feature many times: scales, spikes, leaves. Each paste sees a small disk of the target alone, and all that do not touch are put into the mesh together, so that hundreds are quick. A place on another part, or without room, is refused and told; scripts/recipes/scatter.lua finds places.
 ---@param options lissom.ScatterOptions
@@ -3433,7 +3518,7 @@ function lissom.frame(mesh, options) end
 ---@return lissom.Gizmo gizmo # The gizmo.
 function lissom.gizmo(options) end
 
----Makes a tool: functions that are called with what a hand does. press, drag and release, or run, a coroutine that asks by lissom.pick; move, wheel, key, changed (of a parameter), draw, activate, deactivate, cancel. All take the tool itself and a lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the scene, any other call is one of its own; after an error the scene is as before. The table's other keys are the tool's own.
+---Makes a tool: functions that are called with what a hand does. press, drag and release, or run, a coroutine that asks by lissom.pick; move, wheel, key, changed (of a parameter), draw, activate, deactivate, cancel. All take the tool itself and a lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the scene, any other call is one of its own; after an error the scene is as before. drag is called with every place that the hand came to. The table's other keys are the tool's own.
 ---@param tool table name, help, params (as for lissom.params) and functions.
 ---@return table tool # The same table; `tool.params` are the values now.
 function lissom.tool(tool) end
