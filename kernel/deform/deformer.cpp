@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -12,6 +14,13 @@
 
 namespace lissom {
 namespace {
+
+// Of the vertices of the region.
+std::unique_ptr<RegionNormals> make_region_normals(const RestShape& rest, const Context& context) {
+    const std::map<Index, Vec3> around(rest.surroundings.begin(), rest.surroundings.end());
+    return std::make_unique<RegionNormals>(
+        rest.region(), [&](Index v) { return around.at(v); }, context);
+}
 
 void require_options(const DeformOptions& o) {
     const auto require = [](bool condition, const char* message) {

@@ -1,7 +1,6 @@
 #include "kernel/deform/rest_shape.h"
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -128,12 +127,6 @@ Vec3 RestShape::center_of(const Handle& handle) const {
 Index RestShape::frame_row(const Patch& of, Index v) const {
     if (v < of.mesh_count()) return region_row[v];
     return v < of.real_count ? region().size() + v - of.mesh_count() : kNoIndex;
-}
-
-std::unique_ptr<RegionNormals> make_region_normals(const RestShape& rest, const Context& context) {
-    const std::map<Index, Vec3> around(rest.surroundings.begin(), rest.surroundings.end());
-    return std::make_unique<RegionNormals>(
-        rest.region(), [&](Index v) { return around.at(v); }, context);
 }
 
 void require_surroundings(const RestShape& rest, const Mesh& mesh) {

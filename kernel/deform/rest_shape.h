@@ -15,7 +15,6 @@
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/pipeline.h"
 #include "kernel/deform/rotation/rest_directions.h"
-#include "kernel/mesh/measure/region_normals.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 
@@ -60,9 +59,6 @@ struct RestShape {
 
 /// Errors: topology_mismatch, naming vertices around the region that are not where they were.
 void require_surroundings(const RestShape& rest, const Mesh& mesh);
-
-/// Normals of the region's vertices. Errors: memory_limit.
-std::unique_ptr<RegionNormals> make_region_normals(const RestShape& rest, const Context& context);
 
 /// As write_frame, of the rest shape.
 void write_rest(const RestShape& rest, Mesh& mesh);

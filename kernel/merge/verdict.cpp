@@ -150,6 +150,8 @@ void judge_bend(const MergeReport& report, Index j, Reasons& reasons) {
          "same shape"});
 }
 
+constexpr const char* kNotSought = "faces that run through one another were not looked for";
+
 void note_seam(double turn, double limit, const std::string& text, Reasons& reasons) {
     reasons.push_back({MergeFault::seam, kNoIndex, turn, limit, text,
                        "use the seam \"fair\" or a transition, smooth more, or subdivide the "
@@ -248,14 +250,14 @@ Verdict verdict_of(const MergeReport& report, bool sought) {
     if (!reasons.empty()) {
         std::vector<std::string> faults;
         for (const MergeReason& reason : reasons) faults.push_back(reason.text);
+        if (!sought) faults.emplace_back(kNotSought);
         return {false, "not good: " + joined_by(faults, "; "), std::move(reasons)};
     }
     return {true,
             "good: the surface turns by at most " +
                 angle_text(report.seam.after.greatest_dihedral) + " across the seam, " +
                 beside_text(report) + "and " +
-                (sought ? "no faces run through one another that did not before"
-                        : "faces that run through one another were not looked for"),
+                (sought ? "no faces run through one another that did not before" : kNotSought),
             {}};
 }
 

@@ -182,7 +182,8 @@ test("parts are scattered: sizes and angles vary, more change no others, refused
     local grid = lissom.shapes.grid{ size = { 4, 4 }, segments = { 40, 40 } }
     local field = scatter.make(part, grid, { count = 20, size = 0.2 })
     expect.equal(#field:boundaries(), 1)
-    expect.equal(#field:boundaries()[1], #grid:boundaries()[1])
+    -- Faces of the target are halved where there is no room for a part; its outline keeps its course.
+    expect.near(field:boundaries()[1]:length(), grid:boundaries()[1]:length(), 1e-9)
 end)
 
 -- The sum of squares of the angles between neighbouring faces around the vertices of a region.

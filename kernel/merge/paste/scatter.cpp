@@ -30,7 +30,7 @@ constexpr double kSeamRoom = 5.0;
 
 // Edges of the target within this many times a part's reach are halved if they are longer than the
 // first of these parts of it, until none is longer than the second.
-constexpr double kFineRoom = 2.0, kCoarseEdge = 1.5, kFineEdge = 0.3;
+constexpr double kFineRoom = 2.0, kCoarseEdge = 0.6, kFineEdge = 0.3;
 // A part that crosses something is made smaller by this, as often as that.
 constexpr double kShrink = 0.8;
 constexpr int kShrinks = 3;

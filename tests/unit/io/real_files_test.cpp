@@ -88,7 +88,13 @@ TEST_CASE("real models are the same after save and load") {
         const Mesh mesh = load_mesh(*path);
         const fs::path copy = folder / ("copy" + path->extension().string());
         save_mesh(mesh, copy);
-        check_same_mesh(load_mesh(copy), mesh);
+        Mesh loaded = load_mesh(copy);
+        // Materials are written again beside a file in another folder.
+        if (path->extension() == ".obj" && !mesh.material_libraries().empty()) {
+            CHECK(loaded.material_libraries() == std::vector<std::string>{"copy.mtl"});
+            loaded.material_libraries() = mesh.material_libraries();
+        }
+        check_same_mesh(loaded, mesh);
     }
 }
 

@@ -94,6 +94,7 @@ class ErasureReach {
   public:
     ErasureReach(const Mesh& mesh, const Region& region, double width, const Context& context)
         : mesh_(mesh),
+          width_(width),
           distance_(edge_distances(mesh, region.vertices(), width, context)),
           origin_(at(mesh.vertex_count()), kNoIndex) {
         const std::vector<char> marked = region.mask();
@@ -114,6 +115,21 @@ class ErasureReach {
     }
     bool holds_all(std::span<const Index> vertices) const {
         return std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return holds(v); });
+    }
+
+    // Takes a part of the surface that the region runs around, if all of it lies within the ring:
+    // its creases are the feature's own, as at the tip of a horn.
+    void take_island(std::span<const Index> faces) {
+        const auto is_near = [&](Index v) { return distance_[at(v)] <= width_; };
+        for (const Index f : faces) {
+            const std::span<const Index> face = mesh_.topology().face(f);
+            if (!std::all_of(face.begin(), face.end(), is_near)) return;
+        }
+        for (const Index f : faces) {
+            for (const Index v : mesh_.topology().face(f)) {
+                if (!holds(v)) origin_[at(v)] = v;
+            }
+        }
     }
 
   private:
@@ -148,6 +164,7 @@ class ErasureReach {
     }
 
     const Mesh& mesh_;
+    double width_;
     std::vector<double> distance_;
     std::vector<Index> origin_;
     std::vector<Vec3> normals_;
@@ -421,7 +438,7 @@ Excision cut_in_ring(const Mesh& mesh, const Surrounded& around, const ErasureRe
 
 // Of the parts of the surface beside a region the largest is the rest; others go with the region,
 // so that they must lie within its reach, or be pinholes of single vertices.
-void require_no_islands(const Mesh& mesh, const Region& region, const ErasureReach& reach) {
+void require_no_islands(const Mesh& mesh, const Region& region, ErasureReach& reach) {
     const std::vector<char> marked = region.mask();
     const auto is_beside = [&](Index v) {
         const auto around = mesh.topology().neighbors(v);
@@ -437,6 +454,7 @@ void require_no_islands(const Mesh& mesh, const Region& region, const ErasureRea
         });
     });
     for (std::size_t k = 1; k < outside.size(); ++k) {
+        reach.take_island(outside[k]);
         std::vector<Index> inner = outside[k];
         std::erase_if(inner, [&](Index f) {
             const std::span<const Index> face = mesh.topology().face(f);
@@ -451,7 +469,7 @@ void require_no_islands(const Mesh& mesh, const Region& region, const ErasureRea
 Excision cut_around(const Mesh& mesh, const Region& region, const EraseOptions& options,
                     const Context& context) {
     const double radius = outline_radius(mesh, region), width = options.ring * radius;
-    const ErasureReach reach(mesh, region, width, context);
+    ErasureReach reach(mesh, region, width, context);
     require_no_islands(mesh, region, reach);
     for (int step = 0;; ++step) {
         const Surrounded around = surrounded(mesh, region, reach, width, step, context);

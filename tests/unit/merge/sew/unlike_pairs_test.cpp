@@ -154,7 +154,8 @@ TEST_CASE("on twelve unlike pairs no step leaves a seam worse, with and without 
         blended.suit_transition = true;
         const MergeResult faded = merged(blended);
         const SeamQuality &plain = smoothed.report.seam.after, &across = faded.report.seam.after;
-        const double faint = 10.0 * kPairDegree + 1e-4;
+        // A transition and a fair seam may turn so far, if that smooths the surface beside them.
+        const double faint = 20.0 * kPairDegree + 1e-4;
         CHECK(across.greatest_dihedral <= std::max(plain.greatest_dihedral + 1e-4, faint));
         CHECK(across.greatest_near <= std::max(plain.greatest_near + 1e-4, faint));
         CHECK(faded.report.intersections.size() <= crossings);
@@ -180,7 +181,9 @@ TEST_CASE("on twelve unlike pairs no step leaves a seam worse, with and without 
                                   << ", collar " << result.report.seam.collar_removed << " -> "
                                   << result.report.seam.collar_added << ", "
                                   << result.report.solve_seconds << " s");
-                CHECK(after.greatest_dihedral <= before.greatest_dihedral + 1e-4);
+                const double allowed = kind == SeamKind::fair ? faint : 0.0;
+                CHECK(after.greatest_dihedral <=
+                      std::max(before.greatest_dihedral + 1e-4, allowed));
                 CHECK(after.greatest_near <= before.greatest_near + 1e-4);
                 CHECK(result.report.intersections.size() <= crossings);
                 CHECK(result.mesh.topology().boundary_loops().size() + 2 ==

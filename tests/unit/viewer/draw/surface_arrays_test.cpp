@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/viewer/viewer_support.h"
@@ -60,6 +61,7 @@ Vec3 winding(const std::vector<Corner>& vertices, std::size_t t) {
 
 TEST_CASE("normals of a surface that moves are those of the kernel") {
     Mesh bar = make_bar({});
+    triangulate(bar);
     for (Vec3& p : bar.edit_positions())
         p = Vec3(p.x() * p.x() * p.x(), 2.0 * p.y(), p.z() + 0.3 * p.y() * p.x());
     MeshStyle style;
