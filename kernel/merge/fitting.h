@@ -9,6 +9,7 @@
 #include "kernel/merge/loop/correspondence.h"
 #include "kernel/merge/loop/curve_fit.h"
 #include "kernel/merge/loop/loop.h"
+#include "kernel/merge/loop/loop_pair.h"
 #include "kernel/merge/merge.h"
 #include "kernel/mesh/mesh.h"
 

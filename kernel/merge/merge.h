@@ -17,12 +17,13 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/boundary/boundary_deformer.h"
 #include "kernel/deform/stats.h"
 #include "kernel/merge/blend/transition.h"
+#include "kernel/merge/loop/band_quality.h"
 #include "kernel/merge/loop/correspondence.h"
-#include "kernel/merge/sew/band_quality.h"
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/derive.h"

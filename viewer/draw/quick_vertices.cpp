@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "kernel/core/angle.h"
+#include "kernel/mesh/measure/angle.h"
 
 namespace lissom {
 namespace {

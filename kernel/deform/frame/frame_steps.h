@@ -18,6 +18,7 @@
 #include "kernel/core/index.h"
 #include "kernel/deform/frame/motion.h"
 #include "kernel/deform/holds/holds.h"
+#include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/pipeline.h"
 #include "kernel/deform/preparation.h"
 #include "kernel/deform/system/frame_loops.h"

@@ -6,10 +6,13 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/core/context.h"
 #include "kernel/io/gltf/asset.h"
+#include "kernel/io/gltf/file/json.h"
+#include "kernel/io/gltf/file/uri.h"
 #include "kernel/io/obj/mtl.h"
 #include "kernel/io/record/mesh_data.h"
 #include "kernel/mesh/report.h"

@@ -2,6 +2,7 @@
 /// the source least from how it lies, or the one under which a similarity fits best.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

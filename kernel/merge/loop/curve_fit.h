@@ -2,6 +2,7 @@
 /// kernel/merge.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>

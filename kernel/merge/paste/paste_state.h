@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/merge/paste/erase/cleared_target.h"
 #include "kernel/merge/paste/part/moving_part.h"

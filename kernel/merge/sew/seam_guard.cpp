@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernel/merge/loop/band_quality.h"
 #include "kernel/merge/loop/face_angles.h"
-#include "kernel/merge/sew/band_quality.h"
 
 namespace lissom {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/core/angle.h"
 #include "kernel/core/error.h"
+#include "kernel/mesh/measure/angle.h"
 #include "kernel/mesh/measure/flat_face.h"
 #include "kernel/mesh/topology.h"
 

@@ -1,5 +1,5 @@
 // What the surface around a seam is measured by, and the guard that it gives every step.
-#include "kernel/merge/sew/band_quality.h"
+#include "kernel/merge/loop/band_quality.h"
 
 #include <doctest/doctest.h>
 

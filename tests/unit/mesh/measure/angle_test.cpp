@@ -1,4 +1,4 @@
-#include "kernel/core/angle.h"
+#include "kernel/mesh/measure/angle.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "kernel/merge/sew/band_quality.h"
+#include "kernel/merge/loop/band_quality.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +18,12 @@ namespace {
 constexpr double kBand = 0.5, kFolds = 1.0, kStrip = 1.0 / 3.0;
 // An edge where the surface turns back, and one where it nearly did before: edges of thin parts
 // turn by more or less as these bend, faces that turned over turn by nearly half a turn.
-constexpr double kFolded = 135.0 * kDegree, kNearlyFolded = 105.0 * kDegree;
+constexpr double kBandFolded = 135.0 * kDegree, kNearlyFolded = 105.0 * kDegree;
 // Points of a seam at which planes are fitted, at most.
-constexpr std::size_t kPlanes = 48;
+constexpr std::size_t kBandPlanes = 48;
 // A side is flat that has less volume than this many cubes of the radius: a dome as steep as a
 // third of a half sphere.
-constexpr double kFlat = 0.7;
+constexpr double kBandFlat = 0.7;
 
 // Adds up edges by their lengths.
 struct EdgeSum {
@@ -39,7 +39,7 @@ struct EdgeSum {
         const double edge = (mesh.position(b) - mesh.position(a)).norm();
         length += edge;
         squares += edge * angle * angle;
-        if (angle > kFolded) folded += edge;
+        if (angle > kBandFolded) folded += edge;
         if (angle > kNearlyFolded) nearly_folded += edge;
     }
     double rms() const { return length > 0.0 ? std::sqrt(squares / length) : 0.0; }
@@ -144,7 +144,7 @@ class Side {
             strip.emplace_back(center_of(f), area_vector(mesh_, f));
         }
         std::vector<Vec3> result;
-        const std::size_t step = std::max<std::size_t>(1, loop_.size() / kPlanes);
+        const std::size_t step = std::max<std::size_t>(1, loop_.size() / kBandPlanes);
         for (std::size_t k = 0; k < loop_.size(); k += step) {
             const Vec3& from = mesh_.position(loop_[k]);
             Vec3 sum = Vec3::Zero();
@@ -198,7 +198,7 @@ class Side {
 };
 
 double volume_kept(double after, double before, double radius) {
-    return before > kFlat * radius * radius * radius ? after / before : 1.0;
+    return before > kBandFlat * radius * radius * radius ? after / before : 1.0;
 }
 
 }  // namespace
