@@ -13,13 +13,13 @@ namespace {
 // the turns is right exp(-kNoneScore). Fitted to 147 pairs of parts of real models, of which 37
 // come from different ones; in cross validation by models 76 of 78 that had a certainty above .75
 // were right, and all 52 above .9.
-constexpr double kLoopWeight = 2.83, kBendWeight = 1.24, kMirrorWeight = 3.22, kMassWeight = 0.29;
+constexpr double kLoopWeight = 2.83, kBendWeight = 1.24, kSymmetryWeight = 3.22, kMassWeight = 0.29;
 constexpr double kNoneScore = -3.97;
 // Misfits well below this are none.
 constexpr double kLeastMisfit = 0.003;
 // Turns within 30 degrees are one guess; offsets that differ by less than kRounding are equal, and
 // scores by less than kSameScore.
-constexpr double kSameGuess = 30.0 / 360.0, kRounding = 1e-6, kSameScore = 0.01;
+constexpr double kEqualTurns = 30.0 / 360.0, kRounding = 1e-6, kSameScore = 0.01;
 
 std::vector<LoopJoin> loops_of(const Boundaries& boundaries) {
     std::vector<LoopJoin> loops;
@@ -71,7 +71,7 @@ double log_of(double misfit) {
 
 double score_of(const JudgedTurn& one) {
     return kLoopWeight * log_of(one.turn.loop_cost) + kBendWeight * log_of(one.bend) +
-           kMirrorWeight * one.turn.mirror + kMassWeight * one.turn.mass;
+           kSymmetryWeight * one.turn.mirror + kMassWeight * one.turn.mass;
 }
 
 // The probability of each turn, and of all near it, that it is right; see kLoopWeight.
@@ -82,7 +82,7 @@ void find_certainty(std::vector<JudgedTurn>& turns) {
     for (std::size_t i = 0; i < turns.size(); ++i) {
         for (std::size_t k = 0; k < turns.size(); ++k) {
             const double apart = turns[i].turn.offset - turns[k].turn.offset;
-            if (std::abs(std::remainder(apart, 1.0)) < kSameGuess) {
+            if (std::abs(std::remainder(apart, 1.0)) < kEqualTurns) {
                 turns[i].certainty += odds[k] / sum;
             }
         }

@@ -27,11 +27,11 @@ constexpr double kSuitableRadii = 0.9, kSuitableEdges = 3.0, kSuitableShare = 0.
 // Angles up to these do not show among the details that fade across a seam: smoothing may have left
 // smaller ones, and a transition need not. Across the seam itself it may leave more, where it takes
 // steeper edges beside it away.
-constexpr double kFaint = 10.0 * kDegree, kFaintSeam = 20.0 * kDegree;
+constexpr double kFaint = 10.0 * kDegree, kFaintFade = 20.0 * kDegree;
 
 SeamQuality faint_angles() {
     SeamQuality quality;
-    quality.greatest_dihedral = kFaintSeam;
+    quality.greatest_dihedral = kFaintFade;
     quality.greatest_near = kFaint;
     return quality;
 }

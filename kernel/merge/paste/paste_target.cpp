@@ -15,7 +15,7 @@ namespace {
 
 // Edges under a part that are longer than this part of its reach are halved, until none is longer
 // than the other one.
-constexpr double kCoarse = 0.6, kFine = 0.3;
+constexpr double kCoarsePart = 0.6, kFinePart = 0.3;
 
 // A region of a mesh on one that was made of it: the vertices that come from its vertices alone.
 Region carried(const Region& region, const Mesh& mesh, const MeshMap& map) {
@@ -56,16 +56,16 @@ double Paste::State::reach_of(const PastePlacement& placement) const {
 }
 
 bool Paste::State::needs_another(const PastePlacement& placement) const {
-    return clears() || longest_edge > kCoarse * reach_of(placement);
+    return clears() || longest_edge > kCoarsePart * reach_of(placement);
 }
 
 AlteredTarget Paste::State::roomy(const PastePlacement& placement, const Context& context) const {
     const Mesh& mesh = as_given();
     const double reach = reach_of(placement);
-    if (!(longest_edge > kCoarse * reach)) return {mesh, std::nullopt, onto};
+    if (!(longest_edge > kCoarsePart * reach)) return {mesh, std::nullopt, onto};
     const SurfacePoint point = SpatialTree(mesh, context).nearest(placement.at);
     const FinePlace place{point.face, point.position, reach + placement.offset.norm(),
-                          kCoarse * reach, kFine * reach};
+                          kCoarsePart * reach, kFinePart * reach};
     std::optional<FinerMesh> finer = finer_near(mesh, {&place, 1}, context);
     if (!finer) return {mesh, std::nullopt, onto};
     if (onto) require_same_topology(mesh, onto->topology(), "the target's region");

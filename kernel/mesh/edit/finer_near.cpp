@@ -73,7 +73,7 @@ bool has_longer_edge(const Mesh& mesh, Index f, double length) {
 
 using Key = std::uint64_t;
 
-Key key_of(Index a, Index b) {
+Key halved_key(Index a, Index b) {
     return static_cast<Key>(static_cast<std::uint32_t>(a)) << 32 | static_cast<std::uint32_t>(b);
 }
 
@@ -177,7 +177,7 @@ class Bisection {
     Index register_part(Part part) {
         const Index number = count_of(parts_);
         for (std::size_t k = 0; k < 3; ++k) {
-            part_at_[key_of(part.vertices[k], part.vertices[(k + 1) % 3])] = number;
+            part_at_[halved_key(part.vertices[k], part.vertices[(k + 1) % 3])] = number;
         }
         parts_of_[part.face].push_back(number);
         parts_.push_back(std::move(part));
@@ -187,7 +187,7 @@ class Bisection {
     // The triangle on the left of an edge. Nothing on the left of an open one, and of one that
     // belongs to a polygon that stays.
     Index part_at(Index a, Index b) {
-        const auto found = part_at_.find(key_of(a, b));
+        const auto found = part_at_.find(halved_key(a, b));
         if (found != part_at_.end()) return found->second;
         const Index old = mesh_.vertex_count();
         if (a >= old || b >= old) return kNoIndex;
@@ -196,7 +196,7 @@ class Bisection {
             return kNoIndex;
         }
         take_in_triangle(f);
-        return part_at_.at(key_of(a, b));
+        return part_at_.at(halved_key(a, b));
     }
 
     Edge longest_edge(Index part) const {
@@ -246,7 +246,7 @@ class Bisection {
         const Index middle = count_of(positions_);
         positions_.push_back(0.5 * (positions_[at(a)] + positions_[at(b)]));
         add_mean_vertex(a, b);
-        middle_[key_of(std::min(a, b), std::max(a, b))] = middle;
+        middle_[halved_key(std::min(a, b), std::max(a, b))] = middle;
         for (const auto& [part, from, to] : {std::tuple(left, a, b), std::tuple(right, b, a)}) {
             if (part != kNoIndex) bisect_part(part, from, to, middle);
         }
@@ -273,7 +273,7 @@ class Bisection {
         Part& part = parts_[at(number)];
         part.alive = false;
         for (std::size_t k = 0; k < 3; ++k) {
-            part_at_.erase(key_of(part.vertices[k], part.vertices[(k + 1) % 3]));
+            part_at_.erase(halved_key(part.vertices[k], part.vertices[(k + 1) % 3]));
         }
         const std::size_t k = index_in(part.vertices, from), next = index_in(part.vertices, to);
         const Vec3 weights = 0.5 * (part.weights[k] + part.weights[next]);
@@ -327,7 +327,7 @@ class Bisection {
     // `shares` are the parts of the first corner at both ends.
     void add_vertices_between(Index a, Index b, const std::array<Index, 2>& corners,
                               const std::array<double, 2>& shares, std::vector<Index>& vertices) {
-        const auto found = middle_.find(key_of(std::min(a, b), std::max(a, b)));
+        const auto found = middle_.find(halved_key(std::min(a, b), std::max(a, b)));
         if (found == middle_.end()) return;
         const double share = 0.5 * (shares[0] + shares[1]);
         add_vertices_between(a, found->second, corners, {shares[0], share}, vertices);

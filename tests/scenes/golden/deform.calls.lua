@@ -173,5 +173,5 @@ scene:step("deform", function()
 end)
 scene:undo()
 scene:redo()
-assert(scene:hash() == "9ca02902c3aa8c37")
+assert(scene:hash() == "1483ecbe562d3140")
 return scene

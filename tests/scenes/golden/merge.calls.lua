@@ -23,5 +23,5 @@ end)
 scene:step("merge", function()
     scene:set("head", { visible = false })
 end)
-assert(scene:hash() == "3f1daf26cab3aefd")
+assert(scene:hash() == "d52fea3a7dc855bc")
 return scene

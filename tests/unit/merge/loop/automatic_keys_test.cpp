@@ -160,5 +160,6 @@ TEST_CASE("directions that belong together decide where loops leave a choice") {
     }
     // Along the axis they say nothing.
     const DirectionPair along{Vec3::UnitZ(), turn(Vec3::UnitZ())};
-    CHECK(guess_offsets(std::span(&join, 1), std::span(&along, 1)).front().contrast < kClearContrast);
+    CHECK(guess_offsets(std::span(&join, 1), std::span(&along, 1)).front().contrast <
+          kClearContrast);
 }

@@ -57,7 +57,8 @@ Sewn bumpy() {
 }  // namespace
 
 TEST_CASE("morph targets go through seam steps as positions do: umbrella, collars, flips") {
-    for (const auto& [target, source] : {std::pair(16, 16), std::pair(8, 24), std::pair(24, 8)}) {
+    for (const auto& sides : {std::pair(16, 16), std::pair(8, 24), std::pair(24, 8)}) {
+        const int target = sides.first, source = sides.second;
         const test::SewScene scene = tubes(target, source);
         for (const bool guard : {true, false}) {
             for (const bool collar : {false, true}) {

@@ -97,11 +97,11 @@ TEST_CASE("morph targets go through the linear map of every operation on a mesh"
         {"trim", [](Mesh& m) { m.replace_by(trim(m, boundaries(m)[0]).mesh); }},
         {"triangulate", [](Mesh& m) { triangulate(m); }},
     };
-    for (const auto& [name, operation] : operations) {
-        CAPTURE(name);
+    for (const auto& operation : operations) {
+        CAPTURE(operation.first);
         Mesh mesh = open_ball();
         test::add_telling_targets(mesh);
-        operation(mesh);
+        operation.second(mesh);
         CHECK(test::departure(mesh) < 1e-9);
     }
 }
