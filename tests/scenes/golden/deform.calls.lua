@@ -141,9 +141,9 @@ scene:step("deform", function()
     local cactus_deformation = scene:get("cactus deformation")
     local handles = cactus_deformation:handles()
     local region = cactus:region("selected")
-    local region2 = handles[1]:region()
+    local region2 = region:connected{ at = 2928 }
     local region3 = region:minus(region2)
-    local region4 = region3:connected{ at = 2928 }
+    local region4 = handles[1]:region()
     local region5 = region3:minus(region4)
     cactus:remove_region("selected")
     local handle = cactus_deformation:handle(region5, { falloff = 0 })
