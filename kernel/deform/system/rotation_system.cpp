@@ -82,7 +82,7 @@ RotationSystem::RotationSystem(const WorkingPatch& work, const std::vector<char>
     const Patch& patch = work.patch;
     std::optional<SurfaceRings> own;
     if (!is_real(patch)) own = work.surface_rings();
-    rings_ = own ? std::move(own->rings) : work.rings;
+    rings_ = own ? own->rings : work.rings;
     const RingGeometry& geometry = own ? own->geometry : work.geometry;
     const std::span<const Vec3> rest(patch.rest.data(), rings_.begin.size() - 1);
     const double factor = laplacian_factor_of(patch, rings_, options.second);

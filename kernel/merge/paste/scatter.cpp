@@ -302,7 +302,8 @@ class Scatterer {
                             kFineEdge * reach});
         }
         std::optional<FinerMesh> finer = finer_near(target, fine, context);
-        return finer ? std::move(finer->mesh) : target;
+        if (finer) return std::move(finer->mesh);
+        return target;
     }
 
     // The mesh with the parts of a round, but for those that cross something.

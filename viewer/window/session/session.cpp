@@ -213,7 +213,15 @@ void Session::complete(const std::string& text) {
 }
 
 void Session::cancel() {
-    if (busy()) cli::Interrupt::press();
+    const std::lock_guard lock(cancel_mutex_);
+    if (busy() && !saves_) cli::Interrupt::press();
+}
+
+// A save is short and asked for: no cancel meant for other work stops it.
+void Session::set_saving(bool saves) {
+    const std::lock_guard lock(cancel_mutex_);
+    saves_ = saves;
+    if (saves) program_.forget_interrupt();
 }
 
 // What follows is neither stopped by what has stopped the last, nor as far as that came.
@@ -312,7 +320,10 @@ void Session::save_scene(const std::string& path, std::uint64_t scene, std::uint
             return tell(LineKind::warning, "the scene has no objects: nothing was saved");
         }
         std::string left_out;
-        if (!succeeds(bench_->save(path, left_out))) return;
+        set_saving(true);
+        const cli::ScriptResult result = bench_->save(path, left_out);
+        set_saving(false);
+        if (!succeeds(result)) return;
         tell(LineKind::result, "saved " + path);
         if (!left_out.empty()) tell(LineKind::warning, left_out);
         const std::lock_guard lock(mutex_);

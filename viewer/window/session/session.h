@@ -193,6 +193,7 @@ class Session {
     void post_job(Worker::Job job);
     void post_only(Worker::Job job);
     void begin_work();
+    void set_saving(bool saves);
     void give_up();
     void tell_whether_mended(const std::string& file, bool works);
     using Setting = std::pair<std::string, lua::ParameterValue>;
@@ -247,6 +248,9 @@ class Session {
     std::atomic<bool> plays_{false};
     // What runs is stopped for something else.
     std::atomic<bool> given_up_{false};
+    /// Guards `saves_`, which is true while `cancel` must not stop the job that runs.
+    std::mutex cancel_mutex_;
+    bool saves_ = false;
     std::atomic<std::size_t> events_played_{0};
     // Numbers of what was asked to be opened last, and of what was opened, or has failed.
     std::atomic<std::uint64_t> asked_{0}, opened_{0};

@@ -342,6 +342,18 @@ TEST_CASE("session: a scene is saved though something else is opened at once, an
     host.session.open({path});
     host.wait();
     CHECK(host.shown().size() == moved.size());
+    // A cancel at any moment of a save, and a second save behind it.
+    for (int trial = 0; trial < 50; ++trial) {
+        host.session.save_scene(path, 0, 9);
+        std::this_thread::sleep_for(std::chrono::microseconds(40 * trial));
+        host.session.cancel();
+        host.session.save_scene(path, 0, 10);
+        host.session.cancel();
+        host.wait();
+        CAPTURE(trial);
+        CHECK(host.session.take_saved() == 10);
+    }
+    CHECK_FALSE(host.says(LineKind::error, "interrupted"));
 }
 
 TEST_CASE("session: a scene that was saved opens with its view") {
