@@ -108,7 +108,8 @@ Affine affine_of_rows(std::string_view name, const std::vector<double>& m, Place
     Affine result;
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column) {
-            result.linear(row, column) = m[4U * static_cast<unsigned>(column) + static_cast<unsigned>(row)];
+            result.linear(row, column) =
+                m[4U * static_cast<unsigned>(column) + static_cast<unsigned>(row)];
         }
     }
     result.translation = {m[12], m[13], m[14]};

@@ -52,7 +52,8 @@ class Step {
         const std::span<const Vec3> old = mesh_.positions();
         Mesh result =
             derive(mesh_, places({old.begin(), old.end()}), std::move(faces_), map_, context);
-        set_morphs(result, mapped_morphs(mesh_, [&](const std::vector<Vec3>& x) { return places(x); }));
+        set_morphs(result,
+                   mapped_morphs(mesh_, [&](const std::vector<Vec3>& x) { return places(x); }));
         return result;
     }
 
