@@ -126,7 +126,7 @@ struct Job {
     void* task = nullptr;
 };
 
-/// What scripts and lissom_call keep; null where the library was built without Lua.
+/// What scripts and lissom_call keep; null if the library was built without Lua.
 class ScriptHost;
 
 /// How objects are made and changed so that scripts can share them.
@@ -200,7 +200,7 @@ void begin_job(lissom_context& context, std::vector<std::pair<std::uint64_t, Kin
                std::function<void(const Context&)> work, std::function<std::uint64_t()> take,
                lissom_job* job);
 
-/// Throws INVALID_ARGUMENT, naming it, where a pointer is NULL.
+/// Throws INVALID_ARGUMENT, naming it, if a pointer is NULL.
 void require_given(const void* pointer, const char* name);
 
 /// The options that a host gave over the defaults, whatever version of the header it was compiled

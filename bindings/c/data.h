@@ -11,14 +11,14 @@
 
 namespace lissom::c {
 
-/// Triples of a host's list in the kernel's space. Errors: INVALID_ARGUMENT, naming the list, where
-/// it is NULL or of integers.
+/// Triples of a host's list in the kernel's space. Errors: INVALID_ARGUMENT, naming the list, if it
+/// is NULL or of integers.
 std::vector<Vec3> read_points(const lissom_input* input, const Space& space, const char* name);
 
-/// Integers of a host's list. Errors: as above; OUT_OF_RANGE where one is no id.
+/// Integers of a host's list. Errors: as above; OUT_OF_RANGE if one is no id.
 std::vector<Index> read_integers(const lissom_input* input, const char* name);
 
-/// Throws OUT_OF_RANGE where a host's list has no room for `count` elements.
+/// Throws OUT_OF_RANGE if a host's list has no room for `count` elements.
 void require_room(const lissom_output* output, std::size_t count, const char* name);
 
 void write_integers(const lissom_output* output, std::span<const Index> values, const char* name);
@@ -53,7 +53,7 @@ void write_points(const lissom_output* output, std::size_t count, const char* na
     }
 }
 
-/// A text that the host must give. Errors: INVALID_ARGUMENT, naming it, where it is NULL.
+/// A text that the host must give. Errors: INVALID_ARGUMENT, naming it, if it is NULL.
 std::string given_text(const char* text, const char* name);
 
 }  // namespace lissom::c

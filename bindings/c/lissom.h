@@ -205,15 +205,15 @@ typedef struct lissom_context_options {
     void* (*enqueue)(void* user, void (*task)(void* argument), void* argument);
     /// Returns once that task has returned.
     void (*wait)(void* user, void* task);
-    /// Reads a file: gives its bytes to the sink and returns true, or false where there is none.
-    /// With it the library opens no file for reading: those that a file refers to (.gltf: .bin) are
+    /// Reads a file: gives its bytes to the sink and returns true, or false if there is none. With
+    /// it the library opens no file for reading: those that a file refers to (.gltf: .bin) are
     /// asked for likewise, by their path from the folder of that file, and so are those of scripts.
     bool (*read_file)(void* user, const char* path, lissom_sink* sink, void* argument);
-    /// Writes a file, whole; false where it cannot. With it the library writes no file.
+    /// Writes a file, whole; false if it cannot. With it the library writes no file.
     bool (*write_file)(void* user, const char* path, const void* bytes, size_t size);
     /// Bytes that objects and operations may take together; 0 is no limit.
     size_t memory_limit;
-    /// Threads of the library's own loops where there is no parallel_for; 1 starts none.
+    /// Threads of the library's own loops if there is no parallel_for; 1 starts none.
     int32_t threads;
     lissom_space space;
 } lissom_context_options;
@@ -392,10 +392,10 @@ LISSOM_API lissom_mesh_load_options lissom_default_mesh_load_options(void);
 LISSOM_API lissom_mesh_save_options lissom_default_mesh_save_options(void);
 
 /// A mesh of positions (triples) and faces. `corners` are the vertices of all faces one after the
-/// other (integers); `sizes` how many each face has (integers), or NULL where all are triangles.
+/// other (integers); `sizes` how many each face has (integers), or NULL if all are triangles.
 /// Accepts oriented 2-manifolds of polygons, with or without boundary. Errors: NOT_FINITE;
 /// FACE_INDEX, FACE_TOO_SMALL, REPEATED_VERTEX, DUPLICATE_FACE, NONMANIFOLD_EDGE,
-/// NONMANIFOLD_VERTEX, INCONSISTENT_ORIENTATION, each naming the elements; INVALID_ARGUMENT where
+/// NONMANIFOLD_VERTEX, INCONSISTENT_ORIENTATION, each naming the elements; INVALID_ARGUMENT if
 /// sizes and corners do not fit; CANCELLED; MEMORY_LIMIT.
 LISSOM_API lissom_status lissom_mesh_create(lissom_context* context, const lissom_input* positions,
                                             const lissom_input* corners, const lissom_input* sizes,
@@ -428,7 +428,7 @@ LISSOM_API int32_t lissom_mesh_corner_count(lissom_context* context, lissom_mesh
 LISSOM_API int32_t lissom_mesh_triangle_count(lissom_context* context, lissom_mesh mesh);
 LISSOM_API int32_t lissom_mesh_boundary_count(lissom_context* context, lissom_mesh mesh);
 
-/// One triple a vertex. Normals are of unit length, weighted by the angles of faces; zero where no
+/// One triple a vertex. Normals are of unit length, weighted by the angles of faces; zero if no
 /// face has area.
 LISSOM_API lissom_status lissom_mesh_read_positions(lissom_context* context, lissom_mesh mesh,
                                                     const lissom_output* positions);
@@ -484,7 +484,7 @@ LISSOM_API lissom_status lissom_region_plane(lissom_context* context, lissom_mes
 LISSOM_API lissom_status lissom_region_geodesic(lissom_context* context, lissom_mesh mesh,
                                                 const double point[3], double radius,
                                                 lissom_region* region);
-/// A region that the mesh was saved with, or was given. Errors: OUT_OF_RANGE where there is none.
+/// A region that the mesh was saved with, or was given. Errors: OUT_OF_RANGE if there is none.
 LISSOM_API lissom_status lissom_region_named(lissom_context* context, lissom_mesh mesh,
                                              const char* name, lissom_region* region);
 /// Keeps a region with its mesh under a name; it is saved where the format can.
@@ -647,8 +647,8 @@ typedef struct lissom_cut_options {
 
 LISSOM_API lissom_cut_options lissom_default_cut_options(void);
 /// Cuts by a plane near a point of it; the part that `normal` points to is `kept`. `rest` may be
-/// NULL. Errors: INVALID_ARGUMENT where the plane does not cross the mesh; BOUNDARY_CONFLICT where
-/// the line does not separate it; MESH_EMPTY; NOT_FINITE; CANCELLED.
+/// NULL. Errors: INVALID_ARGUMENT if the plane does not cross the mesh; BOUNDARY_CONFLICT if the
+/// line does not separate it; MESH_EMPTY; NOT_FINITE; CANCELLED.
 LISSOM_API lissom_status lissom_cut_by_plane(lissom_context* context, lissom_mesh mesh,
                                              const double point[3], const double normal[3],
                                              const lissom_cut_options* options, lissom_mesh* kept,
@@ -811,8 +811,8 @@ LISSOM_API lissom_status lissom_hairstyle_at(lissom_context* context, lissom_hai
                                              double point[3]);
 /// Adds a curve through points (triples): hair flows along a stream curve, parts at a dividing
 /// curve, and gathers in a ponytail at the beginning of its spine. A radius of 0 is the default.
-/// `curve` is its number in this style. Errors: INVALID_ARGUMENT where fewer than two points
-/// differ; OUT_OF_RANGE outside of the volume; NOT_FINITE.
+/// `curve` is its number in this style. Errors: INVALID_ARGUMENT if fewer than two points differ;
+/// OUT_OF_RANGE outside of the volume; NOT_FINITE.
 LISSOM_API lissom_status lissom_hairstyle_add_stream(lissom_context* context,
                                                      lissom_hairstyle style,
                                                      const lissom_input* points, int32_t* curve);

@@ -40,8 +40,8 @@ struct Conversion {
 };
 
 /// Reads `in` and writes `out`, whose folder is made first where it is missing. Errors: those of
-/// `load_mesh` and `save_mesh`; file_write_failed where `out` is `in` and may not be, or where a
-/// folder cannot be created.
+/// `load_mesh` and `save_mesh`; file_write_failed if `out` is `in` and may not be, or if a folder
+/// cannot be created.
 Conversion convert_file(Program& program, const std::filesystem::path& in,
                         const std::filesystem::path& out, const ConversionOptions& options);
 

@@ -91,7 +91,7 @@ void complete(Request& request) {
     request.load_flags.apply(request.options.load);
 }
 
-// What is wrong with the choice of files; empty where nothing is.
+// What is wrong with the choice of files; empty if nothing is.
 std::string misuse(const Request& request) {
     if (!request.is_for_many()) {
         return request.out.empty() ? "IN and OUT are required, or --in and --out" : "";

@@ -112,7 +112,7 @@ class JobList {
 // Outputs whose names differ in the case of letters only are one file on some machines.
 class WrittenFiles {
   public:
-    // Throws where writing `out` would replace another output.
+    // Throws if writing `out` would replace another output.
     void require_new(const fs::path& out) const {
         const auto found = by_lower_case_.find(lower_case(out.string()));
         if (found == by_lower_case_.end() || !is_same_file(found->second, out)) return;

@@ -90,7 +90,7 @@ Index isolated_count(const Topology& topology) {
 }
 
 // Each measure may take a while, so that they can be cancelled one by one. What exceeds the range
-// of numbers is NaN or infinite, and then null where JSON is written.
+// of numbers is NaN or infinite, and then null if JSON is written.
 Json mesh_json(const std::string& file, const Mesh& mesh, const Context& context) {
     const Topology& topology = mesh.topology();
     Json json = {{"file", file}};
@@ -341,7 +341,7 @@ class Inspector {
     Json meshes = Json::array(), hair = Json::array(), scenes = Json::array();
 
   private:
-    // Where the extension is not known, the error names those of hair and scenes too.
+    // If the extension is not known, the error names those of hair and scenes too.
     Mesh load_mesh_file(const std::string& file) const {
         try {
             return load_mesh(file, options_, program_.context());

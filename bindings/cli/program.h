@@ -78,8 +78,7 @@ class Program {
     const ProgramParts& parts() const { return parts_; }
 
     /// Parses the words of a verb with the options that `app` declares and those that all verbs
-    /// have:
-    /// --json, --threads, --debug, --help. Returns true where the verb shall go on; otherwise
+    /// have: --json, --threads, --debug, --help. Returns true if the verb shall go on; otherwise
     /// `status` holds the exit status and everything was said.
     bool parse(CLI::App& app, const std::vector<std::string>& words, int& status);
 

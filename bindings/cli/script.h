@@ -58,7 +58,7 @@ class Script {
     /// failure, which then is its own.
     ScriptResult run_function();
 
-    /// Folder of the Lua library that ships with the program; empty where it is not found.
+    /// Folder of the Lua library that ships with the program; empty if it is not found.
     static std::string shipped_scripts();
 
   private:

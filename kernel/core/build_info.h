@@ -1,4 +1,4 @@
-/// What a build of the library is made of.
+/// Libraries and licence of this build.
 #pragma once
 
 namespace lissom {
@@ -15,7 +15,7 @@ struct BuildInfo {
     const char* licence = "MIT";
 };
 
-/// Of this build.
+/// Returns the description of this build.
 BuildInfo build_info();
 
 }  // namespace lissom

@@ -1,5 +1,5 @@
-/// Context: what a host lends to the kernel. Progress, cancel, log, threads and a memory account,
-/// one per host and none of them global. A Context is a handle: copies share one state.
+/// Context: services of the host. They are progress, cancel, log, threads and a memory account, one
+/// per host and none of them global. A Context is a handle: copies share one state.
 #pragma once
 
 #include <atomic>
@@ -19,22 +19,23 @@ enum class LogLevel { debug, info, warning };
 
 class MemoryAccount;
 
-/// A host's own files: archives, assets, a database. Paths are those that were given, in UTF-8.
+/// A host's own files: archives, assets, a database. Paths are passed on as given, in UTF-8.
 struct FileTable {
-    /// Gives the bytes of a file to `sink`, in one call or in several, and returns true; false
-    /// where there is no such file. With it no file is opened for reading.
+    /// Passes the bytes of a file to `sink`, in one call or several. Returns false if the file does
+    /// not exist. If it is set, the kernel opens no file for reading.
     std::function<bool(std::string_view path, const std::function<void(std::string_view)>& sink)>
         read;
-    /// Replaces a file, or makes it; false where that cannot be. With it no file is written.
+    /// Replaces or creates a file. Returns false if that fails. If it is set, the kernel writes no
+    /// file itself.
     std::function<bool(std::string_view path, std::string_view bytes)> write;
 };
 
-/// What a host may provide. Every field is optional; without them the kernel is silent and serial.
+/// Services of the host. Every field is optional; without them the kernel is silent and serial.
 struct ContextOptions {
     /// Receives messages; the kernel itself prints nothing.
     std::function<void(LogLevel, std::string_view message)> log;
-    /// Receives progress: what is being done and the fraction done, 0 to 1, never decreasing within
-    /// one operation. Called on the thread that runs the operation.
+    /// Receives progress: the name of the step and the fraction done, 0 to 1, never decreasing
+    /// within one operation. Called on the thread that runs the operation.
     std::function<void(std::string_view label, double fraction)> progress;
     /// Runs `chunk(i)` once for each i in [0, chunk_count), in any order, on any threads, and
     /// returns when all have returned. Replaces the built-in loop.
@@ -44,17 +45,17 @@ struct ContextOptions {
     int threads = 1;
     /// Bytes that objects and operations may take at one time; 0 is no limit.
     std::size_t memory_limit = 0;
-    /// The account that they are charged to, for contexts that share one, whose limit then holds
-    /// instead; null: one of the context's own.
+    /// Account charged by objects and operations. Contexts may share one; its limit then replaces
+    /// `memory_limit`. Null: the context makes its own.
     std::shared_ptr<MemoryAccount> memory;
-    /// Where files are read and written, on the thread of the operation.
+    /// Files of the host, read and written on the thread of the operation.
     FileTable files;
 };
 
 /// Bytes in use by objects of the kernel and by its operations, against a limit. Thread-safe.
 class MemoryAccount {
   public:
-    /// `limit` 0 is none. What is charged to it is charged to the account `within` too.
+    /// `limit` 0 is none. Charges also go to the account `within`, if given.
     explicit MemoryAccount(std::size_t limit, std::shared_ptr<MemoryAccount> within = nullptr)
         : limit_(limit), within_(std::move(within)) {}
 
@@ -78,8 +79,8 @@ class MemoryAccount {
     std::atomic<int> overdrafts_{0};
 };
 
-/// While it lives the limit of an account, and of those that this one is within, does not hold: for
-/// what puts back that which a failed operation has changed.
+/// Suspends the limit of an account and of its parents while it lives: for the rollback of a failed
+/// operation.
 class MemoryOverdraft {
   public:
     explicit MemoryOverdraft(std::shared_ptr<MemoryAccount> account);
@@ -131,10 +132,9 @@ class Context {
     const FileTable& files() const;
 
     std::shared_ptr<MemoryAccount> memory() const;
-    /// The same context, but that what is done with it is charged to `account`, which mostly is
-    /// within this one's.
+    /// Returns the same context charging `account`, usually one within its own.
     Context charging(std::shared_ptr<MemoryAccount> account) const;
-    /// The same context, but for its files.
+    /// Returns the same context, but for its files.
     Context with_files(FileTable files) const;
     /// Charges `bytes` for as long as the result lives. Errors: memory_limit.
     MemoryCharge charge(std::size_t bytes, std::string_view purpose) const;
@@ -160,7 +160,7 @@ class Context {
 /// as a local.
 ///
 ///     Progress progress(context, "deform: prepare");
-///     progress.step(0.3);  // what follows is the next 30 %
+///     progress.step(0.3);  // the code below is the next 30 %
 ///     assemble(context);   // may open its own Progress, which fills those 30 %
 ///     progress.step(0.7);
 ///     factor(context);
@@ -174,7 +174,7 @@ class Progress {
     /// Ends the step before and opens the next, a fraction of this operation (fractions sum to 1).
     /// A checkpoint: throws `cancelled`.
     void step(double fraction);
-    /// Reports `fraction` (0 to 1) of the current step, or of the whole operation where no step is
+    /// Reports `fraction` (0 to 1) of the current step, or of the whole operation if no step is
     /// open. A checkpoint: throws `cancelled`.
     void update(double fraction);
     /// `done` of `all` steps.

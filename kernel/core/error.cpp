@@ -20,16 +20,14 @@ constexpr std::array<CodeEntry, 41> kCodes{{
      "The operation was asked to stop and stopped; nothing was changed. Start it again."},
     {ErrorCode::invalid_argument, "invalid_argument",
      "An argument has a value that the operation cannot use. The message names the argument and "
-     "what "
-     "it accepts."},
+     "the values it accepts."},
     {ErrorCode::out_of_range, "out_of_range",
-     "An id or number lies outside what exists. Vertices and faces count from 1 in Lua and from 0 "
-     "in "
-     "C++; ids of an older version of a mesh may have gone."},
+     "An id or number is out of range. Vertices and faces count from 1 in Lua and from 0 in C++; "
+     "ids of an older version of a mesh may have gone."},
     {ErrorCode::file_not_found, "file_not_found",
      "No file has this path. Relative paths start at the current folder; check spelling and case."},
     {ErrorCode::file_is_directory, "file_is_directory",
-     "The path names a folder where a file is needed. Add the file's name."},
+     "The path names a folder but a file is needed. Add the file's name."},
     {ErrorCode::file_empty, "file_empty",
      "The file has no content. It may not have been written fully."},
     {ErrorCode::file_unreadable, "file_unreadable",
@@ -87,9 +85,8 @@ constexpr std::array<CodeEntry, 41> kCodes{{
      "The region has no vertices. Enlarge the sphere, box or radius that selects it."},
     {ErrorCode::topology_mismatch, "topology_mismatch",
      "A region, path or handle belongs to another mesh or to an older version of this mesh's "
-     "topology, or the mesh has changed around the region of a deformation, whose result would "
-     "tear "
-     "there. Make it again on the mesh as it is now."},
+     "topology, or the mesh has changed around the region of a deformation and the result would "
+     "tear there. Make it again on the mesh as it is now."},
     {ErrorCode::handle_outside_region, "handle_outside_region",
      "A handle has vertices outside the region that may deform. Enlarge the region or shrink the "
      "handle."},
@@ -128,7 +125,8 @@ constexpr std::array<CodeEntry, 41> kCodes{{
      "The operation would need more memory than the context allows, or than there is. Raise the "
      "limit, or use a smaller region or mesh."},
     {ErrorCode::unsupported, "unsupported",
-     "The request is valid but this build or format cannot serve it. The message says what can."},
+     "The request is valid but this build or format cannot serve it. The message names the "
+     "supported choices."},
     {ErrorCode::no_display, "no_display",
      "Pictures need EGL and OpenGL 3.3, and one of them is missing. Install the EGL library and a "
      "driver (on Debian: libegl1 libgl1-mesa-dri)."},
@@ -205,7 +203,7 @@ void throw_out_of_memory() {
     std::string message = "out of memory";
     try {
         message =
-            "there is not enough memory; close what else runs, or use a smaller mesh or region";
+            "there is not enough memory; close other programs, or use a smaller mesh or region";
     } catch (const std::bad_alloc&) {
         // The short message needs none.
     }

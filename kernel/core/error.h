@@ -1,5 +1,5 @@
-/// Errors of the kernel: one exception type with a code, a message that says what to do, and the
-/// ids of the elements concerned. An operation that throws has left its inputs as they were.
+/// Errors of the kernel: one exception type with a code, a message with its remedy, and the ids of
+/// the elements concerned. An operation that throws leaves its inputs unchanged.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace lissom {
 
-/// What went wrong. `code_name` gives the name used in Lua and on the command line.
+/// Kinds of errors. `code_name` returns the name used in Lua and on the command line.
 enum class ErrorCode {
     cancelled,
     invalid_argument,
@@ -83,7 +83,7 @@ class Error : public std::exception {
     const char* what() const noexcept override { return message_.c_str(); }
     ErrorCode code() const { return code_; }
     const std::string& message() const { return message_; }
-    /// Elements concerned, 0-based; kind `none` where the error is not about elements.
+    /// Returns the elements concerned, 0-based; kind `none` if the error is not about elements.
     const Elements& elements() const { return elements_; }
 
   private:
@@ -95,10 +95,10 @@ class Error : public std::exception {
 /// Name of a code in scripts and reports, for instance "file_not_found".
 std::string_view code_name(ErrorCode code);
 
-/// One paragraph on what a code means and what to do about it.
+/// Returns a paragraph on the meaning of a code and its remedy.
 std::string_view code_explanation(ErrorCode code);
 
-/// All codes, in the order of their declaration.
+/// Returns all codes, in the order of their declaration.
 const std::vector<ErrorCode>& all_codes();
 
 /// Name of an element kind, singular: "vertex", "edge", ...
@@ -108,7 +108,7 @@ std::string_view kind_name(ElementKind kind);
 /// from `base` (1 in Lua and in files, 0 in C++). At most `limit` are written out.
 std::string describe(const Elements& elements, Index base = 0, std::size_t limit = 5);
 
-/// Throws an Error where `condition` does not hold.
+/// Throws an Error if `condition` is false.
 inline void require(bool condition, const char* message,
                     ErrorCode code = ErrorCode::invalid_argument) {
     if (!condition) throw Error(code, message);

@@ -1,4 +1,4 @@
-/// Extended: numbers for sums whose rounding must not show in a double.
+/// Extended: numbers for sums without visible rounding in a double.
 #pragma once
 
 #include <cfloat>
@@ -13,8 +13,8 @@ namespace lissom {
 
 #if LDBL_MANT_DIG == 113 && defined(__SIZEOF_INT128__)
 
-/// A number with 64 bits of mantissa, as `long double` is on x86, where that has 113: the same
-/// sums come out.
+/// A number with a mantissa of 64 bits, as `long double` on x86. Used if `long double` has 113
+/// bits, so that sums are equal.
 class Extended {
   public:
     Extended() = default;
@@ -59,8 +59,8 @@ class Extended {
 
 #else
 
-/// `long double`: with 64 bits of mantissa on x86, where a compiler has no more than those of a
-/// double that many.
+/// `long double`, with a mantissa of 64 bits on x86; with that of a double if the compiler has no
+/// wider type.
 using Extended = long double;
 
 #endif

@@ -56,7 +56,7 @@ struct Affine {
     bool is_finite() const { return linear.allFinite() && translation.allFinite(); }
 };
 
-/// Whether `x` can be a length: finite and not negative.
+/// Returns whether `x` can be a length: finite and not negative.
 inline bool is_length(double x) {
     return x >= 0.0 && std::isfinite(x);
 }

@@ -2,8 +2,8 @@
 ///
 /// Elements are numbered by `Index`, which has a sign, so that "no element" and differences need no
 /// care; containers count by std::size_t. One becomes the other by three functions and by nothing
-/// else: `at` for the way into a container, `index_of` and `count_of` for the way out. What comes
-/// from a file is compared with its limits before.
+/// else: `at` for the way into a container, `index_of` and `count_of` for the way out. Numbers from
+/// a file are compared with their limits first.
 #pragma once
 
 #include <cassert>
@@ -31,7 +31,7 @@ constexpr Index index_of(std::integral auto position) {
     return static_cast<Index>(position);
 }
 
-/// The number of elements of a container as an index.
+/// Returns the number of elements of a container as an index.
 template <typename Container>
 constexpr Index count_of(const Container& container) {
     return index_of(container.size());

@@ -1,8 +1,8 @@
-/// Vectors of four numbers, and code that is compiled twice where the compiler can choose at run
-/// time: for any processor and for those with AVX2. Loops are written once, as LISSOM_INLINE
-/// templates over Lanes, and called from one plain function and from one marked LISSOM_AVX2; where
-/// eight numbers at a time are faster, from one marked LISSOM_AVX512 too.
-/// Compiled with LISSOM_PORTABLE, code runs on any processor only.
+/// Vectors of four numbers, and code compiled twice if the compiler can dispatch at run time: for
+/// any processor and for those with AVX2. Loops are written once, as LISSOM_INLINE templates over
+/// Lanes, and called from one plain function and from one marked LISSOM_AVX2; if eight numbers at a
+/// time are faster, from one marked LISSOM_AVX512 too. Compiled with LISSOM_PORTABLE, code runs on
+/// any processor only.
 #pragma once
 
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(LISSOM_PORTABLE)
@@ -18,7 +18,7 @@
 
 namespace lissom {
 
-/// Whether this processor runs what LISSOM_AVX2 marks.
+/// Returns whether this processor supports LISSOM_AVX2.
 inline bool has_avx2() {
 #ifdef LISSOM_HAS_AVX2_PATH
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
@@ -27,7 +27,7 @@ inline bool has_avx2() {
 #endif
 }
 
-/// Whether this processor runs what LISSOM_AVX512 marks.
+/// Returns whether this processor supports LISSOM_AVX512.
 inline bool has_avx512() {
 #ifdef LISSOM_HAS_AVX2_PATH
     return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
@@ -38,7 +38,8 @@ inline bool has_avx512() {
 }
 
 // Declares NAME: so many numbers, aligned as one. clang forgets the alignment of an alias
-// declaration, and gcc that of a typedef where it is const. NOLINTBEGIN(bugprone-macro-parentheses)
+// declaration, and gcc that of a const typedef. NOLINTBEGIN(bugprone-macro-parentheses)
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #if defined(__clang__)
 #define LISSOM_NUMBERS(Real, NAME, count) \
     typedef Real NAME                     \
@@ -84,9 +85,9 @@ struct Lanes {
 };
 #endif
 
-/// Holders of numbers side by side for templates, which lose what an alias says of alignment:
-/// theirs is that of the whole, so they are copied from and to where numbers are. Eight are for
-/// what LISSOM_AVX512 marks.
+/// Holders of adjacent numbers for templates. Templates lose the alignment of an alias; a holder
+/// has the alignment of the whole, so it is copied from and to arrays. Holders of eight are for
+/// LISSOM_AVX512.
 #if defined(__GNUC__)
 struct FourDoubles {
     using Type = double __attribute__((vector_size(4 * sizeof(double))));

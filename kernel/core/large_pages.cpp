@@ -15,7 +15,7 @@ void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
     const std::uintptr_t skipped = (kLargePage - begin % kLargePage) % kLargePage;
     if (bytes < skipped + kLargePage) return;
     const std::size_t whole = (bytes - skipped) / kLargePage * kLargePage;
-    // Where it fails, pages stay as they are.
+    // If it fails, pages keep their size.
     (void)madvise(static_cast<char*>(memory) + skipped, whole, MADV_HUGEPAGE);
 #endif
 }

@@ -7,9 +7,9 @@
 
 namespace lissom {
 
-/// Asks the system for large pages in [memory, memory + bytes), which is to be asked before it is
-/// first written: to get it page by page can take longer than to compute what it holds. A hint,
-/// without any other effect; nothing where systems know no such thing or the range is short.
+/// Asks the system for large pages in [memory, memory + bytes). Call it before the first write:
+/// page faults can take longer than computing the contents. A hint without any other effect;
+/// ignored by systems without large pages and for short ranges.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
 /// An array that has not been written, with them.

@@ -5,7 +5,7 @@
 
 namespace lissom {
 
-/// In bytes; 0 where that is not known.
+/// Returns the memory in bytes; 0 if unknown.
 std::size_t machine_memory();
 
 }  // namespace lissom

@@ -6,13 +6,13 @@
 
 namespace lissom {
 
-/// Throws memory_limit: what an operation throws where the process has no more memory.
+/// Throws memory_limit because the process is out of memory.
 [[noreturn]] void throw_out_of_memory();
 
-/// Runs `work`: what operations that need much memory do (loading and saving, subdividing, cutting,
-/// deforming, merging, growing hair, loops of a context). Where memory runs out (std::bad_alloc, or
-/// a size that no vector can have) throws memory_limit instead, so that a host has one type of
-/// exception to catch.
+/// Runs `work` and returns its result: the body of an operation that needs much memory (loading and
+/// saving, subdividing, cutting, deforming, merging, growing hair, loops of a context). If memory
+/// runs out (std::bad_alloc, or a size too large for a vector), throws memory_limit instead, so
+/// that a host has one type of exception to catch.
 template <typename Work>
 decltype(auto) with_memory_errors(const Work& work) {
     try {

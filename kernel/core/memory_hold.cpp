@@ -9,7 +9,7 @@ MemoryHold::MemoryHold(const MemoryHold& other)
     resize(other.bytes_);
 }
 
-// What was moved from holds nothing, and still counts where it did.
+// The source holds no bytes afterwards, and keeps its account.
 MemoryHold::MemoryHold(MemoryHold&& other) noexcept
     // NOLINTNEXTLINE(performance-move-constructor-init)
     : account_(other.account_), purpose_(other.purpose_), bytes_(std::exchange(other.bytes_, 0)) {}

@@ -9,7 +9,7 @@
 
 namespace lissom {
 
-/// A member of objects whose size grows with the input, declared before the lists that it counts: a
+/// Memory held by an object that grows with the input. Declared before the lists that it counts: a
 /// copy of the object then charges before it takes its memory, and a move brings the charge along.
 /// The object calls `resize` before its lists grow.
 class MemoryHold {
@@ -23,7 +23,7 @@ class MemoryHold {
     /// Charges the same account once more. Errors: memory_limit.
     MemoryHold(const MemoryHold& other);
     MemoryHold(MemoryHold&& other) noexcept;
-    /// As the copy; an error leaves what was held.
+    /// Charges the same account; after an error the old charge remains.
     MemoryHold& operator=(const MemoryHold& other);
     MemoryHold& operator=(MemoryHold&& other) noexcept;
     ~MemoryHold();
@@ -31,7 +31,7 @@ class MemoryHold {
     /// Holds `bytes` from now on. Errors: memory_limit, and then nothing has changed.
     void resize(std::size_t bytes);
 
-    /// 0 where it counts nowhere.
+    /// Returns the bytes held; 0 without an account.
     std::size_t bytes() const { return bytes_; }
     const std::shared_ptr<MemoryAccount>& account() const { return account_; }
 

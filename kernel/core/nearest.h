@@ -9,11 +9,12 @@ namespace lissom {
 
 /// The candidate with the fewest edits (letters changed, added, left out or swapped with their
 /// neighbour) from `name`, the first of equals; at most a third of the letters, and one in short
-/// names. Else the first candidate that begins with `name`. Empty where there is neither.
+/// names. Else the first candidate that begins with `name`. Returns an empty name if neither
+/// exists.
 std::string_view nearest_name(std::string_view name,
                               const std::vector<std::string_view>& candidates);
 
-/// ", did you mean 'smooth'?" where a candidate is near, else "; there is: a, b, c".
+/// Returns ", did you mean 'smooth'?" if a candidate is near, else "; there is: a, b, c".
 std::string name_hint(std::string_view name, const std::vector<std::string_view>& candidates);
 
 }  // namespace lissom

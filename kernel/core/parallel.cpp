@@ -42,7 +42,7 @@ class ThreadArena {
 
 namespace {
 
-// Keeps the exception of the earliest chunk, so that which error is seen does not depend on timing.
+// Keeps the exception of the earliest chunk, so that the reported error does not depend on timing.
 class FirstException {
   public:
     void keep(std::size_t chunk, std::exception_ptr exception) {

@@ -1,5 +1,5 @@
-/// Roots whose last bits are the same with every C library and processor: the C libraries' own
-/// differ by where they fuse multiplications and additions.
+/// Roots with the same last bits for every C library and processor; C libraries fuse different
+/// multiplications and additions.
 #pragma once
 
 #include <cmath>
@@ -8,8 +8,8 @@
 namespace lissom {
 namespace detail {
 
-// The root h of the rounded squares, less (h^2 - a^2 - b^2) / (2 h), where a >= b > 0; what is
-// nearly equal is subtracted first.
+// The root h of the rounded squares, less (h^2 - a^2 - b^2) / (2 h), for a >= b > 0; nearly equal
+// terms are subtracted first.
 inline double corrected_hypotenuse(double a, double b) {
     const double h = std::sqrt(a * a + b * b);
     if (h <= 2.0 * b) {
@@ -22,9 +22,9 @@ inline double corrected_hypotenuse(double a, double b) {
 
 }  // namespace detail
 
-/// sqrt(a^2 + b^2), to less than a unit of the last place; it neither overflows nor loses digits
-/// on the way. Not finite where a or b is not.
-/// After C. F. Borges, An Improved Algorithm for hypot(a, b), 2019.
+/// sqrt(a^2 + b^2), to less than a unit of the last place; it neither overflows nor loses digits on
+/// the way. Returns a value that is not finite if a or b is not. After C. F. Borges, An Improved
+/// Algorithm for hypot(a, b), 2019.
 inline double hypotenuse(double a, double b) {
     constexpr double kLarge = 0x1p500, kSmall = 0x1p-450, kScale = 0x1p600, kNothing = 0x1p-54;
     a = std::abs(a);
@@ -36,11 +36,11 @@ inline double hypotenuse(double a, double b) {
     return detail::corrected_hypotenuse(a, b);
 }
 
-/// The real number whose third power is `x`; exact where that is a double with few digits.
+/// Returns the real cube root of `x`; exact if it is a double with few digits.
 inline double cube_root(double x) {
     if (x == 0.0 || !std::isfinite(x)) return x;
-    // A step of Newton's method: the power of a rounded third is off by some last places. What the
-    // square loses is added to the residual, as `x` and the third power are nearly equal.
+    // A step of Newton's method: the power of a rounded third is off by some last places. The loss
+    // of the square is added to the residual, as `x` and the third power are nearly equal.
     int exponent = 0;
     const double part = std::frexp(std::abs(x), &exponent);
     const int third = exponent / 3;

@@ -70,7 +70,7 @@ LISSOM_TBB(void, notify_waiters, (std::uintptr_t address), (address), "14notify_
 LISSOM_TBB(int, numa_default_concurrency, (int node), (node), "24numa_default_concurrencyEi")
 LISSOM_TBB(void, spawn, (d1::task & task, d1::task_group_context& context), (task, context),
            "5spawnERNS0_2d14taskERNS2_18task_group_contextE")
-// Of code that is not optimised.
+// Called by code that is not optimised.
 LISSOM_TBB(void, throw_exception, (d0::exception_id id), (id),
            "15throw_exceptionENS0_2d012exception_idE")
 LISSOM_TBB(void, terminate, (d1::task_arena_base & arena), (arena),

@@ -133,7 +133,7 @@ class Comb {
     bool follows() const { return before_ <= options_.tolerance; }
     CombReport unchanged() const { return {{}, {}, before_, before_, 0.0}; }
 
-    // Bends or adds or both, from the style as it was; nothing where no stream can be bent.
+    // Bends or adds or both, from the style as it was; nothing if no stream can be bent.
     std::optional<Attempt> attempt(bool bends, bool adds) {
         style_.restore(inputs_);
         CombReport report;

@@ -41,19 +41,18 @@ struct CombReport {
 };
 
 /// A stream as a comb bends it: segments near the stroke turn to its direction, the others keep
-/// theirs, and the root stays, so that what follows is moved along. Nothing where no part of the
-/// curve is beside the stroke within `reach`, or the two run against each other there. Curve and
-/// stroke are polylines without repeated points.
+/// theirs, and the root stays, so that what follows is moved along. Nothing if no part of the curve
+/// is beside the stroke within `reach`, or the two run against each other there. Curve and stroke
+/// are polylines without repeated points.
 std::optional<std::vector<Vec3>> combed_stream(std::span<const Vec3> curve,
                                                std::span<const Vec3> stroke, double reach);
 
-/// Makes hair flow along a stroke, which runs as hair grows. Where hair follows it already, nothing
+/// Makes hair flow along a stroke, which runs as hair grows. If hair follows it already, nothing
 /// changes. Otherwise the streams beside it are bent, or a stream without a stop is added along it:
 /// of what explains the stroke, the one that changes the rest of the field least; both, where
-/// neither does alone. Solves.
-/// After an error the style is as it was. Errors: not_finite; invalid_argument for a stroke shorter
-/// than two steps of the grid, for options out of range, or where streams are to be bent and none
-/// is beside the stroke; as Hairstyle::set and solve.
+/// neither does alone. Solves. After an error the style is as it was. Errors: not_finite;
+/// invalid_argument for a stroke shorter than two steps of the grid, for options out of range, or
+/// if streams are to be bent and none is beside the stroke; as Hairstyle::set and solve.
 CombReport comb(Hairstyle& style, std::span<const Vec3> stroke, const CombOptions& options = {},
                 const Context& context = {});
 

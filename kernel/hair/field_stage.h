@@ -22,7 +22,7 @@ class FieldStage {
     /// After an error the values of the field are those of the last solve.
     /// Errors: as HairField::solve.
     void solve(const std::vector<CurveClaim>& claims, const Context& context);
-    /// As HairField::put_back.
+    /// Same as HairField::put_back.
     void put_back(std::vector<float> values) { field_.put_back(std::move(values)); }
 
   private:

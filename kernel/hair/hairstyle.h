@@ -69,8 +69,8 @@ struct HairOptions {
     GrowthOptions growth = {};
 };
 
-/// Where curves say different things of a grid point, dividing curves count before the others;
-/// among equals the curve that is later in the order counts, together with those that agree with it
+/// If curves say different things of a grid point, dividing curves count before the others; among
+/// equals the curve that is later in the order counts, together with those that agree with it
 /// within 60 degrees (curve_conflicts.h).
 ///
 /// A hairstyle is its inputs; field, roots and strands follow from them, and what has been computed
@@ -78,10 +78,9 @@ struct HairOptions {
 class Hairstyle {
   public:
     /// Takes the present shape of `head`, which may change or die afterwards; `scalp` must have
-    /// been made for it.
-    /// Errors: invalid_argument for a volume or resolution out of range; topology_mismatch;
-    /// mesh_empty; memory_limit, before anything is computed where the grid needs more memory than
-    /// the limit of the context, or without one than the machine has; cancelled.
+    /// been made for it. Errors: invalid_argument for a volume or resolution out of range;
+    /// topology_mismatch; mesh_empty; memory_limit, before anything is computed if the grid needs
+    /// more memory than the limit of the context, or without one than the machine has; cancelled.
     Hairstyle(const Mesh& head, std::shared_ptr<const Scalp> scalp,
               const HairstyleOptions& options = {}, const Context& context = {});
     ~Hairstyle();
@@ -104,9 +103,8 @@ class Hairstyle {
     /// Errors: as set, naming the curve by its number in `curves`, from 1; cancelled.
     std::vector<CurveId> add_all(std::vector<StyleCurve> curves, const Context& context = {});
     /// Replaces a curve. After an error nothing has changed. Errors: handle_removed for an id;
-    /// not_finite; invalid_argument where fewer than two points differ, or for an option out of
-    /// range; out_of_range for a curve outside the volume, or a dividing curve off the head;
-    /// memory_limit.
+    /// not_finite; invalid_argument if fewer than two points differ, or for an option out of range;
+    /// out_of_range for a curve outside the volume, or a dividing curve off the head; memory_limit.
     void set(CurveId id, StyleCurve curve);
     /// Errors of the following: handle_removed for an id.
     void set_points(CurveId id, std::vector<Vec3> points);
@@ -124,7 +122,7 @@ class Hairstyle {
     /// curve.
     const TiltFit& tilt(CurveId id) const;
     /// Adds a hint stroke, a polyline beside a dividing curve along which hair flows away from it
-    /// (DividingCurve::hints). Errors: as tilt and set; out_of_range where no part of the hint is
+    /// (DividingCurve::hints). Errors: as tilt and set; out_of_range if no part of the hint is
     /// beside the curve.
     void add_hint(CurveId id, std::vector<Vec3> hint);
     /// The circle of hair around the beginning of a ponytail. Errors: as tilt.
@@ -148,9 +146,9 @@ class Hairstyle {
     /// step of another grid.
     void restore(StyleInputs inputs);
 
-    /// Brings the field up to date with the curves; does nothing where none has changed. Without
-    /// curves it is zero. After an error the field is that of the last solve.
-    /// Errors: as HairField::solve.
+    /// Brings the field up to date with the curves; does nothing if none has changed. Without
+    /// curves it is zero. After an error the field is that of the last solve. Errors: as
+    /// HairField::solve.
     void solve(const Context& context = {});
     bool solved() const;
     /// The field of the last solve.

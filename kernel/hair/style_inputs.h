@@ -37,7 +37,7 @@ struct StyleInputs {
     std::vector<PlacedCurve> curves;
     /// The constraints of avoid_scalp; empty without it.
     std::vector<GridConstraint> scalp_step;
-    /// As PlacedCurve::edit.
+    /// Same as PlacedCurve::edit.
     std::int64_t scalp_edit = 0;
     /// What was painted on the scalp, in its order.
     std::vector<MaskStroke> masks;
@@ -55,7 +55,7 @@ std::int64_t next_edit(const StyleInputs& inputs);
 /// Gives a curve the place `place` in the order, from 0. Errors: handle_removed; out_of_range.
 void reorder_curve(StyleInputs& inputs, CurveId id, Index place);
 
-/// Errors: invalid_argument where two curves have one id, or the scalp step is not one of a grid of
+/// Errors: invalid_argument if two curves have one id, or the scalp step is not one of a grid of
 /// this size; not_finite; out_of_range.
 void require_inputs(const StyleInputs& inputs, const GridSize& size);
 

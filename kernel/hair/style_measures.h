@@ -20,7 +20,7 @@ struct StrandFraction {
     /// Strands that were looked at, and those among them that were found.
     Index strands = 0, found = 0;
 
-    /// 0 where there were none.
+    /// 0 if there were none.
     double fraction() const { return strands > 0 ? static_cast<double>(found) / strands : 0.0; }
 };
 

@@ -10,7 +10,7 @@
 namespace lissom {
 
 struct AnimationInfo {
-    /// Empty where the file gives none.
+    /// Empty if the file gives none.
     std::string name;
     /// Time of the last key.
     double seconds = 0.0;

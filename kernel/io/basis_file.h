@@ -53,7 +53,7 @@ EngineBasis make_engine_basis(Deformer& deformer, std::span<const std::string> n
                               const Context& context = {});
 
 /// Writes a basis file, whole or not at all. Errors: file_write_failed, file_is_directory;
-/// invalid_argument where the lists do not fit each other; cancelled.
+/// invalid_argument if the lists do not fit each other; cancelled.
 void save_basis(const EngineBasis& basis, const std::filesystem::path& path,
                 const Context& context = {});
 

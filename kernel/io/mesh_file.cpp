@@ -107,7 +107,7 @@ void apply(const LoadOptions& options, MeshData& data) {
     map_directions(data.attributes, map);
 }
 
-// The mesh in the file's axes and unit around `origin`, or nothing where they are the kernel's own.
+// The mesh in the file's axes and unit around `origin`, or nothing if they are the kernel's own.
 std::optional<Mesh> in_file_frame(const Mesh& mesh, const SaveOptions& options,
                                   const Vec3& origin) {
     const bool is_turned = !is_kernel_frame(options.up, options.unit);

@@ -6,8 +6,8 @@
 /// mesh is saved.
 ///
 /// All functions may throw, besides what they list: cancelled, memory_limit. Messages begin with
-/// the file's path, and with the line where there is one: "cup.obj:12: ...". The ids of an error
-/// with ElementKind::line are 0-based as all ids.
+/// the file's path, and with the line if there is one: "cup.obj:12: ...". The ids of an error with
+/// ElementKind::line are 0-based as all ids.
 #pragma once
 
 #include <filesystem>
@@ -31,17 +31,17 @@ struct SavedFile {
 /// Reads a mesh; the extension, in any case, names the format. A byte order mark is passed over.
 /// Other files that a glTF or OBJ file refers to are read from its own folder and nowhere else.
 /// Errors: unknown_format; file_not_found, file_is_directory, file_empty, file_unreadable;
-/// file_syntax (also where the content is of another format than the extension says),
-/// file_truncated, file_too_large, face_index, unsupported, unsafe_path; not_finite; without
-/// options.repair those of `repair`; invalid_argument for a bad unit.
+/// file_syntax (also if the content is of another format than the extension says), file_truncated,
+/// file_too_large, face_index, unsupported, unsafe_path; not_finite; without options.repair those
+/// of `repair`; invalid_argument for a bad unit.
 Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options = {},
                const Context& context = {});
 
-/// Writes a mesh, whole or not at all; the extension, in any case, names the format.
-/// Errors: unknown_format; file_write_failed, file_is_directory; not_finite where positions exceed
-/// the format's number range; unsupported where its 32-bit numbers (glTF, binary STL) would join
-/// vertices that it does not number or flatten more than one face in a thousand, and for points
-/// alone as STL; invalid_argument for a bad unit or attributes that do not fit the mesh.
+/// Writes a mesh, whole or not at all; the extension, in any case, names the format. Errors:
+/// unknown_format; file_write_failed, file_is_directory; not_finite if positions exceed the
+/// format's number range; unsupported if its 32-bit numbers (glTF, binary STL) would join vertices
+/// that it does not number or flatten more than one face in a thousand, and for points alone as
+/// STL; invalid_argument for a bad unit or attributes that do not fit the mesh.
 SavedFile save_mesh(const Mesh& mesh, const std::filesystem::path& path,
                     const SaveOptions& options = {}, const Context& context = {});
 

@@ -57,7 +57,7 @@ class MorphBaker {
     Index target_count() const { return count_of(targets_); }
 
     /// The rest shape with its targets as attributes "morph.N.position" and so on, and the
-    /// animation in its asset. Errors: invalid_argument where no shape was added.
+    /// animation in its asset. Errors: invalid_argument if no shape was added.
     Mesh finish() const;
 
   private:

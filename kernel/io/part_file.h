@@ -35,8 +35,8 @@ struct PartFrame {
 void save_part(const Part& part, const PartFrame& frame, const std::filesystem::path& path,
                const Context& context = {});
 
-/// Reads a part. Errors: unsupported where the file has no region of that name, and for other
-/// formats; as load_mesh.
+/// Reads a part. Errors: unsupported if the file has no region of that name, and for other formats;
+/// as load_mesh.
 Part load_part(const std::filesystem::path& path, const Context& context = {});
 
 }  // namespace lissom

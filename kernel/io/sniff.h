@@ -5,8 +5,8 @@
 
 namespace lissom {
 
-/// Name of the format that the content of a file has for certain ("PLY"), or nothing where that
-/// cannot be told.
+/// Name of the format that the content of a file has for certain ("PLY"), or nothing if that cannot
+/// be told.
 std::string_view sniff_format(std::string_view bytes);
 
 }  // namespace lissom

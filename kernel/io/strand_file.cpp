@@ -167,7 +167,7 @@ void require_range(const Strands& strands) {
 Strands in_kernel_frame(UsdaHair hair, const StrandLoadOptions& options, const Context& context) {
     const UpAxis up = options.up == UpAxis::none ? hair.up : options.up;
     const double unit = options.unit.value_or(hair.meters_per_unit.value_or(1.0));
-    // Where the file says nothing of widths, they are in metres as they are.
+    // If the file says nothing of widths, they are in metres as they are.
     const StrandWidths usual = hair.strands.widths();
     change_frame(hair.strands, up == UpAxis::z ? 1 : 0, unit, context);
     if (!hair.has_widths) hair.strands.set_widths(usual);

@@ -8,7 +8,7 @@
 /// it; so does the Context's log.
 ///
 /// All functions may throw, besides what they list: cancelled, memory_limit. Messages begin with
-/// the file's path, and with the line where there is one.
+/// the file's path, and with the line if there is one.
 #pragma once
 
 #include <filesystem>
@@ -25,16 +25,16 @@
 namespace lissom {
 
 /// Reads strands; the extension, in any case, names the format. Files are read within memory and
-/// time in proportion to their size.
-/// Errors: unknown_format; file_not_found, file_is_directory, file_empty, file_unreadable;
-/// file_syntax, file_truncated, file_too_large, unsupported; not_finite; invalid_argument for a bad
-/// unit. Where they concern a strand, its number is among their elements.
+/// time in proportion to their size. Errors: unknown_format; file_not_found, file_is_directory,
+/// file_empty, file_unreadable; file_syntax, file_truncated, file_too_large, unsupported;
+/// not_finite; invalid_argument for a bad unit. If they concern a strand, its number is among their
+/// elements.
 Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions& options = {},
                      const Context& context = {});
 
 /// Checks strands and writes them, whole or not at all; the extension, in any case, names the
 /// format. The strands stay as they are. Errors: unknown_format; file_write_failed,
-/// file_is_directory; file_too_large where the format cannot count as many; not_finite where values
+/// file_is_directory; file_too_large if the format cannot count as many; not_finite if values
 /// exceed the range of 32-bit numbers; invalid_argument for a bad unit, and, with mend false, for
 /// what would be changed.
 StrandReport save_strands(const Strands& strands, const std::filesystem::path& path,

@@ -310,7 +310,7 @@ void append_json(std::string& text, const StyleJson& json, const std::string& in
 
 // ---- From JSON
 
-// A curve has the fidelity of its style where it does not say which.
+// A curve has the fidelity of its style if it does not say which.
 HairFidelity fidelity_from(const StyleJson& json, HairFidelity usual, const std::string& where) {
     const auto found = json.find("fidelity");
     if (found == json.end()) return usual;

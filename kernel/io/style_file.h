@@ -40,7 +40,7 @@ namespace lissom {
 
 /// What a style file holds.
 struct StyleContent {
-    /// The path of the head's mesh as the file has it; empty where it names none.
+    /// The path of the head's mesh as the file has it; empty if it names none.
     std::string head;
     HairstyleOptions options;
     std::vector<StyleCurve> curves;
@@ -66,7 +66,7 @@ void save_style(const StyleContent& content, const std::filesystem::path& path,
                 const Context& context = {});
 
 /// Errors: file_not_found, file_is_directory, file_empty, file_unreadable; file_syntax, saying what
-/// is wrong where; unsupported for a newer version; memory_limit; cancelled.
+/// is wrong if; unsupported for a newer version; memory_limit; cancelled.
 StyleContent load_style(const std::filesystem::path& path, const Context& context = {});
 
 /// As `save_style` and `load_style`, to and from memory.

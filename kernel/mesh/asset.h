@@ -28,10 +28,10 @@ class Asset {
     virtual std::shared_ptr<const Asset> joined(const Asset& other,
                                                 LabelRenames& renames) const = 0;
     virtual std::size_t memory_bytes() const = 0;
-    /// Counts on `account` from now on, once however many meshes share it; nothing where it counts
+    /// Counts on `account` from now on, once however many meshes share it; nothing if it counts
     /// already. Meshes call it with theirs. Errors: memory_limit.
     void count_on(const std::shared_ptr<MemoryAccount>& account) const;
-    /// True where it holds nothing but what the mesh's material libraries define.
+    /// True if it holds nothing but what the mesh's material libraries define.
     virtual bool is_of_libraries() const { return false; }
 
   protected:

@@ -73,7 +73,7 @@ struct FaceLabels {
     /// Index into `names` for every face, or kNoIndex.
     std::vector<Index> of_face;
 
-    /// Index of `label` in `names`; adds it where it is new.
+    /// Index of `label` in `names`; adds it if it is new.
     Index add(std::string_view label);
 
     bool operator==(const FaceLabels&) const = default;

@@ -69,7 +69,7 @@ std::vector<Vec3> blend_points(std::span<const Vec3> points, const ElementMap& v
 /// - a vertex is in a named region when all of its sources are;
 /// - material libraries are kept.
 ///
-/// Errors: invalid_argument where a map's size differs from the new element count, or as
+/// Errors: invalid_argument if a map's size differs from the new element count, or as
 /// require_complete_attributes; as Mesh::Mesh.
 Mesh derive(const Mesh& source, std::vector<Vec3> positions, FaceList faces, const MeshMap& map,
             const Context& context = {});

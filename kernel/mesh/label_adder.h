@@ -16,7 +16,7 @@ class LabelAdder {
   public:
     explicit LabelAdder(FaceLabels& labels) : labels_(labels) {}
 
-    /// Index of `label` in the names; adds it where it is new.
+    /// Index of `label` in the names; adds it if it is new.
     Index add(const std::string& label) {
         for (; known_ < labels_.names.size(); ++known_) {
             index_.try_emplace(labels_.names[known_], index_of(known_));

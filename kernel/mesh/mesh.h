@@ -55,7 +55,7 @@ class Mesh {
     const Vec3& position(Index v) const { return positions_[at(v)]; }
     /// Errors: out_of_range; not_finite.
     void set_position(Index v, const Vec3& position);
-    /// Replaces all positions. Errors: invalid_argument where the count differs; not_finite.
+    /// Replaces all positions. Errors: invalid_argument if the count differs; not_finite.
     void set_positions(std::vector<Vec3> positions);
     /// Positions for in-place change; values must stay finite. Ends what was derived from the old
     /// ones.
@@ -64,7 +64,7 @@ class Mesh {
     const AttributeSet& attributes() const { return attributes_; }
     AttributeSet& attributes() { return attributes_; }
 
-    /// Named regions. Errors: topology_mismatch where `region` is not of this mesh's topology.
+    /// Named regions. Errors: topology_mismatch if `region` is not of this mesh's topology.
     void set_region(std::string_view name, const Region& region);
     /// The region called `name`, or null.
     const Region* find_region(std::string_view name) const;
@@ -110,11 +110,11 @@ class Mesh {
 /// Number of elements that an attribute of `domain` has values on.
 Index element_count(const Topology& topology, Domain domain);
 
-/// Throws invalid_argument, naming it, where an attribute or a list of labels does not have one
-/// entry for each element of its domain.
+/// Throws invalid_argument, naming it, if an attribute or a list of labels does not have one entry
+/// for each element of its domain.
 void require_complete_attributes(const Mesh& mesh);
 
-/// Throws topology_mismatch, naming `what`, where `topology` is not the mesh's present one.
+/// Throws topology_mismatch, naming `what`, if `topology` is not the mesh's present one.
 void require_same_topology(const Mesh& mesh, const std::shared_ptr<const Topology>& topology,
                            std::string_view what);
 

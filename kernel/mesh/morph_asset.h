@@ -26,8 +26,8 @@ class MorphAsset {
     /// the names and weights in the asset; there may be more, of which it tells nothing.
     virtual std::vector<MorphTarget> morphs_of(std::string_view object) const = 0;
     /// The asset in which every object has these targets, paired with its own by name; their
-    /// weights are its own, or else those given, and animations of weights follow. Null where
-    /// nothing differs.
+    /// weights are its own, or else those given, and animations of weights follow. Null if nothing
+    /// differs.
     virtual std::shared_ptr<const Asset> with_morphs(const std::vector<MorphTarget>& all) const = 0;
 
   protected:
@@ -38,7 +38,7 @@ class MorphAsset {
 std::string morph_call_name(Index number);
 
 /// For each of an object's own targets, the place in `all` of the one with its name: of the second
-/// with that name the second, and so on. kNoIndex where there is none.
+/// with that name the second, and so on. kNoIndex if there is none.
 std::vector<Index> morph_places(const std::vector<MorphTarget>& own,
                                 const std::vector<MorphTarget>& all);
 

@@ -40,8 +40,8 @@ std::vector<char> majority(const Topology& topology, const std::vector<char>& in
     return next;
 }
 
-// The directed edges around a set of faces, joined to loops. Where the faces touch at a vertex
-// only, the loop stays with the fan that it came from.
+// The directed edges around a set of faces, joined to loops. If the faces touch at a vertex only,
+// the loop stays with the fan that it came from.
 class FaceOutline {
   public:
     FaceOutline(const Topology& topology, const std::vector<char>& in)

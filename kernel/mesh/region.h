@@ -35,12 +35,12 @@ class Region {
     /// Loops of vertices around the region's faces, each in the direction of those faces.
     std::vector<std::vector<Index>> boundaries() const;
 
-    /// Set operations. Errors: topology_mismatch where `other` belongs to another topology.
+    /// Set operations. Errors: topology_mismatch if `other` belongs to another topology.
     Region united(const Region& other) const;
     Region minus(const Region& other) const;
     Region intersected(const Region& other) const;
     Region inverted() const;
-    /// Adds `rings` one-rings. Errors: invalid_argument where negative.
+    /// Adds `rings` one-rings. Errors: invalid_argument if negative.
     Region grown(Index rings) const;
     /// Removes vertices within `rings` edges of a vertex outside; open mesh boundaries do not count
     /// as outside.

@@ -54,7 +54,7 @@ struct Finding {
     /// Whether the ids are those of the file (what was changed) or of the mesh (what is in it).
     bool in_file = false;
     std::size_t count = 0;
-    /// 0-based; all of them, in ascending order. Empty where there is nothing to number.
+    /// 0-based; all of them, in ascending order. Empty if there is nothing to number.
     std::vector<Index> ids;
     /// One sentence, or the names of what was left out.
     std::string message;
@@ -65,8 +65,8 @@ struct Finding {
 /// Findings in the order in which they were made; at most one of each kind.
 class Report {
   public:
-    /// Adds a finding. Where there is one of its kind, counts and ids are added to it and the
-    /// messages joined.
+    /// Adds a finding. If there is one of its kind, counts and ids are added to it and the messages
+    /// joined.
     void add(Finding finding);
     /// Adds `count` elements that have no numbers.
     void add(FindingKind kind, std::size_t count, std::string message);

@@ -21,7 +21,7 @@ struct Soup {
     /// Values and labels of the vertices, corners and faces above.
     AttributeSet attributes;
     /// For each vertex the one that it is the same as, itself for most, where the file says so: a
-    /// vertex that was stored several times with different values. Empty where it says nothing.
+    /// vertex that was stored several times with different values. Empty if it says nothing.
     std::vector<Index> same_as;
     /// Named sets of vertices.
     std::map<std::string, std::vector<Index>, std::less<>> regions;

@@ -78,7 +78,7 @@ class Topology {
         return {fan_.data() + fan_begin_[at(v)], fan_.data() + fan_begin_[at(v + 1)]};
     }
     Index valence(Index v) const { return ring_begin_[at(v + 1)] - ring_begin_[at(v)]; }
-    /// True where `v` lies on an open boundary. Vertices without faces do not.
+    /// True if `v` lies on an open boundary. Vertices without faces do not.
     bool is_boundary(Index v) const {
         return fan_begin_[at(v + 1)] - fan_begin_[at(v)] < valence(v);
     }

@@ -20,7 +20,7 @@ class ValuePool {
   public:
     using Tuple = std::array<double, Width>;
 
-    /// Number of `values`, which are added where they are new.
+    /// Number of `values`, which are added if they are new.
     Index add(const Tuple& values) {
         if (tuples_.size() * 2 >= slots_.size()) grow();
         const Tuple key = without_negative_zero(values);

@@ -38,7 +38,7 @@ class HairstyleContent : public ItemContent {
 
 class HairstyleItem : public SceneItem {
   public:
-    /// `head` is the item of the mesh that the style was made on, or null where that has gone.
+    /// `head` is the item of the mesh that the style was made on, or null if that has gone.
     explicit HairstyleItem(std::shared_ptr<Hairstyle> style,
                            std::shared_ptr<SceneItem> head = nullptr)
         : style_(std::move(style)), head_(std::move(head)) {}

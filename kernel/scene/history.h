@@ -29,7 +29,7 @@ class History {
         : store_(store), limit_(limit), first_(std::move(first)) {}
 
     const std::shared_ptr<const SceneState>& present() const { return state(place_); }
-    /// The state before the present one, or behind it; null where there is none.
+    /// The state before the present one, or behind it; null if there is none.
     std::shared_ptr<const SceneState> before() const {
         return place_ ? state(place_ - 1) : nullptr;
     }

@@ -33,8 +33,8 @@ class MeshContent : public ItemContent {
 
     /// The mesh again, with all that it held.
     Mesh mesh() const;
-    /// Puts it back into `mesh`, which holds `present` now; false where that has another form, so
-    /// that more than numbers must change.
+    /// Puts it back into `mesh`, which holds `present` now; false if that has another form, so that
+    /// more than numbers must change.
     bool write_numbers(Mesh& mesh, const MeshContent& present) const;
     const Topology& topology() const { return *topology_->value; }
 

@@ -92,16 +92,15 @@ class Scene {
     /// Opens a step: what is done to the scene and its objects until `commit` is undone at once. A
     /// step inside another becomes part of it. Errors: invalid_argument for an empty name.
     void begin(std::string name);
-    /// Ends the step opened last. False where nothing has changed: then there is no step to undo.
-    /// Errors: invalid_argument where none is open.
+    /// Ends the step opened last. False if nothing has changed: then there is no step to undo.
+    /// Errors: invalid_argument if none is open.
     bool commit();
     /// Ends the step opened last and takes back what was done since. Errors: as commit.
     void rollback();
     /// Number of open steps.
     std::size_t depth() const { return open_.size(); }
 
-    /// Runs work() as a step. Where it throws, the scene is as it was before, and the error goes
-    /// on.
+    /// Runs work() as a step. If it throws, the scene is as it was before, and the error goes on.
     template <typename Work>
     void step(std::string name, const Work& work) {
         begin(std::move(name));

@@ -57,7 +57,7 @@ class SceneItem {
     virtual std::shared_ptr<const ItemContent> capture(
         const std::shared_ptr<const ItemContent>& last, ContentStore& store) const = 0;
     /// Puts a content of this item back into the live thing, to the bit. `present` is what the
-    /// thing holds now, or null where that is not known. After an error nothing has changed.
+    /// thing holds now, or null if that is not known. After an error nothing has changed.
     virtual void restore(const ItemContent& content, const ItemContent* present) = 0;
     /// Bytes of the live thing, about, beside what its contents share with it.
     virtual std::size_t memory_bytes() const = 0;

@@ -33,7 +33,7 @@ struct ObjectStyle {
     double line_width = 4.0;
     /// Draw the loops of open boundaries.
     bool boundaries = false;
-    /// The named region of a mesh that is drawn in a colour of its own; none where empty.
+    /// The named region of a mesh that is drawn in a colour of its own; none if empty.
     std::string region = {};
     /// Draw region and handles of a deformation on its mesh.
     bool handles = true;
@@ -59,8 +59,8 @@ struct ObjectLook {
     bool operator==(const ObjectLook&) const = default;
 };
 
-/// Errors: not_finite for a transform; singular_transform where it flattens space;
-/// invalid_argument for a value of the style out of range.
+/// Errors: not_finite for a transform; singular_transform if it flattens space; invalid_argument
+/// for a value of the style out of range.
 void require_look(const ObjectLook& look);
 
 /// An object of a scene at one time; immutable once the scene has it.

@@ -25,8 +25,7 @@ class StrandsContent : public ItemContent {
 
     /// The strands again, with all that they held.
     Strands strands() const;
-    /// Puts them back into `strands`, which hold `present` now; false where more than points
-    /// differ.
+    /// Puts them back into `strands`, which hold `present` now; false if more than points differ.
     bool write_points(Strands& strands, const StrandsContent& present) const;
 
     void list_kept(std::vector<const KeptBytes*>& list) const override;

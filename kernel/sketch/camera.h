@@ -45,8 +45,8 @@ struct Ray {
 class Camera {
   public:
     Camera() : Camera(CameraOptions{}) {}
-    /// Errors: not_finite; invalid_argument where eye and target coincide, `up` runs along the
-    /// view, `fov` is not inside (0, pi), or `ortho` is not positive.
+    /// Errors: not_finite; invalid_argument if eye and target coincide, `up` runs along the view,
+    /// `fov` is not inside (0, pi), or `ortho` is not positive.
     explicit Camera(const CameraOptions& options);
 
     const Vec3& eye() const { return options_.eye; }

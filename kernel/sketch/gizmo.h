@@ -73,7 +73,7 @@ struct GizmoPoint {
     double radius = 5.0;
 };
 
-/// All that a gizmo shows in a view. Empty where it lies behind the camera.
+/// All that a gizmo shows in a view. Empty if it lies behind the camera.
 struct GizmoShape {
     std::vector<GizmoLine> lines;
     std::vector<GizmoPoint> points;
@@ -93,7 +93,7 @@ struct GizmoOptions {
 class Gizmo {
   public:
     Gizmo() : Gizmo(GizmoOptions{}) {}
-    /// Errors: not_finite; invalid_argument where `size` is not positive or `local` is not
+    /// Errors: not_finite; invalid_argument if `size` is not positive or `local` is not
     /// orthonormal.
     explicit Gizmo(const GizmoOptions& options);
 

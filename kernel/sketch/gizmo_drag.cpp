@@ -75,7 +75,7 @@ void require_steps(const GizmoSteps& steps) {
 
 Mat3 GizmoMotion::linear() const {
     if (kind == GizmoKind::scale) {
-        // Exactly the identity where nothing is scaled.
+        // Exactly the identity if nothing is scaled.
         const Vec3 more = factors - Vec3::Ones();
         return Mat3::Identity() + axes * more.asDiagonal() * axes.transpose();
     }

@@ -52,16 +52,16 @@ struct GizmoSteps {
     double factor = 0.1;
 };
 
-/// The part follows the cursor as exactly as perspective allows. Where that would run away - an
-/// axis seen end-on, a plane seen from the side, the cursor near or beyond the horizon - it moves
-/// at most ten times as fast as at the gizmo's origin. Without snapping the motion depends on the
+/// The part follows the cursor as exactly as perspective allows. If that would run away - an axis
+/// seen end-on, a plane seen from the side, the cursor near or beyond the horizon - it moves at
+/// most ten times as fast as at the gizmo's origin. Without snapping the motion depends on the
 /// cursor continuously and, full turns apart, on nothing else: it is the identity again where the
 /// cursor is back. Only a turn changes fast where the cursor passes by the origin; within 4 pixels
 /// of it the angle stays.
 class GizmoDrag {
   public:
     /// The cursor presses `part`, which need not be under it. The view is that of the whole drag.
-    /// Errors: invalid_argument where the gizmo lies behind the camera or a step is not positive;
+    /// Errors: invalid_argument if the gizmo lies behind the camera or a step is not positive;
     /// not_finite for the cursor.
     GizmoDrag(const Gizmo& gizmo, GizmoPart part, const View& view, const Vec2& cursor,
               const GizmoSteps& steps = {});

@@ -35,9 +35,8 @@ class PolylineSet {
         Index line, first, second;
     };
 
-    /// `closed` lines also run from their last point to their first.
-    /// Errors: not_finite; invalid_argument where `offsets` do not ascend from 0 to the number of
-    /// points; cancelled.
+    /// `closed` lines also run from their last point to their first. Errors: not_finite;
+    /// invalid_argument if `offsets` do not ascend from 0 to the number of points; cancelled.
     PolylineSet(std::vector<Vec3> points, std::vector<Index> offsets, bool closed = false,
                 const Context& context = {});
 

@@ -55,13 +55,13 @@ struct PickHit {
     double along = 0.0;
     /// Of a surface: the face at the point, the triangle of that face, the barycentric coordinates
     /// of the point in it and the nearest of its vertices. An edge or vertex has a face that is
-    /// turned to the camera where there is one.
+    /// turned to the camera if there is one.
     Index face = kNoIndex;
     Triangle triangle{kNoIndex, kNoIndex, kNoIndex};
     Vec3 barycentric = Vec3::Zero();
     Index vertex = kNoIndex;
     /// In the world. The normal has unit length; at vertices and edges it is the mean of the faces
-    /// around, by angle; zero where there is no surface.
+    /// around, by angle; zero if there is no surface.
     Vec3 position = Vec3::Zero(), normal = Vec3::Zero();
     /// Depth along the view, and distance from the cursor in pixels.
     double depth = 0.0, pixels = 0.0;

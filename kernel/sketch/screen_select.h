@@ -38,17 +38,17 @@ struct Selected {
     /// Its number in the scene.
     Index object;
     Region vertices;
-    /// The selected faces, ascending; empty where vertices were asked for.
+    /// The selected faces, ascending; empty if vertices were asked for.
     std::vector<Index> faces;
-    /// Vertices inside the shape that are not selected as they are not seen; empty where faces were
+    /// Vertices inside the shape that are not selected as they are not seen; empty if faces were
     /// asked for. They may be among the known ones as long as neither camera nor surface moves.
     Region unseen;
 };
 
 /// What is seen inside a shape, of every surface of the scene in their order. Pixels may lie
 /// outside the picture. What is partly behind the camera is selected by what is in front. Errors:
-/// not_finite; invalid_argument for a negative radius, a picture without size, or known vertices
-/// where faces are selected; topology_mismatch for those of another surface; cancelled.
+/// not_finite; invalid_argument for a negative radius, a picture without size, or known vertices if
+/// faces are selected; topology_mismatch for those of another surface; cancelled.
 ///
 /// The rectangle with two opposite corners `a` and `b`.
 std::vector<Selected> select_rectangle(const PickScene& scene, const View& view, const Vec2& a,

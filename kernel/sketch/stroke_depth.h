@@ -31,8 +31,7 @@ struct DrawnSurface {
 
 /// On the surface where the stroke is over it, and beyond it at the depth of the last point that
 /// was (section 4.5). Points are `lift` nearer to the viewer. Errors: not_finite; invalid_argument
-/// where the stroke starts beside the surface, which says whether something else is there;
-/// cancelled.
+/// if the stroke starts beside the surface, which says whether something else is there; cancelled.
 std::vector<Vec3> stroke_on_surface(std::span<const Vec2> stroke, const View& view,
                                     const DrawnSurface& surface, double lift = 0.0,
                                     const Context& context = {});
@@ -57,10 +56,9 @@ struct EnvelopeOptions {
 /// hair grows and of the rest of the head, whose depth changes no faster than `slope`, so that it
 /// bridges ears and passes silhouettes without a corner. It begins on the region and, moving
 /// towards the viewer alone, never enters the head. Depths beyond the silhouette are a guess; draw
-/// again from another view. Where the start has to be moved, the point that it is moved to comes
-/// before the others.
-/// Errors: not_finite; invalid_argument where the stroke starts neither on the region nor near it,
-/// with the reason, or for options out of range; cancelled.
+/// again from another view. If the start has to be moved, the point that it is moved to comes
+/// before the others. Errors: not_finite; invalid_argument if the stroke starts neither on the
+/// region nor near it, with the reason, or for options out of range; cancelled.
 std::vector<Vec3> stroke_over_head(std::span<const Vec2> stroke, const View& view,
                                    const DrawnSurface& head, const EnvelopeOptions& options = {},
                                    const Context& context = {});

@@ -138,7 +138,7 @@ struct Overlay {
     bool operator==(const Overlay&) const = default;
 };
 
-/// The smallest range that holds all finite values of `meshes`; nothing where there are none.
+/// The smallest range that holds all finite values of `meshes`; nothing if there are none.
 std::optional<ValueRange> range_of_values(const std::vector<DrawnMesh>& meshes);
 
 }  // namespace lissom

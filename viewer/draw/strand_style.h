@@ -24,7 +24,7 @@ struct HairLobe {
 };
 
 struct StrandStyle {
-    /// Instead of the strands' own colours; where there are none either, `kHairColor`.
+    /// Instead of the strands' own colours; if there are none either, `kHairColor`.
     std::optional<Color> color = std::nullopt;
     /// Part of the strands that is drawn, the first of them, above 0 and at most 1; the fewer, the
     /// wider each, so that they cover as much.

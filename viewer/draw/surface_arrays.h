@@ -58,7 +58,7 @@ std::vector<SurfaceVertex> surface_vertices(const Mesh& mesh, const MeshStyle& s
                                             const Context& context = {});
 
 /// The same of colours. Errors: topology_mismatch for a region or handle of another mesh;
-/// invalid_argument where the number of values is not that of vertices.
+/// invalid_argument if the number of values is not that of vertices.
 std::vector<SurfaceColor> surface_colors(const Mesh& mesh, const MeshStyle& style,
                                          const ValueRange& range, const SurfaceTriangles& triangles,
                                          const Context& context = {});

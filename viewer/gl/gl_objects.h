@@ -79,7 +79,7 @@ struct Extent {
 class Framebuffer {
   public:
     Framebuffer() = default;
-    /// Errors: memory_limit where the driver has no memory for it.
+    /// Errors: memory_limit if the driver has no memory for it.
     static Framebuffer texture(Extent extent, GLenum color_format, bool with_depth);
     static Framebuffer multisampled(Extent extent, GLenum color_format, int samples);
 
@@ -132,8 +132,8 @@ class Program {
     mutable std::map<std::string, GLint, std::less<>> locations_;
 };
 
-/// Throws where the driver reported an error since the last call: memory_limit where it has no
-/// memory left, else internal. `doing` is for the message.
+/// Throws if the driver reported an error since the last call: memory_limit if it has no memory
+/// left, else internal. `doing` is for the message.
 void check_errors(std::string_view doing);
 
 }  // namespace lissom::gl

@@ -22,7 +22,7 @@ struct HairPart {
     std::shared_ptr<const PackedStrands> packed;
 };
 
-/// All strands of a drawing, and their light; `light` is null where there are none.
+/// All strands of a drawing, and their light; `light` is null if there are none.
 struct Hair {
     std::vector<HairPart> parts;
     std::shared_ptr<const HairLight> light;
@@ -57,7 +57,7 @@ class GpuHair {
     /// Errors: memory_limit.
     std::size_t update(const Hair& hair);
     /// From now on light comes from where it does for one camera: `light` is HairLight::directed of
-    /// the light that is shown; nothing where there is none. Bytes sent.
+    /// the light that is shown; nothing if there is none. Bytes sent.
     std::size_t direct(std::span<const std::uint8_t> light);
     /// From now on light comes from where it does for any camera, by its moments.
     void undirect() { directed_ = false; }

@@ -130,7 +130,7 @@ class Upload {
     Vec3 origin_;
     ValueRange range_;
     const Context& context_;
-    // Where vertices that moved are made fast; null where they are made exactly.
+    // Where vertices that moved are made fast; null if they are made exactly.
     std::vector<QuickVertex>* quick_;
     std::span<const PreparedSurface> prepared_;
     Uploads total_;
@@ -185,7 +185,7 @@ bool moves_fast(const DrawnMesh& drawn, const GpuSurface* before) {
            before->triangles.mirrored == (drawn.transform.linear.determinant() < 0.0);
 }
 
-// Those that were prepared for it, fast ones with `groups`; null where there are none.
+// Those that were prepared for it, fast ones with `groups`; null if there are none.
 const PreparedSurface* Upload::prepared_vertices(const GpuSurface& surface,
                                                  const NormalGroups* groups) const {
     for (const PreparedSurface& one : prepared_) {

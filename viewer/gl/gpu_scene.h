@@ -81,12 +81,12 @@ struct ScenePlacement {
 struct SurfaceNeeds {
     DrawnMesh drawn;
     bool vertices = false, colors = false, marks = false;
-    /// Triangles of the same faces that are known; null where none are.
+    /// Triangles of the same faces that are known; null if none are.
     SurfaceTriangles known = {};
     /// The point that is at zero on the card, and the scale of values.
     Vec3 origin = Vec3::Zero();
     ValueRange range = {};
-    /// Of vertices that moved and are made fast; null where they are made exactly.
+    /// Of vertices that moved and are made fast; null if they are made exactly.
     std::shared_ptr<const NormalGroups> groups = nullptr;
 };
 
@@ -115,7 +115,7 @@ class PieceSender {
   public:
     explicit PieceSender(std::vector<PreparedSurface> surfaces);
 
-    /// Makes the next buffer; false where there was none left. Errors: memory_limit.
+    /// Makes the next buffer; false if there was none left. Errors: memory_limit.
     bool send();
     const std::vector<PreparedSurface>& surfaces() const { return surfaces_; }
     /// Gives them away to any thread, without what was sent, which belongs to the context.

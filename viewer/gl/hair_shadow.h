@@ -14,7 +14,7 @@ namespace lissom {
 /// What strands do to the light on surfaces, and to the colour of a scalp.
 struct GpuHairShade {
     /// Key light and light from all around that is left, and how much hair grows; see
-    /// StrandShadow::on_meshes. One texel of no hair where there are no strands.
+    /// StrandShadow::on_meshes. One texel of no hair if there are no strands.
     std::shared_ptr<const gl::Texture> volume;
     enum class Kind {
         /// As above.
@@ -31,7 +31,7 @@ struct GpuHairShade {
     Mat3 turn = Mat3::Identity();
     Vec3 scale = Vec3::Zero();
     Vec3 offset = Vec3::Zero();
-    /// In view units: between grid points; 0 where there are no strands.
+    /// In view units: between grid points; 0 if there are no strands.
     double step = 0.0;
     /// Linear.
     Vec3 scalp_color = Vec3::Zero();

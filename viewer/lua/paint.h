@@ -14,20 +14,20 @@ namespace lissom {
 void paint_mesh(MeshStyle& style, std::string_view color);
 
 /// Draws a region in blue, or a handle in purple, on every mesh that has it: by name, the meshes
-/// with a region of that name; by itself, the meshes with its topology. Errors: out_of_range where
-/// no mesh has the name; topology_mismatch where no mesh has the topology.
+/// with a region of that name; by itself, the meshes with its topology. Errors: out_of_range if no
+/// mesh has the name; topology_mismatch if no mesh has the topology.
 void paint_region(Picture& picture, std::string_view name);
 void paint_region(Picture& picture, const Region& region);
-/// Errors: out_of_range where no mesh has a region of this name.
+/// Errors: out_of_range if no mesh has a region of this name.
 void require_region(const Picture& picture, std::string_view name);
 void paint_handle(Picture& picture, std::string_view name);
 void paint_handle(Picture& picture, const Region& handle);
 
 /// Draws an attribute of vertices, one number each, on every mesh that has it; its name stands
-/// above the colour scale. Errors: out_of_range where no mesh has it; invalid_argument for other
+/// above the colour scale. Errors: out_of_range if no mesh has it; invalid_argument for other
 /// attributes.
 void paint_values(Picture& picture, std::string_view attribute);
-/// Draws numbers on every mesh with as many vertices. Errors: invalid_argument where there is none.
+/// Draws numbers on every mesh with as many vertices. Errors: invalid_argument if there is none.
 void paint_values(Picture& picture, const std::vector<double>& values);
 
 }  // namespace lissom

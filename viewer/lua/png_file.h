@@ -8,7 +8,7 @@
 
 namespace lissom {
 
-/// Throws unknown_format where the extension of `path` is not that of a picture, which is .png.
+/// Throws unknown_format if the extension of `path` is not that of a picture, which is .png.
 void require_picture_path(const std::filesystem::path& path);
 
 /// Reads a PNG file. Errors: those of read_file; file_syntax; memory_limit; cancelled.

@@ -7,7 +7,7 @@
 namespace lissom::lua {
 
 /// The meshes, strands and scenes among the values at stack indices `first` to `last`, and in
-/// tables there, each once; strands grow on the first of the meshes. Empty where there are none.
+/// tables there, each once; strands grow on the first of the meshes. Empty if there are none.
 /// Raises no Lua error. Errors: those of drawing_of.
 Picture picture_of_values(lua_State* L, int first, int last);
 

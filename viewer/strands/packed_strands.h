@@ -36,8 +36,8 @@ struct PackedRibbons {
     /// Radians by which reflections lean more: -shift_jitter (0) to shift_jitter (255); one a
     /// point.
     std::vector<std::uint8_t> shifts;
-    /// Strand i, in the order that they are drawn in, has the points offsets[i] to
-    /// offsets[i + 1] - 1; none where it has no two finite points that follow each other.
+    /// Strand i, in the order that they are drawn in, has the points offsets[i] to offsets[i + 1] -
+    /// 1; none if it has no two finite points that follow each other.
     std::vector<Index> offsets{0};
 
     Index size() const { return count_of(offsets) - 1; }

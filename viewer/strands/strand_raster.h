@@ -38,8 +38,8 @@ class SampleTile {
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// A piece of a strand, with round ends; `id` is less than kSurface. Nothing where a number is
-    /// not finite or both ends have no width.
+    /// A piece of a strand, with round ends; `id` is less than kSurface. Nothing if a number is not
+    /// finite or both ends have no width.
     void draw_segment(const ScreenPoint& begin, const ScreenPoint& end, std::uint32_t id);
     /// Hides what is behind it; both of its sides do.
     void draw_triangle(const std::array<ScreenPoint, 3>& corners);
@@ -47,7 +47,7 @@ class SampleTile {
     /// Hierarchical depth: the greatest depth in each block of pixels, for `occludes`.
     void update_depth_blocks();
     /// Whether all that was drawn before `update_depth_blocks` hides whatever is at `depth` or
-    /// beyond in a rectangle of the picture; false where that is not certain.
+    /// beyond in a rectangle of the picture; false if that is not certain.
     bool occludes(float left, float top, float right, float bottom, float depth) const;
 
     /// Pixels count from the top left of the picture.

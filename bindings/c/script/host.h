@@ -44,8 +44,8 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     /// The state; opened when it is first asked for. Errors: memory_limit.
     lua_State* lua();
     lua::State& binding() { return *lua::find_state(lua()); }
-    /// Opens the state as a sandbox. Errors: invalid_argument where it is open already, or for
-    /// limits below 0; memory_limit.
+    /// Opens the state as a sandbox. Errors: invalid_argument if it is open already, or for limits
+    /// below 0; memory_limit.
     void open_sandbox(lua::SandboxLimits limits);
     /// As lua_pcall without a handler, within the limits of the sandbox.
     int call(int arguments, int results);
@@ -87,7 +87,7 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
 
     lissom_context& context_;
     lua_State* L_ = nullptr;
-    // Null where scripts are trusted.
+    // Null if scripts are trusted.
     std::unique_ptr<lua::Sandbox> sandbox_;
     // Of the results that are being converted.
     std::size_t values_left_ = kMostValues;

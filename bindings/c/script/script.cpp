@@ -81,7 +81,7 @@ bool may_declare(const Script& script) {
     return script.text.find("params") != std::string::npos;
 }
 
-// Throws where the text is no Lua.
+// Throws if the text is no Lua.
 void check_syntax(ScriptHost& host, const Script& script) {
     lua_State* L = host.lua();
     const std::string_view text = lua::lua_text_of(script.text);

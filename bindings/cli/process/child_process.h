@@ -25,7 +25,7 @@ struct ProcessEnd {
 class ChildProcess {
   public:
     /// Starts the program with `words` as its command line. Both its outputs go to the end of the
-    /// file `output`. Throws std::runtime_error where the system refuses.
+    /// file `output`. Throws std::runtime_error if the system refuses.
     ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& output);
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
@@ -55,14 +55,14 @@ class ParentProcess {
   public:
     ParentProcess();
 
-    /// Tells it a line; false where nobody listens.
+    /// Tells it a line; false if nobody listens.
     bool tell(const std::string& line) const;
 };
 
 /// Does to this program what Ctrl-C does.
 void interrupt_program();
 
-/// The file of this program; empty where the system does not tell.
+/// The file of this program; empty if the system does not tell.
 std::filesystem::path program_file();
 
 }  // namespace lissom::cli

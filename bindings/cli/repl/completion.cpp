@@ -69,7 +69,7 @@ class Lookup {
   public:
     explicit Lookup(lua_State* L) : L_(L), state_(*lua::find_state(L)) {}
 
-    // Pushes what the path "a.b.c" at the end of `text` holds; false where it holds nothing.
+    // Pushes what the path "a.b.c" at the end of `text` holds; false if it holds nothing.
     bool push_path(std::string_view text) {
         text = trimmed(text);
         const std::size_t begin = word_begin(text);

@@ -6,8 +6,8 @@
 namespace lissom::cli {
 
 /// Sets the global variable `help`: help() lists what there is, help(function), help(object) and
-/// help(name) tell what that is. The state has the library open. May raise an error of Lua where
-/// there is no memory.
+/// help(name) tell what that is. The state has the library open. May raise an error of Lua if there
+/// is no memory.
 void provide_help(lua_State* L);
 
 }  // namespace lissom::cli

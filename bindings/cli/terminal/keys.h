@@ -41,9 +41,9 @@ struct KeyPress {
     std::string text = {};
 };
 
-/// Reads one key. `next` gives the next byte, or nothing where none comes soon: an escape that
-/// stands alone is Key::leave. The keys are those of Emacs, as at other prompts, and the arrows,
-/// Home, End and Delete of terminals like VT100 and xterm, with Ctrl for words.
+/// Reads one key. `next` gives the next byte, or nothing if none comes soon: an escape that stands
+/// alone is Key::leave. The keys are those of Emacs, as at other prompts, and the arrows, Home, End
+/// and Delete of terminals like VT100 and xterm, with Ctrl for words.
 KeyPress read_key(char first, const std::function<std::optional<char>()>& next);
 
 }  // namespace lissom::cli

@@ -136,7 +136,7 @@ class Typing {
     }
 
   private:
-    // Nothing where the typing has ended.
+    // Nothing if the typing has ended.
     std::optional<KeyPress> next_key() {
         constexpr int kMilliseconds = 100;
         for (;;) {

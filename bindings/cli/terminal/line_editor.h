@@ -52,7 +52,7 @@ class LineEditor {
 };
 
 /// The file of the history: $LISSOM_HISTORY, which may be empty for none; else lissom/history in
-/// $XDG_STATE_HOME, by default ~/.local/state; empty where there is no home.
+/// $XDG_STATE_HOME, by default ~/.local/state; empty if there is no home.
 std::filesystem::path history_file();
 
 }  // namespace lissom::cli

@@ -16,7 +16,7 @@ bool input_is_terminal();
 bool terminal_sends_keys();
 bool terminal_moves_cursor();
 
-/// Cells of a row of the terminal; 80 where it does not say.
+/// Cells of a row of the terminal; 80 if it does not say.
 std::size_t terminal_columns();
 
 /// As long as it lives, keys are read as they are pressed and are not shown. Ctrl-C stays a signal.

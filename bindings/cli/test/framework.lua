@@ -184,7 +184,7 @@ local function variables_at(level)
     return found
 end
 
--- "stats.bad" as its value in `variables`, boxed; nil where there is no such variable, or it says nothing.
+-- "stats.bad" as its value in `variables`, boxed; nil if there is no such variable, or it says nothing.
 local function value_of(chain, variables)
     local box
     for name in chain:gmatch("[^.]+") do

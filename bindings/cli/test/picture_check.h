@@ -18,7 +18,7 @@ struct PictureCheck {
     double connected = 8.0;
 };
 
-/// What differs, as a message; empty where nothing does. Throws Error where a file cannot be read.
+/// What differs, as a message; empty if nothing does. Throws Error if a file cannot be read.
 using ComparePictures = std::string (*)(const PictureCheck& check);
 
 }  // namespace lissom::cli

@@ -33,7 +33,7 @@ struct TestJob {
     std::filesystem::path output;
     /// Where tests may write, each in a folder of its own below it.
     std::filesystem::path folder;
-    /// Part of the names of the tests to run, or a Lua pattern of them; all where it is empty.
+    /// Part of the names of the tests to run, or a Lua pattern of them; all if it is empty.
     std::string filter;
     bool list = false, update = false;
     long long seed = 1;

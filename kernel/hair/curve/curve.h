@@ -9,8 +9,7 @@
 
 namespace lissom {
 
-/// Errors: not_finite, saying which point; invalid_argument where fewer than two of the points
-/// differ.
+/// Errors: not_finite, saying which point; invalid_argument if fewer than two of the points differ.
 void require_curve(std::span<const Vec3> points);
 
 /// Errors: invalid_argument for a weight that no constraint may have (constraint_weight.h).

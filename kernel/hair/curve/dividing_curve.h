@@ -44,7 +44,7 @@ struct DividingOptions {
     /// omega of equation (4.2), 1e-6 to 1e9.
     double weight = 100.0;
     /// thesis: u and v are coordinates in the local xy-planes of Figure 4.4, which the tilt turns,
-    /// and vectors lie in them; `ramp` is 0 where absent.
+    /// and vectors lie in them; `ramp` is 0 if absent.
     HairFidelity fidelity = HairFidelity::lissom;
 
     /// Section 4.5 to the letter.
@@ -75,7 +75,7 @@ struct DividingPlace {
 class DividingLine {
   public:
     /// `normals` point outward, one a point, of any length. Errors: as require_curve;
-    /// invalid_argument where there are not as many normals as points, or one is along the curve;
+    /// invalid_argument if there are not as many normals as points, or one is along the curve;
     /// not_finite.
     DividingLine(std::span<const Vec3> points, std::span<const Vec3> normals);
 
@@ -100,14 +100,14 @@ inline constexpr double kPartingGap = 0.0024;
 /// the scalp; each grid point belongs to the nearest point of the curve. With u the distance across
 /// and v the signed distance to the head, hair follows the Gaussian
 ///     g(u) = h (exp(-(u - sigma)^2 / 2 sigma^2) - exp(-1/2))
-/// away from the curve: points at |v - g(u)| < thickness take the unit tangent of the surface g
-/// in the direction that is turned by the tilt. Above them stand vectors of length `separation`
-/// that point away from the curve, too. Points on the curve's plane belong to no side and take
-/// none; nor do those beyond the curve's ends by more than half a step. Ascending by point.
-/// With the fidelity of the thesis the grid points belong to the local planes that they lie in, of
-/// several to the one whose origin is nearest, and the head has no part in it.
-/// Errors: as DividingLine; invalid_argument for options out of range; out_of_range where the grid
-/// has no point near the curve, or the curve is nowhere near the head.
+/// away from the curve: points at |v - g(u)| < thickness take the unit tangent of the surface g in
+/// the direction that is turned by the tilt. Above them stand vectors of length `separation` that
+/// point away from the curve, too. Points on the curve's plane belong to no side and take none; nor
+/// do those beyond the curve's ends by more than half a step. Ascending by point. With the fidelity
+/// of the thesis the grid points belong to the local planes that they lie in, of several to the one
+/// whose origin is nearest, and the head has no part in it. Errors: as DividingLine;
+/// invalid_argument for options out of range; out_of_range if the grid has no point near the curve,
+/// or the curve is nowhere near the head.
 std::vector<GridConstraint> dividing_constraints(const DistanceGrid& distances,
                                                  std::span<const Vec3> points,
                                                  std::span<const Vec3> normals,

@@ -100,7 +100,7 @@ struct DrawnSection {
     /// Mean distance from the center: the radius of a circle that is drawn around the spine, in its
     /// cross section.
     double mean_distance = 0.0;
-    /// Unit normal of the plane that it lies in, about; zero where it encloses nothing.
+    /// Unit normal of the plane that it lies in, about; zero if it encloses nothing.
     Vec3 normal = Vec3::Zero();
 };
 

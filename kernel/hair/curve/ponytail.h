@@ -57,7 +57,7 @@ struct PonytailOptions {
     double weight = 100.0;
     /// thesis: the ring is that from R1 to R2 at the grid points nearest to the plane of C1, up to
     /// half a step from it, and counts before the cross sections; `ring` and `clearance` are 0 and
-    /// `lead` half a step where absent; the spine is followed as StreamOptions::fidelity says.
+    /// `lead` half a step if absent; the spine is followed as StreamOptions::fidelity says.
     HairFidelity fidelity = HairFidelity::lissom;
 
     /// Section 4.5 to the letter: also no grip and no spread.
@@ -102,10 +102,9 @@ PonytailShape ponytail_shape(std::span<const Vec3> spine, double step,
 /// of the spine those of a stream curve (blue); around C1, outside the head, vectors of length
 /// `tightness` to its center (green). Where kinds meet at a point the first of these counts. With
 /// `grip`, points up to a step in front of C1 and near its axis lead into it, which is not in the
-/// thesis.
-/// Errors: invalid_argument for options out of range, for a tie that is wider than the grid or has
-/// its center inside the head, with the fidelity of the thesis for a ring without a grid point;
-/// out_of_range where the whole spine lies outside the grid.
+/// thesis. Errors: invalid_argument for options out of range, for a tie that is wider than the grid
+/// or has its center inside the head, with the fidelity of the thesis for a ring without a grid
+/// point; out_of_range if the whole spine lies outside the grid.
 std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
                                                  const PonytailShape& shape,
                                                  const PonytailOptions& options = {});

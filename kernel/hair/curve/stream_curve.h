@@ -34,8 +34,8 @@ struct StreamOptions {
 /// tip: the corners of the cell that the middle of a segment lies in take its direction, of unit
 /// length; corners of several segments their mean, by the trilinear weights of the corners. Along
 /// the vanishing extension lengths fall evenly from 1 to 0. Corners outside the grid are left out.
-/// Errors: as require_curve; invalid_argument for options out of range; out_of_range where the
-/// whole curve lies outside the grid.
+/// Errors: as require_curve; invalid_argument for options out of range; out_of_range if the whole
+/// curve lies outside the grid.
 std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
                                                std::span<const Vec3> points,
                                                const StreamOptions& options = {});
@@ -51,7 +51,7 @@ class VectorSplat {
         : layout_(layout), fidelity_(fidelity) {}
 
     /// Gives `vector` to the corners of the cell that `point` lies in, by trilinear weights. False
-    /// where all of them are outside the grid.
+    /// if all of them are outside the grid.
     bool add(const Vec3& point, const Vec3& vector, ConstraintKind kind);
     /// Gives `vector` to one grid point.
     void add_at(Index point, const Vec3& vector, double weight, ConstraintKind kind);

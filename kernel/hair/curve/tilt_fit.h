@@ -14,7 +14,7 @@ namespace lissom {
 /// What the hints on one side of a curve say.
 struct SideTilt {
     DividingOptions::Tilt tilt;
-    /// Short straight pieces of the hints that told it; 0 where there is no hint on this side.
+    /// Short straight pieces of the hints that told it; 0 if there is no hint on this side.
     Index pieces = 0;
     /// Root of the mean square by which their directions differ from the tilt, radians.
     double error = 0.0;
@@ -42,7 +42,7 @@ inline constexpr double kHintReach = 0.03;
 /// Errors: as require_curve; out_of_range for a hint of more than a million pieces.
 TiltFit fit_tilt(const DividingLine& line, std::span<const std::vector<Vec3>> hints);
 
-/// Errors: out_of_range where nothing of `hint` counts, saying why and what to do; as fit_tilt.
+/// Errors: out_of_range if nothing of `hint` counts, saying why and what to do; as fit_tilt.
 void require_hint(const DividingLine& line, const std::vector<Vec3>& hint);
 
 }  // namespace lissom

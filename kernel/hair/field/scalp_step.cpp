@@ -33,7 +33,7 @@ std::vector<bool> constrained_points(const GridField& grid) {
     return constrained;
 }
 
-// Unit vector to where the distance grows, by differences between neighbours; zero where there is
+// Unit vector to where the distance grows, by differences between neighbours; zero if there is
 // none.
 Vec3 outward(const DistanceGrid& distances, const std::array<Index, 3>& point) {
     const GridLayout& layout = distances.layout();
@@ -49,7 +49,7 @@ Vec3 outward(const DistanceGrid& distances, const std::array<Index, 3>& point) {
     return gradient.stableNormalized();
 }
 
-// v without the part that points inward; zero where hardly anything is left.
+// v without the part that points inward; zero if hardly anything is left.
 Vec3 without_inward(const Vec3& v, const Vec3& normal) {
     const double inward = std::min(0.0, v.dot(normal));
     const Vec3 rest = v - inward * normal;

@@ -18,7 +18,7 @@ struct Planes {
     std::vector<Index> list;
 };
 
-// First and last grid plane within [low, high], clamped to the grid; none where first > last.
+// First and last grid plane within [low, high], clamped to the grid; none if first > last.
 std::pair<Index, Index> plane_range(double low, double high, double origin, double step,
                                     Index count) {
     const double first = std::floor((low - origin) / step);

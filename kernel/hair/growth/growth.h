@@ -35,8 +35,8 @@ struct HairTie {
     std::optional<double> tail_length = 0.25;
     double ragged = 0.45;
     /// The way of the tail from the center on. As far as it goes the length is measured along it,
-    /// so that hair at the outside of a bend ends where that at its inside does; beyond, or where
-    /// it is empty, along each strand.
+    /// so that hair at the outside of a bend ends where that at its inside does; beyond, or if it
+    /// is empty, along each strand.
     std::vector<Vec3> spine = {};
     /// Radii of the tail at the points of `spine`, as many or none: hair fills it. Each strand is
     /// drawn to a place of its own in the cross section over the first few steps behind the tie,
@@ -121,7 +121,7 @@ enum class StrandEnd {
 inline constexpr int kStrandEnds = 7;
 
 struct GrowthReport {
-    /// The tie that caught each strand, as its place in the options, or kNoIndex; empty where there
+    /// The tie that caught each strand, as its place in the options, or kNoIndex; empty if there
     /// are no ties.
     std::vector<Index> ties;
     /// Numbers of strands, by what ended them.

@@ -37,7 +37,7 @@ struct StrandSeed {
 struct TailPlane {
     Eigen::Vector3f center, direction;
     float behind;
-    /// Across the direction, as long as the tail's radius there; 0 where hair goes as it comes.
+    /// Across the direction, as long as the tail's radius there; 0 if hair goes as it comes.
     Eigen::Vector3f side = Eigen::Vector3f::Zero(), up = Eigen::Vector3f::Zero();
 };
 

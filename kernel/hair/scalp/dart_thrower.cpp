@@ -16,7 +16,7 @@ namespace {
 constexpr double kRadius = 0.60;
 // Darts are not widened below this density; there the roots are only fewer.
 constexpr double kLeastDensity = 0.1;
-// Where fewer darts of a round than one in this many find room, the radius shrinks by a part.
+// If fewer darts of a round than one in this many find room, the radius shrinks by a part.
 constexpr Index kLeastShare = 64;
 constexpr double kShrink = 0.98;
 constexpr Index kFewestDarts = 256, kMostDarts = 1 << 18;

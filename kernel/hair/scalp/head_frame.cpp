@@ -79,7 +79,7 @@ Slice slice_at(const Part& part, const Mat3& axes, double height) {
 }
 
 // Depth below the top at which what lies above is as wide as twice the depth, from the vertices
-// alone; 0 where there is none.
+// alone; 0 if there is none.
 double rough_depth(const Part& part, const Mat3& axes, double& top) {
     std::vector<std::pair<double, double>> by_height;
     for (const Vec3& p : part.points) {

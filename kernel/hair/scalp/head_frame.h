@@ -25,7 +25,7 @@ struct HeadFrame {
     /// of the slice to an ellipse, as fractions of the width. Heads have less than 0.05 of each.
     double asymmetry = 0.0, roughness = 0.0;
     /// How much farther the face reaches forward than the neck backward, as a fraction of the
-    /// length: positive for heads, about 0 where front and back are alike.
+    /// length: positive for heads, about 0 if front and back are alike.
     double forwardness = 0.0;
     /// Share of the directions above the center that the surface lies in: 1 for a whole head.
     double coverage = 0.0;
@@ -33,7 +33,7 @@ struct HeadFrame {
     /// direction fits nearly as well, 0 for masks, halves of heads and what is none. Directions
     /// that were given are not doubted.
     double confidence = 0.0;
-    /// What makes it least sure, as words that follow "because"; empty where nothing does.
+    /// What makes it least sure, as words that follow "because"; empty if nothing does.
     std::string doubt = {};
 
     Vec3 left() const { return axes.col(0); }
@@ -52,11 +52,11 @@ struct HeadHints {
 /// Guesses the frame of a bald head, bust or body. Of the directions along the mesh's axes those
 /// are chosen that make the top of the head round, its halves alike and the face look forward; of
 /// equally good ones those nearest to up = +y, front = +z. Only the component with the largest area
-/// counts. Where the head has them, these count as well: its eyes, two openings or further
-/// components that are alike and lie as eyes do, also where the line through them is along no axis;
-/// its greatest opening, which is the neck or, around a mask, looks away from the face.
-/// Errors: mesh_empty without faces; invalid_argument for hints without length or parallel, and
-/// where no direction has a slice as wide as twice its depth; not_finite for hints; cancelled.
+/// counts. If the head has them, these count as well: its eyes, two openings or further components
+/// that are alike and lie as eyes do, also where the line through them is along no axis; its
+/// greatest opening, which is the neck or, around a mask, looks away from the face. Errors:
+/// mesh_empty without faces; invalid_argument for hints without length or parallel, and if no
+/// direction has a slice as wide as twice its depth; not_finite for hints; cancelled.
 HeadFrame guess_head_frame(const Mesh& mesh, const HeadHints& hints = {},
                            const Context& context = {});
 

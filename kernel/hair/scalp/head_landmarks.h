@@ -24,7 +24,7 @@ struct EyePair {
 
 struct Landmarks {
     std::vector<EyePair> pairs;
-    /// From the greatest opening to the surface, of length 1; zero where it is small or absent.
+    /// From the greatest opening to the surface, of length 1; zero if it is small or absent.
     Vec3 from_opening = Vec3::Zero();
     /// Its length over the root of the surface's area: a neck has 1 to 2, the rim of a mask more.
     double opening = 0.0;

@@ -59,7 +59,7 @@ class RootSurface {
     double density(const Dart& dart) const;
     /// Without its normal.
     Root root(const Dart& dart) const;
-    /// The density at a point of a face; 0 where the face is no part of the scalp.
+    /// The density at a point of a face; 0 if the face is no part of the scalp.
     double density_at(Index face, const Triangle& triangle, const Vec3& barycentric) const;
 
   private:

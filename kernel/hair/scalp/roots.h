@@ -35,7 +35,7 @@ struct RootOptions {
     Index count = 100000;
     std::uint64_t seed = 1;
     RootPattern pattern = RootPattern::poisson;
-    /// Relative density for every vertex of the head, finite and not negative; even where absent.
+    /// Relative density for every vertex of the head, finite and not negative; even if absent.
     /// Multiplied by the thinning at the hairline. Only ratios count.
     std::vector<double> density = {};
     /// Multiply the density, those of the density alone.
@@ -57,13 +57,12 @@ struct Root {
 };
 
 /// Roots in an order of which every beginning is spread alike: the first n of a larger count are
-/// those of count n, but for RootPattern::steps; for a seed, on any number of threads.
-/// Darts are thrown at the scalp with a radius that shrinks as roots are added (McCool and Fiume
-/// 1992); where the density is lower they are wider. Time is about linear in the count.
-/// `head` must be the mesh that `scalp` was made for.
-/// Errors: out_of_range for a count; invalid_argument for a density of the wrong size; not_finite;
-/// region_empty where the density is 0 on the whole scalp; topology_mismatch; memory_limit;
-/// cancelled.
+/// those of count n, but for RootPattern::steps; for a seed, on any number of threads. Darts are
+/// thrown at the scalp with a radius that shrinks as roots are added (McCool and Fiume 1992); where
+/// the density is lower they are wider. Time is about linear in the count. `head` must be the mesh
+/// that `scalp` was made for. Errors: out_of_range for a count; invalid_argument for a density of
+/// the wrong size; not_finite; region_empty if the density is 0 on the whole scalp;
+/// topology_mismatch; memory_limit; cancelled.
 std::vector<Root> make_roots(const Mesh& head, const Scalp& scalp, const RootOptions& options = {},
                              const Context& context = {});
 

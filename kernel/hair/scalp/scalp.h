@@ -19,9 +19,9 @@
 namespace lissom {
 
 struct ScalpOptions {
-    /// Directions of the head in the mesh; guessed where absent (head_frame.h).
+    /// Directions of the head in the mesh; guessed if absent (head_frame.h).
     HeadHints hints;
-    /// Metres in one unit of the mesh; guessed where absent.
+    /// Metres in one unit of the mesh; guessed if absent.
     std::optional<double> unit = std::nullopt;
     /// Where hair grows. Where absent it is the mesh's region "scalp", and without one it is what
     /// lies above the hairline, but for the ears.
@@ -52,10 +52,10 @@ struct ScalpDirection {
 
 class Scalp {
   public:
-    /// Takes the present shape of `head`, which may change or die afterwards.
-    /// Errors: as guess_head_frame; topology_mismatch for a region of another mesh; region_empty
-    /// where it holds no face; invalid_argument for a unit, softness or hairline out of range;
-    /// memory_limit; cancelled.
+    /// Takes the present shape of `head`, which may change or die afterwards. Errors: as
+    /// guess_head_frame; topology_mismatch for a region of another mesh; region_empty if it holds
+    /// no face; invalid_argument for a unit, softness or hairline out of range; memory_limit;
+    /// cancelled.
     explicit Scalp(const Mesh& head, const ScalpOptions& options = {}, const Context& context = {});
 
     /// What it was made with.
@@ -68,7 +68,7 @@ class Scalp {
     /// decimetre or inch) that makes this the width of a person's head, or, where none does,
     /// 1 / scale(), with which it is an average head.
     double unit() const { return unit_; }
-    /// False where no usual unit makes this a person's head, as for a model scaled to some size.
+    /// False if no usual unit makes this a person's head, as for a model scaled to some size.
     bool knows_unit() const { return knows_unit_; }
     /// How sure the frame is, 0 to 1: as HeadFrame::confidence. Where it is below 0.5 and something
     /// was guessed, making the scalp logs a warning.
@@ -89,10 +89,10 @@ class Scalp {
     double margin_at(const Triangle& triangle, const Vec3& barycentric, const Vec3& position) const;
 
     /// Exit point of the ray from the center in a direction, offset by `lift` metres (of the frame)
-    /// along the normal there.
-    /// Errors: not_finite; out_of_range where the head has no surface in that direction.
+    /// along the normal there. Errors: not_finite; out_of_range if the head has no surface in that
+    /// direction.
     ScalpPoint at(const ScalpDirection& direction, double lift = 0.0) const;
-    /// Exit point of the ray from the center; nothing where it never leaves the head.
+    /// Exit point of the ray from the center; nothing if it never leaves the head.
     std::optional<SurfacePoint> surface_in(const ScalpDirection& direction) const;
     /// Direction of a point of the mesh from the center.
     ScalpDirection direction_of(const Vec3& point) const;

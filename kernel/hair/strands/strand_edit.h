@@ -18,7 +18,7 @@ Strands select(const Strands& strands, std::span<const Index> list);
 /// The strands for which `choose(strand)` is true, in their order.
 Strands select(const Strands& strands, const std::function<bool(Index)>& choose);
 
-/// The strands of a group. Errors: out_of_range where there is no group of this name.
+/// The strands of a group. Errors: out_of_range if there is no group of this name.
 Strands select_group(const Strands& strands, std::string_view group);
 
 /// The first `count` strands, or all where there are fewer: a level of detail of strands in random
@@ -28,13 +28,13 @@ Strands prefix(const Strands& strands, Index count);
 /// Adds the strands of `other` after those of `strands`. Groups of the same name become one. What
 /// one of them has no values of gets: widths and transparencies those it had in common, colours
 /// black, faces kNoIndex, root uvs 0; ids that exist already, or that no list holds, become new
-/// ones above all others. Errors: invalid_argument where there would be more points than can be
+/// ones above all others. Errors: invalid_argument if there would be more points than can be
 /// numbered.
 void append(Strands& strands, const Strands& other);
 
 /// Moves all points by `map`. Widths scale by the cube root of its determinant's absolute value.
-/// Errors: singular_transform where the determinant is zero or the map is not finite; not_finite,
-/// naming strands, where results exceed the range of 32-bit numbers; cancelled.
+/// Errors: singular_transform if the determinant is zero or the map is not finite; not_finite,
+/// naming strands, if results exceed the range of 32-bit numbers; cancelled.
 void transform(Strands& strands, const Affine& map, const Context& context = {});
 
 }  // namespace lissom

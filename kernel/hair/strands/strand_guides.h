@@ -22,7 +22,7 @@ class GuideTree {
   public:
     explicit GuideTree(std::vector<GuideKey> keys);
 
-    /// Number of the key nearest to `key`; of equal ones the first. kNoIndex where there are none.
+    /// Number of the key nearest to `key`; of equal ones the first. kNoIndex if there are none.
     Index nearest(const GuideKey& key) const;
 
   private:

@@ -15,8 +15,8 @@ namespace lissom {
 /// Length of a strand in metres; 0 for one point.
 double length(const StrandView& strand);
 
-/// Arc length at each point as a fraction of the whole: 0 at the root, 1 at the tip. Where the
-/// strand has no length, the points are spread evenly. `t` is resized to the points.
+/// Arc length at each point as a fraction of the whole: 0 at the root, 1 at the tip. If the strand
+/// has no length, the points are spread evenly. `t` is resized to the points.
 void arc_fractions(const StrandView& strand, std::vector<double>& t);
 
 /// Diameters in metres at the points of a strand, its profile included. `widths` is resized.

@@ -58,7 +58,7 @@ void require_noise(const NoiseOptions& options) {
             "the shape of noise must be positive");
 }
 
-// The direction of a strand at one of its points; zero where its neighbours coincide.
+// The direction of a strand at one of its points; zero if its neighbours coincide.
 Vec3 direction_at(const StrandView& strand, Index k) {
     const Index next = std::min(k + 1, index_of(strand.cols()) - 1);
     const Vec3 along = (strand.col(next) - strand.col(k - 1)).cast<double>();

@@ -10,12 +10,12 @@
 namespace lissom {
 
 /// Metres in one unit of `mesh`, from how far apart the roots of the strands are and the places on
-/// the mesh that they say they are rooted at; nothing where they do not say, or the places are not
-/// on this mesh.
+/// the mesh that they say they are rooted at; nothing if they do not say, or the places are not on
+/// this mesh.
 std::optional<double> unit_of_roots(const Strands& strands, const Mesh& mesh);
 
 /// Why strands can hardly belong on a mesh whose unit is taken as this many metres: they are twenty
-/// times smaller or larger. Says which unit would fit; empty where they may.
+/// times smaller or larger. Says which unit would fit; empty if they may.
 std::string doubt_about_unit(const Strands& strands, const Mesh& mesh, double unit);
 
 }  // namespace lissom

@@ -117,7 +117,7 @@ void require_resample(const ResampleOptions& options) {
                 "resampling needs either a count of at least 2 points or a positive step");
 }
 
-// Segments of a strand of this length; one where it is not finite.
+// Segments of a strand of this length; one if it is not finite.
 double segments_for(double length, const ResampleOptions& options) {
     if (options.count > 0) return options.count - 1;
     const double segments = std::round(length / options.step);

@@ -18,9 +18,8 @@ struct StrandPlace {
 
 /// Strands whose points lie at places on those of `strands`, each with all that is known of it;
 /// values of points are interpolated. `find(strand, places)` is called once a strand, on several
-/// threads, with an empty list, and adds at least one place, from the root on.
-/// Errors: invalid_argument where there would be more points than can be numbered; memory_limit,
-/// cancelled.
+/// threads, with an empty list, and adds at least one place, from the root on. Errors:
+/// invalid_argument if there would be more points than can be numbered; memory_limit, cancelled.
 Strands at_places(const Strands& strands,
                   const std::function<void(Index strand, std::vector<StrandPlace>& places)>& find,
                   const Context& context = {});

@@ -13,9 +13,8 @@
 
 namespace lissom {
 
-/// The strands rooted on a face of `region`, which is one of the head that they grew on.
-/// Errors: invalid_argument where no faces of roots are known, or one is not a face of the region's
-/// mesh.
+/// The strands rooted on a face of `region`, which is one of the head that they grew on. Errors:
+/// invalid_argument if no faces of roots are known, or one is not a face of the region's mesh.
 std::vector<Index> strands_rooted_in(const Strands& strands, const Region& region);
 
 /// The strands that come nearer to a curve than `radius`; both in the unit of the strands. The same

@@ -30,8 +30,7 @@ void require_trim(const StrandTrimOptions& options) {
             "the plane of a trim needs a finite point and a normal with a length");
 }
 
-// The part of a strand before it first passes the plane at a distance of `shift`; 1 where it does
-// not.
+// The part of a strand before it first passes the plane at a distance of `shift`; 1 if it does not.
 double part_before_plane(const StrandView& strand, const std::vector<double>& fractions,
                          const StrandTrimPlane& plane, double shift) {
     const Vec3 normal = plane.normal.normalized();

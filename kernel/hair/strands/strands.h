@@ -52,7 +52,7 @@ struct StrandWidths : StrandValues<float> {
     /// none.
     std::vector<float> profile;
 
-    /// The profile at `t`, 0 at the root and 1 at the tip; 1 where there is none.
+    /// The profile at `t`, 0 at the root and 1 at the tip; 1 if there is none.
     float factor(double t) const;
 };
 
@@ -83,8 +83,8 @@ class Strands {
     /// No strands.
     Strands() = default;
     /// `points`: x y z of all strands one after the other; strand s has the points offsets[s] to
-    /// offsets[s + 1] - 1. Errors: invalid_argument where offsets do not begin with 0, grow, and
-    /// end with the number of points; memory_limit. Null counts nowhere.
+    /// offsets[s + 1] - 1. Errors: invalid_argument if offsets do not begin with 0, grow, and end
+    /// with the number of points; memory_limit. Null counts nowhere.
     Strands(std::vector<float> points, std::vector<Index> offsets,
             std::shared_ptr<MemoryAccount> account = nullptr);
 
@@ -112,26 +112,26 @@ class Strands {
 
     const StrandWidths& widths() const { return widths_; }
     const StrandRoots& roots() const { return roots_; }
-    /// Group of each strand, as a place in `group_names`, or kNoIndex; empty where there are none.
+    /// Group of each strand, as a place in `group_names`, or kNoIndex; empty if there are none.
     const std::vector<Index>& groups() const { return groups_; }
     const std::vector<std::string>& group_names() const { return group_names_; }
     /// The group of a strand, or kNoIndex.
     Index group(Index strand) const { return groups_.empty() ? kNoIndex : groups_[at(strand)]; }
     /// The group called `name`, or kNoIndex.
     Index find_group(std::string_view name) const;
-    /// The id of each strand; empty where every id is the strand's number.
+    /// The id of each strand; empty if every id is the strand's number.
     const std::vector<std::uint32_t>& ids() const { return ids_; }
     std::uint32_t id(Index strand) const {
         return ids_.empty() ? static_cast<std::uint32_t>(strand) : ids_[at(strand)];
     }
-    /// Linear RGB; null where no colour is known.
+    /// Linear RGB; null if no colour is known.
     const StrandValues<Eigen::Vector3f>* colors() const { return has_colors_ ? &colors_ : nullptr; }
     /// 0 is opaque.
     const StrandValues<float>& transparency() const { return transparency_; }
     /// What the file said about itself.
     const std::string& comment() const { return comment_; }
 
-    /// These replace what was there. Errors: invalid_argument where lists have another length than
+    /// These replace what was there. Errors: invalid_argument if lists have another length than
     /// their elements, or a group has no name.
     void set_widths(StrandWidths widths);
     void set_roots(StrandRoots roots);
@@ -165,7 +165,7 @@ class Strands {
     std::string comment_;
 };
 
-/// Throws out_of_range naming the strand where there is none of this number.
+/// Throws out_of_range naming the strand if there is none of this number.
 void require_strand(const Strands& strands, Index strand);
 
 }  // namespace lissom

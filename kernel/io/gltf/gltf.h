@@ -31,10 +31,8 @@ MeshData read_gltf(const FileInput& file, const Context& context);
 /// Writes a text with all data inside. One mesh for each face label "object", at the node that it
 /// was read from; one primitive for each material. Vertices are split where corners differ.
 /// Polygons are triangulated as FB_ngon_encoding has it, where a fan can make them. Other labels
-/// and the regions stand in the extras of the meshes.
-/// Errors: not_finite naming vertices beyond the range of 32-bit numbers; unsupported
-/// where these would flatten faces;
-/// file_too_large; cancelled.
+/// and the regions stand in the extras of the meshes. Errors: not_finite naming vertices beyond the
+/// range of 32-bit numbers; unsupported if these would flatten faces; file_too_large; cancelled.
 void write_gltf(SavedParts& parts, const SaveOptions& options, std::string& bytes,
                 const Context& context);
 

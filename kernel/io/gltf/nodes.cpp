@@ -21,7 +21,7 @@ std::string node_name(std::size_t node) {
     return "node " + std::to_string(node);
 }
 
-// The numbers of the array `key`, or none where it is absent.
+// The numbers of the array `key`, or none if it is absent.
 std::vector<double> numbers_of(const Json& node, const char* key, std::size_t count,
                                std::size_t number) {
     const Json* list = member(node, key);

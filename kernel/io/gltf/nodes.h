@@ -45,7 +45,7 @@ struct GltfInstance {
 /// Errors: file_syntax.
 std::vector<GltfInstance> find_instances(const Json& document, Report& report);
 
-/// Replaces nodes that EXT_mesh_gpu_instancing repeats by a child for each copy. Where the copies
+/// Replaces nodes that EXT_mesh_gpu_instancing repeats by a child for each copy. If the copies
 /// would be many times larger than the file, one is kept and the report says so.
 void expand_instancing(Json& document, const AccessorReader& accessors, GltfBudget& budget,
                        Report& report);

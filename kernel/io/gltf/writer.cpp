@@ -196,8 +196,8 @@ class DocumentWriter {
         put_mesh(node, writer.write_points(place));
     }
 
-    // The node of an object: the old one, or a new one. Where the origin is to be moved and is far,
-    // it is a new one in the middle of `vertices`, below the old one, and `to_node` leads there.
+    // The node of an object: the old one, or a new one. If the origin is to be moved and is far, it
+    // is a new one in the middle of `vertices`, below the old one, and `to_node` leads there.
     std::size_t moved_node(std::optional<std::size_t> old_node, const std::string& label,
                            const std::vector<Index>& vertices, NodeTransform& to_node) {
         Vec3 origin = Vec3::Zero();

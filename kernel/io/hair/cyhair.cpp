@@ -150,7 +150,7 @@ void set_comment(const HairHeader& header, Strands& strands) {
 
 // ---- writing ----
 
-// Segments that all strands have, or 0 where they differ.
+// Segments that all strands have, or 0 if they differ.
 Index common_segments(const Strands& strands) {
     if (strands.empty()) return 0;
     const Index first = strands.point_count(0);

@@ -1,8 +1,8 @@
 /// .hair, the format of Cem Yuksel's hair models; private to kernel/io.
 ///
 /// Little-endian: "HAIR", counts of strands and points, bits that say which arrays follow, values
-/// for all points where there is none, and 88 bytes of text; then u16 segments of each strand, and
-/// for each point xyz, thickness, transparency and rgb.
+/// for all points if there is none, and 88 bytes of text; then u16 segments of each strand, and for
+/// each point xyz, thickness, transparency and rgb.
 #pragma once
 
 #include <string>
@@ -14,9 +14,8 @@
 namespace lissom {
 
 /// Reads all arrays. Thickness is the width, the text the comment. Bytes after the arrays are
-/// passed over, with a warning in the log.
-/// Errors: file_syntax, file_truncated, file_too_large; unsupported where there are no points;
-/// not_finite naming the strand; cancelled, memory_limit.
+/// passed over, with a warning in the log. Errors: file_syntax, file_truncated, file_too_large;
+/// unsupported if there are no points; not_finite naming the strand; cancelled, memory_limit.
 Strands read_cyhair(ByteSource& source, const Context& context);
 
 /// Writes what `read_cyhair` reads: of the arrays those that differ between strands or points.

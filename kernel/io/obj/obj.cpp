@@ -26,7 +26,7 @@ class CornerValues {
   public:
     CornerValues(std::string_view plural, Index width) : plural_(plural), width_(width) {}
 
-    // The values of the next number; without values (NaN) where one is not finite.
+    // The values of the next number; without values (NaN) if one is not finite.
     void add(std::initializer_list<double> values, std::size_t line) {
         const bool finite =
             std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
@@ -112,7 +112,7 @@ class RegionReader {
         if (state_ == State::open) regions_[name_];
         state_ = State::none;
     }
-    // True where a face now makes a group of faces of what could have been a region.
+    // True if a face now makes a group of faces of what could have been a region.
     bool give_way() {
         if (state_ != State::open) return false;
         state_ = State::none;

@@ -39,7 +39,7 @@ class WrittenValues {
             text += '\n';
         }
     }
-    // 1-based, or 0 where the corner has none.
+    // 1-based, or 0 if the corner has none.
     Index number(Index corner) const {
         return number_of_corner_.empty() ? 0 : number_of_corner_[corner] + 1;
     }

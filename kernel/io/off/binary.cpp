@@ -33,7 +33,7 @@ std::size_t binary_vertex_bytes(OffLayout layout) {
     return sizeof(float) * (layout.numbers_without_color() + (layout.colors ? 4 : 0));
 }
 
-// Moves over a number and as many numbers of four bytes; false where the data end before.
+// Moves over a number and as many numbers of four bytes; false if the data end before.
 bool skip_counted(ByteReader& data) {
     if (data.remaining() < 4) return false;
     const std::size_t count = data.read<std::uint32_t>();
@@ -42,7 +42,7 @@ bool skip_counted(ByteReader& data) {
     return true;
 }
 
-// True where the data, taken to be of this kind, end with the last face.
+// True if the data, taken to be of this kind, end with the last face.
 bool fits(std::string_view bytes, OffLayout layout, BinaryKind kind) {
     ByteReader data(bytes, kind.order);
     const BinaryCounts counts = read_binary_counts(data);
@@ -55,7 +55,7 @@ bool fits(std::string_view bytes, OffLayout layout, BinaryKind kind) {
     return data.remaining() == 0;
 }
 
-// The kind that the data fit exactly. Where they fit none, for instance because they are cut short,
+// The kind that the data fit exactly. If they fit none, for instance because they are cut short,
 // the byte order is the one with the smaller counts.
 BinaryKind find_kind(std::string_view bytes, OffLayout layout) {
     for (const BinaryKind kind : kBinaryKinds) {

@@ -37,7 +37,7 @@ class OffTextReader {
     }
 
     // `tick(fraction)` is called for each vertex and face. Errors: those of `read_off`, and
-    // file_syntax where the data do not end with the last face.
+    // file_syntax if the data do not end with the last face.
     template <typename Tick>
     MeshData read(const Tick& tick) {
         if (reading_.edges_on_own_line) counts_.edges = text_.next_integer();
@@ -146,7 +146,7 @@ std::size_t numbers_on_next_line(TextReader text, std::size_t enough) {
 }
 
 // What is tried, in this order. The line of the first vertex tells how many values a colour has,
-// three, four or none, whatever the keyword says. Where lines mean nothing, the keyword decides.
+// three, four or none, whatever the keyword says. If lines mean nothing, the keyword decides.
 std::vector<Reading> possible_readings(OffLayout layout, std::size_t on_first_line,
                                        bool has_edge_count) {
     const std::size_t others = layout.numbers_without_color();
@@ -172,7 +172,7 @@ bool concerns_content(const Error& error) {
     return error.code() != ErrorCode::cancelled && error.code() != ErrorCode::memory_limit;
 }
 
-// Why a first line of so many numbers is no vertex, where it is not.
+// Why a first line of so many numbers is no vertex, if it is not.
 std::optional<Error> first_line_error(OffLayout layout, std::size_t on_first_line, Place place) {
     const std::size_t others = layout.numbers_without_color();
     const bool is_odd = on_first_line == others + 1 || on_first_line == others + 2;

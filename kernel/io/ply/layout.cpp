@@ -19,7 +19,7 @@ struct Group {
     bool of_faces;
 };
 
-// Where several match, the first wins; the first of a name and width is the one that is written.
+// If several match, the first wins; the first of a name and width is the one that is written.
 constexpr std::array<Group, 10> kGroups{
     {{"normal", {"nx", "ny", "nz"}, 3, true},
      {"color", {"red", "green", "blue", "alpha"}, 4, true},
@@ -38,7 +38,7 @@ bool fits(const Group& group, Domain domain) {
     return domain == Domain::vertex || group.of_faces;
 }
 
-// "2" of "uv2" for the stem "uv", empty where `name` is not the stem and a number from 2.
+// "2" of "uv2" for the stem "uv", empty if `name` is not the stem and a number from 2.
 std::string_view set_number(std::string_view name, std::string_view stem) {
     if (!name.starts_with(stem)) return {};
     const std::string_view digits = name.substr(stem.size());
@@ -65,7 +65,7 @@ bool ends_with_number(std::string_view name) {
     return last != std::string_view::npos && last + 1 < name.size() && name[last] == '_';
 }
 
-// Encodes the character at `at`, where it is not yet.
+// Encodes the character at `at`, if it is not yet.
 void shield(std::string& name, std::size_t at) {
     if (name[at] == '%') return;
     name.replace(at, 1, percent_encoded_byte(name[at]));

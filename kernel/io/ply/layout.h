@@ -57,7 +57,7 @@ class PlyLayout {
     void allocate(std::size_t rows);
     /// One slot a property.
     std::vector<PlySlot>& slots() { return slots_; }
-    /// Lets the list called `name` be read into `list`; false where there is no such list.
+    /// Lets the list called `name` be read into `list`; false if there is no such list.
     bool attach_list(std::string_view name, std::vector<double>& list);
     /// The columns, cut to the element's number of rows; the positions first.
     std::vector<PlyColumn> take_columns();

@@ -65,7 +65,7 @@ class CornerList {
     std::vector<double>& row() { return row_; }
     const Attribute& attribute() const { return attribute_; }
 
-    // Adds the values of a face; none where the list is of another length. Returns the number of
+    // Adds the values of a face; none if the list is of another length. Returns the number of
     // values that were made up so.
     std::size_t add_face(std::size_t corners) {
         const std::size_t count = corners * attribute_.width;
@@ -100,7 +100,7 @@ FaceLabels to_labels(const Attribute& numbers, std::vector<std::string> names,
     return labels;
 }
 
-// The elements whose number is 1, or nothing where numbers are not 0 or 1.
+// The elements whose number is 1, or nothing if numbers are not 0 or 1.
 std::optional<std::vector<Index>> to_region(const Attribute& numbers) {
     std::vector<Index> region;
     for (std::size_t i = 0; i < numbers.values.size(); ++i) {

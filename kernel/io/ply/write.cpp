@@ -181,7 +181,7 @@ struct ListColumn {
     double scale;
 };
 
-// The numbers of one face's corners as they are written; none where no corner has a value.
+// The numbers of one face's corners as they are written; none if no corner has a value.
 std::vector<double> list_of_face(const ListColumn& list, Index first_corner, Index count) {
     const Attribute& attribute = *list.attribute;
     const std::size_t width = attribute.width;

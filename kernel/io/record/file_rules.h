@@ -26,14 +26,14 @@ inline std::string_view without_byte_order_mark(std::string_view bytes) {
     return bytes.substr(bytes.starts_with(kMark) ? kMark.size() : 0);
 }
 
-/// Errors: invalid_argument where `unit` is not positive and finite.
+/// Errors: invalid_argument if `unit` is not positive and finite.
 inline void require_unit(double unit) {
     if (unit > 0.0 && std::isfinite(unit)) return;
     throw Error(ErrorCode::invalid_argument,
                 "unit is " + std::to_string(unit) + ", but must be positive and finite");
 }
 
-/// The result of `action`; its errors begin with the file, and the line where there is one.
+/// The result of `action`; its errors begin with the file, and the line if there is one.
 template <typename Action>
 auto with_place_in_errors(const std::string& file, const Action& action) {
     try {

@@ -17,7 +17,7 @@ namespace lissom {
 Vec3 rounded_to_float(const Vec3& p);
 
 /// The origin that lets 32-bit numbers hold most of what lies in `box`: its middle, which is a
-/// 32-bit number itself; zero where the box is no farther from the origin than it is large.
+/// 32-bit number itself; zero if the box is no farther from the origin than it is large.
 Vec3 near_origin(const Box& box);
 
 /// Finds the faces that rounding makes flat or turns over.
@@ -37,8 +37,8 @@ class FloatLoss {
     std::vector<Vec3> rounded_;
 };
 
-/// Throws where rounding puts vertices that are apart at one place, which is what joins vertices in
-/// a format without indices. `corners` are the vertices that are written, in any order. Errors:
+/// Throws if rounding puts vertices that are apart at one place, which is what joins vertices in a
+/// format without indices. `corners` are the vertices that are written, in any order. Errors:
 /// unsupported naming vertices.
 void require_distinct_floats(std::span<const Vec3> positions, std::span<const Index> corners,
                              std::string_view format, bool origin_moves);

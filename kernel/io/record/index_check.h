@@ -17,8 +17,7 @@ class IndexCheck {
     /// `element` is singular; indices in the file count from `base`.
     IndexCheck(std::string_view element, int base) : element_(element), base_(base) {}
 
-    /// The 0-based index for `index`, itself 0-based. Errors: face_index where negative or too
-    /// large.
+    /// The 0-based index for `index`, itself 0-based. Errors: face_index if negative or too large.
     Index checked(std::int64_t index, Place place) {
         if (index < 0 || index > kLargest) refuse_index(index, place);
         if (index > largest_) {
@@ -27,7 +26,7 @@ class IndexCheck {
         }
         return index_of(index);
     }
-    /// Errors: face_index where an index was not below `count`.
+    /// Errors: face_index if an index was not below `count`.
     void require_below(std::size_t count) const;
 
   private:

@@ -21,7 +21,7 @@ namespace lissom {
 /// A file to read.
 struct FileInput {
     std::string_view bytes;
-    /// The folder that files it refers to are in; empty where no other file may be opened.
+    /// The folder that files it refers to are in; empty if no other file may be opened.
     std::filesystem::path folder;
 };
 
@@ -32,7 +32,7 @@ struct MeshData : Soup {
     Report report;
     /// True for formats that store each face by itself: all vertices at one place are one.
     bool faces_are_separate = false;
-    /// True where `same_as` says all: open edges at one place are apart on purpose.
+    /// True if `same_as` says all: open edges at one place are apart on purpose.
     bool seams_are_known = false;
 };
 

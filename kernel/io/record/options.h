@@ -25,8 +25,8 @@ enum class FileOrigin {
 
 /// How the coordinates of a file become those of the mesh. Normals are turned but not scaled.
 struct LoadOptions {
-    /// Which vertices at the same place become one; where absent, Weld::all for STL, which stores
-    /// each triangle by itself, and Weld::seams for all others.
+    /// Which vertices at the same place become one; if absent, Weld::all for STL, which stores each
+    /// triangle by itself, and Weld::seams for all others.
     std::optional<Weld> weld = std::nullopt;
     /// False: what would be mended (see repair.h) is an error instead.
     bool repair = true;

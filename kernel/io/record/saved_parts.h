@@ -23,7 +23,7 @@ namespace lissom {
 /// A mesh as a writer sees it: what it takes counts as saved, and what is left is lost.
 class SavedParts {
   public:
-    /// Errors: invalid_argument where an attribute or label does not fit the mesh.
+    /// Errors: invalid_argument if an attribute or label does not fit the mesh.
     explicit SavedParts(const Mesh& mesh);
 
     const Mesh& mesh() const { return mesh_; }

@@ -28,7 +28,7 @@ Index distinct_points(const StrandView& strand) {
     return count;
 }
 
-// Replaces numbers that are no widths by the least that is one, or by `none` where there is none.
+// Replaces numbers that are no widths by the least that is one, or by `none` if there is none.
 void replace_bad(std::vector<float>& values, float none) {
     float least = std::numeric_limits<float>::infinity();
     for (const float x : values) least = is_width(x) ? std::min(least, x) : least;

@@ -21,7 +21,7 @@ struct StrandCapacity {
     bool origins = false;
 };
 
-/// Strands that are fit to be written; nothing where they are as they were.
+/// Strands that are fit to be written; nothing if they are as they were.
 struct CheckedStrands {
     std::optional<Strands> changed;
     StrandReport report;

@@ -19,14 +19,14 @@ namespace lissom {
 /// Errors: file_syntax, file_truncated, file_too_large, cancelled.
 MeshData read_stl(std::string_view bytes, const Context& context);
 
-/// True where the size of the data is exactly that of the binary STL which they would be.
+/// True if the size of the data is exactly that of the binary STL which they would be.
 bool is_binary_stl(std::string_view bytes);
 
 /// Writes triangles (polygons are triangulated) with their normals; text has one solid for each run
 /// of faces of one object. Binary has 32-bit numbers. A warning of the log counts the vertices
-/// without faces, which are not written. Errors: unsupported where there are only vertices;
-/// not_finite naming the vertices that are beyond the range of 32-bit numbers; unsupported
-/// where these numbers would join vertices or flatten faces.
+/// without faces, which are not written. Errors: unsupported if there are only vertices; not_finite
+/// naming the vertices that are beyond the range of 32-bit numbers; unsupported if these numbers
+/// would join vertices or flatten faces.
 void write_stl(SavedParts& parts, const SaveOptions& options, std::string& bytes,
                const Context& context);
 

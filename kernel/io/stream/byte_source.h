@@ -30,7 +30,7 @@ class ByteSource {
 
     std::size_t size() const { return size_; }
     std::size_t remaining() const { return size_ - at_; }
-    /// Throws where fewer bytes are left. Errors: file_truncated.
+    /// Throws if fewer bytes are left. Errors: file_truncated.
     void require(std::size_t bytes) const {
         if (remaining() < bytes) refuse_truncated(tally);
     }
@@ -68,8 +68,8 @@ class ByteSource {
 void read_points(ByteSource& source, std::span<float> numbers, std::span<const Index> offsets,
                  const Context& context);
 
-/// Throws not_finite naming the strand and its point, where one of `numbers`, `width` a point, is
-/// NaN or infinite. `first_point` is the number of the first of these points.
+/// Throws not_finite naming the strand and its point, if one of `numbers`, `width` a point, is NaN
+/// or infinite. `first_point` is the number of the first of these points.
 void require_finite(std::span<const float> numbers, std::size_t width, std::size_t first_point,
                     std::span<const Index> offsets);
 

@@ -102,7 +102,7 @@ bool is_temporary_name(const std::string& name) {
 #ifndef _WIN32
 
 // Marks the file as one that is being written: the lock goes with the process, however it ends.
-// False where the file was taken for a left over one before. Not every file system has locks.
+// False if the file was taken for a left over one before. Not every file system has locks.
 bool lock_new(std::FILE* file) {
     if (flock(fileno(file), LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
     struct stat status {};
@@ -209,7 +209,7 @@ class TemporaryFile {
     }
 
   private:
-    // Tries one name; false where no other can do better.
+    // Tries one name; false if no other can do better.
     bool open_file(std::error_code& reason) {
         std::random_device random;
         path_ = folder_of(target_) / (std::string(kTemporaryBegin) + std::to_string(random()) +

@@ -24,19 +24,18 @@ std::string display_name(const std::filesystem::path& path);
 /// exist, with the nearest name in its folder, or of a folder that does not exist.
 std::string missing_file_text(const std::filesystem::path& path);
 
-/// Throws where `path` is not a regular file with content. A host's table is not asked.
-/// Errors: file_not_found, file_is_directory, file_empty, file_unreadable.
+/// Throws if `path` is not a regular file with content. A host's table is not asked. Errors:
+/// file_not_found, file_is_directory, file_empty, file_unreadable.
 void require_file(const std::filesystem::path& path, const Context& context = {});
 
-/// Bytes of a file. Errors: file_unreadable; file_too_large where no memory can hold as many.
+/// Bytes of a file. Errors: file_unreadable; file_too_large if no memory can hold as many.
 std::size_t addressable_size(const std::filesystem::path& path);
 
-/// Reads a file into memory, which is charged to the context first.
-/// Errors: as `require_file` and `addressable_size`, file_not_found also where the host's table has
-/// none; memory_limit; cancelled.
+/// Reads a file into memory, which is charged to the context first. Errors: as `require_file` and
+/// `addressable_size`, file_not_found also if the host's table has none; memory_limit; cancelled.
 FileContent read_file(const std::filesystem::path& path, const Context& context = {});
 
-/// Throws where no file can be made at `path` because its folder is missing: before long work whose
+/// Throws if no file can be made at `path` because its folder is missing: before long work whose
 /// result is to be saved there. A host's table is not asked. Errors: file_write_failed.
 void require_folder_of(const std::filesystem::path& path, const Context& context = {});
 
@@ -48,7 +47,7 @@ void make_folder(const std::filesystem::path& path);
 /// or the new one, and no error leaves a trace. A file that exists keeps its permissions; where
 /// `path` is a symbolic link, the file it points to is replaced. Temporary files of processes that
 /// were killed while they wrote into the folder are removed. Errors: file_is_directory;
-/// file_write_failed, also for a file that is read-only or not a regular one, and where the host's
+/// file_write_failed, also for a file that is read-only or not a regular one, and if the host's
 /// table cannot write it; cancelled.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
                            const Context& context = {});

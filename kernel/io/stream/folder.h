@@ -24,8 +24,8 @@ struct FolderChange {
 /// are afterwards, even where this process is killed at any time. New contents are written beside
 /// the old ones and take their names only once all of them are on the disk; files whose content
 /// stays are not touched, and neither are files of others. A missing folder is made; the one above
-/// it is there. Errors: file_write_failed, naming the file, also where one stands in the way that
-/// is not in `before`; cancelled. The folder is then as it was.
+/// it is there. Errors: file_write_failed, naming the file, also if one stands in the way that is
+/// not in `before`; cancelled. The folder is then as it was.
 void replace_in_folder(const std::filesystem::path& folder, const FolderChange& change,
                        const Context& context = {});
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMaximumElements = std::numeric_limits<Index>::max();
 
-// Bytes of the character of UTF-8 that begins `text`; 0 where none does or it cannot be printed.
+// Bytes of the character of UTF-8 that begins `text`; 0 if none does or it cannot be printed.
 std::size_t printable_length(std::string_view text) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;

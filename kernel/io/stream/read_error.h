@@ -22,7 +22,7 @@ struct Place {
 [[noreturn]] void refuse(ErrorCode code, const std::string& message, Place place = {});
 
 /// What is being read and how much of it was found, for a file that ends too early. `elements` is a
-/// plural; `announced` is 0 where the file does not say how many there are.
+/// plural; `announced` is 0 if the file does not say how many there are.
 struct Tally {
     std::string_view elements = "statements";
     std::size_t found = 0;

@@ -53,9 +53,9 @@ class TextReader {
         return true;
     }
 
-    /// Skips blanks; true where nothing but a comment is left on the line.
+    /// Skips blanks; true if nothing but a comment is left on the line.
     bool at_line_end();
-    /// Skips blanks, comments and line ends; true where nothing is left of the text.
+    /// Skips blanks, comments and line ends; true if nothing is left of the text.
     bool at_end();
     /// Moves to the start of the next line.
     void skip_line();

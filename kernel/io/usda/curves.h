@@ -23,7 +23,7 @@ struct UsdaHair {
     /// Length of its unit in metres and its up axis, where it says so.
     std::optional<double> meters_per_unit;
     UpAxis up = UpAxis::none;
-    /// False where it says nothing of widths.
+    /// False if it says nothing of widths.
     bool has_widths = false;
 };
 

@@ -23,7 +23,7 @@ bool is_whole(double x, double least, double most) {
     return x >= least && x <= most && x == std::floor(x);
 }
 
-// A list of whole numbers, one a strand; empty where there are none.
+// A list of whole numbers, one a strand; empty if there are none.
 template <typename T>
 std::vector<T> whole_numbers(const CurvesPrim& prim, const std::vector<double>& numbers,
                              std::size_t count, double least, const char* what) {

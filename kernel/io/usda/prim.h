@@ -60,7 +60,7 @@ Strands strands_of(CurvesPrim prim, const Context& context);
 /// curves; the type is linear then. Errors: as `strands_of`.
 void make_linear(CurvesPrim& prim);
 
-/// Number of points of each curve. Errors: file_syntax where they do not add up to the points.
+/// Number of points of each curve. Errors: file_syntax if they do not add up to the points.
 std::vector<Index> curve_counts(const CurvesPrim& prim);
 
 }  // namespace lissom

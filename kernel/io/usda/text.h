@@ -32,7 +32,7 @@ class UsdaText {
     Token take();
     /// Moves over the next token where it is this word or punctuation.
     bool take(std::string_view word);
-    /// Errors: file_syntax, file_truncated where it is another.
+    /// Errors: file_syntax, file_truncated if it is another.
     void expect(std::string_view word);
 
     /// Moves over a value: one token, or brackets with all they hold. Errors: file_syntax for

@@ -11,8 +11,8 @@ std::uint64_t key_of(Index a, Index b) {
     return pair_key(std::min(a, b), std::max(a, b));
 }
 
-// Zeros that hang together take one side: the negative one where they have no positive neighbour
-// but a negative one.
+// Zeros that hang together take one side: the negative one if they have no positive neighbour but a
+// negative one.
 void decide_zeros(const Topology& topology, LevelSet& levels) {
     std::vector<Index> zeros;
     const auto is_open = [&](Index v) { return levels.value[v] == 0.0 && levels.side[v] == 0; };

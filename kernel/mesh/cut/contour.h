@@ -24,9 +24,9 @@ namespace lissom {
 
 /// A function on vertices and the side of its contour that each lies on.
 struct LevelSet {
-    /// NaN where there is none: contours end there.
+    /// NaN if there is none: contours end there.
     std::vector<double> value;
-    /// 1 or -1; 0 where there is no value.
+    /// 1 or -1; 0 if there is no value.
     std::vector<signed char> side;
 };
 
@@ -51,14 +51,14 @@ struct ContourLine {
     /// Faces that those triangles are parts of.
     std::vector<Index> faces;
     bool closed = false;
-    /// True where an end of an open line lies inside the mesh, because values end there.
+    /// True if an end of an open line lies inside the mesh, because values end there.
     bool clipped = false;
 
     std::vector<Vec3> points(const Mesh& mesh) const;
 };
 
-/// All contours of a function, in the order of the faces at which they are first met.
-/// Errors: nonmanifold_edge where triangulated polygons share a diagonal; cancelled.
+/// All contours of a function, in the order of the faces at which they are first met. Errors:
+/// nonmanifold_edge if triangulated polygons share a diagonal; cancelled.
 std::vector<ContourLine> trace_contours(const Mesh& mesh, const LevelSet& levels,
                                         const Context& context);
 

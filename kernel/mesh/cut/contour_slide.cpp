@@ -192,7 +192,7 @@ class Slider {
     Slides slides_;
 };
 
-// True where the attributes of both faces go on across the edge they share at `v`.
+// True if the attributes of both faces go on across the edge they share at `v`.
 bool is_seamless(const Mesh& mesh, Index f, Index g, Index v) {
     const Topology& topology = mesh.topology();
     const Index c = topology.first_corner(f) + local_corner(topology.face(f), v);

@@ -37,7 +37,7 @@ Vec3 position_after(const Mesh& mesh, const Slides& slides, const CrossedEdges& 
 /// For each face around a vertex, in the order of Topology::faces_around, the two corners that the
 /// corner of that face at the vertex lies between once it has slid along the edge to `toward`:
 /// those of the nearest face with that edge that no seam of corner attributes or labels separates
-/// from it; nothing where there is none.
+/// from it; nothing if there is none.
 using CornerPair = std::array<Index, 2>;
 std::vector<std::optional<CornerPair>> corners_along(const Mesh& mesh, Index v, Index toward);
 

@@ -44,7 +44,7 @@ struct CutPlane {
     Vec3 normal = Vec3::UnitY();
     /// A point on or near the part to keep, instead of the side that the normal points to.
     std::optional<Vec3> seed{};
-    /// Reference point that selects the line; `point` where absent.
+    /// Reference point that selects the line; `point` if absent.
     std::optional<Vec3> near{};
 };
 
@@ -63,7 +63,7 @@ struct CutPath {
 /// A region to cut out along its outlines, all of them at once.
 struct CutRegion {
     Region region;
-    /// As CutPath::smoothing.
+    /// Same as CutPath::smoothing.
     double smoothing = 0.04;
 };
 
@@ -147,26 +147,26 @@ struct CutPreview {
 /// side of it goes there whole. Components that are not cut go to the side of the plane on which
 /// the mean of their vertices lies. A plane that only touches the surface does not cross it.
 /// Errors: mesh_empty; invalid_argument for a normal without length, options out of range, or a
-/// plane that does not cross the mesh; not_finite; boundary_conflict where the line does not
-/// separate the mesh, because both sides are connected elsewhere; nonmanifold_edge; cancelled.
+/// plane that does not cross the mesh; not_finite; boundary_conflict if the line does not separate
+/// the mesh, because both sides are connected elsewhere; nonmanifold_edge; cancelled.
 Cut cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options = {},
         const Context& context = {});
 
 /// Cuts along a closed path: on a smooth line near it rather than along its edges. It passes the
 /// picked points within about an edge. The part on the left of the path, seen from outside, is
-/// kept. Components that are not cut go to the side of the nearest point of the path.
-/// Errors: mesh_empty; topology_mismatch; invalid_argument for an open path, one that visits a
-/// vertex twice, or options out of range; boundary_conflict where the smooth line meets an open
-/// boundary or does not separate the mesh; nonmanifold_edge; cancelled.
+/// kept. Components that are not cut go to the side of the nearest point of the path. Errors:
+/// mesh_empty; topology_mismatch; invalid_argument for an open path, one that visits a vertex
+/// twice, or options out of range; boundary_conflict if the smooth line meets an open boundary or
+/// does not separate the mesh; nonmanifold_edge; cancelled.
 Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options = {},
         const Context& context = {});
 
 /// Cuts along the outlines of a region and keeps the region. Outlines that are open boundaries of
-/// the mesh are no cuts. Components that are not cut go with most of their vertices.
-/// Errors: mesh_empty; topology_mismatch; region_empty where the region holds no face;
-/// invalid_argument for options out of range or a region without an outline to cut;
-/// boundary_conflict naming vertices where an outline or its smooth line runs into an open boundary
-/// or another outline; nonmanifold_edge; cancelled.
+/// the mesh are no cuts. Components that are not cut go with most of their vertices. Errors:
+/// mesh_empty; topology_mismatch; region_empty if the region holds no face; invalid_argument for
+/// options out of range or a region without an outline to cut; boundary_conflict naming vertices if
+/// an outline or its smooth line runs into an open boundary or another outline; nonmanifold_edge;
+/// cancelled.
 Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options = {},
         const Context& context = {});
 
@@ -178,7 +178,7 @@ Cut cut(const Mesh& mesh, const CutContour& contour, const CutOptions& options =
         const Context& context = {});
 
 /// The lines along which `cut` would divide the mesh, before vertices slide onto them; the mesh
-/// stays as it is. Where the lines would not separate it, they are shown with a warning
+/// stays as it is. If the lines would not separate it, they are shown with a warning
 /// (not_separating). Errors: otherwise as `cut`.
 CutPreview preview_cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options = {},
                        const Context& context = {});

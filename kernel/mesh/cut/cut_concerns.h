@@ -23,8 +23,7 @@ void add_outlines(const Mesh& mesh, const std::vector<ContourLine>& lines, const
                   CutReport& report);
 
 /// Area of a closed polyline as a fraction of that of its convex outline, both seen along the
-/// polyline's mean normal: 1 for a convex one, less for one with deep folds. 0 where it has no
-/// area.
+/// polyline's mean normal: 1 for a convex one, less for one with deep folds. 0 if it has no area.
 double fullness(const std::vector<Vec3>& points);
 
 }  // namespace lissom

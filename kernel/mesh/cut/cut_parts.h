@@ -17,7 +17,7 @@ namespace lissom {
 void require_cuttable(const Mesh& mesh, const CutOptions& options);
 
 /// The side of the lines that each vertex is on: 1 or -1, and 0 in components without a line.
-/// Errors: boundary_conflict where the sides are connected.
+/// Errors: boundary_conflict if the sides are connected.
 std::vector<signed char> sides_of(const Mesh& mesh, const std::vector<ContourLine>& lines);
 
 /// Gives components that no line crosses the side that `side_of` names for their vertices, and

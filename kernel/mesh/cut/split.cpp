@@ -94,8 +94,7 @@ class Splitter {
     }
 
     // A line need not pass through the inside of a face that it touches: it may follow an edge or
-    // pass through one vertex. Where more vertices slid, a triangle of the face may lie between
-    // them.
+    // pass through one vertex. If more vertices slid, a triangle of the face may lie between them.
     bool stays_whole(Index f) const {
         signed char side = 0;
         int slid = 0;
@@ -305,7 +304,7 @@ class Splitter {
     }
 
     // The end that a crossing shares with the one before (step -1) or after it (step 1) on its
-    // line; kNoIndex where there is none.
+    // line; kNoIndex if there is none.
     Index shared_end(std::size_t line, Index i, Index step) const {
         const std::vector<Crossing>& c = splitting_.lines[line].crossings;
         const auto n = count_of(c);

@@ -53,7 +53,7 @@ const std::vector<Index>& loop_of(const Mesh& mesh, const Path& boundary) {
 }
 
 // The contour at a constant distance from the smooth loop, just inside the innermost vertex; none
-// where there is no such line all around.
+// if there is no such line all around.
 std::vector<ContourLine> line_inside(const Mesh& mesh, const std::vector<Index>& loop,
                                      const SurfaceCurve& curve, double margin,
                                      const Context& context) {

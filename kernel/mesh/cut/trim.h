@@ -17,7 +17,7 @@ struct TrimOptions {
     /// Distance of the new boundary from the innermost vertex of the old one, in mean edge lengths
     /// there; at least 0.
     double margin = 0.15;
-    /// As CutOptions::slide.
+    /// Same as CutOptions::slide.
     double slide = 0.25;
 };
 
@@ -36,10 +36,9 @@ struct Trim {
 
 /// Cuts a thin strip off along an open boundary. The loop is smoothed; the new boundary is the line
 /// on the surface at a constant distance from the smooth loop, so far inside that it meets no
-/// vertex of the old one. What remains is as after `cut`.
-/// Errors: topology_mismatch; not_a_boundary; invalid_argument for options out of range;
-/// boundary_conflict where the strip meets another boundary or leaves nothing; nonmanifold_edge;
-/// cancelled.
+/// vertex of the old one. What remains is as after `cut`. Errors: topology_mismatch;
+/// not_a_boundary; invalid_argument for options out of range; boundary_conflict if the strip meets
+/// another boundary or leaves nothing; nonmanifold_edge; cancelled.
 Trim trim(const Mesh& mesh, const Path& boundary, const TrimOptions& options = {},
           const Context& context = {});
 

@@ -19,10 +19,9 @@ struct MeshPart {
 };
 
 /// The faces of `region` (those with all vertices inside) with their vertices, and the region's
-/// vertices that have no faces in `mesh` at all. Where the faces taken touch at a vertex only, each
+/// vertices that have no faces in `mesh` at all. If the faces taken touch at a vertex only, each
 /// fan gets a copy of that vertex, after all others. Attributes, labels and named regions are
-/// carried.
-/// Errors: topology_mismatch; region_empty where the region holds no face; cancelled.
+/// carried. Errors: topology_mismatch; region_empty if the region holds no face; cancelled.
 MeshPart extract(const Mesh& mesh, const Region& region, const Context& context = {});
 
 /// The mesh without the faces of `region`, and without those of its vertices that no face is left

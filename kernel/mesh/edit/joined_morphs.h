@@ -17,7 +17,7 @@ namespace lissom {
 std::vector<MorphTarget> joined_morphs(const Mesh& mesh, const Mesh& other);
 
 /// The mesh with its "morph.N" attributes numbered by the places of their targets in `all`; nothing
-/// where they have these numbers.
+/// if they have these numbers.
 std::optional<Mesh> with_morph_numbers(const Mesh& mesh, const std::vector<MorphTarget>& all);
 
 /// The asset with these targets: `asset` itself where nothing differs, or it is null.

@@ -153,7 +153,7 @@ double PolygonSplitter::diagonal_cost(std::size_t polygon, Index a, Index b) con
 }
 
 // The cheapest triangles without forbidden diagonals, by dynamic programming over chains of
-// corners; none where there are none.
+// corners; none if there are none.
 PolygonSplitter::Split PolygonSplitter::best_split(std::size_t polygon) const {
     const std::vector<Vec3> points = points_of(polygon);
     const std::size_t n = points.size();

@@ -27,7 +27,7 @@ struct SmoothOptions {
     /// Follows each step by one outwards, so that the mesh does not shrink (Taubin 1995, pass band
     /// 0.1).
     bool keep_volume = false;
-    /// Vertices that may move; all where it is absent.
+    /// Vertices that may move; all if it is absent.
     std::optional<Region> region = std::nullopt;
 };
 

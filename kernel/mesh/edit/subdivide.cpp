@@ -315,7 +315,7 @@ class Step {
     MeshMap map_;
 };
 
-// True where the fan from the mean of the face's vertices covers it without folds.
+// True if the fan from the mean of the face's vertices covers it without folds.
 bool sees_itself(const Mesh& mesh, Index f) {
     const std::span<const Index> face = mesh.topology().face(f);
     Vec3 middle = Vec3::Zero(), normal = Vec3::Zero();

@@ -34,10 +34,10 @@ struct SubdivideOptions {
 /// The subdivided mesh. Old vertices keep their ids; then follow those on edges, in the order of
 /// the edges, and those inside faces. Attributes are interpolated linearly, corner attributes
 /// within each face, so that seams stay, but what morph targets add to positions is subdivided as
-/// positions are; the faces made from one face follow each other.
-/// Errors: invalid_argument for negative levels; topology_mismatch for a region of another mesh;
-/// region_empty for a region without a face; out_of_range where the result would have more elements
-/// than Index can number; memory_limit; cancelled.
+/// positions are; the faces made from one face follow each other. Errors: invalid_argument for
+/// negative levels; topology_mismatch for a region of another mesh; region_empty for a region
+/// without a face; out_of_range if the result would have more elements than Index can number;
+/// memory_limit; cancelled.
 Mesh subdivide(const Mesh& mesh, const SubdivideOptions& options = {}, const Context& context = {});
 
 }  // namespace lissom

@@ -9,9 +9,9 @@ namespace lissom {
 
 /// Moves all vertices by `map`, in place. "normal" attributes turn by the inverse transpose and
 /// stay unit. A mirroring map (negative determinant) also reverses the faces, so that they go on
-/// looking outward; the mesh then has a new topology, to which its named regions move.
-/// Errors: singular_transform where the determinant is zero or the map is not finite; not_finite
-/// where a result would overflow.
+/// looking outward; the mesh then has a new topology, to which its named regions move. Errors:
+/// singular_transform if the determinant is zero or the map is not finite; not_finite if a result
+/// would overflow.
 void transform(Mesh& mesh, const Affine& map, const Context& context = {});
 
 /// Reverses the orientation of all faces, each from its first vertex, in place. "normal" attributes

@@ -45,7 +45,7 @@ struct FillReport {
     Index first_face = 0, face_count = 0;
     /// Parts that the loop was divided into before each was triangulated by dynamic programming.
     Index parts = 1;
-    /// True where refinement ended at `maximum_vertices`.
+    /// True if refinement ended at `maximum_vertices`.
     bool limit_reached = false;
     /// Edges of the patch whose faces turn by more than 150 degrees, its seam included.
     Index folded_edges = 0;
@@ -54,13 +54,12 @@ struct FillReport {
 /// Closes one open boundary of `mesh`, in place, by triangles: minimum-weight triangulation,
 /// refinement, fairing (Liepa 2003). The dynamic programme is cubic: a loop of more than 300 edges
 /// is first divided by short chords, or with `area` triangulated as `minimum_area_triangles` says.
-/// The topology is a new
-/// one; named regions move to it, and a new vertex is in those that its sources are all in. Vertex
-/// attributes of new vertices are blended from the loop; corner and face attributes of new faces
-/// are NaN and their labels none. What morph targets add goes through refinement and fairing with
-/// the weights that positions have there.
-/// Errors: topology_mismatch; invalid_argument where `boundary` is not an open boundary of the
-/// mesh, or options are out of range; memory_limit; cancelled. The mesh is then unchanged.
+/// The topology is a new one; named regions move to it, and a new vertex is in those that its
+/// sources are all in. Vertex attributes of new vertices are blended from the loop; corner and face
+/// attributes of new faces are NaN and their labels none. What morph targets add goes through
+/// refinement and fairing with the weights that positions have there. Errors: topology_mismatch;
+/// invalid_argument if `boundary` is not an open boundary of the mesh, or options are out of range;
+/// memory_limit; cancelled. The mesh is then unchanged.
 FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options = {},
                 const Context& context = {});
 

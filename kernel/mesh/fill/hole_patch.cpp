@@ -115,7 +115,7 @@ bool HolePatch::refine(std::span<const Index> loop, double density, Index maximu
     return true;
 }
 
-// One pass over the triangles; true where one was split.
+// One pass over the triangles; true if one was split.
 bool HolePatch::split_large_triangles(Index maximum_vertices) {
     std::vector<std::pair<Index, Index>> dirty;
     const auto count = count_of(triangles_);

@@ -41,12 +41,12 @@ class HolePatch {
     void add_triangle(Index a, Index b, Index c);
     /// A new vertex in the middle of `around`, which may be old and new ones. Returns its id.
     Index add_middle_vertex(std::span<const Index> around);
-    /// True where the mesh or the patch has an edge between `a` and `b`.
+    /// True if the mesh or the patch has an edge between `a` and `b`.
     bool has_edge(Index a, Index b) const;
     Vec3 normal(Index triangle) const;
 
     /// Splits triangles at their centers and flips edges until the patch is `density` times as
-    /// dense as the mesh around `loop` (Liepa 2003, section 4). Returns false where it stopped at
+    /// dense as the mesh around `loop` (Liepa 2003, section 4). Returns false if it stopped at
     /// `maximum_vertices`.
     bool refine(std::span<const Index> loop, double density, Index maximum_vertices,
                 const Context& context);

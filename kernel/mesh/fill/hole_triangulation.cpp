@@ -22,7 +22,7 @@ constexpr double kAngleTolerance = 1e-6;
 constexpr double kAreaTolerance = 1e-9;
 
 // A polygon in the direction of the triangles that will close it. Edge i runs from vertex i to the
-// next; `normals[i]` is that of the face behind it, zero where it is not known.
+// next; `normals[i]` is that of the face behind it, zero if it is not known.
 struct Polygon {
     std::vector<Index> vertices;
     std::vector<Vec3> normals;
@@ -122,7 +122,7 @@ class MinimumWeight {
 };
 
 // Ends of the chord that is shortest for the part of the outline it cuts off, at least a quarter of
-// it on each side; none where all such chords are edges already.
+// it on each side; none if all such chords are edges already.
 std::pair<Index, Index> best_chord(const HolePatch& patch, const Polygon& polygon) {
     const Index n = polygon.size(), step = std::max<Index>(1, n / kMaximumChordEnds);
     std::pair<Index, Index> best{kNoIndex, kNoIndex};

@@ -36,7 +36,7 @@ class LeastArea {
         }
     }
 
-    // Empty where there is none.
+    // Empty if there is none.
     std::vector<Triangle> triangles() const {
         std::vector<Triangle> result;
         std::vector<std::pair<Index, Index>> open{{0, count_of(points_) - 1}};

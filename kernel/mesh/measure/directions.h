@@ -16,7 +16,7 @@ bool is_direction(const Attribute& attribute);
 /// Turns the directions of a mesh with its surface. Make it before the change of positions, call
 /// `follow` after: each value is rotated as the vertex's normal was, by the smallest rotation.
 /// Displacements of morph targets stay: mapped_morphs (morph_maps.h) gives them the change's own
-/// map. Costs nothing where there is no such attribute.
+/// map. Costs nothing if there is no such attribute.
 class DirectionCarrier {
   public:
     explicit DirectionCarrier(const Mesh& mesh);

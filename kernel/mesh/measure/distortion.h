@@ -9,8 +9,8 @@
 
 namespace lissom {
 
-/// One number a vertex each, of the edges, faces and corners around it; NaN where it has none that
-/// had a length or an area at rest.
+/// One number a vertex each, of the edges, faces and corners around it; NaN if it has none that had
+/// a length or an area at rest.
 struct Distortion {
     /// Length of the edge that changed most, over its length at rest: 1 as at rest.
     std::vector<double> stretch;

@@ -14,7 +14,7 @@
 
 namespace lissom {
 
-/// Axis-aligned box around all vertices, or around those of `region`; empty where there are none.
+/// Axis-aligned box around all vertices, or around those of `region`; empty if there are none.
 /// Errors: topology_mismatch.
 Box bounds(const Mesh& mesh);
 Box bounds(const Mesh& mesh, const Region& region);
@@ -22,13 +22,13 @@ Box bounds(const Mesh& mesh, const Region& region);
 /// Mean of the positions of the region's vertices. Errors: topology_mismatch; region_empty.
 Vec3 center(const Mesh& mesh, const Region& region);
 
-/// Centroid of the surface, weighted by area. Of the vertices where the mesh has no area; the
-/// origin for a mesh without vertices.
+/// Centroid of the surface, weighted by area. Of the vertices if the mesh has no area; the origin
+/// for a mesh without vertices.
 Vec3 surface_centroid(const Mesh& mesh);
 
 /// Size of a mesh: the RMS distance of its surface to the surface's centroid, integrated exactly
 /// over each triangle. Turning the mesh does not change it; default lengths derive from it. RMS
-/// over the vertices where the mesh has no area.
+/// over the vertices if the mesh has no area.
 double surface_radius(const Mesh& mesh);
 
 /// Area of the surface.
@@ -48,7 +48,7 @@ Index euler_characteristic(const Topology& topology);
 /// as closed. Vertices without faces do not count.
 Index genus(const Topology& topology);
 
-/// Unit normal of a polygon from its vector area; zero where it has no area.
+/// Unit normal of a polygon from its vector area; zero if it has no area.
 Vec3 polygon_normal(std::span<const Vec3> corners);
 
 /// Angle of a polygon's corner, `before` and `after` being those next to it counter-clockwise,
@@ -59,7 +59,7 @@ double corner_angle(const Vec3& before, const Vec3& corner, const Vec3& after, c
 std::vector<Vec3> face_normals(const Mesh& mesh);
 
 /// Unit normal of every vertex: face normals weighted by the angle of the face at the vertex
-/// (Thürmer and Wüthrich 1998); zero where no face around the vertex has an area.
+/// (Thürmer and Wüthrich 1998); zero if no face around the vertex has an area.
 std::vector<Vec3> vertex_normals(const Mesh& mesh);
 
 /// Mean length of all edges; 0 without edges.

@@ -17,7 +17,7 @@ constexpr double kFlat = 1e-9;
 // Polygons of more corners are clipped without looking for the best ear each time.
 constexpr std::size_t kLargestByQuality = 32;
 
-// Unit normal of the mean plane; zero where there is none.
+// Unit normal of the mean plane; zero if there is none.
 Vec3 mean_normal(std::span<const Vec3> points) {
     Vec3 normal = Vec3::Zero();
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -171,8 +171,8 @@ class EarWalk {
         return false;
     }
 
-    // At first only proper ears are clipped; where there is none, corners in line; then convex
-    // ones; then any.
+    // At first only proper ears are clipped; if there is none, corners in line; then convex ones;
+    // then any.
     bool may_clip(Index i, int tolerance) {
         const Shape found = shape(i);
         if (tolerance >= 3 || tests_left_ == 0) return true;

@@ -12,9 +12,8 @@ namespace lissom {
 
 /// The outer loop around a circle by length, and every other vertex in the weighted mean of its
 /// neighbours (Tutte 1963, Floater 1997). Weights are those of harmonic maps, kept between 0.05 and
-/// 20: positive ones flip nothing, and unlike ones lose vertices to rounding.
-/// Errors: not_a_disk, naming vertices, where a hole is open; not_positive_definite;
-/// memory_limit; cancelled.
+/// 20: positive ones flip nothing, and unlike ones lose vertices to rounding. Errors: not_a_disk,
+/// naming vertices, if a hole is open; not_positive_definite; memory_limit; cancelled.
 std::vector<Vec2> convex_map(const Chart& chart, const std::vector<TriangleShape>& shapes,
                              const Context& context);
 

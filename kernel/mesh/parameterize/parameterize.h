@@ -18,10 +18,9 @@ enum class ParameterizeMethod {
     /// Least-squares conformal maps (Levy et al. 2002) in their spectral form (Mullen et al. 2008):
     /// angles are kept as well as can be, scale is not. No vertex is pinned.
     lscm,
-    /// As rigid as possible (Liu et al. 2008), from `lscm`: angles and lengths are kept. Where that
-    /// ends with flipped faces, iterations that stop short of flips, or the last one that had
-    /// none, whichever has the lower energy; `lscm` where there is none, or where boundaries come
-    /// to cross.
+    /// As rigid as possible (Liu et al. 2008), from `lscm`: angles and lengths are kept. If that
+    /// ends with flipped faces, iterations that stop short of flips, or the last one that had none,
+    /// whichever has the lower energy; `lscm` if there is none, or where boundaries come to cross.
     arap,
     /// Onto a disk (Tutte 1963, Floater 1997), with positive weights: never flips a face or covers
     /// a point twice, and keeps neither angles nor lengths.
@@ -88,12 +87,12 @@ struct Parameterization {
 
 /// Lays out faces of `mesh` in the plane. They must be connected, of genus 0 and open: a disk or a
 /// disk with holes; polygons are triangulated. The result does not depend on the number of threads
-/// nor on place, rotation or scale of the mesh, apart from rounding.
-/// Errors: region_empty without faces; out_of_range; invalid_argument for options out of range, and
-/// for an outline without length; not_a_disk, naming vertices, where the faces are closed, have
-/// handles, fall into several parts, or have a hole that cannot be closed; nonmanifold_vertex where
-/// they meet at a vertex only; nonmanifold_edge where triangles to close holes do not fit;
-/// not_positive_definite; memory_limit; cancelled.
+/// nor on place, rotation or scale of the mesh, apart from rounding. Errors: region_empty without
+/// faces; out_of_range; invalid_argument for options out of range, and for an outline without
+/// length; not_a_disk, naming vertices, if the faces are closed, have handles, fall into several
+/// parts, or have a hole that cannot be closed; nonmanifold_vertex if they meet at a vertex only;
+/// nonmanifold_edge if triangles to close holes do not fit; not_positive_definite; memory_limit;
+/// cancelled.
 Parameterization parameterize(const Mesh& mesh, std::span<const Index> faces,
                               const ParameterizeOptions& options = {}, const Context& context = {});
 /// The same for the faces of a region. Errors: also topology_mismatch.

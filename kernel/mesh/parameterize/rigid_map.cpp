@@ -84,8 +84,7 @@ class RigidIteration {
     double total_ = 0.0;
 };
 
-// The smallest t above 0 where c + b t + a t^2 is 0, c being positive; infinity where there is
-// none.
+// The smallest t above 0 if c + b t + a t^2 is 0, c being positive; infinity if there is none.
 double first_root(double a, double b, double c) {
     const double discriminant = b * b - 4.0 * a * c;
     if (discriminant < 0.0) return std::numeric_limits<double>::infinity();

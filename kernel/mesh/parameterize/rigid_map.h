@@ -11,12 +11,12 @@
 namespace lissom {
 
 struct RigidMap {
-    /// The last iteration in which no triangle of the faces is turned over; the start where there
-    /// is none.
+    /// The last iteration in which no triangle of the faces is turned over; the start if there is
+    /// none.
     std::vector<Vec2> uv;
     /// The number of that iteration, from 1; 0 for the start.
     Index iterations = 0;
-    /// As Parameterization::energy.
+    /// Same as Parameterization::energy.
     std::vector<double> energy;
 
     double reached() const { return energy[at(iterations)]; }

@@ -31,7 +31,7 @@ class UvGrid {
     UvGrid(std::span<const Vec2> uv, std::span<const Triangle> triangles);
 
     /// The triangle that `point` lies in, its outline included (to 1e-9 of its weights); the first
-    /// of several. Nothing where none does.
+    /// of several. Nothing if none does.
     std::optional<UvPoint> locate(const Vec2& point) const;
 
   private:

@@ -18,7 +18,7 @@ inline Box united(const Box& a, const Box& b) {
     return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
 }
 
-/// Half the surface of a box; 0 where it is empty.
+/// Half the surface of a box; 0 if it is empty.
 inline double half_surface(const Box& box) {
     if (box.empty()) return 0.0;
     const Vec3 d = box.max - box.min;

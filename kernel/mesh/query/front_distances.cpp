@@ -17,8 +17,8 @@ constexpr std::size_t kStepsBetweenChecks = 4096;
 constexpr double kLeastGain = 1e-10;
 
 // The distance to `corner` of a source that is as far from two points as they say, on the other
-// side of the line through them; infinity where there is none, or the way to it does not run
-// between them.
+// side of the line through them; infinity if there is none, or the way to it does not run between
+// them.
 double through_side(const Vec3& corner, const Vec3& from, double from_distance, const Vec3& to,
                     double to_distance) {
     const Vec3 side = to - from, edge = corner - from;

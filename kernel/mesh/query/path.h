@@ -40,22 +40,22 @@ class Path {
     Index size() const;
     Index segment_count() const { return closed_ ? size() : size() - 1; }
 
-    /// True where the path runs through vertices of a mesh.
+    /// True if the path runs through vertices of a mesh.
     bool on_mesh() const { return topology_ != nullptr; }
     /// The topology whose vertices it runs through; null for free points.
     const std::shared_ptr<const Topology>& topology() const { return topology_; }
     /// Vertices in order; empty for free points.
     const std::vector<Index>& vertices() const { return vertices_; }
-    /// True where every segment is an edge of the mesh.
+    /// True if every segment is an edge of the mesh.
     bool follows_edges() const;
-    /// True where the path is one of the open boundaries of its topology, in either direction and
-    /// from any start.
+    /// True if the path is one of the open boundaries of its topology, in either direction and from
+    /// any start.
     bool is_boundary() const;
 
     /// Positions along the path: of its vertices in `mesh`, or its own points whatever the mesh.
     /// Errors: topology_mismatch.
     std::vector<Vec3> points(const Mesh& mesh) const;
-    /// Its own points. Errors: invalid_argument where the path runs through vertices.
+    /// Its own points. Errors: invalid_argument if the path runs through vertices.
     const std::vector<Vec3>& points() const;
 
     /// Length of the polyline. Errors: as `points`.
@@ -86,9 +86,8 @@ std::vector<Path> boundaries(const Mesh& mesh);
 std::vector<Path> boundaries(const Region& region);
 
 /// Shortest path along edges that visits `vertices` in order, and returns to the first where
-/// `closed`.
-/// Errors: out_of_range; invalid_argument for fewer than 2 vertices, for equal neighbours, or where
-/// two lie in different components; cancelled.
+/// `closed`. Errors: out_of_range; invalid_argument for fewer than 2 vertices, for equal
+/// neighbours, or if two lie in different components; cancelled.
 Path path_through(const Mesh& mesh, std::span<const Index> vertices, bool closed,
                   const Context& context = {});
 

@@ -20,8 +20,8 @@ namespace lissom {
 /// center.
 Region select_sphere(const Mesh& mesh, const Vec3& center, double radius);
 
-/// Vertices inside an axis-aligned box, its sides included. Sides may be infinite.
-/// Errors: invalid_argument where min exceeds max or is NaN.
+/// Vertices inside an axis-aligned box, its sides included. Sides may be infinite. Errors:
+/// invalid_argument if min exceeds max or is NaN.
 Region select_box(const Mesh& mesh, const Box& box);
 
 /// Vertices inside a box that is given in fractions of the mesh's bounds: 0 is the least coordinate
@@ -29,7 +29,7 @@ Region select_box(const Mesh& mesh, const Box& box);
 Region select_fraction(const Mesh& mesh, const Box& fractions);
 
 /// The part of a region that edges between its vertices connect with `vertex`. Errors: out_of_range
-/// where it is not in the region.
+/// if it is not in the region.
 Region connected_part(const Region& region, Index vertex);
 /// The same for the vertex of the region that is nearest to `point`.
 /// Errors: region_empty; topology_mismatch; not_finite.
@@ -64,7 +64,7 @@ Region select_component_of(const Mesh& mesh, Index vertex);
 
 /// Vertices where a value of the attribute `name` lies in [min, max]. Of a wide attribute the first
 /// number counts. A corner or face attribute selects the vertices of the corners or faces in range.
-/// Errors: invalid_argument for an unknown name (naming those there are) or where min exceeds max.
+/// Errors: invalid_argument for an unknown name (naming those there are) or if min exceeds max.
 Region select_attribute(const Mesh& mesh, std::string_view name, double min, double max);
 
 /// Vertices for which `predicate(vertex, position)` holds. It is called in ascending order, once

@@ -20,8 +20,8 @@ struct FacePair {
 };
 
 struct SelfIntersectionOptions {
-    /// Only pairs with one face among `faces` and the other among `against`; all faces where
-    /// absent. The time depends on the size of the smaller set, apart from one pass over the other.
+    /// Only pairs with one face among `faces` and the other among `against`; all faces if absent.
+    /// The time depends on the size of the smaller set, apart from one pass over the other.
     std::optional<std::vector<Index>> faces = std::nullopt, against = std::nullopt;
     /// What lies closer than this part of the longest edge of two triangles touches.
     double tolerance = 1e-9;

@@ -20,8 +20,7 @@ class ShortestPaths {
     const std::vector<double>& from(std::span<const Index> sources, double limit,
                                     const Context& context);
     /// Vertices of the shortest way, both ends included. Of equally short ways the one found
-    /// through smaller vertices.
-    /// Errors: invalid_argument where there is none.
+    /// through smaller vertices. Errors: invalid_argument if there is none.
     std::vector<Index> between(Index from, Index to, const Context& context);
 
   private:

@@ -96,7 +96,7 @@ struct SpatialTree::Line {
         padding = kBoxRounding * (box.diagonal() + (box.center() - origin).norm());
     }
 
-    // Where the ray enters the box, or infinity where it misses it.
+    // Where the ray enters the box, or infinity if it misses it.
     double entry(const Box& box) const {
         double in = 0.0, out = std::numeric_limits<double>::infinity();
         for (int k = 0; k < 3; ++k) {

@@ -76,7 +76,7 @@ class SpatialTree {
     /// smallest face.
     /// Errors: not_finite.
     SurfacePoint nearest(const Vec3& point) const;
-    /// As `nearest`, or nothing where the surface is farther than `limit`.
+    /// As `nearest`, or nothing if the surface is farther than `limit`.
     std::optional<SurfacePoint> nearest_within(const Vec3& point, double limit) const;
 
     /// The first hit of a ray, on either side of the surface; of equally far triangles the one of

@@ -7,7 +7,7 @@
 namespace lissom {
 namespace {
 
-// A triangle with its unit normal, which is zero where it has no area.
+// A triangle with its unit normal, which is zero if it has no area.
 struct Plate {
     const std::array<Vec3, 3>& corners;
     Vec3 normal;

@@ -13,7 +13,7 @@
 
 namespace lissom {
 
-/// Errors: invalid_argument where an attribute, a list of labels or a region does not fit.
+/// Errors: invalid_argument if an attribute, a list of labels or a region does not fit.
 void require_attributes_fit(const Soup& soup);
 
 /// The mesh of the faces of `work` on the vertices of `fans`. `file_corners` are the vertices at

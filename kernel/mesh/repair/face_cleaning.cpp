@@ -143,7 +143,7 @@ class DuplicateSearch {
     }
 
   private:
-    // Two equal faces that are each other's only neighbours enclose nothing. Where they hang on a
+    // Two equal faces that are each other's only neighbours enclose nothing. If they hang on a
     // surface that is complete without them, both go.
     void drop_flap(std::span<const Index> corners) {
         if (corners.size() != 2) return;

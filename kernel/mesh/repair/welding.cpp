@@ -146,7 +146,7 @@ void Welding::weld_seams(std::span<const Index> label_of_face) {
     }
 }
 
-// Open edges at one place: a pair is a seam. Where more lie there, as in copies of a torn surface,
+// Open edges at one place: a pair is a seam. If more lie there, as in copies of a torn surface,
 // those that bound the same piece of space belong together, if none is left over.
 void Welding::weld_seam(std::span<const OpenEdge> edges) {
     const auto ascending =
@@ -236,7 +236,7 @@ void Welding::open_seams_at(Index corner) {
     }
 }
 
-// First the seams at both ends of a doubled edge are opened; where that does not help, the edge
+// First the seams at both ends of a doubled edge are opened; if that does not help, the edge
 // itself; and in the end the face stands alone, so that there is an end.
 void Welding::open_around(Index corner) {
     const Index f = work_->face_of_corner[corner];

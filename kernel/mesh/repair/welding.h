@@ -17,7 +17,7 @@ struct FanVertices {
     std::vector<Index> of_corner;
     /// The lowest vertex of the soup at the fan's corners.
     std::vector<Index> source;
-    /// True where the vertices are those of the soup: none joined, split or without faces.
+    /// True if the vertices are those of the soup: none joined, split or without faces.
     bool unchanged = false;
 };
 
@@ -26,14 +26,14 @@ class Welding {
     /// `positions` and `work` must live as long.
     Welding(std::span<const Vec3> positions, const CornerFaces& work);
 
-    /// Welds faces where exactly two meet in opposite directions. False where other edges exist.
+    /// Welds faces where exactly two meet in opposite directions. False if other edges exist.
     bool weld_regular_edges();
     /// Welds faces along the edges where they share vertices: the two of a regular edge; where more
     /// meet, those that bound the same piece of space. Adds the edges left open to `report`.
     void weld_edges(Report& report);
     /// Welds pairs of open edges that lie at the same place in opposite directions, but not faces
-    /// that are back to back, nor those with different `label_of_face` (empty: no labels). Where
-    /// more than two lie there, those that bound the same piece of space are pairs.
+    /// that are back to back, nor those with different `label_of_face` (empty: no labels). If more
+    /// than two lie there, those that bound the same piece of space are pairs.
     void weld_seams(std::span<const Index> label_of_face);
     /// Numbers the fans: in the order of the soup's vertices, further fans of a vertex last. Opens
     /// what would join the same two vertices by more than one edge.

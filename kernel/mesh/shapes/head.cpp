@@ -283,8 +283,8 @@ void name_regions(Mesh& mesh, const HeadForm& form) {
     mesh.set_region("bottom", Region(mesh.shared_topology(), std::move(bottom)));
 }
 
-// Where a part is about as thin as a cell, two sheets of the surface share vertices of the net, and
-// it is no manifold: lines that lie a little elsewhere then tell them apart.
+// If a part is about as thin as a cell, two sheets of the surface share vertices of the net, and it
+// is no manifold: lines that lie a little elsewhere then tell them apart.
 Mesh build_manifold(double step, const HeadForm& form, const Context& context) {
     constexpr int kAttempts = 40;
     for (int attempt = 0;; ++attempt) {

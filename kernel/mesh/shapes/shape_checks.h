@@ -18,7 +18,7 @@ inline void require_length(double value, const char* option) {
                 std::string(option) + " must be a finite length above 0");
 }
 
-/// Errors: invalid_argument, naming the option, where `value` is below `least`.
+/// Errors: invalid_argument, naming the option, if `value` is below `least`.
 inline void require_at_least(Index value, Index least, const char* option) {
     if (value >= least) return;
     throw Error(ErrorCode::invalid_argument, std::string(option) + " must be at least " +
@@ -26,7 +26,7 @@ inline void require_at_least(Index value, Index least, const char* option) {
                                                  std::to_string(value));
 }
 
-/// Errors: out_of_range where `faces` quads have more corners than can be numbered.
+/// Errors: out_of_range if `faces` quads have more corners than can be numbered.
 inline void require_countable(std::int64_t faces) {
     if (faces <= std::numeric_limits<Index>::max() / 8) return;
     throw Error(ErrorCode::out_of_range,

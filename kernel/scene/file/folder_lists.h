@@ -55,7 +55,7 @@ class FolderSource : public ListSource {
     std::string bytes_;
 };
 
-/// Errors: unsafe_path where `name` is not that of a file inside a folder.
+/// Errors: unsafe_path if `name` is not that of a file inside a folder.
 void require_inside(const std::string& name);
 
 }  // namespace lissom

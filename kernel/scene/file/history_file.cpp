@@ -62,7 +62,7 @@ void describe(Archive& a, StateRecord& state) {
     });
 }
 
-// Writes the states from number `first` on; false where one of them has no place in a file.
+// Writes the states from number `first` on; false if one of them has no place in a file.
 class HistoryWriter {
   public:
     HistoryWriter(Scene& scene, const Context& context)
@@ -188,7 +188,7 @@ SceneJson parse_part(std::string_view text) {
     }
 }
 
-// Where a state has no place in a file, the history begins behind it.
+// If a state has no place in a file, the history begins behind it.
 void add_history(Scene& scene, const std::string& mark, PartWriter& parts,
                  std::vector<std::string>& left_out, const Context& context) {
     require(scene.depth() == 0, "a history is saved between steps; end the open step before");

@@ -56,8 +56,8 @@ class ListSink {
     virtual ~ListSink();
     /// Keeps a list. Returns what the JSON says of it; null for nothing.
     virtual SceneJson put(const ListPlace& place, std::string_view bytes, ListForm form) = 0;
-    /// Keeps a model as a file of its own, and returns what the JSON says of it; null where the
-    /// store has no such files, so that it is lists as all else.
+    /// Keeps a model as a file of its own, and returns what the JSON says of it; null if the store
+    /// has no such files, so that it is lists as all else.
     virtual SceneJson put_model(const std::string& label, const ModelView& model);
 };
 

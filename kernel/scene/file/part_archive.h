@@ -31,10 +31,10 @@ class PartWriter : public ListSink {
 class PartReader : public ListSource {
   public:
     std::string_view get(const std::string& path, const SceneJson* entry, ListForm form) override;
-    /// Errors: file_syntax where it is none or a part is damaged; file_truncated.
+    /// Errors: file_syntax if it is none or a part is damaged; file_truncated.
     explicit PartReader(std::string_view archive);
 
-    /// The bytes of a part. Errors: file_truncated where it is missing.
+    /// The bytes of a part. Errors: file_truncated if it is missing.
     std::string_view find(std::string_view name) const;
     bool has(std::string_view name) const { return parts_.contains(name); }
 

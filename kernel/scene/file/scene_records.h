@@ -61,7 +61,7 @@ struct PlacedRecord {
 
 /// Items of a file: their numbers are the places of their identities.
 using ItemTable = std::vector<const void*>;
-/// kNoIndex where the file does not have it.
+/// kNoIndex if the file does not have it.
 Index number_of(const ItemTable& items, const void* identity);
 
 /// Records the contents of one state.
@@ -92,7 +92,7 @@ class LiveItems {
     /// Makes the next item, or puts a content into one that is there. Errors: file_syntax; those of
     /// the objects.
     void take(PlacedRecord placed);
-    /// Errors: file_syntax where there is none.
+    /// Errors: file_syntax if there is none.
     const std::shared_ptr<SceneItem>& item(Index number) const;
 
   private:

@@ -26,11 +26,10 @@ struct SupportStroke {
     std::size_t beside = 0;
 };
 
-/// On a supporting surface. Where the line of sight meets it several times, the stroke goes on from
+/// On a supporting surface. If the line of sight meets it several times, the stroke goes on from
 /// where it was along the curve; it begins at the place that is nearest to the curve. Between two
-/// parts over the surface depth changes evenly.
-/// Errors: not_finite; invalid_argument where the surface is seen edge-on, less squarely than 0.3,
-/// or the stroke is nowhere over it.
+/// parts over the surface depth changes evenly. Errors: not_finite; invalid_argument if the surface
+/// is seen edge-on, less squarely than 0.3, or the stroke is nowhere over it.
 SupportStroke stroke_on_support(std::span<const Vec2> stroke, const View& view,
                                 const SupportSurface& support,
                                 const SupportStrokeOptions& options = {});

@@ -185,7 +185,7 @@ void SupportSurface::add_hits(std::size_t first, const Ray& ray, std::vector<Hit
         sides << b.at - a.at, c.at - a.at, -ray.direction;
         const Vec3 share = sides.inverse() * (ray.origin - a.at);
         const double u = share.x(), v = share.y(), distance = share.z();
-        // Also false where the ray runs along the triangle.
+        // Also false if the ray runs along the triangle.
         const bool inside = u >= -kRim && v >= -kRim && u + v <= 1.0 + kRim;
         if (!(inside && distance >= 0.0)) continue;
         const double rest = 1.0 - u - v;

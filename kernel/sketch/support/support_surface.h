@@ -54,9 +54,9 @@ class SupportSurface {
     };
 
     /// Of a curve, points in the world, as seen from the viewpoint of `camera`; one without
-    /// perspective has its viewpoint far away. Points equal to the one before are left out.
-    /// Errors: not_finite; invalid_argument where fewer than two points differ, one of them is at
-    /// the viewpoint, or a length is negative or the width 0.
+    /// perspective has its viewpoint far away. Points equal to the one before are left out. Errors:
+    /// not_finite; invalid_argument if fewer than two points differ, one of them is at the
+    /// viewpoint, or a length is negative or the width 0.
     SupportSurface(std::span<const Vec3> curve, const Camera& camera, const SupportOptions& = {});
 
     SupportMode mode() const { return mode_; }

@@ -10,8 +10,8 @@
 namespace lissom {
 namespace {
 
-// Columns that a thread fills, and rows that it computes, at a time; rows come in steps of those
-// that the kernels take together.
+// Columns filled, and rows computed, by a thread at a time; a multiple of the rows that the kernels
+// take together.
 constexpr Index kFillGrain = 16, kRowGrain = 72, kRowStep = 12;
 
 using Scratch = std::unique_ptr<double[]>;
@@ -99,7 +99,7 @@ void BorderedCholesky::reserve(Index size, const Context& context) {
 
 void BorderedCholesky::extend(Index size, const Fill& fill, const Context& context) {
     if (size <= size_) return;
-    // Sums end where panels do: with the same panels as in a factor from nothing they are the same.
+    // Sums end with panels: with the same panels as in a factor from nothing they are the same.
     truncate(size_ / kPanelColumns * kPanelColumns);
     reserve(size, context);
     fill_rows(size, fill, context);

@@ -13,7 +13,7 @@ namespace lissom {
 
 /// The factor L of a dense symmetric positive definite matrix, M = L L^T. Rows that stay at the
 /// front keep their part of the factor: m new rows below k old ones cost k^2 m, not (k + m)^3 / 3.
-/// The factor is the same to the bit whatever rows there were before.
+/// The factor is the same to the bit for any history of rows.
 class BorderedCholesky {
   public:
     /// Writes the entries of column `column` of M in the rows [begin, end) to `entries`, the first

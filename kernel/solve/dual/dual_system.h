@@ -19,7 +19,7 @@ namespace lissom {
 
 /// The system
 ///     (G + W^-2) lambda + 1 a = g,   1' lambda = total
-/// for three right-hand sides, where G holds the entries of A0+ at the constrained points and W
+/// for three right-hand sides, with G holding the entries of A0+ at the constrained points and W
 /// their weights. With total = 0 and g the known vectors, A0+ U lambda + a is the field that
 /// minimises (4.1) with the soft constraints of (4.2). Up to `dense_limit` rows it is solved with a
 /// dense factor of M = G + W^-2 + shift 1 1', of which an edit renews the rows from the first
@@ -29,7 +29,7 @@ class DualSystem {
     DualSystem(const GridGreen& green, Index dense_limit, double tolerance);
 
     const ConstraintRows& rows() const { return rows_; }
-    /// Whether the rows of the last update are too many for the dense factor.
+    /// Returns whether the rows of the last update are too many for the dense factor.
     bool iterates() const { return iterative_ != nullptr; }
     /// Bytes for `rows` rows.
     static std::size_t bytes(std::size_t rows, Index dense_limit);

@@ -5,8 +5,9 @@
 
 namespace lissom {
 
-/// The X that makes |A X - B| least, and of these the one with the least norm. A and B have as many
-/// rows; any rank. Source: complete orthogonal decomposition (Golub and Van Loan, section 5.5).
+/// Returns the X that makes |A X - B| least, and of these the one with the least norm. A and B have
+/// as many rows; any rank. Source: complete orthogonal decomposition (Golub and Van Loan, section
+/// 5.5).
 Eigen::MatrixXd least_norm_solution(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 }  // namespace lissom

@@ -12,8 +12,8 @@
 namespace lissom {
 namespace {
 
-// Entries of a column at most, fewer where there are so many rows that each has close neighbours
-// in all directions, and the rows from which on that is so.
+// Maximum of entries in a column. Lower with so many rows that each has close neighbours in all
+// directions; then the count of rows at which this begins.
 constexpr std::size_t kNeighbors = 48, kFewNeighbors = 24, kManyRows = 50000;
 static_assert(kNeighbors <= at(kPanelColumns));
 
@@ -27,7 +27,7 @@ std::size_t neighbors_for(std::size_t rows) {
     return rows < kManyRows ? kNeighbors : kFewNeighbors;
 }
 
-// Numbers in no relation to where a point lies, so that which point represents a cell is fair.
+// Numbers in no relation to its position, so that the choice of a cell's representative is fair.
 std::uint64_t scrambled(std::uint64_t x) {
     x = (x ^ (x >> 31)) * 0x7fb5d329728ea185u;
     x = (x ^ (x >> 27)) * 0x81dadef4bc2dd44du;
@@ -169,7 +169,7 @@ void MaximinFactor::fill_pattern(const GridSize& size, const ConstraintRows& row
     columns.value.resize(columns.index.size());
 }
 
-// Copies the values of column i from the factor so far where its points and weights are the same.
+// Copies the values of column i from the factor so far if its points and weights are unchanged.
 // places[i] is the place that column i had.
 bool MaximinFactor::keep_column(Columns& columns, Index i, std::span<const Index> places) const {
     const Index old = places[i];

@@ -26,8 +26,8 @@ class MaximinFactor {
     /// Bytes for `rows` rows.
     static std::size_t bytes(std::size_t rows);
 
-    /// Computes the factor for `rows`. Columns whose rows are the same as before are kept.
-    /// Errors: cancelled, memory_limit; then the factor is as before.
+    /// Computes the factor for `rows`. Columns with unchanged rows are kept. Errors: cancelled,
+    /// memory_limit; then the factor is as before.
     void update(const GridGreen& green, const ConstraintRows& rows, const Context& context);
     /// to = U U^T from; both in the order of the rows.
     void apply(std::span<const Vec3> from, std::span<Vec3> to) const;
@@ -37,7 +37,7 @@ class MaximinFactor {
         /// Grid point and weight of each column, and the row that it stands for.
         std::vector<Index> point, row;
         std::vector<double> weight;
-        /// Entries begin[i] to begin[i + 1] of column i: the columns whose rows they are in, the
+        /// Entries begin[i] to begin[i + 1] of column i: the columns containing them as rows, the
         /// column itself last.
         std::vector<std::size_t> begin{0};
         std::vector<Index> index;

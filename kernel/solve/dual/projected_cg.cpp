@@ -35,7 +35,7 @@ void add(Vectors& to, const Vec3& factor, const Vectors& from) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor.cwiseProduct(from[i]);
 }
 
-// Component by component; 0 where there is nothing left to divide by.
+// Component by component; 0 if the divisor vanished.
 Vec3 ratio(const Vec3& a, const Vec3& b) {
     Vec3 quotient = Vec3::Zero();
     for (int c = 0; c < kComponents; ++c) {
@@ -73,7 +73,7 @@ DualSolution ProjectedCG::solve(std::span<const Vec3> g, const Vec3& total,
     const std::size_t count = g.size();
     DualSolution solution;
     Vectors& x = solution.multiplier;
-    // Not from the last solution, or this one would depend on what was there before.
+    // Not from the last solution: the result must not depend on history.
     x.assign(count, total / static_cast<double>(count));
 
     Vectors product(count), r(g.begin(), g.end()), z(count), p(count, Vec3::Zero());
@@ -83,7 +83,7 @@ DualSolution ProjectedCG::solve(std::span<const Vec3> g, const Vec3& total,
     Vec3 rz_before = Vec3::Zero();
     for (int iteration = 0;; ++iteration) {
         factor_.apply(r, z);
-        // The constant is taken out of the residual, or it would drown what else is in there.
+        // The constant is taken out of the residual, or it would drown the rest.
         const Vec3 constant = sum_of(z) / ones_sum_;
         solution.constant += constant;
         for (Vec3& v : r) v -= constant;

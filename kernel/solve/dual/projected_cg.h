@@ -29,7 +29,8 @@ class ProjectedCG {
 
     /// Errors: cancelled, memory_limit; then it is as before.
     void update(const ConstraintRows& rows, const Context& context);
-    /// As DualSystem::solve. Errors: not_positive_definite where it does not converge; cancelled.
+    /// Solves as DualSystem::solve does. Errors: not_positive_definite if it does not converge;
+    /// cancelled.
     DualSolution solve(std::span<const Vec3> g, const Vec3& total, FieldWorkspace& workspace,
                        const Context& context) const;
 

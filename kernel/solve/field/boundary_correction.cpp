@@ -36,7 +36,7 @@ class Correction {
                 return;
             }
             const Vec3 rz = dot(residual_.get(), step_.get());
-            // Of the forms of beta the one that bears a preconditioner solved to a tolerance.
+            // This form of beta tolerates a preconditioner solved only to a tolerance.
             const Vec3 change = -alpha.cwiseProduct(dot(product_.get(), step_.get()));
             turn(iteration == 0 ? Vec3(Vec3::Zero()) : ratio(change, rz_before));
             multiply();
@@ -83,7 +83,7 @@ class Correction {
         problem_.green.apply_at(rows.point, dual.multiplier, workspace_.first.get(),
                                 workspace_.second.get(), sink, context_);
         add(step_.get(), -Vec3::Ones(), workspace_.second.get());
-        // U't is W^-2 lambda; what multipliers found to a tolerance leave there, W^2 would raise.
+        // U't is W^-2 lambda; W^2 would amplify the error left by inexact multipliers.
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const std::size_t at = size_.index(rows.point[i]);
             const double square = rows.weight[i] * rows.weight[i];

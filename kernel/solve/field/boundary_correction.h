@@ -14,7 +14,7 @@
 
 namespace lissom {
 
-/// What `correct_boundary` works with.
+/// Input of `correct_boundary`.
 struct BoundaryProblem {
     /// The operator with the thesis's weights, and the one that is diagonal in the cosine basis.
     const GridLaplacian& exact;
@@ -28,11 +28,11 @@ struct BoundaryProblem {
 /// Buffers of three fields that `correct_boundary` needs besides the workspace and the result.
 inline constexpr std::size_t kCorrectionFields = 4;
 
-/// Turns `field`, the zero-flux solution with these multipliers, into the solution of
-/// (A0 + U W^2 U') t = U W^2 c where A0 has the thesis's weights. Conjugate gradients,
-/// preconditioned by the zero-flux system with the same constraints: the residual lives on the two
-/// outer layers of the grid, and some eight iterations reach 1e-7.
-/// Errors: not_positive_definite where it does not converge; memory_limit; cancelled.
+/// Turns `field`, the zero-flux solution with these multipliers, into the solution of (A0 + U W^2
+/// U') t = U W^2 c with A0 having the thesis's weights. Conjugate gradients, preconditioned by the
+/// zero-flux system with the same constraints: the residual lives on the two outer layers of the
+/// grid, and some eight iterations reach 1e-7. Errors: not_positive_definite if it does not
+/// converge; memory_limit; cancelled.
 void correct_boundary(const BoundaryProblem& problem, std::span<const Vec3> multipliers,
                       double* field, FieldWorkspace& workspace, const Context& context);
 

@@ -12,10 +12,10 @@
 namespace lissom {
 
 /// The sparse Cholesky factor of A0 + U W^2 U', equation (4.3), changed with the constraints by the
-/// updates and downdates of section 4.4.2; where very many change it is made again, which is then
-/// cheaper. The ordering is nested dissection of the grid. CHOLMOD factors in supernodes, which
-/// are then converted to the L D L' that it can change. Where the build is without GPL, every
-/// change of points or weights factors again, by SparseSystem. For use by one thread at a time.
+/// updates and downdates of section 4.4.2; if very many change, it is computed anew because that is
+/// cheaper. The ordering is nested dissection of the grid. CHOLMOD factors in supernodes, which are
+/// then converted to the L D L' that it can change. In a build without GPL, every change of points
+/// or weights factors again, by SparseSystem. For use by one thread at a time.
 class GridCholesky {
   public:
     explicit GridCholesky(const GridLaplacian& laplacian);

@@ -124,7 +124,7 @@ void GridCholesky::State::factor_again(const Context& context) {
     ++stats.factorisations;
 }
 
-// The columns sqrt(amount) e_i of one update or downdate. False where the factor is then lost.
+// The columns sqrt(amount) e_i of one update or downdate. Returns false if the factor is lost.
 bool GridCholesky::State::modify(const std::vector<Change>& changes, bool add) {
     if (changes.empty()) return true;
     std::vector<Index> begin{0}, row;

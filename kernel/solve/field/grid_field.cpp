@@ -22,8 +22,8 @@ constexpr double kLeastTolerance = 1e-12, kGreatestTolerance = 1e-2;
 // double precision gives.
 constexpr double kInnerTolerance = 0.1, kLeastInnerTolerance = 1e-13;
 constexpr Index kCopyGrain = 1 << 14;
-// Of the dense limit: an edit costs the square of the constraints where it is dense, and the points
-// of the grid at each iteration where it is not.
+// The dense limit balances an edit's cost: the square of the constraints below it, the points of
+// the grid at each iteration above it.
 constexpr double kDenseShare = 8.0, kLeastDenseLimit = 3000.0, kGreatestDenseLimit = 6000.0;
 
 void require_valid(const GridFieldOptions& options) {
@@ -116,8 +116,8 @@ struct GridField::State {
     std::uint64_t version = 0;
 };
 
-// One more solve for what the equations lack: known - U't - W^-2 lambda, and a sum that is not
-// zero.
+// One more solve for the residual of the equations: known - U't - W^-2 lambda, and a sum that is
+// not zero.
 void GridField::State::refine(const ConstraintRows& next, std::span<const Vec3> known,
                               DualSolution& result, const Context& context) {
     FieldSink sink;

@@ -19,10 +19,9 @@ namespace lissom {
 /// (4.2):
 ///     sum over the points of |D t|^2  +  sum over the constraints of w^2 |t_i - c_i|^2,
 /// three components at every point of a grid. Constraints belong to owners; replacing those of one
-/// owner and solving costs what that change costs, least of all if the same owner was edited last.
+/// owner and solving costs as much as the change, least of all if the same owner was edited last.
 /// The field follows, to the bit, from the constraints and from the order in which owners last
-/// changed their points or weights, whatever was there in between; with the cholesky solver, up to
-/// rounding.
+/// changed their points or weights, for any history; with the cholesky solver, up to rounding.
 /// Without any constraint the field is zero; one constraint alone, or several equal ones, give a
 /// constant field. For use by one thread at a time; it works on the threads of the context given,
 /// and results do not depend on their number.
@@ -36,8 +35,8 @@ class GridField {
     GridField(GridField&&) noexcept;
     GridField& operator=(GridField&&) noexcept;
 
-    /// Bytes that a field takes with this many constraints, the greatest part of a solve included;
-    /// of the cholesky solver, what is known before its analysis.
+    /// Returns the bytes that a field takes with this many constraints, including most of a solve;
+    /// for the cholesky solver, those known before its analysis.
     static std::size_t predicted_bytes(const GridSize& size, std::size_t constraints,
                                        const GridFieldOptions& options = {});
 
@@ -51,24 +50,23 @@ class GridField {
     /// Removes the constraints of all owners.
     void clear();
 
-    /// Computes the field of the constraints as they are; does nothing where none has changed.
-    /// After an error the field is that of the last solve. Errors: not_positive_definite where
-    /// weights differ by so much that double precision does not tell constraints apart;
-    /// memory_limit; cancelled.
+    /// Computes the field of the constraints as they are; does nothing if none has changed. After
+    /// an error the field is that of the last solve. Errors: not_positive_definite if weights
+    /// differ by so much that double precision does not tell constraints apart; memory_limit;
+    /// cancelled.
     void solve(const Context& context = {});
-    /// Whether the field is that of the constraints as they are.
+    /// Returns whether the field is that of the constraints as they are.
     bool solved() const;
 
     /// Writes the field of the last solve, one vector a point, in the order of GridSize::index.
-    /// Errors: invalid_argument where the size differs; cancelled, and then the values are
-    /// undefined.
+    /// Errors: invalid_argument if the size differs; cancelled, and then the values are undefined.
     void evaluate(std::span<Vec3> vectors, const Context& context = {}) const;
-    /// As above into four floats a point, x, y, z and one that is left as it is.
+    /// Writes four floats a point: x, y, z and one left unchanged.
     void evaluate(std::span<float> quads, const Context& context = {}) const;
 
     /// Constrained points of the last solve.
     Index constraint_count() const;
-    /// What the cholesky solver has done; zeros with the dual one.
+    /// Returns the counts of the cholesky solver; zeros with the dual one.
     GridCholeskyStats cholesky_stats() const;
 
   private:

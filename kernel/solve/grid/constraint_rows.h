@@ -12,7 +12,7 @@
 
 namespace lissom {
 
-/// What the matrix of a dual system depends on: the grid points that are constrained, each once,
+/// Constraints that determine the matrix of a dual system: the constrained grid points, each once,
 /// and their weights.
 struct ConstraintRows {
     std::vector<GridPoint> point;
@@ -23,13 +23,13 @@ struct ConstraintRows {
     Index common(const ConstraintRows& other) const;
 };
 
-/// The order of `merged` (ascending by point) in a system: order[i] is where row i stands in
-/// merged. Rows ascend by stamp, then by point: those of the owner that was edited last come last,
-/// so that its next edit leaves all rows before them alone. The order follows from the constraints
-/// and not from what the system held before.
+/// Returns the order of `merged` (ascending by point) in a system: order[i] is the position of row
+/// i in merged. Rows ascend by stamp, then by point: those of the owner that was edited last come
+/// last, so that its next edit leaves all rows before them alone. The order follows from the
+/// constraints alone, for any history of the system.
 std::vector<Index> arrange_rows(std::span<const MergedConstraint> merged);
 
-/// The rows of `merged` in that order.
+/// Returns the rows of `merged` in that order.
 ConstraintRows rows_in_order(const GridSize& size, std::span<const MergedConstraint> merged,
                              std::span<const Index> order);
 

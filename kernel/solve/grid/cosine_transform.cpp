@@ -12,7 +12,7 @@ namespace {
 // Columns of a product that are computed together, and how many such blocks a thread takes.
 constexpr Index kBlock = kPanelColumns, kBlockGrain = 4;
 
-// What a thread writes to.
+// Buffers of one thread.
 struct TransformScratch {
     explicit TransformScratch(Index n)
         : packed(std::make_unique_for_overwrite<double[]>(kPackedSize)),

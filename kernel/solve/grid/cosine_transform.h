@@ -17,7 +17,7 @@ namespace lissom {
 /// Components of the field, which are transformed together.
 inline constexpr int kComponents = 3;
 
-/// Where the last step of an inverse transform writes; exactly one pointer is set.
+/// Destination of the last step of an inverse transform; exactly one pointer is set.
 struct FieldSink {
     /// Component by component, all points of each.
     double* components = nullptr;
@@ -28,7 +28,7 @@ struct FieldSink {
     Vec3 constant = Vec3::Zero();
 };
 
-/// The orthonormal DCT-II along each axis, whose basis diagonalises the Laplacian of the box with
+/// The orthonormal DCT-II along each axis: its basis diagonalises the Laplacian of the box with
 /// mirrored neighbours. Fields are stored component by component. Small matrix products, each of
 /// half the size because basis vectors are even or odd; each turns the axes round by one, so that
 /// all three are the same product. Spectra keep the even frequencies of an axis before the odd
@@ -40,7 +40,7 @@ class CosineTransform {
     const GridSize& size() const { return size_; }
     /// Bytes of the tables for a grid of this size.
     static std::size_t bytes(const GridSize& size);
-    /// The frequency at position `q` of the spectrum of an axis with `n` points.
+    /// Returns the frequency at position `q` of the spectrum of an axis with `n` points.
     static Index frequency(Index q, Index n);
 
     /// Spectra of the fields at `from`, written to `to`; `from` is overwritten.

@@ -29,7 +29,7 @@ struct FieldWorkspace {
     FieldBuffer first, second;
 };
 
-/// The vector of a field at `point`.
+/// Returns the vector of a field at `point`.
 inline Vec3 vector_at(const double* field, const GridSize& size, Index point) {
     const auto count = at(size.count());
     return {field[point], field[count + at(point)], field[2 * count + at(point)]};

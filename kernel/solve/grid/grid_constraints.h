@@ -12,14 +12,14 @@
 
 namespace lissom {
 
-/// Who gives constraints, for instance a curve: a number of the caller's choice.
+/// Owner of constraints, for instance a curve: a number of the caller's choice.
 using ConstraintOwner = std::int64_t;
 
 /// A vector that is known at a grid point.
 struct GridConstraint {
     Index point = 0;
     Vec3 value = Vec3::Zero();
-    /// The weight omega of equation (4.2), whose value this is.
+    /// The square of the weight omega of equation (4.2).
     double weight = 100.0;
     /// For the caller to tell constraints apart; the field does not read it.
     int tag = 0;
@@ -32,7 +32,7 @@ struct MergedConstraint {
     Index point = 0;
     double weight = 0.0;
     Vec3 value = Vec3::Zero();
-    /// When its owners last changed their points or weights: of several, the one who did so first.
+    /// Time of its owners' last change of points or weights; of several owners, the earliest.
     std::uint64_t stamp = 0;
 };
 
@@ -50,11 +50,11 @@ class GridConstraints {
     void set(ConstraintOwner owner, std::vector<GridConstraint> constraints);
     void clear();
 
-    /// Constraints of `owner`; empty where it has none.
+    /// Returns the constraints of `owner`; empty if it has none.
     std::span<const GridConstraint> of(ConstraintOwner owner) const;
     std::vector<ConstraintOwner> owners() const;
 
-    /// One constraint a point, ascending by point.
+    /// Returns one constraint a point, ascending by point.
     std::vector<MergedConstraint> merged() const;
     /// Grows with every change.
     std::uint64_t version() const { return version_; }

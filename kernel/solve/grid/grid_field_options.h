@@ -32,8 +32,8 @@ struct GridFieldOptions {
     /// biharmonic field overshoots away from the constraints; 0.03 takes most of that away.
     double tension = 0.0;
     /// Constraints from which on the dual solver iterates: its dense factor takes about 10 bytes
-    /// for the square of their number. By default 3000, and on large grids, where an iteration
-    /// costs most, up to 6000: 8 times the root of the number of points.
+    /// for the square of their number. By default 3000, and on large grids, with their costlier
+    /// iterations, up to 6000: 8 times the root of the number of points.
     std::optional<Index> dense_limit = std::nullopt;
     /// Iterations, of the dual solver beyond `dense_limit` and for the thesis's boundary, end at
     /// this fraction of the greatest given component; 1e-12 to 1e-2.
@@ -43,7 +43,7 @@ struct GridFieldOptions {
     int refinements = 0;
 };
 
-/// What the factorisations of a grid have cost so far.
+/// Costs of a grid's factorisations so far.
 struct GridCholeskyStats {
     /// Factorisations from nothing, and constraints added to or taken from a factor.
     Index factorisations = 0, updated = 0;

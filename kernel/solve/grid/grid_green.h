@@ -13,11 +13,11 @@
 
 namespace lissom {
 
-/// The operator A0 = D'D - tau D of equations (4.1) and (4.3), where D is the Laplacian with
-/// weights 1/6 and mirrored neighbours at the faces, so that nothing flows out, and tau the
-/// tension. In the cosine basis A0 is diagonal with the eigenvalues mu^2 + tau mu, where mu = sum
-/// over the axes of (2 - 2 cos(pi k_a / n_a)) / 6. Entries of the pseudo-inverse are sums of eight
-/// entries of one table
+/// The operator A0 = D'D - tau D of equations (4.1) and (4.3). D is the Laplacian with weights 1/6
+/// and mirrored neighbours at the faces, so that nothing flows out, and tau the tension. In the
+/// cosine basis A0 is diagonal with the eigenvalues mu^2 + tau mu, with mu = sum over the axes of
+/// (2 - 2 cos(pi k_a / n_a)) / 6. Entries of the pseudo-inverse are sums of eight entries of one
+/// table
 ///     K(p) = sum over k != 0 of prod_a w(k_a) cos(pi k_a p_a / n_a) / (mu^2 + tau mu),
 /// w(0) = 1 / 2n and else 1 / n, 0 <= p_a <= n_a: those at |i_a - j_a| and i_a + j_a + 1, folded at
 /// n_a.
@@ -34,8 +34,8 @@ class GridGreen {
     /// entries[i] = the entry of the pseudo-inverse for the points points[i] and `other`.
     void column(const GridPoint& other, std::span<const GridPoint> points, double* entries) const;
     double entry(const GridPoint& a, const GridPoint& b) const;
-    /// What is added to every entry so that matrices of them are well conditioned for the
-    /// constant mode, too.
+    /// Returns the number added to every entry so that matrices of entries are well conditioned for
+    /// the constant mode, too.
     double shift() const { return shift_; }
 
     /// A0+ f for the three fields f at `field`, in place; `scratch` is as large.

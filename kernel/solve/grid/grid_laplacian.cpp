@@ -115,7 +115,7 @@ void GridLaplacian::apply(const double* x, double* y, double* scratch,
     });
 }
 
-// Column j of L S^2 L holds what two steps along edges from point j reach.
+// Column j of L S^2 L holds the points within two steps along edges from point j.
 SymmetricMatrix GridLaplacian::matrix() const {
     SymmetricMatrix matrix;
     for (Index j = 0; j < size_.count(); ++j) {

@@ -9,7 +9,7 @@
 namespace lissom {
 namespace {
 
-// Of larger grids the bytes could not be counted where addresses have 32 bits.
+// The bytes of larger grids overflow addresses of 32 bits.
 constexpr Index kMostPoints =
     sizeof(std::size_t) < sizeof(std::int64_t) ? kMostGridPoints / 16 : kMostGridPoints;
 

@@ -7,7 +7,7 @@
 
 namespace lissom {
 
-/// Where a point lies in a grid, in steps from the first point.
+/// Position of a point in a grid, in steps from the first point.
 struct GridPoint {
     Index x = 0, y = 0, z = 0;
     bool operator==(const GridPoint&) const = default;
@@ -30,8 +30,8 @@ inline constexpr Index kLongestAxis = 2048;
 /// Points that a grid has at most, so that the entries of three components have an Index.
 inline constexpr Index kMostGridPoints = Index{1} << 28;
 
-/// Errors: invalid_argument where an axis has no point or more than kLongestAxis, or the grid more
-/// than kMostGridPoints, or where addresses have 32 bits a sixteenth of them.
+/// Errors: invalid_argument if an axis has no point or more than kLongestAxis, or if the grid has
+/// more than kMostGridPoints (a sixteenth of them with addresses of 32 bits).
 void require_valid(const GridSize& size);
 
 }  // namespace lissom

@@ -26,7 +26,7 @@ struct DenseProduct {
     Index above = 0;
     bool accumulate = false;
     double* packed = nullptr;
-    /// Stride of b where it is not that of a.
+    /// Stride of b, if it is not that of a.
     std::ptrdiff_t b_stride = 0;
 };
 
@@ -43,20 +43,20 @@ struct DensePanel {
 /// The loops, compiled for one kind of processor.
 struct DenseKernels {
     void (*multiply)(const DenseProduct&);
-    /// Cholesky factorisation of the square part of a panel, whose rows have the numbers of its
-    /// columns. Returns the column with a pivot that is not positive, or kNoIndex.
+    /// Cholesky factorisation of the square part of a panel: rows with the numbers of its columns.
+    /// Returns the column with a pivot that is not positive, or kNoIndex.
     Index (*eliminate)(const DensePanel&);
     /// Solves X L^T = B in place for the rows [begin, end) below that square part L.
     void (*solve_rows)(const DensePanel&, Index begin, Index end);
 };
 
-/// Kinds of processors, each of which can do what those before it can. The results of the last two
-/// are equal to the bit.
+/// Kinds of processors, each with the features of those before it. The results of the last two are
+/// equal to the bit.
 enum class Processor { any, avx2, avx512 };
 
-/// The last kind of Processor that this machine has.
+/// Returns the last kind of Processor that this machine has.
 Processor best_processor();
-/// The kernels for `processor`, which must be a kind that this machine has.
+/// Returns the kernels for `processor`, which must be a kind that this machine has.
 DenseKernels dense_kernels(Processor processor);
 
 }  // namespace lissom

@@ -107,7 +107,7 @@ LISSOM_INLINE void multiply_last_rows(const DenseProduct& p, const double* a, do
     }
 }
 
-/// As multiply_last_rows where there are no four rows to read.
+/// Works as multiply_last_rows, for fewer than four rows.
 LISSOM_INLINE void multiply_few_rows(const DenseProduct& p, const double* a, double* c, Index rows,
                                      Index depth, bool accumulate) {
     for (Index j = 0; j < p.columns; ++j) {
@@ -121,7 +121,7 @@ LISSOM_INLINE void multiply_few_rows(const DenseProduct& p, const double* a, dou
     }
 }
 
-/// One slice of the depth, whose part of b is packed: tiles, then vectors, then four rows.
+/// One slice of the depth, with its part of b packed: tiles, then vectors, then four rows.
 template <typename Tile>
 LISSOM_INLINE void multiply_slice(const DenseProduct& p, const double* a, Index depth,
                                   bool accumulate) {
@@ -155,7 +155,7 @@ LISSOM_INLINE void multiply_dense(const DenseProduct& p) {
     }
 }
 
-/// Subtracts from the columns [at, at + columns) of a panel what its earlier columns give.
+/// Subtracts from the columns [at, at + columns) of a panel the products of its earlier columns.
 template <typename Tile>
 LISSOM_INLINE void subtract_earlier(const DensePanel& p, Index at, Index columns, Index begin,
                                     Index end) {
@@ -180,7 +180,7 @@ LISSOM_INLINE void divide_rows(const DensePanel& p, Index at, Index columns, Ind
     }
 }
 
-/// The factor of a block of up to four columns in place.
+/// Returns the factor of a block of up to four columns in place.
 LISSOM_INLINE Index eliminate_tile(const DensePanel& p, Index at, Index columns) {
     for (Index c = at; c < at + columns; ++c) {
         const double pivot = *p.entry(c, c);

@@ -7,7 +7,7 @@
 namespace lissom {
 namespace {
 
-// Integers per unknown, of the result and of what the stages take.
+// Integers per unknown, of the result and of the stages.
 constexpr std::size_t kTreeArrays = 9;
 
 // The parent of each column: the columns of row k that are roots so far get k as their parent.
@@ -58,7 +58,7 @@ std::vector<Index> descending(const std::vector<Index>& count) {
     return sorted;
 }
 
-// A postorder: children ascend by count, and by number where there are no counts.
+// Returns a postorder: children ascend by count, or by number without counts.
 std::vector<Index> postorder(const std::vector<Index>& parent, const std::vector<Index>& count) {
     std::vector<Index> child(parent.size(), kNoIndex), sibling(parent.size(), kNoIndex);
     std::vector<Index> last_first =
@@ -100,9 +100,9 @@ Index find_root(std::vector<Index>& ancestor, Index i) {
     return root;
 }
 
-// The entries of the columns of the factor. Those of row i form a subtree with root i, whose leaves
+// The entries of the columns of the factor. Those of row i form a subtree with root i. Its leaves
 // are the columns j of the matrix such that no earlier column of the row is below j. Each leaf adds
-// one on the path from it to the root; where the paths of two leaves in a row meet, one too many is
+// one on the path from it to the root; if the paths of two leaves in a row meet, one too many is
 // taken away. Sums over the subtrees then give the counts.
 std::vector<Index> count_entries(const Adjacency& graph, const std::vector<Index>& order,
                                  const std::vector<Index>& parent) {

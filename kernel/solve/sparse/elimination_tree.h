@@ -24,18 +24,18 @@ struct EliminationTree {
     Index size() const { return count_of(order); }
 };
 
-/// The tree of `graph` for the order of elimination that `order` and a postorder of its tree give,
-/// which has the same fill. Children of a column come by ascending count of entries, so that the
-/// greatest is next to it, those of equal count as in `order`. Counts are found as Gilbert, Ng and
-/// Peyton do (An efficient algorithm to compute row and column counts for sparse Cholesky
-/// factorization, 1994), in nearly linear time. Errors: cancelled, between the stages.
+/// Returns the tree of `graph` for the order of elimination that `order` and a postorder of its
+/// tree give, which has the same fill. Children of a column come by ascending count of entries, so
+/// that the greatest is next to it, those of equal count as in `order`. Counts are found as
+/// Gilbert, Ng and Peyton do (An efficient algorithm to compute row and column counts for sparse
+/// Cholesky factorization, 1994), in nearly linear time. Errors: cancelled, between the stages.
 EliminationTree elimination_tree(const Adjacency& graph, std::vector<Index> order,
                                  const Context& context = {});
 
 /// Bytes that it takes while it runs, its result included.
 std::size_t elimination_tree_bytes(std::size_t unknowns);
 
-/// Where each element of a permutation is.
+/// Returns the position of each element of a permutation.
 std::vector<Index> inverse_permutation(const std::vector<Index>& permutation);
 
 }  // namespace lissom

@@ -34,7 +34,7 @@ void map_entries(const Supernodes& nodes, const SymmetricMatrix& pattern, Factor
         }
     }
     sum_up(plan.first_entry);
-    // Targets come in a second pass, where the rows of one supernode can be looked up.
+    // Targets come in a second pass, which can look up the rows of one supernode.
     std::vector<Index> next = plan.first_entry;
     std::vector<Index> lower(pattern.row.size()), upper(pattern.row.size());
     plan.entries.resize(pattern.row.size());
@@ -58,7 +58,7 @@ void map_entries(const Supernodes& nodes, const SymmetricMatrix& pattern, Factor
     }
 }
 
-// Cuts the elimination tree below its upper part. Subtrees are contiguous where the tree is
+// Cuts the elimination tree below its upper part. Subtrees are contiguous if the tree is
 // postordered; otherwise everything counts as the upper part.
 void split(const Supernodes& nodes, FactorPlan& plan) {
     const Index count = nodes.count();
@@ -111,7 +111,7 @@ void fill_bins(FactorPlan& plan) {
 }
 
 // Calls use(block, update) for each block that rows of block `from` are columns of. Rows from
-// `end_column` on go to `extension` instead where there is one.
+// `end_column` on go to `extension` instead, if there is one.
 template <typename Use>
 void for_each_update(const std::vector<Index>& node_of, Index from, const Index* rows, Index begin,
                      Index end, Index end_column, Index extension, const Use& use) {

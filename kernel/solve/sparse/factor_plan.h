@@ -10,13 +10,13 @@
 
 namespace lissom {
 
-/// What a factorisation needs besides the supernodes. It depends on the pattern alone, never on
+/// Schedule of a factorisation, beside the supernodes. It depends on the pattern alone, never on
 /// the number of threads, so neither do results.
 ///
-/// Columns are computed from the left: a block starts as entries of the matrix, has the products
-/// of earlier blocks subtracted, and is then factored in place. Subtrees of the elimination tree
-/// are independent of each other. What each gives to the supernodes above it is summed in a block
-/// of its own, its extension; those are blocks count() + i of the plan.
+/// Columns are computed from the left: a block starts as entries of the matrix, has the products of
+/// earlier blocks subtracted, and is then factored in place. Subtrees of the elimination tree are
+/// independent of each other. The contribution of each to the supernodes above it is summed in a
+/// block of its own, its extension; those are blocks count() + i of the plan.
 struct FactorPlan {
     /// Rows [begin, end) of block `from`, counted within it, are columns of the block updated.
     struct Update {

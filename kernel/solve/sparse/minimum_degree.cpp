@@ -55,14 +55,14 @@ class QuotientGraph {
     Index size_;
     // Lists: of i, list_[start_[i]] and the length_[i] - 1 after it, elements_[i] of them elements.
     std::vector<Index> list_, start_, length_, elements_;
-    // Unknowns that a variable or pivot stands for; 0 where another stands for them, negative for a
-    // variable while it is in the list of the current pivot.
+    // Number of unknowns represented by a variable or pivot; 0 if another represents them, negative
+    // for a variable while it is in the list of the current pivot.
     std::vector<Index> weight_;
-    // Of a variable, a bound of its unknowns' degree; of an element, the unknowns in its list.
+    // For a variable, a bound of its unknowns' degree; for an element, the unknowns in its list.
     std::vector<Index> degree_;
     // Variables by degree, doubly linked; by hash, linked by next_, with the hash in last_.
     std::vector<Index> head_, bucket_, next_, last_;
-    // What took up an element or a variable.
+    // Absorber of an element or a variable.
     std::vector<Index> parent_;
     // 0 for an element that is gone; see measure_overlaps and merge_bucket.
     std::vector<Index> mark_;
@@ -135,9 +135,9 @@ Index QuotientGraph::take_pivot() {
     return pivot;
 }
 
-// Moves the lists together where fewer than `entries` are left behind them. Meanwhile the first
-// entry of each list waits in start_, and its place names the owner, so that lists are found in
-// their order.
+// Moves the lists together if fewer than `entries` are left behind them. Meanwhile the first entry
+// of each list waits in start_, and its place names the owner, so that lists are found in their
+// order.
 void QuotientGraph::make_room(Index entries) {
     if (count_of(list_) - end_ >= entries) return;
     for (Index i = 0; i < size_; ++i) {
@@ -172,8 +172,8 @@ void QuotientGraph::join(Index pivot, Index begin, Index count, Index& end) {
     }
 }
 
-// The pivot becomes an element, whose list is the union of those of its elements and of its own.
-// Its degree bounds the length.
+// The pivot becomes an element. Its list is the union of those of its elements and of its own. Its
+// degree bounds the length.
 void QuotientGraph::form_element(Index pivot) {
     const Index elements = elements_[pivot];
     if (elements > 0) make_room(degree_[pivot]);
@@ -311,7 +311,7 @@ void QuotientGraph::merge_bucket(Index first) {
     }
 }
 
-// Whether j has the list of i, whose entries are marked. All begin with the pivot.
+// Returns whether j has the list of i. The entries of i are marked. All begin with the pivot.
 bool QuotientGraph::same_list(Index i, Index j) const {
     if (length_[i] != length_[j] || elements_[i] != elements_[j]) return false;
     const auto begin = list_.begin() + start_[j];
@@ -353,7 +353,7 @@ void QuotientGraph::eliminate_all(const Context& context) {
     }
 }
 
-// The elements, each after those that it took up, the greatest of these last.
+// Returns the elements, each after the ones it absorbed, the greatest of these last.
 std::vector<Index> QuotientGraph::assembly_order() const {
     std::vector<Index> child(at(size_), kNoIndex), sibling(at(size_), kNoIndex);
     const auto front = [&](Index e) { return weight_[e] + degree_[e]; };
@@ -391,7 +391,7 @@ std::vector<Index> QuotientGraph::assembly_order() const {
     return order;
 }
 
-// The unknowns of each pivot together, the pivot itself last; at the end those that were left out.
+// Returns the unknowns of each pivot together, the pivot itself last; at the end the deferred ones.
 std::vector<Index> QuotientGraph::order() const {
     std::vector<Index> place(at(size_)), result(at(size_));
     Index count = 0;

@@ -10,12 +10,11 @@
 
 namespace lissom {
 
-/// The order of elimination that takes an unknown of least approximate degree at each step
+/// Returns the order of elimination that takes an unknown of least approximate degree at each step
 /// (Amestoy, Davis and Duff, An approximate minimum degree ordering algorithm, 1996): quotient
-/// graph, mass elimination, supervariables found by hashing, elements absorbed wherever another
-/// covers them. Unknowns with more than 10 sqrt(n) neighbors come last. order[k] is the unknown
-/// eliminated k-th. The same graph gives the same order everywhere.
-/// Errors: cancelled.
+/// graph, mass elimination, supervariables found by hashing, elements absorbed if another covers
+/// them. Unknowns with more than 10 sqrt(n) neighbors come last. order[k] is the unknown eliminated
+/// k-th. The same graph gives the same order everywhere. Errors: cancelled.
 std::vector<Index> minimum_degree_order(const Adjacency& graph, const Context& context = {});
 
 /// Bytes that it takes while it runs, the graph not counted, for a graph of this size.

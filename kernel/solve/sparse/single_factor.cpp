@@ -93,7 +93,7 @@ SingleFactor::SingleFactor(Supernodes supernodes, std::vector<Index> permutation
     fill_bins();
 }
 
-// Cuts the elimination tree below its upper part. Subtrees are contiguous where the tree is
+// Cuts the elimination tree below its upper part. Subtrees are contiguous if the tree is
 // postordered; otherwise everything counts as the upper part.
 void SingleFactor::split() {
     const Index count = nodes_.count();

@@ -17,8 +17,8 @@ namespace lissom {
 /// with scratch of its own.
 class SingleFactor {
   public:
-    /// What a solve writes to, sized as needed; kept by the caller because a frame is short beside
-    /// the time to get fresh pages.
+    /// Buffer of a solve, sized as needed; kept by the caller because a frame is short beside the
+    /// time to get fresh pages.
     using Scratch = std::vector<float>;
 
     SingleFactor() = default;
@@ -26,8 +26,8 @@ class SingleFactor {
     Index size() const { return count_of(permutation_); }
 
     /// Solves A x = b for the three columns of b, one row an unknown; x may be b. Independent parts
-    /// of the factor run in parallel; the result does not depend on the number of threads.
-    /// Errors: invalid_argument where sizes differ; cancelled.
+    /// of the factor run in parallel; the result does not depend on the number of threads. Errors:
+    /// invalid_argument if sizes differ; cancelled.
     void solve(std::span<const Vec3> b, std::span<Vec3> x, Scratch& scratch,
                const Context& context = {}) const;
 
@@ -47,8 +47,9 @@ class SingleFactor {
         Index height(Index s) const { return first_row[at(s + 1)] - first_row[at(s)]; }
     };
 
-    /// Supernodes [first, last), whose columns no other subtree touches. Each adds to the columns
-    /// above it through entries of its own, from `extension` on, one for each of the rows `above`.
+    /// Supernodes [first, last) with columns that no other subtree touches. Each adds to the
+    /// columns above it through entries of its own, from `extension` on, one for each of the rows
+    /// `above`.
     struct Subtree {
         Index first = 0, last = 0, extension = 0;
         std::vector<Index> above;

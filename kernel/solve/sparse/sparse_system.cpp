@@ -41,12 +41,12 @@ struct SparseSystem::State {
     Supernodes nodes;
     FactorPlan plan;
     std::unique_ptr<double[]> value;
-    // Of the solve before, taken by the next one; another at the same time makes its own.
+    // Buffer of the solve before, taken by the next one; a concurrent solve makes its own.
     std::vector<double> scratch;
     std::mutex scratch_lock;
     std::vector<Index> begin, row;
     bool factored = false;
-    // Of the analysis and of the values.
+    // Memory of the analysis and of the values.
     MemoryCharge analysis_charge, charge;
     FactorStats stats;
 };

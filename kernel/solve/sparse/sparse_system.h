@@ -14,7 +14,7 @@
 
 namespace lissom {
 
-/// What analysis and factorisation cost.
+/// Costs of analysis and factorisation.
 struct FactorStats {
     /// Entries of the Cholesky factor, and the bytes it takes with its analysis, known after
     /// `analyze`.
@@ -36,29 +36,28 @@ class SparseSystem {
     SparseSystem(SparseSystem&&) noexcept;
     SparseSystem& operator=(SparseSystem&&) noexcept;
 
-    /// Orders the unknowns and predicts the factor. Only the pattern of `matrix` matters. Memory
-    /// is charged before it is taken, and what is kept is held as long as the analysis. After an
-    /// error the analysis before stays.
-    /// Errors: invalid_argument for an empty matrix; memory_limit, also for a factor of more than
-    /// 2^31 - 1 entries; cancelled.
+    /// Orders the unknowns and predicts the factor. Only the pattern of `matrix` matters. Memory is
+    /// charged before it is allocated, and the result is held as long as the analysis. After an
+    /// error the analysis before stays. Errors: invalid_argument for an empty matrix; memory_limit,
+    /// also for a factor of more than 2^31 - 1 entries; cancelled.
     void analyze(const SymmetricMatrix& matrix, const Context& context = {});
     /// Factors `matrix`, which must have the pattern analysed; memory is charged first and held as
     /// long as the factor. May be called again with new values. After an error there is no factor.
-    /// Errors: not_positive_definite, naming one row of a component without a constraint where
-    /// there is one; memory_limit; invalid_argument where the pattern is another; cancelled.
+    /// Errors: not_positive_definite, naming one row of a component without a constraint if there
+    /// is one; memory_limit; invalid_argument if the pattern differs; cancelled.
     void factor(const SymmetricMatrix& matrix, const Context& context = {});
     /// Solves A x = b for `columns` right-hand sides stored one after the other; x may be b.
-    /// Errors: invalid_argument without a factor or where sizes differ.
+    /// Errors: invalid_argument without a factor or if sizes differ.
     void solve(std::span<const double> b, std::span<double> x, Index columns) const;
 
-    /// As `solve`, followed by one step of iterative refinement. Right-hand side and residual are
-    /// in extended precision where the platform has it, so that ill-conditioned systems lose
-    /// nothing to the rounding of b. `matrix` is the one factored. Costs two to three times as
+    /// Solves as `solve` does, then makes one step of iterative refinement. Right-hand side and
+    /// residual are in extended precision if the platform has it, so that ill-conditioned systems
+    /// lose nothing to the rounding of b. `matrix` is the one factored. Costs two to three times as
     /// much.
     void solve_refined(const SymmetricMatrix& matrix, std::span<const Extended> b,
                        std::span<double> x, Index columns) const;
 
-    /// A copy of the factor in single precision. Errors: invalid_argument without a factor;
+    /// Returns a copy of the factor in single precision. Errors: invalid_argument without a factor;
     /// memory_limit.
     SingleFactor single_factor(const Context& context = {}) const;
 

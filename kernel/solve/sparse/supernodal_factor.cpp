@@ -28,7 +28,7 @@ struct Block {
     double* entry(Index r, Index c) const { return value + r + std::ptrdiff_t{c} * height; }
 };
 
-// What one chunk of work writes to.
+// Buffers of one chunk of work.
 struct Scratch {
     explicit Scratch(Index tallest)
         : product(std::make_unique_for_overwrite<double[]>(at(tallest) * kUpdateColumns)),
@@ -39,7 +39,7 @@ struct Scratch {
     std::unique_ptr<Index[]> local;
 };
 
-// Who works on a block: the calling thread alone, or all threads of a context, chunk by chunk.
+// Executor of a block: the calling thread alone, or all threads of a context, chunk by chunk.
 class Crew {
   public:
     Crew(Index size, Index tallest, std::size_t most_chunks, const Context* context)
@@ -58,7 +58,7 @@ class Crew {
         });
     }
 
-    // Where each row of the factor is in the block under work.
+    // Position of each row of the factor in the current block.
     std::unique_ptr<Index[]> position;
 
   private:
@@ -106,8 +106,8 @@ class Factorization {
     }
 
   private:
-    // Failures are compared after all bins have ended, so that which one is named does not depend
-    // on the order they run in.
+    // Failures are compared after all bins have ended, so that the reported one does not depend on
+    // their order.
     Index factor_subtrees(const Context& context) {
         std::vector<Index> failures(plan_.bins.size(), kNoIndex);
         context.parallel_for(0, count_of(plan_.bins), 1, [&](Index begin, Index end) {
@@ -159,7 +159,7 @@ class Factorization {
         return failed == kNoIndex ? kNoIndex : nodes_.super[s] + failed;
     }
 
-    // Subtracts from block `b` what all blocks before it give.
+    // Subtracts from block `b` the products of all blocks before it.
     void update(Index b, const Block& target, Crew& crew) const {
         if (plan_.first_update[b] == plan_.first_update[b + 1]) return;
         for (Index i = 0; i < target.height; ++i) crew.position[target.row[i]] = i;
@@ -241,7 +241,7 @@ class Factorization {
         return kNoIndex;
     }
 
-    // Subtracts from a panel what the columns of the same block before it give.
+    // Subtracts from a panel the products of the columns before it in the same block.
     void subtract_earlier(const Block& node, Index first, Index columns, bool share,
                           Crew& crew) const {
         const Index rows = node.height - first;

@@ -16,10 +16,10 @@ namespace lissom {
 std::size_t factoring_bytes(const Supernodes& nodes, const FactorPlan& plan);
 
 /// Factors `matrix`, which has the pattern of `nodes` and `plan`, into nodes.value_count() values
-/// at `value`; what was there does not matter, and above diagonals stands zero afterwards. Subtrees
-/// run in parallel, then the panels of each supernode above them; the result is the same for any
-/// number of threads. Returns kNoIndex, or the first column whose pivot is not positive.
-/// Errors: cancelled, between supernodes and panels.
+/// at `value`. The old values do not matter; zeros are written above diagonals. Subtrees run in
+/// parallel, then the panels of each supernode above them; the result is the same for any number of
+/// threads. Returns kNoIndex, or the first column with a pivot that is not positive. Errors:
+/// cancelled, between supernodes and panels.
 Index factor_supernodes(const Supernodes& nodes, const FactorPlan& plan,
                         const SymmetricMatrix& matrix, double* value, Processor processor,
                         const Context& context);

@@ -24,22 +24,21 @@ struct Supernodes {
     Index columns(Index s) const { return super[at(s + 1)] - super[at(s)]; }
     Index height(Index s) const { return first_row[at(s + 1)] - first_row[at(s)]; }
     std::size_t value_count() const { return at(first_value.back()); }
-    /// The supernode of each column, and the one that holds the first row below the columns of
-    /// each supernode (count() where there is none).
+    /// Returns the supernode of each column, and the one that holds the first row below the columns
+    /// of each supernode (count() if there is none).
     std::vector<Index> nodes_of_columns() const;
     std::vector<Index> parents() const;
 };
 
-/// The supernodes of a tree, without their rows: columns of equal pattern, joined further to their
-/// parents where that stores few zeros.
-/// Errors: memory_limit where there are more rows or values than an Index counts.
+/// Returns the supernodes of a tree, without their rows: columns of equal pattern, joined further
+/// to their parents if that stores few zeros. Errors: memory_limit if there are more rows or values
+/// than an Index counts.
 Supernodes join_columns(EliminationTree tree);
 
 /// Orders the unknowns by approximate minimum degree, postorders the elimination tree and joins
-/// columns of similar pattern. What it takes on the way is charged before it is taken, and released
-/// at the end. May run in several threads at the same time.
-/// Errors: memory_limit, also where the factor is too large for its indices; cancelled, in the
-/// ordering and between the stages.
+/// columns of similar pattern. Memory for the stages is charged before it is allocated, and
+/// released at the end. May run in several threads at the same time. Errors: memory_limit, also if
+/// the factor is too large for its indices; cancelled, in the ordering and between the stages.
 Supernodes analyze_supernodes(const SymmetricMatrix& matrix, const Context& context = {});
 
 }  // namespace lissom

@@ -65,9 +65,9 @@ std::vector<Index> parents_of_runs(const EliminationTree& tree, const std::vecto
     return parent;
 }
 
-// Joins `low` to the run `high` after it, its parent, where that stores few zeros: relaxed
-// supernodes (Ashcraft and Grimes, The influence of relaxed supernode partitions on the
-// multifrontal method, 1989). Small blocks are joined whatever it stores.
+// Joins `low` to the run `high` after it, its parent, if that stores few zeros: relaxed supernodes
+// (Ashcraft and Grimes, The influence of relaxed supernode partitions on the multifrontal method,
+// 1989). Small blocks are always joined.
 bool join(Run& low, const Run& high) {
     const std::int64_t columns = low.columns + high.columns, height = low.columns + high.height;
     const std::int64_t made = low.columns * (height - low.height);
@@ -86,7 +86,7 @@ bool join(Run& low, const Run& high) {
     return true;
 }
 
-// From the last run to the first, each is joined to the next where that is its parent.
+// From the last run to the first, each is joined to the next if that is its parent.
 std::vector<Run> relaxed_runs(const EliminationTree& tree) {
     std::vector<Run> runs = fundamental_runs(tree);
     const std::vector<Index> parent = parents_of_runs(tree, runs);

@@ -53,7 +53,7 @@ class AccessorReader {
     PackedNumbers packed(int accessor) const;
     /// Normalised integers become fractions.
     AccessorValues values(int accessor) const;
-    /// Indices of vertices. Errors: also face_index where one is not below `vertex_count`.
+    /// Indices of vertices. Errors: also face_index if one is not below `vertex_count`.
     std::vector<Index> indices(int accessor, std::size_t vertex_count) const;
 
   private:

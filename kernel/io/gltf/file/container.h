@@ -20,8 +20,7 @@ struct GltfContainer {
 /// Errors: file_truncated; file_syntax; unsupported for GLB of other versions than 2.
 GltfContainer open_gltf_container(std::string_view bytes);
 
-/// Throws file_syntax where arrays and objects of `json` are nested so deep that it may not be
-/// parsed.
+/// Throws file_syntax if arrays and objects of `json` are nested so deep that it may not be parsed.
 void require_shallow(std::string_view json);
 
 /// A GLB of JSON and binary data. Errors: file_too_large beyond 4 GiB.

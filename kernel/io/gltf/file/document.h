@@ -37,7 +37,7 @@ class GltfBudget {
 struct GltfDocument {
     Json json;
     tinygltf::Model model;
-    /// Content of each buffer; empty where it has none. Views into the file or `owned`.
+    /// Content of each buffer; empty if it has none. Views into the file or `owned`.
     std::vector<std::string_view> buffers;
     std::vector<SharedBytes> owned;
     /// Content of each image that is there.
@@ -47,7 +47,7 @@ struct GltfDocument {
     MemoryCharge charge;
 };
 
-/// The bytes of a buffer view. Errors: file_syntax naming it where they are not in its buffer.
+/// The bytes of a buffer view. Errors: file_syntax naming it if they are not in its buffer.
 std::string_view bytes_of_view(const GltfDocument& document, std::size_t view);
 
 /// Opens a file. Missing images are reported; the elements of images get their media type.

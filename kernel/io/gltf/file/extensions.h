@@ -9,8 +9,8 @@
 
 namespace lissom {
 
-/// Throws unsupported where a file requires an extension that is not understood, or keeps its
-/// surface in one.
+/// Throws unsupported if a file requires an extension that is not understood, or keeps its surface
+/// in one.
 void require_supported_extensions(const Json& document);
 
 /// Removes from a document what would not be true of it once its surface is written anew:

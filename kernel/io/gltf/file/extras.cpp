@@ -11,7 +11,7 @@ struct Run {
     std::int64_t first, count;
 };
 
-// The pairs of `list`; none where it is something else.
+// The pairs of `list`; none if it is something else.
 std::vector<Run> runs_of(const Json& list) {
     std::vector<Run> runs;
     if (!list.is_array()) return runs;

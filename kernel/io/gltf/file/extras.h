@@ -30,13 +30,13 @@ struct MeshExtras {
     std::map<std::string, FaceLabels> labels;
     /// Vertices in ascending order.
     std::map<std::string, std::vector<Index>> regions;
-    /// For each face; empty where all are 0.
+    /// For each face; empty if all are 0.
     std::vector<Index> turns;
     std::vector<std::string> corners;
-    /// For each face the number of faces read that it is made of; empty where all are 1.
+    /// For each face the number of faces read that it is made of; empty if all are 1.
     std::vector<Index> parts;
-    /// For each vertex of the surface the number of vertices that it is; empty where that is left
-    /// to their places.
+    /// For each vertex of the surface the number of vertices that it is; empty if that is left to
+    /// their places.
     std::vector<Index> copies;
 };
 

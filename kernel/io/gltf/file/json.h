@@ -12,7 +12,7 @@ namespace lissom {
 
 using Json = nlohmann::json;
 
-/// The member `key` of `object`; null where there is none or `object` is something else.
+/// The member `key` of `object`; null if there is none or `object` is something else.
 const Json* member(const Json& object, const char* key);
 Json* member(Json& object, const char* key);
 
@@ -23,13 +23,13 @@ const Json* extension(const Json& object, const char* name);
 /// `owner` for any other value.
 int index_member(const Json& object, const char* key, const std::string& owner);
 
-/// The text of the member `key`, empty where it is absent or none.
+/// The text of the member `key`, empty if it is absent or none.
 std::string text_member(const Json& object, const char* key);
 
-/// Elements of the array `key`, 0 where there is none.
+/// Elements of the array `key`, 0 if there is none.
 std::size_t size_of_member(const Json& object, const char* key);
 
-/// The object called `key` inside `parent`; made where it is absent.
+/// The object called `key` inside `parent`; made if it is absent.
 Json& object_in(Json& parent, const char* key);
 
 /// `json` as text; what is not UTF-8 is replaced.

@@ -17,7 +17,7 @@ struct VertexBlock {
     std::map<std::string, int> attributes;
     std::vector<std::map<std::string, int>> targets;
     std::vector<const tinygltf::Primitive*> primitives;
-    /// For each of them, the vertices at its corners; empty where there is only one.
+    /// For each of them, the vertices at its corners; empty if there is only one.
     std::vector<std::vector<Index>> corners;
     std::size_t vertex_count = 0;
 };

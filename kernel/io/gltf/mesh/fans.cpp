@@ -16,7 +16,7 @@ Vec3 area_vector(const std::vector<Vec3>& points) {
     return area;
 }
 
-// True where all triangles from corner `start` face the way the polygon does.
+// True if all triangles from corner `start` face the way the polygon does.
 bool is_fan(const std::vector<Vec3>& points, std::size_t start, const Vec3& area) {
     const std::size_t n = points.size();
     for (std::size_t i = 1; i + 1 < n; ++i) {

@@ -25,7 +25,7 @@ class FanWriter {
 
     /// Three vertices a triangle.
     const std::vector<Index>& corners() const { return corners_; }
-    /// True where a polygon has more than three corners, so that the encoding has to be declared.
+    /// True if a polygon has more than three corners, so that the encoding has to be declared.
     bool has_polygons() const { return has_polygons_; }
     /// Tells that polygons will come, before the first is added: triangles too then need different
     /// first vertices.

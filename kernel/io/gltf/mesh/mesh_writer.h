@@ -24,7 +24,7 @@ namespace lissom {
 struct ObjectPlace {
     /// From the mesh to the object's node.
     NodeTransform to_node{Affine()};
-    /// Joints of the node's skin, 0 where it has none.
+    /// Joints of the node's skin, 0 if it has none.
     std::size_t joint_count = 0;
     /// Name, extras, extensions and weights; primitives with what they have beside the surface.
     Json mesh = Json::object();

@@ -30,7 +30,7 @@ GltfAttributeName parse_mesh_attribute(std::string_view name);
 /// The name under which a mesh's attribute stands in a primitive; not for joints and weights.
 std::string gltf_attribute_name(const GltfAttributeName& attribute);
 
-/// The parts of "morph.N.position", N from 1; 0 where `name` is none.
+/// The parts of "morph.N.position", N from 1; 0 if `name` is none.
 struct MorphName {
     Index target = 0;
     GltfSemantic semantic = GltfSemantic::unknown;

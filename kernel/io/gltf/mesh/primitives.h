@@ -29,7 +29,7 @@ FaceList join_primitive(std::vector<Index> indices, const PrimitiveJoin& join,
                         std::size_t& left_over);
 
 /// The polygon that `count` faces from `first` on make together, from the first vertex of the first
-/// of them on. False where they make none.
+/// of them on. False if they make none.
 bool outline_of(const FaceList& faces, Index first, Index count, std::vector<Index>& outline);
 
 }  // namespace lissom

@@ -35,7 +35,7 @@ bool survives(const Attribute& attribute) {
     });
 }
 
-// True where all values are whole multiples of 1 / largest, or none.
+// True if all values are whole multiples of 1 / largest, or none.
 bool are_multiples(const std::vector<double>& values, double largest) {
     constexpr double kRounding = 1e-6;
     return std::all_of(values.begin(), values.end(), [&](double x) {

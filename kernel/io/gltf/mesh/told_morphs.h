@@ -17,7 +17,7 @@ std::vector<MorphTarget> told_morphs(const Json& mesh, const Json* node);
 /// has some, or `with_weights` asks for them.
 void tell_morphs(Json& mesh, const std::vector<MorphTarget>& targets, bool with_weights = false);
 
-/// Makes names and weights of a mesh those of `count` targets; none where that is 0.
+/// Makes names and weights of a mesh those of `count` targets; none if that is 0.
 void fit_morphs(Json& mesh, std::size_t count);
 
 /// As glTF has weights.

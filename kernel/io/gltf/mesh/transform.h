@@ -20,10 +20,10 @@ class NodeTransform {
     NodeTransform moved(const Vec3& offset) const;
 
     bool is_identity() const { return transform_.is_identity(); }
-    /// True where faces have to be turned over to keep their outside.
+    /// True if faces have to be turned over to keep their outside.
     bool mirrors() const { return mirrors_; }
     Vec3 position(const Vec3& p) const { return transform_(p); }
-    /// Unit again, or NaN where there is no direction.
+    /// Unit again, or NaN if there is no direction.
     void turn_normal(std::span<double> n) const;
     /// Direction and handedness.
     void turn_tangent(std::span<double> t) const;

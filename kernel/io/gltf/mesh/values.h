@@ -34,7 +34,7 @@ class PoolValues {
         WrittenNumbers joints, weights;
     };
     /// Sets of four joints and weights, those of each vertex summing to 1 and naming no joint
-    /// twice. `joint_count` is that of the skin, or 0 where there is none.
+    /// twice. `joint_count` is that of the skin, or 0 if there is none.
     std::vector<JointSet> joint_sets(const WrittenAttributes& attributes,
                                      std::size_t joint_count) const;
 
