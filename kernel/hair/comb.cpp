@@ -14,13 +14,13 @@
 namespace lissom {
 namespace {
 
-// Of the stroke's samples, in steps of the grid.
+// Spacing of the stroke's samples, in steps of the grid.
 constexpr double kStrokeStep = 0.5;
 // The shortest stroke and the shortest part of a stream that is bent, in steps of the grid.
 constexpr double kShortestStroke = 2.0;
 // Streams that run against the stroke by more than this are not bent: it is not clear which way.
 constexpr double kAgainst = 120.0 * kDegree;
-// Results are alike where their angles differ by less.
+// Results are alike if their angles differ by less.
 constexpr double kAlike = 3.0 * kDegree;
 
 double angle_between(const Vec3& a, const Vec3& b) {

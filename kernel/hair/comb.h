@@ -12,7 +12,7 @@
 
 namespace lissom {
 
-/// What a comb may do to a style.
+/// Changes that a comb may make to a style.
 enum class CombBy {
     least,  ///< bend or add, whichever explains the stroke with the least change elsewhere
     bend,   ///< bend streams that run beside the stroke
@@ -22,10 +22,10 @@ enum class CombBy {
 /// Lengths in metres of the scalp's frame.
 struct CombOptions {
     CombBy by = CombBy::least;
-    /// Streams are bent where they are nearer to the stroke: wholly up to half of it, less and less
-    /// beyond.
+    /// Radius of influence: streams are bent fully up to half of it from the stroke, then less and
+    /// less.
     double reach = 0.04;
-    /// Hair follows the stroke where it runs within this angle of it (root of the mean square),
+    /// Hair follows the stroke if it runs within this angle of it (root of the mean square),
     /// radians.
     double tolerance = 15.0 * kDegree;
 };
@@ -40,16 +40,16 @@ struct CombReport {
     double change = 0.0;
 };
 
-/// A stream as a comb bends it: segments near the stroke turn to its direction, the others keep
-/// theirs, and the root stays, so that what follows is moved along. Nothing if no part of the curve
-/// is beside the stroke within `reach`, or the two run against each other there. Curve and stroke
-/// are polylines without repeated points.
+/// Returns a stream bent by a comb: segments near the stroke turn to its direction, the others keep
+/// theirs, and the root stays, so that the part behind is moved along. Nothing if no part of the
+/// curve is beside the stroke within `reach`, or the two run against each other there. Curve and
+/// stroke are polylines without repeated points.
 std::optional<std::vector<Vec3>> combed_stream(std::span<const Vec3> curve,
                                                std::span<const Vec3> stroke, double reach);
 
 /// Makes hair flow along a stroke, which runs as hair grows. If hair follows it already, nothing
 /// changes. Otherwise the streams beside it are bent, or a stream without a stop is added along it:
-/// of what explains the stroke, the one that changes the rest of the field least; both, where
+/// the one that explains the stroke with the least change of the rest of the field; both, if
 /// neither does alone. Solves. After an error the style is as it was. Errors: not_finite;
 /// invalid_argument for a stroke shorter than two steps of the grid, for options out of range, or
 /// if streams are to be bent and none is beside the stroke; as Hairstyle::set and solve.

@@ -1,4 +1,5 @@
-/// What holds at grid points that several style curves constrain; private to kernel/hair.
+/// Resolution of conflicts at grid points that several style curves constrain; private to
+/// kernel/hair.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +23,10 @@ struct CurveClaim {
 inline constexpr double kAgreement = kPi / 3.0;
 
 /// Gives all claims to a point the same value and weight, so that each point stands for one vector
-/// whoever claims it and in whatever order edits come. Of the claims of the highest rank the last
-/// one counts, and with it those that agree with it: their directions differ by at most
-/// `kAgreement`, or one of them is zero. The value is their mean by the square of their weights,
-/// the weight that of the last. `claims` are in the order of the curves.
+/// for any owners and any order of edits. The last claim of the highest rank counts, and with it
+/// those that agree with it: their directions differ by at most `kAgreement`, or one of them is
+/// zero. The value is their mean by the square of their weights, the weight that of the last.
+/// `claims` are in the order of the curves.
 void settle_conflicts(std::vector<CurveClaim>& claims);
 
 }  // namespace lissom

@@ -12,7 +12,7 @@ namespace {
 // A dividing curve may be drawn this far from the head.
 constexpr double kFarthestParting = 0.05;
 
-// Of the radii of a tail: so far from its spine hair fills it.
+// Fraction of a tail's radius, from its spine, that hair fills.
 constexpr double kFilled = 0.9;
 
 void require_length(double length, const char* message) {
@@ -20,7 +20,7 @@ void require_length(double length, const char* message) {
     throw Error(ErrorCode::invalid_argument, message);
 }
 
-// Those that the hints tell, else those of the options.
+// Returns the tilts of the hints, else of the options.
 TiltFit acting_tilt(const DividingLine& line, const DividingCurve& dividing) {
     TiltFit fit = fit_tilt(line, dividing.hints);
     if (fit.left.pieces == 0) fit.left.tilt = dividing.options.left;

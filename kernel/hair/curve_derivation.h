@@ -1,4 +1,4 @@
-/// What follows from a style curve on a head; private to kernel/hair. Metres of the scalp's frame.
+/// Results of a style curve on a head; private to kernel/hair. Metres of the scalp's frame.
 #pragma once
 
 #include <optional>
@@ -19,12 +19,12 @@ struct DerivedCurve {
     /// The curve as it acts, in segments of about a step of the grid.
     std::vector<Vec3> course;
     std::vector<GridConstraint> constraints;
-    /// Of a dividing curve: roots nearer to the line than half the gap are on bare skin.
+    /// Line of a dividing curve: roots nearer to it than half the gap are on bare skin.
     std::optional<DividingLine> line;
     double gap = 0.0;
-    /// Of a dividing curve: the tilts by which it acts.
+    /// Tilts of a dividing curve.
     std::optional<TiltFit> tilt;
-    /// Of a ponytail.
+    /// Tie of a ponytail.
     std::optional<HairTie> tie;
 };
 

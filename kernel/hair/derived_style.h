@@ -1,4 +1,4 @@
-/// DerivedStyle: what follows from the curves of a hairstyle on its head; private to kernel/hair.
+/// DerivedStyle: results of the curves of a hairstyle on its head; private to kernel/hair.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ namespace lissom {
 /// Owner of the constraints of the scalp step; those of curves are above it.
 inline constexpr ConstraintOwner kScalpOwner = 0;
 
-/// Inputs and what they say. A value: made whole, and never changed.
+/// Inputs and their results. A value: made whole, and never changed.
 struct DerivedStyle {
     StyleInputs inputs;
-    /// Of the curves, in their order.
+    /// Ids of the curves, in their order.
     std::vector<CurveId> ids;
     std::vector<std::shared_ptr<const DerivedCurve>> curves;
     /// Constraints of the scalp step and of the curves that are enabled, in their order: conflicts
@@ -31,7 +31,7 @@ struct DerivedStyle {
     const DerivedCurve& derived(CurveId id) const;
 };
 
-/// Where curves act.
+/// The head and the grid that curves act on.
 struct StyleGround {
     const Scalp& scalp;
     const DistanceGrid& distances;
@@ -45,7 +45,7 @@ struct StyleGround {
 DerivedStyle derive_style(StyleInputs inputs, const DerivedStyle& before, const StyleGround& ground,
                           const Context& context = {});
 
-/// What the field is given, one a grid point, ascending by point.
+/// Returns the constraints of the field, one a grid point, ascending by point.
 std::vector<GridConstraint> decisive_constraints(const DerivedStyle& style,
                                                  std::vector<ConstraintOwner>& owners);
 

@@ -10,14 +10,14 @@
 
 namespace lissom {
 
-/// Remembers which claims its field was given, so that a solve costs no more than what has changed
-/// since. The field follows from the claims alone, to the bit.
+/// Remembers the claims given to its field, so that a solve costs only as much as their change. The
+/// field follows from the claims alone, to the bit.
 class FieldStage {
   public:
     explicit FieldStage(HairField field) : field_(std::move(field)) {}
 
     const HairField& field() const { return field_; }
-    /// Whether the field is that of these claims.
+    /// Returns whether the field is that of these claims.
     bool solved(const std::vector<CurveClaim>& claims) const;
     /// After an error the values of the field are those of the last solve.
     /// Errors: as HairField::solve.
@@ -30,7 +30,7 @@ class FieldStage {
     void give(const std::vector<CurveClaim>& claims);
 
     HairField field_;
-    // In the order of edits; without those that say nothing.
+    // Claims in the order of edits; without empty ones.
     std::vector<CurveClaim> given_;
 };
 

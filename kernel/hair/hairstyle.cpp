@@ -57,7 +57,7 @@ void warn_of_short_hair(const GrowthReport& report, Index strands, const Context
          "have as many segments as allowed before they are as long as asked; raise most_segments");
 }
 
-// Where strands are rooted and who tied them; after an error there are no strands.
+// Adds the roots and the ties of strands; after an error there are no strands.
 void label_strands(Strands& strands, const std::vector<Eigen::Vector2f>& uvs,
                    const std::vector<Index>& ties, std::vector<std::string> names) try {
     StrandRoots roots = strands.roots();
@@ -140,7 +140,7 @@ struct Hairstyle::State {
     std::vector<GridConstraint> scalp_step(const ScalpStepOptions& options) const;
     std::vector<HairTie> ties(std::vector<std::string>& names) const;
 
-    // The head, and what never changes of it.
+    // The head, and its constant properties.
     Mesh original;
     std::shared_ptr<const Scalp> scalp;
     HairstyleOptions options;
@@ -149,7 +149,7 @@ struct Hairstyle::State {
     DerivedStyle style;
     ConstraintOwner last_id = kScalpOwner;
 
-    // Results, each with what it was computed from.
+    // Results, each with its inputs.
     FieldStage field;
     SurfaceDistance surface;
     std::optional<StyleRoots> roots;

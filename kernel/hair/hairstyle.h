@@ -40,7 +40,7 @@ struct HairstyleOptions {
     /// Points of the grid that the field lives on, at most. The thesis takes 25,000 for smooth
     /// styles and 50,000 for complex ones (section 4.6).
     Index resolution = 50000;
-    /// Where hair may be; strands end at its faces. Absent: Scalp::default_volume.
+    /// Box that hair may fill; strands end at its faces. Absent: Scalp::default_volume.
     std::optional<Box> volume = std::nullopt;
     GridFieldOptions field = HairField::default_options();
     /// How curves are made that say nothing else, by scripts and from style files, and how hair
@@ -62,19 +62,19 @@ struct StyleConstraint {
     double weight = 0.0;
 };
 
-/// What to grow.
+/// Options of growth.
 struct HairOptions {
     RootOptions roots = {};
     /// The style sets `placement` and `ties`.
     GrowthOptions growth = {};
 };
 
-/// If curves say different things of a grid point, dividing curves count before the others; among
-/// equals the curve that is later in the order counts, together with those that agree with it
-/// within 60 degrees (curve_conflicts.h).
+/// If curves claim a grid point differently, dividing curves count before the others; among equals
+/// the curve that is later in the order counts, together with those that agree with it within 60
+/// degrees (curve_conflicts.h).
 ///
-/// A hairstyle is its inputs; field, roots and strands follow from them, and what has been computed
-/// is used again where its own inputs are the same. After an error the inputs are as they were.
+/// A hairstyle is its inputs; field, roots and strands follow from them, and results are reused if
+/// their own inputs are the same. After an error the inputs are as they were.
 class Hairstyle {
   public:
     /// Takes the present shape of `head`, which may change or die afterwards; `scalp` must have
@@ -90,7 +90,7 @@ class Hairstyle {
     const Scalp& scalp() const;
     const std::shared_ptr<const Scalp>& shared_scalp() const;
     const HairstyleOptions& options() const;
-    /// The head in metres of the frame.
+    /// Returns the head in metres of the frame.
     const Mesh& head() const;
     const GridLayout& layout() const;
     /// Signed distance to the surface of the head itself, negative inside; far away that of the
@@ -116,30 +116,30 @@ class Hairstyle {
     std::span<const CurveId> curves() const;
     bool has(CurveId id) const;
     const StyleCurve& curve(CurveId id) const;
-    /// The curve as it acts: smooth, outside the head, in segments of about a grid step.
+    /// Returns the curve as it acts: smooth, outside the head, in segments of about a grid step.
     const std::vector<Vec3>& course(CurveId id) const;
-    /// The tilts by which a dividing curve acts. Errors: also invalid_argument for another kind of
-    /// curve.
+    /// Returns the tilts by which a dividing curve acts. Errors: also invalid_argument for another
+    /// kind of curve.
     const TiltFit& tilt(CurveId id) const;
     /// Adds a hint stroke, a polyline beside a dividing curve along which hair flows away from it
     /// (DividingCurve::hints). Errors: as tilt and set; out_of_range if no part of the hint is
     /// beside the curve.
     void add_hint(CurveId id, std::vector<Vec3> hint);
-    /// The circle of hair around the beginning of a ponytail. Errors: as tilt.
+    /// Returns the circle of hair around the beginning of a ponytail. Errors: as tilt.
     const HairTie& tie(CurveId id) const;
-    /// What the curves that are enabled and avoid_scalp give the field, one a grid point, in the
-    /// order of the grid's points.
+    /// Returns the constraints of the curves that are enabled and of avoid_scalp, one a grid point,
+    /// in the order of the grid's points.
     std::vector<StyleConstraint> constraints() const;
 
-    /// What was painted on the scalp, in its order: its hair grows with the lengths and the density
-    /// that these say, besides those of HairOptions.
+    /// Returns the strokes painted on the scalp, in their order: its hair grows with the lengths
+    /// and the density of these, besides those of HairOptions.
     std::span<const MaskStroke> masks() const;
     /// Paints a stroke over the others. Errors: as require_mask.
     void add_mask(MaskStroke stroke);
-    /// Takes away what was painted of one kind.
+    /// Removes the strokes of one kind.
     void clear_masks(MaskKind kind);
 
-    /// All that the style is made of: a copy given to `restore` later is an undo.
+    /// Returns all that the style is made of: a copy given to `restore` later is an undo.
     const StyleInputs& inputs() const;
     /// Takes the inputs of a style on this head with the same options. Ids are not given again.
     /// Errors: as set, for every curve; invalid_argument for ids that are not distinct, or a scalp
@@ -151,31 +151,31 @@ class Hairstyle {
     /// HairField::solve.
     void solve(const Context& context = {});
     bool solved() const;
-    /// The field of the last solve.
+    /// Returns the field of the last solve.
     const HairField& field() const;
 
-    /// Turns the field along the head where it points into it, by constraints at all grid points
-    /// near the head that no curve constrains (section 4.6). To be done once, when the curves are
-    /// as wanted: the constraints stay as they are until it is called again. Solves. Over the
-    /// scalp all such points count, on the rest of the head those where the field points inward,
-    /// besides what `options` say. After an error the constraints are as
-    /// they were, and the field is that of the last solve. Errors: as scalp_step and solve.
+    /// Turns the field along the head if it points into it, by constraints at all grid points near
+    /// the head that no curve constrains (section 4.6). To be done once, when the curves are as
+    /// wanted: the constraints stay as they are until it is called again. Solves. Over the scalp
+    /// all such points count, on the rest of the head only those with an inward field, besides the
+    /// limits of `options`. After an error the constraints are as they were, and the field is that
+    /// of the last solve. Errors: as scalp_step and solve.
     void avoid_scalp(const ScalpStepOptions& options = {}, const Context& context = {});
-    /// Takes back what `avoid_scalp` added.
+    /// Removes the constraints of `avoid_scalp`.
     void forget_scalp();
     bool avoids_scalp() const;
 
-    /// What its fidelity grows: that of the thesis roots in steps of angles, and strands that are
-    /// as long as the field carries them (GrowthOptions::thesis).
+    /// Returns the options of its fidelity: for the thesis roots in steps of angles, and strands
+    /// that are as long as the field carries them (GrowthOptions::thesis).
     HairOptions default_hair() const;
-    /// Grows hair into `strands`, whose memory is used again; solves first where needed. Groups are
+    /// Grows hair into `strands`, whose memory is used again; solves first if needed. Groups are
     /// named after the ponytails through whose tie strands pass. The first n strands of a larger
     /// count are those of count n. After an error `strands` are as they were, or empty if growth
-    /// itself had begun: it reuses their memory.
-    /// Errors: invalid_argument without an enabled curve; as make_roots, grow and solve.
+    /// itself had begun: it reuses their memory. Errors: invalid_argument without an enabled curve;
+    /// as make_roots, grow and solve.
     GrowthReport grow(const HairOptions& options, Strands& strands, const Context& context = {});
     Strands grow(const HairOptions& options, const Context& context = {});
-    /// The default hair of its fidelity.
+    /// Returns the default hair of its fidelity.
     Strands grow();
 
     /// Bytes of grids, head and factors, about.

@@ -1,4 +1,4 @@
-/// StyleInputs: what a hairstyle is made of, as a value.
+/// StyleInputs: the inputs of a hairstyle, as a value.
 #pragma once
 
 #include <cstdint>
@@ -29,9 +29,9 @@ struct PlacedCurve {
     bool operator==(const PlacedCurve&) const = default;
 };
 
-/// A hairstyle without what follows from it. Keep a copy and give it to Hairstyle::restore to undo.
-/// On one head and with one HairstyleOptions, equal inputs give the same field and strands to the
-/// bit, whatever was there before.
+/// A hairstyle without its results. Keep a copy and give it to Hairstyle::restore to undo. On one
+/// head and with one HairstyleOptions, equal inputs give the same field and strands to the bit, for
+/// any history.
 struct StyleInputs {
     /// In their order.
     std::vector<PlacedCurve> curves;
@@ -39,17 +39,17 @@ struct StyleInputs {
     std::vector<GridConstraint> scalp_step;
     /// Same as PlacedCurve::edit.
     std::int64_t scalp_edit = 0;
-    /// What was painted on the scalp, in its order.
+    /// Strokes painted on the scalp, in their order.
     std::vector<MaskStroke> masks;
 
     bool operator==(const StyleInputs&) const = default;
 };
 
-/// The curve of this id. Errors: handle_removed.
+/// Returns the curve of this id. Errors: handle_removed.
 PlacedCurve& placed_curve(StyleInputs& inputs, CurveId id);
 const PlacedCurve& placed_curve(const StyleInputs& inputs, CurveId id);
 
-/// The number of the next edit.
+/// Returns the number of the next edit.
 std::int64_t next_edit(const StyleInputs& inputs);
 
 /// Gives a curve the place `place` in the order, from 0. Errors: handle_removed; out_of_range.

@@ -1,4 +1,4 @@
-/// Whether hair does what the curves of its style say: measures of strands at partings and ties.
+/// Measures of strands at partings and ties: whether hair follows the curves of its style.
 #pragma once
 
 #include "kernel/core/context.h"

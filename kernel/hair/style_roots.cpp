@@ -9,11 +9,11 @@
 namespace lissom {
 namespace {
 
-// More roots are made than wanted by this share, for those that fall on bare skin; then as many
+// More roots are made than wanted by this share, to replace the ones on bare skin; then as many
 // times more until there are enough.
 constexpr double kSpare = 0.02;
 constexpr double kMore = 4.0;
-// Roots are spread evenly: where as many are all on bare skin, there is nothing else.
+// Roots are spread evenly: if as many are all on bare skin, all skin is bare.
 constexpr Index kEnoughToTell = 20'000;
 // Roots between looks whether to stop.
 constexpr std::size_t kRootsAPoll = 4096;
@@ -82,7 +82,7 @@ void update_roots(std::optional<StyleRoots>& roots, const HeadShapes& head,
 std::vector<Root> roots_but_for(const Mesh& head, const Scalp& scalp, const RootOptions& options,
                                 const std::function<bool(const Root&)>& bare,
                                 const Context& context) {
-    // make_roots refuses what it can't make.
+    // make_roots refuses invalid options.
     if (!bare || options.count <= 0 || options.count > kMaximumRoots) {
         return make_roots(head, scalp, options, context);
     }

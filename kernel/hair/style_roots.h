@@ -16,13 +16,14 @@
 
 namespace lissom {
 
-/// As make_roots, but for the roots for which `bare(root)` is true, where it is given; the first n
-/// of a larger count are those of count n. Errors: as make_roots; region_empty if all skin is bare.
+/// Returns the roots of make_roots, without those for which `bare(root)` is true, if it is given;
+/// the first n of a larger count are those of count n. Errors: as make_roots; region_empty if all
+/// skin is bare.
 std::vector<Root> roots_but_for(const Mesh& head, const Scalp& scalp, const RootOptions& options,
                                 const std::function<bool(const Root&)>& bare,
                                 const Context& context);
 
-/// What the roots of a hairstyle depend on, besides its head.
+/// Inputs of the roots of a hairstyle, besides its head.
 struct RootKey {
     /// Bare skin along a dividing curve.
     struct Gap {
@@ -52,7 +53,7 @@ struct HeadShapes {
     const Scalp& scalp;
 };
 
-/// Makes `roots` those of `options` and of the partings of `style`; leaves them where they are.
+/// Makes `roots` those of `options` and of the partings of `style`; keeps them if they already are.
 /// After an error there are none. Errors: as roots_but_for.
 void update_roots(std::optional<StyleRoots>& roots, const HeadShapes& head,
                   const RootOptions& options, const DerivedStyle& style, const Context& context);

@@ -9,7 +9,7 @@ Asset::~Asset() = default;
 
 void Asset::count_on(const std::shared_ptr<MemoryAccount>& account) const {
     if (hold_.account()) return;
-    MemoryHold next(account, "what a file holds beside its surface");
+    MemoryHold next(account, "the contents of a file beside its surface");
     next.resize(memory_bytes());
     hold_ = std::move(next);
 }

@@ -1,5 +1,5 @@
-/// Asset: what a file holds beside surfaces (materials, textures, nodes, skins, animations),
-/// kept untouched so that it can be saved again.
+/// Asset: contents of a file beside surfaces (materials, textures, nodes, skins, animations), kept
+/// untouched so that it can be saved again.
 #pragma once
 
 #include <cstddef>
@@ -23,15 +23,15 @@ class Asset {
   public:
     virtual ~Asset();
     Asset& operator=(const Asset&) = delete;
-    /// This asset and what `other` holds; names of `other` that mean something else here are given
-    /// new ones and entered in `renames`.
+    /// Returns this asset joined with `other`; names of `other` with another meaning here are
+    /// replaced and entered in `renames`.
     virtual std::shared_ptr<const Asset> joined(const Asset& other,
                                                 LabelRenames& renames) const = 0;
     virtual std::size_t memory_bytes() const = 0;
     /// Counts on `account` from now on, once however many meshes share it; nothing if it counts
     /// already. Meshes call it with theirs. Errors: memory_limit.
     void count_on(const std::shared_ptr<MemoryAccount>& account) const;
-    /// True if it holds nothing but what the mesh's material libraries define.
+    /// Returns true if it holds only the definitions of the mesh's material libraries.
     virtual bool is_of_libraries() const { return false; }
 
   protected:

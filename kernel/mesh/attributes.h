@@ -32,8 +32,8 @@ enum class ScalarType { float32, float64, int8, uint8, int16, uint16, int32, uin
 /// - "color", "color2", ... (3 or 4, linear scale 0 to 1; corner, vertex or face)
 /// - "joints" and "weights" (both of one width, a multiple of 4; vertex): the joints of a skin that
 ///   move a vertex, and how much
-/// - "morph.N.position", "morph.N.normal", "morph.N.tangent" (3; vertex or corner): what the N-th
-///   morph target, from 1, adds
+/// - "morph.N.position", "morph.N.normal", "morph.N.tangent" (3; vertex or corner): offset of the
+///   N-th morph target, from 1
 struct Attribute {
     std::string name;
     Domain domain = Domain::vertex;
@@ -50,7 +50,7 @@ struct Attribute {
     }
 };
 
-/// What the values of an attribute mean, which its name and width tell.
+/// Meaning of an attribute's values, given by its name and width.
 enum class AttributeRole {
     value,
     texture_coordinates,
@@ -103,7 +103,7 @@ class AttributeSet {
     /// memory_limit.
     void recount() { hold_.resize(memory_bytes()); }
 
-    /// The attribute called `name`, or null.
+    /// Returns the attribute called `name`, or null.
     Attribute* find(std::string_view name);
     const Attribute* find(std::string_view name) const;
     /// Adds an attribute, replacing one of the same name. The reference is valid until the next add

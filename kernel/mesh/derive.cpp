@@ -24,7 +24,7 @@ bool is_of_morph(AttributeRole role) {
            role == AttributeRole::morph_tangent;
 }
 
-// `counts_missing`: an element without a value has zero, where another one has a value.
+// `counts_missing`: an element without a value counts as zero if another one has a value.
 double blend(const Attribute& attribute, std::span<const ElementMap::Source> sources, Index k,
              bool counts_missing) {
     double sum = 0.0, weight = 0.0;

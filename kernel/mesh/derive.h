@@ -43,7 +43,7 @@ class ElementMap {
     std::span<const Source> operator[](Index element) const {
         return {sources_.data() + begin_[at(element)], sources_.data() + begin_[at(element + 1)]};
     }
-    /// The heaviest source of `element`, the first of equals, or kNoIndex.
+    /// Returns the heaviest source of `element`, the first of equals, or kNoIndex.
     Index main_source(Index element) const;
 
   private:
@@ -51,7 +51,7 @@ class ElementMap {
     std::vector<Source> sources_;
 };
 
-/// Where the elements of a new mesh come from. Corners are numbered as in Topology::first_corner.
+/// Sources of the elements of a new mesh. Corners are numbered as in Topology::first_corner.
 struct MeshMap {
     ElementMap vertices, corners, faces;
 };
@@ -61,7 +61,7 @@ std::vector<Vec3> blend_positions(const Mesh& source, const ElementMap& vertices
 /// The same of one point, or displacement, for each vertex of the source.
 std::vector<Vec3> blend_points(std::span<const Vec3> points, const ElementMap& vertices);
 
-/// The mesh with the given positions and faces that carries what `source` holds:
+/// Returns the mesh with the given positions and faces and these contents of `source`:
 /// - attributes are blended; a source without a value (NaN) does not count, but for morph targets,
 ///   which add nothing there. "normal" attributes are made unit again; integer attributes other
 ///   than "color", "normal" and "uv" take the value of the heaviest source;
@@ -74,8 +74,8 @@ std::vector<Vec3> blend_points(std::span<const Vec3> points, const ElementMap& v
 Mesh derive(const Mesh& source, std::vector<Vec3> positions, FaceList faces, const MeshMap& map,
             const Context& context = {});
 
-/// Gives `target`, a mesh without any, what `source` holds, as derive does for the mesh that it
-/// makes. Errors: as derive.
+/// Carries the contents of `source` to `target`, a mesh without any, as derive does. Errors: as
+/// derive.
 void carry(const Mesh& source, const MeshMap& map, Mesh& target, const Context& context = {});
 
 }  // namespace lissom

@@ -39,7 +39,7 @@ void DirectedEdges::sort_by_high(Index begin, Index end, std::vector<std::uint64
 
 namespace {
 
-// Where the smallest vertex stands, from which a face is read.
+// Returns the corner of the smallest vertex; faces are compared from there.
 Index start_of(std::span<const Index> face) {
     return index_of(std::min_element(face.begin(), face.end()) - face.begin());
 }

@@ -21,7 +21,7 @@ class DirectedEdges {
 
     Index low(Index c) const { return std::min(vertices_[at(c)], next_[at(c)]); }
     Index high(Index c) const { return std::max(vertices_[at(c)], next_[at(c)]); }
-    /// Whether the corner's edge runs from its lower vertex to its higher one.
+    /// Returns whether the corner's edge runs from its lower vertex to its higher one.
     bool ascending(Index c) const { return vertices_[at(c)] < next_[at(c)]; }
 
     /// Calls use(corners) once for each undirected edge, with the corners that run along it, in
@@ -57,7 +57,7 @@ class FaceCycles {
 
     /// Faces that were seen, by their keys.
     using Seen = std::multimap<std::uint64_t, Index>;
-    /// Whether `f` is the same as a face in `seen`; if not, it is added.
+    /// Returns whether `f` is the same as a face in `seen`; if not, it is added.
     bool is_copy(Index f, Seen& seen);
 
   private:

@@ -8,12 +8,12 @@
 
 namespace lissom {
 
-/// The edge between two vertices, in whichever direction; kNoIndex if there is none. The time grows
-/// as the valence of `a`.
+/// Returns the edge between two vertices, in whichever direction; kNoIndex if there is none. The
+/// time grows as the valence of `a`.
 Index find_edge(const Topology& topology, Index a, Index b);
 
-/// The faces on both sides of edge `e`: first the one that it is directed along, then the other or
-/// kNoIndex on a boundary.
+/// Returns the faces on both sides of edge `e`: first the one that it is directed along, then the
+/// other or kNoIndex on a boundary.
 std::pair<Index, Index> faces_at_edge(const Topology& topology, Index e);
 
 }  // namespace lissom

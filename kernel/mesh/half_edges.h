@@ -9,7 +9,7 @@
 
 namespace OpenMesh {
 
-// What assertions of its headers ask.
+// Functions called by assertions of its headers.
 inline bool ArrayKernel::is_valid_handle(VertexHandle v) const {
     return v.idx() >= 0 && static_cast<std::size_t>(v.idx()) < n_vertices();
 }

@@ -14,7 +14,7 @@ void require_finite(std::span<const Vec3> positions) {
     if (bad.count == 0) return;
     const std::string names = describe(bad);
     throw Error(ErrorCode::not_finite,
-                "positions of " + names + " are NaN or infinite; correct them where they come from",
+                "positions of " + names + " are NaN or infinite; correct them at their source",
                 std::move(bad));
 }
 
@@ -53,8 +53,8 @@ Mesh& Mesh::operator=(const Mesh& other) {
     return *this = Mesh(other);
 }
 
-// As the compiler's own, but that attributes come with their account, and that the revision is one
-// that this mesh has not had.
+// Moves as the compiler's own operator does, but attributes bring their account along, and the
+// revision is one that this mesh has not had.
 Mesh& Mesh::operator=(Mesh&& other) noexcept {
     topology_ = std::move(other.topology_);
     hold_ = std::move(other.hold_);
@@ -144,7 +144,7 @@ void require_complete_attributes(const Mesh& mesh) {
     const auto require = [](const std::string& name, std::size_t has, std::size_t needs) {
         if (has == needs) return;
         throw Error(ErrorCode::invalid_argument, name + " has " + std::to_string(has) +
-                                                     " values where the mesh needs " +
+                                                     " values; the mesh needs " +
                                                      std::to_string(needs));
     };
     for (const Attribute& a : mesh.attributes().all()) {

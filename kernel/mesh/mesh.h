@@ -1,7 +1,7 @@
 /// Mesh: an oriented 2-manifold polygon mesh with or without boundary; positions in double
-/// precision, attributes and named regions. Copies share the topology and own everything else.
-/// Its memory counts on the account of the context that its topology was made with, and so does
-/// that of its copies: what makes or copies a mesh, or adds to it, may throw memory_limit.
+/// precision, attributes and named regions. Copies share the topology and own everything else. Its
+/// memory counts on the account of the context that its topology was made with, and so does that of
+/// its copies: making or copying a mesh, or adding to it, may throw memory_limit.
 ///
 /// Operators that need triangles see a triangulation of the polygons (triangulation.h); the
 /// polygons stay. Measures are in measures.h, constructors of regions in region_select.h, files in
@@ -57,8 +57,8 @@ class Mesh {
     void set_position(Index v, const Vec3& position);
     /// Replaces all positions. Errors: invalid_argument if the count differs; not_finite.
     void set_positions(std::vector<Vec3> positions);
-    /// Positions for in-place change; values must stay finite. Ends what was derived from the old
-    /// ones.
+    /// Positions for in-place change; values must stay finite. Invalidates values derived from the
+    /// old ones.
     std::span<Vec3> edit_positions();
 
     const AttributeSet& attributes() const { return attributes_; }
@@ -66,7 +66,7 @@ class Mesh {
 
     /// Named regions. Errors: topology_mismatch if `region` is not of this mesh's topology.
     void set_region(std::string_view name, const Region& region);
-    /// The region called `name`, or null.
+    /// Returns the region called `name`, or null.
     const Region* find_region(std::string_view name) const;
     bool remove_region(std::string_view name);
     const std::map<std::string, Region, std::less<>>& regions() const { return regions_; }
@@ -75,12 +75,12 @@ class Mesh {
     std::vector<std::string>& material_libraries() { return material_libraries_; }
     const std::vector<std::string>& material_libraries() const { return material_libraries_; }
 
-    /// What the file held beside the surface, or null. Travels through every operation.
+    /// Contents of the file beside the surface, or null. Travels through every operation.
     const std::shared_ptr<const Asset>& asset() const { return asset_; }
     /// Errors: memory_limit.
     void set_asset(std::shared_ptr<const Asset> asset);
 
-    /// What was found when the mesh was loaded; empty for a mesh made otherwise.
+    /// Returns the findings of loading; empty for a mesh made otherwise.
     const Report& report() const { return report_; }
     void set_report(Report report) { report_ = std::move(report); }
 
@@ -88,7 +88,7 @@ class Mesh {
     /// grows.
     void replace_by(Mesh other);
 
-    /// Grows with every change of positions: what was computed at one revision holds while it
+    /// Grows with every change of positions: results computed at one revision are valid while it
     /// stays.
     std::uint64_t revision() const { return revision_; }
     std::size_t memory_bytes() const;

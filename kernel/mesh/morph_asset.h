@@ -1,4 +1,4 @@
-/// What an asset tells of the morph targets of objects.
+/// Interface of an asset to the morph targets of objects.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace lissom {
 
-/// A morph target. Where a file gives it no name it is called "target N" by its number, from 1.
+/// A morph target. If a file gives it no name it is called "target N" by its number, from 1.
 struct MorphTarget {
     std::string name;
     /// How much of it shows at rest.
@@ -22,19 +22,19 @@ struct MorphTarget {
 /// An Asset that knows morph targets is a MorphAsset as well; found by dynamic_cast.
 class MorphAsset {
   public:
-    /// The targets, in the order of their numbers, that the faces with the label `object` have by
-    /// the names and weights in the asset; there may be more, of which it tells nothing.
+    /// Returns the targets, in the order of their numbers, that the faces with the label `object`
+    /// have by the names and weights in the asset; there may be more, of which it tells nothing.
     virtual std::vector<MorphTarget> morphs_of(std::string_view object) const = 0;
-    /// The asset in which every object has these targets, paired with its own by name; their
-    /// weights are its own, or else those given, and animations of weights follow. Null if nothing
-    /// differs.
+    /// Returns the asset in which every object has these targets, paired with its own by name;
+    /// their weights are its own, or else those given, and animations of weights follow. Null if
+    /// nothing differs.
     virtual std::shared_ptr<const Asset> with_morphs(const std::vector<MorphTarget>& all) const = 0;
 
   protected:
     ~MorphAsset() = default;
 };
 
-/// What a target without a name is called.
+/// Returns the name of a target that has none in the file.
 std::string morph_call_name(Index number);
 
 /// For each of an object's own targets, the place in `all` of the one with its name: of the second

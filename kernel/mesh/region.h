@@ -1,6 +1,6 @@
-/// Region: a set of vertices of one topology. Its faces are those with all vertices inside.
-/// Its memory counts on the account of its topology: what makes one may throw memory_limit.
-/// Constructors from geometry (spheres, boxes, distances, labels) are in region_select.h.
+/// Region: a set of vertices of one topology. Its faces are those with all vertices inside. Its
+/// memory counts on the account of its topology: making one may throw memory_limit. Constructors
+/// from geometry (spheres, boxes, distances, labels) are in region_select.h.
 #pragma once
 
 #include <memory>
@@ -50,7 +50,7 @@ class Region {
     Region smoothed(Index iterations = 3) const;
 
     const std::shared_ptr<const Topology>& topology() const { return topology_; }
-    /// One flag a vertex of the topology.
+    /// Returns one flag a vertex of the topology.
     std::vector<char> mask() const;
 
     bool operator==(const Region& other) const {

@@ -1,4 +1,4 @@
-/// Report: what was found, mended or left out when a mesh was loaded, with the elements concerned.
+/// Report: findings, repairs and omissions of loading a mesh, with the elements concerned.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@
 
 namespace lissom {
 
-/// What a finding says. The name in scripts is that of `finding_name`.
+/// Kinds of findings. The name in scripts is that of `finding_name`.
 enum class FindingKind {
     // Mended: the surface of the file was not an oriented 2-manifold, or was torn.
     vertices_welded,        ///< merged with another vertex at the same place
     vertices_unreferenced,  ///< dropped: no face uses them
     corners_repeated,       ///< faces that named a vertex twice in a row; the repeats were dropped
     faces_collapsed,        ///< dropped: fewer than three different vertices
-    faces_pinched,          ///< split where they passed a vertex twice
+    faces_pinched,          ///< split at a vertex that they passed twice
     faces_duplicate,        ///< dropped: copies of other faces
     faces_flipped,          ///< turned over to agree with their neighbours
-    edges_nonmanifold,      ///< cut open where more than two faces met
-    edges_unorientable,     ///< cut open where no turning of faces makes both sides agree
+    edges_nonmanifold,      ///< cut open between more than two faces
+    edges_unorientable,     ///< cut open because no turning of faces makes both sides agree
     vertices_nonmanifold,   ///< split: separate fans of faces touched there
     // Flagged: kept as they are.
     faces_zero_area,      ///< no area
@@ -30,33 +30,34 @@ enum class FindingKind {
     components_small,     ///< less than a thousandth of the largest component's area
     components_inverted,  ///< closed, but inside out
     points_only,          ///< no faces: the vertices were kept
-    // Left out by the reader of the file, which says what it was.
+    // Left out by the reader of the file; the message names it.
     indices_dangling,    ///< references to texture coordinates or normals that do not exist
     values_not_finite,   ///< attribute values that were NaN or infinite
-    content_skipped,     ///< what a mesh has no place for
+    content_skipped,     ///< content of the file without a place in a mesh
     files_missing,       ///< textures and other files that were not found
     extensions_dropped,  ///< extensions of the format that are not understood
 };
 
-/// The name of a kind in scripts and reports: "vertices_welded".
+/// Returns the name of a kind in scripts and reports: "vertices_welded".
 std::string_view finding_name(FindingKind kind);
 
-/// A sentence on what a kind means: "Copies of other faces were dropped."
+/// Returns a sentence on the meaning of a kind: "Copies of other faces were dropped."
 std::string_view finding_explanation(FindingKind kind);
 
-/// All kinds, in the order of their declaration.
+/// Returns all kinds, in the order of their declaration.
 const std::vector<FindingKind>& all_finding_kinds();
 
 struct Finding {
     FindingKind kind = FindingKind::content_skipped;
-    /// What `ids` number. Edges are pairs of vertex ids, so that `ids` holds two entries an edge.
+    /// Kind of the elements in `ids`. Edges are pairs of vertex ids, so that `ids` holds two
+    /// entries an edge.
     ElementKind element = ElementKind::none;
-    /// Whether the ids are those of the file (what was changed) or of the mesh (what is in it).
+    /// Whether the ids are those of the file (for changes) or of the mesh (for its contents).
     bool in_file = false;
     std::size_t count = 0;
     /// 0-based; all of them, in ascending order. Empty if there is nothing to number.
     std::vector<Index> ids;
-    /// One sentence, or the names of what was left out.
+    /// One sentence, or the names of the omitted parts.
     std::string message;
 
     bool operator==(const Finding&) const = default;

@@ -1,4 +1,4 @@
-/// What an asset tells of the skins in it.
+/// Interface of an asset to its skins.
 #pragma once
 
 #include <string>

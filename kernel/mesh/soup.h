@@ -20,8 +20,8 @@ struct Soup {
     FaceList faces;
     /// Values and labels of the vertices, corners and faces above.
     AttributeSet attributes;
-    /// For each vertex the one that it is the same as, itself for most, where the file says so: a
-    /// vertex that was stored several times with different values. Empty if it says nothing.
+    /// For each vertex its identical vertex, itself for most, if the file gives it: a vertex that
+    /// was stored several times with different values. Empty if it says nothing.
     std::vector<Index> same_as;
     /// Named sets of vertices.
     std::map<std::string, std::vector<Index>, std::less<>> regions;

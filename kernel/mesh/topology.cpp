@@ -38,8 +38,8 @@ void link_boundary(OpenMesh::PolyConnectivity& mesh, const std::vector<Index>& t
 
 namespace {
 
-// Of the lists of a topology. OpenMesh keeps one index a vertex and face, and two half-edges of
-// four indices an edge.
+// Returns the bytes of a topology's lists. OpenMesh keeps one index a vertex and face, and two
+// half-edges of four indices an edge.
 std::size_t list_bytes(std::size_t vertices, const FaceList& faces, std::size_t edges,
                        std::size_t boundary_edges) {
     const std::size_t corners = faces.vertices.size(), offsets = faces.offsets.size();
@@ -62,7 +62,7 @@ Topology::~Topology() = default;
 
 std::shared_ptr<const Topology> Topology::create(Index vertex_count, FaceList faces,
                                                  const Context& context) {
-    // Edges by their vertices, what is next in each list, and the corners of fans.
+    // Edges by their vertices, successors in each list, and the corners of fans.
     const MemoryCharge working = context.charge(
         (5 * faces.vertices.size() + 4 * at(std::max<Index>(0, vertex_count))) * sizeof(Index),
         "checking the faces of a mesh");

@@ -48,8 +48,8 @@ class Topology {
     /// meshes share it.
     static std::shared_ptr<const Topology> create(Index vertex_count, FaceList faces,
                                                   const Context& context = {});
-    /// The same for faces that are known to be a manifold. `twin` pairs the corners: for each, the
-    /// one that runs along its edge the other way, or kNoIndex on a boundary.
+    /// Returns the same for faces that are known to be a manifold. `twin` pairs the corners: for
+    /// each, the one that runs along its edge the other way, or kNoIndex on a boundary.
     static std::shared_ptr<const Topology> create_paired(Index vertex_count, FaceList faces,
                                                          const std::vector<Index>& twin,
                                                          const Context& context = {});
@@ -68,8 +68,9 @@ class Topology {
     /// First corner of face `f`: corner `first_corner(f) + k` is face f at vertex `face(f)[k]`.
     Index first_corner(Index f) const { return faces_.offsets[at(f)]; }
 
-    /// One-ring of `v`: the vertices joined to it by an edge, counter-clockwise. At a boundary
-    /// vertex it starts at the boundary, so that consecutive neighbours share a face with `v`.
+    /// Returns one-ring of `v`: the vertices joined to it by an edge, counter-clockwise. At a
+    /// boundary vertex it starts at the boundary, so that consecutive neighbours share a face with
+    /// `v`.
     std::span<const Index> neighbors(Index v) const {
         return {ring_.data() + ring_begin_[at(v)], ring_.data() + ring_begin_[at(v + 1)]};
     }
@@ -101,12 +102,13 @@ class Topology {
     const std::vector<Index>& components() const { return components_; }
     Index component_count() const { return component_count_; }
 
-    /// The half-edge structure, for algorithms that walk it. Halfedge 2e runs along `edge(e)`.
+    /// Returns the half-edge structure, for algorithms that walk it. Halfedge 2e runs along
+    /// `edge(e)`.
     const OpenMesh::PolyConnectivity& halfedges() const { return *halfedges_; }
 
     /// Bytes held.
     std::size_t memory_bytes() const;
-    /// The account that it counts on, and with it meshes and regions that are made on it.
+    /// Returns the account that it counts on, and with it meshes and regions that are made on it.
     const std::shared_ptr<MemoryAccount>& account() const { return hold_.account(); }
 
   private:
@@ -130,7 +132,7 @@ class Topology {
     std::unique_ptr<OpenMesh::PolyConnectivity> halfedges_;
 };
 
-/// Throw out_of_range, naming them, where some of the vertices or faces do not exist.
+/// Throw out_of_range, naming them, if some of the vertices or faces do not exist.
 void require_vertices(const Topology& topology, std::span<const Index> vertices);
 void require_faces(const Topology& topology, std::span<const Index> faces);
 

@@ -40,7 +40,7 @@ void check_each_face(Index vertex_count, const FaceList& faces) {
     }
     if (too_small.count > 0) {
         refuse(ErrorCode::face_too_small, std::move(too_small),
-               "there are fewer than three vertices in", "remove what is no face");
+               "there are fewer than three vertices in", "remove entries that are no face");
     }
     if (repeated.count > 0) {
         refuse(ErrorCode::repeated_vertex, std::move(repeated), "a vertex is used twice by",

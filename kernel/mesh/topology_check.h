@@ -11,7 +11,7 @@
 
 namespace lissom {
 
-/// Throws an error that names `elements` between what is wrong with them and what to do.
+/// Throws an error that names `elements` between the defect and the remedy.
 [[noreturn]] void refuse(ErrorCode code, Elements elements, const std::string& what,
                          const std::string& remedy);
 

@@ -13,8 +13,8 @@
 
 namespace lissom {
 
-/// A set of tuples of `Width` doubles. Tuples are equal where all values are; -0 equals 0, and a
-/// NaN equals a NaN of the same bits.
+/// A set of tuples of `Width` doubles. Tuples are equal if all values are; -0 equals 0, and a NaN
+/// equals a NaN of the same bits.
 template <std::size_t Width>
 class ValuePool {
   public:
@@ -32,7 +32,7 @@ class ValuePool {
         return slot;
     }
 
-    /// All tuples, by number.
+    /// Returns all tuples, by number.
     const std::vector<Tuple>& tuples() const { return tuples_; }
 
   private:
@@ -55,7 +55,7 @@ class ValuePool {
         return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
     }
 
-    // The slot of `key`, or the free one where it belongs.
+    // Returns the slot of `key`, or the free slot for it.
     Index& find(const Tuple& key) {
         const std::size_t mask = slots_.size() - 1;
         std::size_t at = hash(key) & mask;

@@ -1,5 +1,5 @@
-/// What the constraints of style curves stand for (thesis, Figures 4.4 and 4.5). It is the tag of
-/// the GridConstraints of style curves.
+/// Meaning of the constraints of style curves (thesis, Figures 4.4 and 4.5). It is the tag of the
+/// GridConstraints of style curves.
 #pragma once
 
 #include <string_view>

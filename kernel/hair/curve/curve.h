@@ -17,14 +17,14 @@ void require_curve_weight(double weight);
 
 double curve_length(std::span<const Vec3> points);
 
-/// A smooth curve through `points`, of segments at most `step` long: centripetal Catmull-Rom
-/// (Barry and Goldman 1988; Yuksel et al. 2011), which neither loops nor leaves its points far.
-/// Repeated points are left out. Errors: as require_curve; invalid_argument for a step that is not
-/// above 0; out_of_range for a curve of more than a million steps.
+/// Returns a smooth curve through `points`, of segments at most `step` long: centripetal
+/// Catmull-Rom (Barry and Goldman 1988; Yuksel et al. 2011), which neither loops nor leaves its
+/// points far. Repeated points are left out. Errors: as require_curve; invalid_argument for a step
+/// that is not above 0; out_of_range for a curve of more than a million steps.
 std::vector<Vec3> smooth_curve(std::span<const Vec3> points, double step);
 
-/// The same polyline in segments of equal length along it, as near to `step` as whole numbers of
-/// them come, with the same ends (section 4.5). Errors: as smooth_curve.
+/// Returns the same polyline in segments of equal length along it, as near to `step` as whole
+/// numbers of them come, with the same ends (section 4.5). Errors: as smooth_curve.
 std::vector<Vec3> resampled_curve(std::span<const Vec3> points, double step);
 
 /// Moves points nearer than `clearance` to the surface of the head, or inside, outward to there, as

@@ -76,7 +76,7 @@ std::vector<Vec3> curve_tangents(std::span<const Vec3> curve) {
         tangents[i + 1] += along;
     }
     for (std::size_t i = 0; i < curve.size(); ++i) {
-        // Where a curve turns back, as the segment before.
+        // At a reversal of the curve, the direction of the segment before.
         if (tangents[i].norm() < 1e-9) tangents[i] = curve[i] - curve[i > 0 ? i - 1 : 0];
         tangents[i].normalize();
     }

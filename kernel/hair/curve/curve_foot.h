@@ -20,8 +20,8 @@ struct CurveFoot {
     double beyond = 0.0;
 };
 
-/// The first of several nearest points. The curve has at least two points, and no two successive
-/// ones are equal.
+/// Returns the first of several nearest points. The curve has at least two points, and no two
+/// successive ones are equal.
 CurveFoot foot_on_curve(std::span<const Vec3> curve, const Vec3& point);
 
 /// Shares, 0 to 1, of the segments a b and c d at which they are nearest to each other, and that
@@ -35,13 +35,13 @@ std::vector<double> arc_lengths(std::span<const Vec3> curve);
 /// Arc length from the first point up to a foot; `lengths` are arc_lengths of the curve.
 double arc_length_at(std::span<const double> lengths, const CurveFoot& foot);
 
-/// The point at this arc length, clamped to the curve.
+/// Returns the point at this arc length, clamped to the curve.
 Vec3 point_at_arc_length(std::span<const Vec3> curve, std::span<const double> lengths, double at);
 
 /// Unit tangents at the points: the mean of those of the segments beside them.
 std::vector<Vec3> curve_tangents(std::span<const Vec3> curve);
 
-/// The curve without points equal to the one before.
+/// Returns the curve without points equal to the one before.
 std::vector<Vec3> without_repeated_points(std::span<const Vec3> points);
 
 }  // namespace lissom

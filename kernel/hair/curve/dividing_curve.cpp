@@ -17,7 +17,7 @@ namespace {
 // Nearer to the curve's plane than this, in steps, a point belongs to no side.
 constexpr double kOnPlane = 1e-3;
 // Points as far from the curve as the reach, as on a parting in the middle of a grid, are beyond it
-// on both sides, whatever the rounding.
+// on both sides for any rounding.
 constexpr double kTie = 1e-9;
 // Beyond the curve's ends points still take constraints up to this, in steps.
 constexpr double kBeyond = 0.5;
@@ -100,7 +100,7 @@ class Divider {
         ConstraintKind kind;
     };
 
-    /// What is said of a grid point, if anything.
+    /// Returns the claim on a grid point, if any.
     std::optional<Said> at(const Cell& cell) const {
         const double v = distances_.at(cell[0], cell[1], cell[2]);
         if (v < rule_.lowest() || v > rule_.highest()) return std::nullopt;
@@ -160,7 +160,7 @@ class LocalFrames {
     struct Frame {
         Vec3 origin, x, y, z;
     };
-    // Where a point lies in the xy-plane through it.
+    // Position of a point in the xy-plane through it.
     struct Place {
         double u = 0.0, v = 0.0, distance = 0.0;
         Vec3 x = Vec3::Zero(), y = Vec3::Zero();

@@ -1,4 +1,4 @@
-/// Dividing curves: partings, where hair flows away to both sides (thesis, section 4.5, Figure
+/// Dividing curves: partings with hair flowing away to both sides (thesis, section 4.5, Figure
 /// 4.4).
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace lissom {
 
-/// Lengths are in the unit of the grid; those that are absent follow from its step.
+/// Lengths are in the unit of the grid; absent ones follow from its step.
 struct DividingOptions {
     /// By how much the flow away from the curve is turned towards its last point, in radians from
     /// -pi / 2 to pi / 2, at its two ends; between them it changes evenly with the arc length.
@@ -25,9 +25,9 @@ struct DividingOptions {
     /// Sides as seen from outside by one who looks along the curve with the normal up. Equal tilts
     /// are mirror images.
     Tilt left, right;
-    /// Of the Gaussian that hair follows: it rises from the curve, where it has its inflexion, to
-    /// its top a distance `sigma` away. `height` is h of the thesis, the Gaussian's factor: the top
-    /// stands 0.39 h above the skin. 1 and 0.5 steps.
+    /// Shape of the Gaussian that hair follows: it rises from the curve, its inflexion, to its top
+    /// a distance `sigma` away. `height` is h of the thesis, the Gaussian's factor: the top stands
+    /// 0.39 h above the skin. 1 and 0.5 steps.
     std::optional<double> sigma = std::nullopt, height = std::nullopt;
     /// Points at most `reach` from the curve across and `thickness` from the Gaussian in height
     /// take its direction (blue in the figure). 2.5 sigma and 0.8 steps.
@@ -53,10 +53,10 @@ struct DividingOptions {
     bool operator==(const DividingOptions&) const = default;
 };
 
-/// The options with the lengths that follow from the step of a grid.
+/// Returns the options with the lengths that follow from the step of a grid.
 DividingOptions with_lengths(DividingOptions options, double step);
 
-/// Where a point lies as seen from the nearest point of a dividing curve.
+/// Position of a point relative to the nearest point of a dividing curve.
 struct DividingPlace {
     /// Across, positive on the right.
     double across = 0.0;
@@ -79,10 +79,10 @@ class DividingLine {
     /// not_finite.
     DividingLine(std::span<const Vec3> points, std::span<const Vec3> normals);
 
-    /// As seen from the nearest point of the line. Of several the first counts.
+    /// Returns the position relative to the nearest point of the line. The first of several counts.
     DividingPlace place(const Vec3& point) const;
     /// Distance of a point of the scalp to the line along the skin. For the gap of bare skin: no
-    /// roots where it is less than kPartingGap / 2.
+    /// roots if it is less than kPartingGap / 2.
     double skin_distance(const Vec3& point) const;
     double length() const { return lengths_.back(); }
 
@@ -96,9 +96,9 @@ class DividingLine {
 /// Width of the bare skin at a parting, in metres.
 inline constexpr double kPartingGap = 0.0024;
 
-/// The constraints of a dividing curve of segments about as long as the grid's step that lies on
-/// the scalp; each grid point belongs to the nearest point of the curve. With u the distance across
-/// and v the signed distance to the head, hair follows the Gaussian
+/// Returns the constraints of a dividing curve of segments about as long as the grid's step that
+/// lies on the scalp; each grid point belongs to the nearest point of the curve. With u the
+/// distance across and v the signed distance to the head, hair follows the Gaussian
 ///     g(u) = h (exp(-(u - sigma)^2 / 2 sigma^2) - exp(-1/2))
 /// away from the curve: points at |v - g(u)| < thickness take the unit tangent of the surface g in
 /// the direction that is turned by the tilt. Above them stand vectors of length `separation` that

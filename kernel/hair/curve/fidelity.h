@@ -4,7 +4,7 @@
 namespace lissom {
 
 enum class HairFidelity {
-    /// What gives the best hair: where the thesis leaves it, the options say so.
+    /// Best hair; options that leave the thesis for it say so.
     lissom,
     /// Chapter 4 to the letter, for comparison.
     thesis,

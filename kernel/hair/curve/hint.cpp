@@ -17,7 +17,7 @@
 namespace lissom {
 namespace {
 
-// Steps of a hint that is read, in what is near.
+// Step at which a hint is resampled, as a fraction of `near`.
 constexpr double kHintSteps = 0.1;
 // Segments of a join.
 constexpr int kJoinSegments = 8;
@@ -60,7 +60,7 @@ Meeting meeting_at(const Path& curve, const Vec3& point) {
     return {arc_length_at(curve.lengths, foot), foot.distance};
 }
 
-// Where a hint crosses a curve or comes nearest to it; of several places the first.
+// Returns the crossing of a hint and a curve, or their nearest points; the first of several.
 Meeting crossing(const Path& curve, const Path& hint) {
     Meeting best{0.0, std::numeric_limits<double>::infinity()};
     for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
@@ -106,7 +106,8 @@ void append_part(const Path& path, double from, double to, std::vector<Vec3>& po
     if (to > from) points.push_back(path.at(to));
 }
 
-// A place of one path joined to a place of another, beginning where `points` end.
+// Appends a smooth join from a place of one path to a place of another, beginning at the end of
+// `points`.
 void append_join(const Path& first, double leave, const Path& second, double arrive,
                  std::vector<Vec3>& points) {
     append_join(first.at(leave), first.tangent(leave), second.at(arrive), second.tangent(arrive),
@@ -117,12 +118,12 @@ void append_join(const Path& first, double leave, const Path& second, double arr
 struct HintShape {
     Meeting start, end;
     double length = 0.0, curve_length = 0.0;
-    // Between the general direction and the curve's tangent towards the tip where the hint starts,
-    // degrees.
+    // Angle between the general direction and the curve's tangent towards the tip at the start of
+    // the hint, degrees.
     double angle = 0.0;
     // The nearest that the hint comes.
     double least = 0.0;
-    // Where it changes sides: arc length along the hint, and how far it is from the curve there.
+    // Changes of side: arc length along the hint, and distance from the curve there.
     std::vector<Meeting> sides;
 };
 
@@ -164,7 +165,7 @@ std::optional<double> first_crossing(const HintShape& shape, double near) {
     return std::nullopt;
 }
 
-// What a hint means where `near` is near, if it were turned by `turn` degrees.
+// Returns the meaning of a hint for this `near`, if it were turned by `turn` degrees.
 HintOperation operation_of(const HintShape& shape, double near, double turn = 0.0) {
     const std::optional<double> cross = first_crossing(shape, near);
     if (shape.start.distance <= near && shape.end.distance <= near) {
@@ -183,7 +184,7 @@ HintOperation operation_of(const HintShape& shape, double near, double turn = 0.
     return across > 0.0 ? HintOperation::cut : HintOperation::concatenate;
 }
 
-// What the ends of a hint allow.
+// Returns the operations that the ends of a hint allow.
 std::vector<HintOperation> possible_operations(const HintShape& shape, double near) {
     std::vector<HintOperation> possible;
     const bool starts = shape.start.distance <= near, ends = shape.end.distance <= near;
@@ -196,7 +197,7 @@ std::vector<HintOperation> possible_operations(const HintShape& shape, double ne
     return possible;
 }
 
-// How else a hint may have been meant: factors of what is near, and turns in degrees.
+// Variations for other meanings of a hint: factors of `near`, and turns in degrees.
 constexpr std::pair<double, double> kOtherReadings[] = {
     {0.75, 0.0}, {1.3, 0.0}, {1.0, -12.0}, {1.0, 12.0}};
 

@@ -15,54 +15,53 @@ enum class HintOperation { cut, concatenate, insert };
 struct HintOptions {
     /// A hint that is farther than this from the curve has nothing to do with it.
     double reach = 0.03;
-    /// A join takes the place of this length of the curve and of the hint, or of less where they
-    /// are shorter.
+    /// A join replaces this length of the curve and of the hint, or less if they are shorter.
     double join = 0.015;
 };
 
-/// What a hint means.
+/// Meaning of a hint.
 struct HintReading {
     HintOperation operation = HintOperation::cut;
     /// False if a hint that is drawn a little nearer or farther, or turned by 12 degrees, means
-    /// something else: tell the artist what it was taken for.
+    /// something else: tell the artist the reading.
     bool sure = true;
-    /// What else it may mean, likelier first: what such hints mean, then what its ends allow.
+    /// Other readings, likelier first: those of varied hints, then any that its ends allow.
     std::vector<HintOperation> others = {};
 };
 
 /// Reads a hint by its ends and its general direction, that from its start to its end. With r for
 /// `near`: one that starts and ends within r of the curve, at places 1.2 r and 0.15 of its length
-/// apart, inserts; where these are nearer, it cuts if it crosses the curve or is at most 3 r long,
-/// else it concatenates. One that only starts within r concatenates where that is within r of the
-/// tip, or it does not cross the curve in its first 1.2 r; else it cuts if it is short, begins well
+/// apart, inserts; if these are nearer, it cuts if it crosses the curve or is at most 3 r long,
+/// else it concatenates. One that only starts within r concatenates if that is within r of the tip,
+/// or if it does not cross the curve in its first 1.2 r; else it cuts if it is short, begins well
 /// before the curve and runs across it, and concatenates if it goes on along the curve. Any other
-/// one cuts where it crosses the curve or passes within r. It crosses where it changes sides within
-/// r of the curve. `near` is about 20 pixels of the picture that the hint was drawn in. Errors: as
+/// one cuts if it crosses the curve or passes within r. A crossing is a change of sides within r of
+/// the curve. `near` is about 20 pixels of the picture that the hint was drawn in. Errors: as
 /// require_curve for both; invalid_argument for `near`; out_of_range if the hint is nowhere near
 /// the curve.
 HintReading hint_reading(std::span<const Vec3> curve, std::span<const Vec3> hint,
                          double near = 0.007);
 
-/// The operation of hint_reading.
+/// Returns the operation of hint_reading.
 HintOperation hint_operation(std::span<const Vec3> curve, std::span<const Vec3> hint,
                              double near = 0.007);
 
-/// The curve up to where the hint crosses it, or comes nearest to it. Errors: as require_curve for
-/// both; invalid_argument for options out of range, or if nothing of the curve would be left;
-/// out_of_range if the hint is nowhere near the curve.
+/// Returns the curve up to its crossing with the hint, or up to the point nearest to it. Errors: as
+/// require_curve for both; invalid_argument for options out of range, or if nothing of the curve
+/// would be left; out_of_range if the hint is nowhere near the curve.
 std::vector<Vec3> cut_curve(std::span<const Vec3> curve, std::span<const Vec3> hint,
                             const HintOptions& options = {});
 
-/// The curve up to the point nearest to the start of the hint, and the hint from there on. The join
-/// is smooth: a cubic with the tangents of both. The first point of the curve stays. Errors: as
-/// cut_curve; out_of_range if the hint does not start near the curve.
+/// Returns the curve up to the point nearest to the start of the hint, and the hint from there on.
+/// The join is smooth: a cubic with the tangents of both. The first point of the curve stays.
+/// Errors: as cut_curve; out_of_range if the hint does not start near the curve.
 std::vector<Vec3> concatenated_curve(std::span<const Vec3> curve, std::span<const Vec3> hint,
                                      const HintOptions& options = {});
 
-/// The curve with the hint between the points nearest to the ends of the hint, whichever way the
-/// hint runs. Joins are smooth; the first and last point of the curve stay. Errors: as cut_curve;
-/// out_of_range if the hint does not start and end near the curve; invalid_argument if it does so
-/// at one place.
+/// Returns the curve with the hint between the points nearest to the ends of the hint, whichever
+/// way the hint runs. Joins are smooth; the first and last point of the curve stay. Errors: as
+/// cut_curve; out_of_range if the hint does not start and end near the curve; invalid_argument if
+/// it does so at one place.
 std::vector<Vec3> inserted_curve(std::span<const Vec3> curve, std::span<const Vec3> hint,
                                  const HintOptions& options = {});
 

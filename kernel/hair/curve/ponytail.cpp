@@ -40,7 +40,7 @@ constexpr double kNoArea = 1e-9;
 // degrees.
 constexpr double kSeenAlong = 0.17, kSeenAside = 0.42;
 // Ends of a section that are farther apart than this share of its width do not go round the spine:
-// 0.59 where a fifth is missing, 1 for half a ring.
+// 0.59 if a fifth is missing, 1 for half a ring.
 constexpr double kOpen = 0.75;
 // A profile crosses the spine if it has more than this share of its area on the other side.
 constexpr double kCrossing = 0.05;
@@ -222,7 +222,8 @@ class Profile {
     std::vector<Sample> samples_;
 };
 
-// Mean cosine of the angle between two profiles as seen along the spine, where both are.
+// Returns the mean cosine of the angle between two profiles as seen along the spine, over the
+// length that both cover.
 double cosine_between(const Profile& a, const Profile& b, double from, double to) {
     constexpr int kPlaces = 32;
     double dots = 0.0, lengths = 0.0;
@@ -252,14 +253,14 @@ std::vector<Profile> profiles_of(const Spine& spine, const PonytailOptions& opti
     return result;
 }
 
-// Where the cross sections of a spine are and how wide, by arc length.
+// Centers and widths of a spine's cross sections, by arc length.
 struct Outline {
     double first = 0.0, last = 0.0;
     double radius = 0.0;
     double fullness = 0.0, length = 0.0;
     std::vector<Profile> profiles;
 
-    // Where all profiles are.
+    // Returns the first arc length covered by all profiles.
     double begin_of_profiles() const {
         return std::max(profiles.front().begin(), profiles.back().begin());
     }
@@ -277,7 +278,7 @@ struct Outline {
     }
 };
 
-// Puts the tie where a drawn section crosses the spine.
+// Puts the tie at the crossing of a drawn section and the spine.
 void place_section(const Spine& spine, const std::vector<Vec3>& polyline, Outline& outline) {
     const DrawnSection section = drawn_section(polyline);
     const CurveFoot foot = foot_on_curve(spine.points, section.center);
@@ -330,7 +331,7 @@ void require_place(const DistanceGrid& distances, const PonytailSection& tie) {
     }
 }
 
-// What a ponytail says at the points of a grid.
+// Claims of a ponytail on the points of a grid.
 class Tail {
   public:
     Tail(const DistanceGrid& distances, const PonytailShape& shape, const PonytailOptions& options)
@@ -381,8 +382,8 @@ class Tail {
         return (direction + slope / radius * outward).normalized();
     }
 
-    // Into C1 from just in front of it. Streams from all sides cancel out on its axis, where hair
-    // would stop. Not in the thesis.
+    // Into C1 from just in front of it. Streams from all sides cancel out on its axis, and hair
+    // would stop there. Not in the thesis.
     std::optional<Vec3> leading(const Vec3& point) const {
         const PonytailSection& tie = shape_.tie();
         const Vec3 from = point - tie.center;
@@ -459,7 +460,7 @@ class Tail {
         return 6.0 * options_.spread / length * t * (1.0 - t);
     }
 
-    // Whether a point of the tail, this far behind C1, is where hair grows that is not in it yet.
+    // Returns whether hair outside the tail grows through a point of it, this far behind C1.
     bool catches_hair(const Vec3& point, double behind) const {
         if (literal_ && !(clearance_ > 0.0)) return false;
         return behind > clearance_ && distances_.value(point) < clearance_;

@@ -15,20 +15,20 @@
 
 namespace lissom {
 
-/// Lengths are in the unit of the grid; those that are absent follow from its step.
+/// Lengths are in the unit of the grid; absent ones follow from its step.
 struct PonytailOptions {
-    /// Of the first cross section C1, the tie. Where absent, that of `section`, else the distance
-    /// of `profiles` from the spine at C1, else 1.5 steps.
+    /// Radius of the first cross section C1, the tie. If absent, that of `section`, else the
+    /// distance of `profiles` from the spine at C1, else 1.5 steps.
     std::optional<double> radius = std::nullopt;
     /// A polyline drawn around the spine, closed by the way from its last point to its first, which
-    /// is at most 0.75 of its width. It is a circle seen from anywhere: its radius is half of its
-    /// extent across the spine, or where the spine runs along the normal of the polyline's plane,
-    /// its mean distance from its center. C1 lies where that is nearest to the spine. Empty for
-    /// none: C1 is at the beginning of the profiles, else of the spine.
+    /// is at most 0.75 of its width. It is read as a circle from any view: its radius is half of
+    /// its extent across the spine, or its mean distance from its center if the spine runs along
+    /// the normal of the polyline's plane. C1 is its point nearest to the spine. Empty for none: C1
+    /// is at the beginning of the profiles, else of the spine.
     std::vector<Vec3> section;
-    /// Polylines along the spine on either side, whichever way they run: where both are it has
-    /// cross sections, C1 to C2; their radius is the mean distance of the profiles from the spine
-    /// at each place, in the ratio to that at C1. Empty for none; one alone stands for both.
+    /// Polylines along the spine on either side, in any direction: the range of both has cross
+    /// sections, C1 to C2; their radius is the mean distance of the profiles from the spine at each
+    /// place, in the ratio to that at C1. Empty for none; one alone stands for both.
     std::array<std::vector<Vec3>, 2> profiles;
     /// Without profiles: C2 is at this share of the spine's length behind C1, 0 to 1, and the tail
     /// swells to 1 + fullness radii over its first half, and narrows to its end.
@@ -51,7 +51,7 @@ struct PonytailOptions {
     /// from C1 and behind it: so a tail that falls along the neck does not catch the hair that
     /// grows there. 0 leaves none out. 1.5 steps.
     std::optional<double> clearance = std::nullopt;
-    /// As StreamOptions::stop_length: beyond the end of the spine.
+    /// Like StreamOptions::stop_length: beyond the end of the spine.
     double stop_length = 0.04;
     /// omega of equation (4.2), 1e-6 to 1e9.
     double weight = 100.0;
@@ -66,14 +66,14 @@ struct PonytailOptions {
     bool operator==(const PonytailOptions&) const = default;
 };
 
-/// The options with the lengths that follow from the step of a grid, but for the radius, which
-/// follows from what was drawn.
+/// Returns the options with the lengths that follow from the step of a grid, except the radius,
+/// which follows from the drawing.
 PonytailOptions with_lengths(PonytailOptions options, double step);
 
 /// A circle around the spine.
 struct PonytailSection {
     Vec3 center = Vec3::Zero();
-    /// Of the spine towards its end, of unit length.
+    /// Direction of the spine towards its end, of unit length.
     Vec3 direction = Vec3::Zero();
     double radius = 0.0;
 };
@@ -97,14 +97,14 @@ struct PonytailShape {
 PonytailShape ponytail_shape(std::span<const Vec3> spine, double step,
                              const PonytailOptions& options = {});
 
-/// The constraints of a ponytail, ascending by point: near the cross sections the directions of the
-/// surface of revolution, between its spine and its outline (purple in the figure); along the rest
-/// of the spine those of a stream curve (blue); around C1, outside the head, vectors of length
-/// `tightness` to its center (green). Where kinds meet at a point the first of these counts. With
-/// `grip`, points up to a step in front of C1 and near its axis lead into it, which is not in the
-/// thesis. Errors: invalid_argument for options out of range, for a tie that is wider than the grid
-/// or has its center inside the head, with the fidelity of the thesis for a ring without a grid
-/// point; out_of_range if the whole spine lies outside the grid.
+/// Returns the constraints of a ponytail, ascending by point: near the cross sections the
+/// directions of the surface of revolution, between its spine and its outline (purple in the
+/// figure); along the rest of the spine those of a stream curve (blue); around C1, outside the
+/// head, vectors of length `tightness` to its center (green). If kinds meet at a point, the first
+/// of these counts. With `grip`, points up to a step in front of C1 and near its axis lead into it,
+/// which is not in the thesis. Errors: invalid_argument for options out of range, for a tie that is
+/// wider than the grid or has its center inside the head, with the fidelity of the thesis for a
+/// ring without a grid point; out_of_range if the whole spine lies outside the grid.
 std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
                                                  const PonytailShape& shape,
                                                  const PonytailOptions& options = {});

@@ -30,12 +30,12 @@ struct StreamOptions {
     bool operator==(const StreamOptions&) const = default;
 };
 
-/// The constraints of a stream curve of segments about as long as the grid's step, from root to
-/// tip: the corners of the cell that the middle of a segment lies in take its direction, of unit
-/// length; corners of several segments their mean, by the trilinear weights of the corners. Along
-/// the vanishing extension lengths fall evenly from 1 to 0. Corners outside the grid are left out.
-/// Errors: as require_curve; invalid_argument for options out of range; out_of_range if the whole
-/// curve lies outside the grid.
+/// Returns the constraints of a stream curve of segments about as long as the grid's step, from
+/// root to tip: the corners of the cell that the middle of a segment lies in take its direction, of
+/// unit length; corners of several segments their mean, by the trilinear weights of the corners.
+/// Along the vanishing extension lengths fall evenly from 1 to 0. Corners outside the grid are left
+/// out. Errors: as require_curve; invalid_argument for options out of range; out_of_range if the
+/// whole curve lies outside the grid.
 std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
                                                std::span<const Vec3> points,
                                                const StreamOptions& options = {});
@@ -43,8 +43,8 @@ std::vector<GridConstraint> stream_constraints(const GridLayout& layout,
 /// A straight line of this many steps that begins in the grid ends outside.
 double steps_across(const GridLayout& layout);
 
-/// Collects vectors that are to stand at grid points: each point takes the mean of what it was
-/// given, by weight; with the fidelity of the thesis, that of the greatest weight.
+/// Collects vectors for grid points: each point takes the mean of its vectors, by weight; with the
+/// fidelity of the thesis, the one of the greatest weight.
 class VectorSplat {
   public:
     explicit VectorSplat(const GridLayout& layout, HairFidelity fidelity = HairFidelity::lissom)
@@ -67,7 +67,7 @@ class VectorSplat {
         ConstraintKind kind = ConstraintKind::stream;
     };
 
-    // What a point takes of all that it was given.
+    // Returns the vector of a point that was given these.
     Given taken(std::span<const Given> given) const;
 
     GridLayout layout_;

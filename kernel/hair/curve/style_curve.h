@@ -1,4 +1,4 @@
-/// Style curves: what an artist draws to say how hair flows (thesis, section 4.5). Points and
+/// Style curves: drawn curves that direct the flow of hair (thesis, section 4.5). Points and
 /// lengths are in metres of the scalp's frame.
 #pragma once
 
@@ -37,10 +37,9 @@ struct DividingCurve {
     DividingOptions options = {};
     /// Width of the bare skin along the line, on which no hair is rooted.
     double gap = kPartingGap;
-    /// Polylines beside the curve along which hair flows away from it: on the sides where there are
-    /// any the tilts follow from all of them together (fit_tilt), and those of the options do not
-    /// count. They stay where they were drawn when the curve moves; those it has left have no
-    /// effect.
+    /// Polylines beside the curve along which hair flows away from it: on sides with hints the
+    /// tilts follow from all of them together (fit_tilt), and those of the options do not count.
+    /// They keep their positions when the curve moves; the ones it has left have no effect.
     std::vector<std::vector<Vec3>> hints = {};
 
     /// Without points, as section 4.5 has it: there is no bare skin.
@@ -54,9 +53,9 @@ struct Ponytail {
     /// From the tie to the tip of the tail; the curve runs smoothly through them.
     std::vector<Vec3> spine;
     PonytailOptions options = {};
-    /// Of the hair behind the tie; absent: as long as the spine, with the fidelity of the thesis as
-    /// long as hair would be without the tie. A share of it that differs from strand to strand, up
-    /// to `ragged`, 0 to 1, is missing at the tips.
+    /// Length of the hair behind the tie; absent: as long as the spine, with the fidelity of the
+    /// thesis as long as hair would be without the tie. A share of it that differs from strand to
+    /// strand, up to `ragged`, 0 to 1, is missing at the tips.
     std::optional<double> tail_length = std::nullopt;
     double ragged = 0.45;
 
@@ -79,16 +78,16 @@ struct StyleCurve {
 /// "stream", "dividing" or "ponytail".
 std::string_view kind_name(const StyleCurve& curve);
 
-/// How closely the curve keeps to the thesis.
+/// Returns how closely the curve keeps to the thesis.
 HairFidelity fidelity_of(const StyleCurve& curve);
 
-/// A curve without points, as it is by default with a fidelity.
+/// Returns a curve without points, as it is by default with a fidelity.
 template <typename Shape>
 Shape curve_with(HairFidelity fidelity) {
     return fidelity == HairFidelity::thesis ? Shape::thesis() : Shape{};
 }
 
-/// The points or spine that the curve was drawn with.
+/// Returns the points or spine that the curve was drawn with.
 const std::vector<Vec3>& drawn_points(const StyleCurve& curve);
 std::vector<Vec3>& drawn_points(StyleCurve& curve);
 

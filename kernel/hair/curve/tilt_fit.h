@@ -11,7 +11,7 @@
 
 namespace lissom {
 
-/// What the hints on one side of a curve say.
+/// Result of the hints on one side of a curve.
 struct SideTilt {
     DividingOptions::Tilt tilt;
     /// Short straight pieces of the hints that told it; 0 if there is no hint on this side.
@@ -31,10 +31,10 @@ struct TiltFit {
 /// A hint counts within this distance of the curve, across and in height. Metres.
 inline constexpr double kHintReach = 0.03;
 
-/// The tilts that hints mean, each a polyline of metres along hair that flows away from the curve;
-/// one that runs towards it by more than 10 degrees is read from its end. A piece of a hint at the
-/// share s of the curve's length has the angle atan2(d . t, +-d . r), with d its direction, t and r
-/// the curve's tangent and right. Per side, all of them together give
+/// Returns the tilts that hints mean, each a polyline of metres along hair that flows away from the
+/// curve; one that runs towards it by more than 10 degrees is read from its end. A piece of a hint
+/// at the share s of the curve's length has the angle atan2(d . t, +-d . r), with d its direction,
+/// t and r the curve's tangent and right. Per side, all of them together give
 ///     a(s) = a0 (1 - s) + a1 s
 /// by least squares, weighted by length, with .01 of the whole weight on (a0 - a1)^2: so one hint,
 /// which cannot tell both, means an even tilt. Pieces farther than kHintReach, beyond the ends of
@@ -42,7 +42,7 @@ inline constexpr double kHintReach = 0.03;
 /// Errors: as require_curve; out_of_range for a hint of more than a million pieces.
 TiltFit fit_tilt(const DividingLine& line, std::span<const std::vector<Vec3>> hints);
 
-/// Errors: out_of_range if nothing of `hint` counts, saying why and what to do; as fit_tilt.
+/// Errors: out_of_range if nothing of `hint` counts, with the reason and the remedy; as fit_tilt.
 void require_hint(const DividingLine& line, const std::vector<Vec3>& hint);
 
 }  // namespace lissom

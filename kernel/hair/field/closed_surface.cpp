@@ -52,7 +52,7 @@ std::vector<Edge> without_seams(const std::vector<Edge>& edges) {
     return open;
 }
 
-// The hole of each edge, as the smallest vertex of those that its edges connect.
+// Returns the hole of each edge, as the smallest vertex connected by its edges.
 std::vector<Index> holes_of(const std::vector<Edge>& edges) {
     std::map<Index, Index> parent;
     for (const auto& [a, b] : edges) parent[a] = a, parent[b] = b;

@@ -1,5 +1,5 @@
 /// A head as a closed surface: heads are often open at the neck, or have holes for the eyes, and
-/// what is inside must be known all the same.
+/// their inside must be known all the same.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 namespace lissom {
 
 /// Triangles without boundary: those of a mesh, then those of caps over its holes. Every edge is
-/// run through as often in one direction as in the other, where vertices at equal places count as
-/// one, so that the winding number of any point off the surface is an integer.
+/// run through as often in one direction as in the other, if vertices at equal places count as one,
+/// so that the winding number of any point off the surface is an integer.
 struct ClosedSurface {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
     /// Triangles from this one on are caps.
     std::size_t first_cap = 0;
-    /// Volume inside; negative where the mesh faces inward.
+    /// Volume inside; negative if the mesh faces inward.
     double volume = 0.0;
 };
 

@@ -68,7 +68,7 @@ class Lattice {
         });
     }
 
-    // What the eight lattice points around a grid point know about it.
+    // Estimate at a grid point from the eight lattice points around it.
     struct Estimate {
         double low = 0.0, high = kInfinity, value = 0.0;
         bool one_sided = true;  // all on the side of the point itself

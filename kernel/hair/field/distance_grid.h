@@ -32,7 +32,7 @@ class DistanceGrid {
                  const DistanceGridOptions& options = {}, const Context& context = {});
 
     const GridLayout& layout() const { return layout_; }
-    /// One distance a grid point, in the mesh's unit, x fastest.
+    /// Returns one distance a grid point, in the mesh's unit, x fastest.
     std::span<const float> values() const { return values_; }
     float at(Index i, Index j, Index k) const {
         return values_[lissom::at(layout_.index(i, j, k))];

@@ -1,6 +1,6 @@
-/// GridLayout: where the points of a uniform grid lie. Cells are cubes; every count of points is
-/// even, so that the planes through the middle of the box hold no points: a parting in the middle
-/// of a head then never falls on grid points.
+/// GridLayout: the points of a uniform grid. Cells are cubes; every count of points is even, so
+/// that the planes through the middle of the box hold no points: a parting in the middle of a head
+/// then never falls on grid points.
 #pragma once
 
 #include <array>
@@ -29,10 +29,10 @@ struct GridLayout {
     Box box() const;
 };
 
-/// The finest grid of at most `resolution` points that covers `box`; it stands out on all sides
-/// alike, together by less than two steps an axis where the box is no thinner than that.
-/// Errors: not_finite; invalid_argument for a box without extent on some axis, or a resolution
-/// outside kMinimumResolution .. kMaximumResolution.
+/// Returns the finest grid of at most `resolution` points that covers `box`; it stands out on all
+/// sides alike, together by less than two steps an axis if the box is no thinner than that. Errors:
+/// not_finite; invalid_argument for a box without extent on some axis, or a resolution outside
+/// kMinimumResolution .. kMaximumResolution.
 GridLayout fit_grid(const Box& box, Index resolution);
 
 inline constexpr Index kMinimumResolution = 1000;

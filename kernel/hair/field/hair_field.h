@@ -39,7 +39,7 @@ class HairField {
     void clear_constraints();
     /// After an error `values` are those of the last solve. Errors: as GridField::solve.
     void solve(const Context& context = {});
-    /// Whether `values` are those of the constraints as they are.
+    /// Returns whether `values` are those of the constraints as they are.
     bool solved() const { return !stale_ && field_.solved(); }
     const GridField& grid() const { return field_; }
 
@@ -66,7 +66,7 @@ class HairField {
   private:
     DistanceGrid distances_;
     GridField field_;
-    // Values are computed beside those that are shown.
+    // Values are computed beside the shown ones.
     std::vector<float> values_, next_, gradients_;
     bool stale_ = false;
     MemoryCharge charge_;

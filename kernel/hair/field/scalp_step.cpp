@@ -33,8 +33,8 @@ std::vector<bool> constrained_points(const GridField& grid) {
     return constrained;
 }
 
-// Unit vector to where the distance grows, by differences between neighbours; zero if there is
-// none.
+// Returns the unit vector of increasing distance, by differences between neighbours; zero if there
+// is none.
 Vec3 outward(const DistanceGrid& distances, const std::array<Index, 3>& point) {
     const GridLayout& layout = distances.layout();
     Vec3 gradient;

@@ -21,8 +21,8 @@ struct ScalpStepOptions {
     double magnitude = 0.3;
     /// omega of equation (4.2).
     double weight = 100.0;
-    /// Restricts the step to grid points where this is true; it gets their coordinates. Empty for
-    /// all that are near the surface.
+    /// Restricts the step to grid points for which it returns true; it gets their coordinates.
+    /// Empty for all that are near the surface.
     std::function<bool(const Vec3&)> where = {};
     /// Whether hair grows at a place: there all grid points are constrained, elsewhere (face, neck,
     /// shoulders) those whose direction points inward, so that hair that flows there stays outside
@@ -30,13 +30,12 @@ struct ScalpStepOptions {
     std::function<bool(const Vec3&)> scalp = {};
 };
 
-/// Constraints for all grid points near the scalp, ascending by point: the direction of the field
-/// of the last solve, or, where that points inward, its projection on the tangent plane of the
-/// nearest point of the head, whose normal is the gradient of the distance. Points that are
-/// constrained already are left to their owners, and so are points without a direction to keep: to
-/// repeat the step, take away the constraints of the last one and solve first. Give the result to
-/// an owner of its own, and solve.
-/// Errors: invalid_argument for options out of range.
+/// Returns constraints for all grid points near the scalp, ascending by point: the direction of the
+/// field of the last solve; if it points inward, its projection on the tangent plane of the nearest
+/// point of the head, with the gradient of the distance as normal. Points that are constrained
+/// already are left to their owners, and so are points without a direction to keep: to repeat the
+/// step, take away the constraints of the last one and solve first. Give the result to an owner of
+/// its own, and solve. Errors: invalid_argument for options out of range.
 std::vector<GridConstraint> scalp_step(const HairField& field,
                                        const ScalpStepOptions& options = {});
 

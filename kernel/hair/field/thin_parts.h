@@ -10,11 +10,11 @@
 
 namespace lissom {
 
-/// The values of `distances`, lowered where the surface of `head`, between grid points, stands out
-/// of what they say: afterwards the interpolated distance is at most kTrustedDistance at every
-/// place of the surface. At each place the values at the corners of its cell change by the least
-/// sum of squares. Where the surface is smooth beside the steps nothing changes.
-/// Errors: memory_limit; cancelled.
+/// Returns the values of `distances`, lowered if the surface of `head`, between grid points, stands
+/// out of them: afterwards the interpolated distance is at most kTrustedDistance at every place of
+/// the surface. At each place the values at the corners of its cell change by the least sum of
+/// squares. A surface that is smooth at the scale of the steps changes nothing. Errors:
+/// memory_limit; cancelled.
 std::vector<float> collision_distances(const DistanceGrid& distances, const Mesh& head,
                                        const Context& context = {});
 

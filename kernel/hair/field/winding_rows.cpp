@@ -61,7 +61,7 @@ int edge_crossing(const Vec3& a, const Vec3& b, double y, double z) {
     return upward ? 1 : -1;
 }
 
-// Where the plane of the triangle meets the line along x through (y, z).
+// Returns the crossing of the triangle's plane and the line along x through (y, z).
 double crossing_x(const Vec3& a, const Vec3& b, const Vec3& c, double y, double z) {
     const double area = (b.y() - a.y()) * (c.z() - a.z()) - (c.y() - a.y()) * (b.z() - a.z());
     const double v = ((y - a.y()) * (c.z() - a.z()) - (c.y() - a.y()) * (z - a.z())) / area;

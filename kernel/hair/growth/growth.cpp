@@ -29,7 +29,7 @@ constexpr std::size_t kMostPoints = std::numeric_limits<Index>::max();
 // so the ends of segments are different points.
 constexpr double kLeastMove = 1e-3, kLeastRoundings = 8.0;
 
-// Of the diagonal of the grid's box: hair that is longer winds about itself, or left the box.
+// Limit in diagonals of the grid's box: longer hair winds about itself, or has left the box.
 constexpr double kLongestInDiagonals = 2.0;
 
 // More room for points than the strands so far let expect.
@@ -119,8 +119,7 @@ void require_fitting_lengths(const GrowthOptions& o, const GridLayout& layout) {
                         "shorter, or enlarge the volume");
     };
     const double factor = greatest_factor(o);
-    require_fitting(o.length * factor,
-                    factor == 1.0 ? "hair" : "hair where its factor is greatest");
+    require_fitting(o.length * factor, factor == 1.0 ? "hair" : "hair with the greatest factor");
     for (const HairTie& tie : o.ties) {
         require_fitting(tie.tail_length.value_or(0.0), "the tail of a tie");
     }
@@ -170,7 +169,7 @@ std::vector<TailPlane> planes_of(const HairTie& tie, const GridLayout& layout) {
     return planes;
 }
 
-// Behind a tail's tie, where its radii are known.
+// Returns the gates behind a tail's tie, over its known radii.
 std::vector<TailGate> gates_of(const HairTie& tie, const std::vector<TailPlane>& planes) {
     std::vector<TailGate> gates;
     if (tie.radii.empty()) return gates;
@@ -304,8 +303,7 @@ class StrandCollector {
     Index count_;
     std::vector<float> points_;
     std::vector<Index> offsets_;
-    // Where the points of each strand of a wave are, in the order of the roots: in that order they
-    // are copied fastest.
+    // Points of each strand of a wave, in the order of the roots, which is the fastest for copying.
     std::vector<const float*> wave_ = std::vector<const float*>(kGrowthWave);
     MemoryCharge charge_;
 };

@@ -35,7 +35,7 @@ struct HairTie {
     std::optional<double> tail_length = 0.25;
     double ragged = 0.45;
     /// The way of the tail from the center on. As far as it goes the length is measured along it,
-    /// so that hair at the outside of a bend ends where that at its inside does; beyond, or if it
+    /// so that hair at the outside of a bend ends level with hair at its inside; beyond, or if it
     /// is empty, along each strand.
     std::vector<Vec3> spine = {};
     /// Radii of the tail at the points of `spine`, as many or none: hair fills it. Each strand is
@@ -47,9 +47,9 @@ struct HairTie {
 /// Cuts hair along a plane.
 struct HairCut {
     Vec3 point = Vec3::Zero();
-    /// Points to where no hair is left, so down for hair cut to one length; of any length but 0. A
-    /// strand ends where it first passes the plane in this direction; one that is rooted beyond the
-    /// plane is not cut before it has come back.
+    /// Normal on the side without hair, so down for hair cut to one length; of any length but 0. A
+    /// strand ends at its first crossing of the plane in this direction; one that is rooted beyond
+    /// the plane is not cut before it has come back.
     Vec3 normal = -Vec3::UnitY();
     /// Each strand has a plane of its own, up to this far before or behind the given one.
     double ragged = 0.0;
@@ -57,7 +57,7 @@ struct HairCut {
 
 inline constexpr double kLeastSegment = 0.01, kGreatestSegment = 10.0;
 
-/// The greatest length that hair in a grid can be asked for: twice the diagonal of its box.
+/// Returns the greatest length that hair in a grid can be asked for: twice the diagonal of its box.
 double longest_hair(const GridLayout& layout);
 
 /// Lengths and points are those of the field's grid.
@@ -71,10 +71,10 @@ struct GrowthOptions {
     std::vector<double> length_map = {};
     /// Multiply these factors, those of the length alone; in the coordinates of the field.
     std::vector<MaskStroke> masks = {};
-    /// l of section 4.6, in steps of the grid, kLeastSegment to kGreatestSegment: a segment is
-    /// l v(p) long, where the length of v counts as 1 at most.
+    /// l of section 4.6, in steps of the grid, kLeastSegment to kGreatestSegment: a segment is l
+    /// v(p) long, with the length of v limited to 1.
     double segment = 0.5;
-    /// A strand ends where the field is shorter than this.
+    /// A strand ends if the field is shorter than this.
     double least_speed = 0.05;
     /// A strand ends before a segment that turns by more than this, radians from 0 to pi, as about
     /// a sink of the field. At 88 degrees rounding of the points makes no right angle of it; pi
@@ -95,7 +95,7 @@ struct GrowthOptions {
     double clearance = 0.002, layer = 0.012, ramp = 0.03;
     /// A strand is caught by the first tie that it passes, and by no other.
     std::vector<HairTie> ties = {};
-    /// Of several cuts a strand ends at the first that it reaches; with `spare_tied`, none cuts
+    /// A strand ends at the first of several cuts that it reaches; with `spare_tied`, none cuts
     /// strands that were caught by a tie.
     std::vector<HairCut> cuts = {};
     bool spare_tied = true;
@@ -108,14 +108,14 @@ struct GrowthOptions {
     static GrowthOptions thesis();
 };
 
-/// What ended a strand.
+/// Reason for the end of a strand.
 enum class StrandEnd {
     length,     ///< it is as long as it should be
     cut,        ///< a cut
     slow,       ///< the field is shorter than least_speed
     left_grid,  ///< it left the grid; its last point lies outside
     turned,     ///< the next segment would have turned by more than greatest_turn
-    stuck,      ///< it was pushed back to where it came from
+    stuck,      ///< pushed back to its start
     segments,   ///< it has as many segments as allowed
 };
 inline constexpr int kStrandEnds = 7;
@@ -124,20 +124,20 @@ struct GrowthReport {
     /// The tie that caught each strand, as its place in the options, or kNoIndex; empty if there
     /// are no ties.
     std::vector<Index> ties;
-    /// Numbers of strands, by what ended them.
+    /// Numbers of strands, by the reasons of their ends.
     std::array<Index, kStrandEnds> ends{};
 
     Index ended_by(StrandEnd end) const { return ends[static_cast<std::size_t>(end)]; }
 };
 
-/// Grows strands from the same roots again and again, for instance while a curve is dragged: what
-/// depends on the roots alone is computed once, what depends on the seed or the length map when
-/// they change. Strands grow side by side, neighbours one after the other; the results are
+/// Grows strands from the same roots again and again, for instance while a curve is dragged:
+/// results that depend on the roots alone are computed once, and those of the seed or the length
+/// map when they change. Strands grow side by side, neighbours one after the other; the results are
 /// the same to the bit on any number of threads and with any vector instructions. For use by one
 /// thread at a time.
 class StrandGrower {
   public:
-    /// Takes what it needs of `head`, which must be the mesh of the roots and in the coordinates of
+    /// Copies its inputs from `head`, which must be the mesh of the roots and in the coordinates of
     /// the fields. Errors: invalid_argument for roots that are not of this mesh; not_finite;
     /// memory_limit; cancelled.
     StrandGrower(const Mesh& head, std::span<const Root> roots, const Context& context = {});
@@ -149,9 +149,9 @@ class StrandGrower {
     Index size() const;
 
     /// Grows a strand from every root. Replaces the contents of `strands` and reuses its buffers.
-    /// Strand i is that of root i, whatever other roots there are. A strand that cannot grow is its
-    /// root alone. No segment is shorter than a thousandth of `segment`. Errors: invalid_argument
-    /// for options out of range, or a length map of the wrong size, or more points than can be
+    /// Strand i is that of root i, for any other roots. A strand that cannot grow is its root
+    /// alone. No segment is shorter than a thousandth of `segment`. Errors: invalid_argument for
+    /// options out of range, or a length map of the wrong size, or more points than can be
     /// numbered; memory_limit; cancelled. After an error there are no strands, but for options out
     /// of range, which are refused first.
     GrowthReport grow(const HairField& field, const GrowthOptions& options, Strands& strands,

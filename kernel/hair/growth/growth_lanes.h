@@ -130,7 +130,7 @@ LISSOM_INLINE EightFloats load(const float* from) {
     return result;
 }
 
-/// a where yes, else b.
+/// Returns a for true masks, else b.
 template <typename Numbers>
 LISSOM_INLINE Numbers choose(const Ints& yes, const Numbers& a, const Numbers& b) {
 #if defined(__GNUC__)
@@ -229,8 +229,8 @@ LISSOM_INLINE Floats to_floats(const Ints& x) {
 #define LISSOM_SHUFFLE_QUADS(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l)
 #endif
 
-/// The last numbers of both halves of a and b: those halves of the result end with one of a and one
-/// of b; what is before means nothing.
+/// Returns the last numbers of both halves of a and b: both halves of the result end with one of a
+/// and one of b; the numbers before are undefined.
 LISSOM_INLINE EightFloats last_of(const EightFloats& a, const EightFloats& b) {
 #if defined(LISSOM_HAS_SHUFFLES)
     return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
@@ -240,8 +240,8 @@ LISSOM_INLINE EightFloats last_of(const EightFloats& a, const EightFloats& b) {
 }
 
 #if defined(LISSOM_HAS_SHUFFLES)
-// Four numbers of each of the rows 0, 4, 8 and so on. In registers: what was stored in parts is
-// slow to load at once.
+// Four numbers of each of the rows 0, 4, 8 and so on. Works in registers: values stored in parts
+// are slow to load at once.
 LISSOM_INLINE Floats every_fourth(const EightFloats* rows, int first) {
     using Quad = float __attribute__((vector_size(16)));
     Quad quads[kLanes / 4];

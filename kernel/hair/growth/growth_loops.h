@@ -60,7 +60,7 @@ struct TieRule {
     std::vector<TailGate> gates = {};
 };
 
-/// Hair is left where normal . p <= offset + ragged x chance.
+/// Hair is kept if normal . p <= offset + ragged x chance.
 struct CutRule {
     Eigen::Vector3f normal;
     float offset, ragged;
@@ -71,7 +71,7 @@ struct GrowthRules {
     /// 1 or 0: whether first segments never point inward, and whether longer vectors count as of
     /// length 1.
     float outward, inverse_cap;
-    /// Of the greatest turn.
+    /// Cosine of the greatest turn.
     float least_cosine;
     /// Steps in a unit of the distances.
     float inverse_step;
@@ -87,13 +87,13 @@ struct GrowthRules {
 /// Strands that were grown together; strands[i] is that of seed i.
 struct StrandBatch {
     struct Strand {
-        /// Which of the lists its points are in, where they begin, and how many it has.
+        /// Its list, the beginning of its points in it, and their count.
         std::size_t list, first;
         Index count;
         Index tie;
         StrandEnd end;
     };
-    /// Those that grew in one lane are in one list, with room behind them that is kept.
+    /// Points of strands grown in one lane are in one list, with room behind them that is kept.
     std::vector<std::vector<float>> lists;
     std::vector<Strand> strands;
 };
@@ -101,14 +101,14 @@ struct StrandBatch {
 /// With which instructions strands grow; the results are the same to the bit. A processor that runs
 /// one runs those before.
 enum class GrowthLoop { anywhere, avx2, avx512 };
-/// The last that this processor runs.
+/// Returns the last that this processor runs.
 GrowthLoop best_growth_loop();
 
-/// Replaces what `batch` holds. `loop` must be one that this processor runs.
+/// Replaces the contents of `batch`. `loop` must be one that this processor runs.
 void grow_batch(const QuadGrid& grid, const GrowthRules& rules, std::span<const StrandSeed> seeds,
                 GrowthLoop loop, StrandBatch& batch);
 
-/// grow_batch on processors with AVX2, and with AVX-512; only where LISSOM_HAS_AVX2_PATH.
+/// grow_batch on processors with AVX2, and with AVX-512; only with LISSOM_HAS_AVX2_PATH.
 void grow_batch_avx2(const QuadGrid& grid, const GrowthRules& rules,
                      std::span<const StrandSeed> seeds, StrandBatch& batch);
 void grow_batch_avx512(const QuadGrid& grid, const GrowthRules& rules,

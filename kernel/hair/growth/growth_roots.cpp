@@ -36,7 +36,8 @@ void require_roots(const Mesh& head, std::span<const Root> roots) {
     }
 }
 
-// Weights of the first three corners of its face, negative where it lies beyond their triangle.
+// Returns weights of the first three corners of its face, negative if it lies beyond their
+// triangle.
 Eigen::Vector3f corner_weights(const Mesh& head, const Root& root) {
     const std::span<const Index> face = head.topology().face(root.face);
     const Vec3 &a = head.position(face[0]), &b = head.position(face[1]),

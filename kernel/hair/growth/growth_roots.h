@@ -1,4 +1,4 @@
-/// GrowthRoots: what growth knows of roots before there is a field; private to kernel/hair.
+/// GrowthRoots: the data of roots that do not depend on the field; private to kernel/hair.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,7 +31,7 @@ struct StrandChance {
     float tail;
 };
 
-/// What the factors of lengths follow from.
+/// Inputs of the factors of lengths.
 struct LengthFactors {
     /// For every vertex of the head; empty for none.
     std::vector<double> map;
@@ -58,9 +58,9 @@ class GrowthRoots {
     const StrandRoots& strand_roots() const { return strand_roots_; }
     Index head_vertices() const { return head_vertices_; }
 
-    /// Draws the random numbers, where the seed is another than before.
+    /// Draws the random numbers, if the seed has changed.
     void set_seed(std::uint64_t seed, const Context& context);
-    /// Works the factors out, where they follow from something else than before.
+    /// Computes the factors, if their inputs have changed.
     void set_factors(LengthFactors wanted, const Context& context);
 
   private:

@@ -1,10 +1,10 @@
 /// Strands grow in lanes, one beside the other, so that most of the work is vector instructions
 /// over lanes; loops over lanes are written for compilers to vectorise. A lane goes from point to
-/// point of its strand: at each turn of the loop it reads the field where it is about to go and is
-/// either pushed out of the head, and looks again, or it goes there. What seldom happens (a push, a
-/// tie, the end of a strand) is done for single lanes. Files that include this are compiled without
-/// contraction to fused instructions: then every processor gives the same strands. Private to
-/// kernel/hair; growth_lanes.h says for which processor this is compiled.
+/// point of its strand: at each turn of the loop it reads the field at its next point and is either
+/// pushed out of the head, and reads again, or goes there. Rare events (a push, a tie, the end of a
+/// strand) are handled for single lanes. Files that include this are compiled without contraction
+/// to fused instructions: then every processor gives the same strands. Private to kernel/hair;
+/// growth_lanes.h says for which processor this is compiled.
 #pragma once
 
 #include <algorithm>
@@ -81,7 +81,7 @@ inline Eigen::Vector3f get(const Floats3& v, int k) {
     return {v.x[k], v.y[k], v.z[k]};
 }
 
-// The field where the strands are about to go.
+// The field at the next points of the strands.
 struct Reading {
     Floats3 vector;
     Floats distance;
@@ -89,7 +89,7 @@ struct Reading {
     Floats3 slope;
 };
 
-// The segments that strands are about to take, of those that are not pushed.
+// The next segments of the strands that are not pushed.
 struct Segments {
     Ints go;
     Floats3 way;
@@ -102,7 +102,7 @@ constexpr std::int32_t code(StrandEnd end) {
     return 1 + static_cast<std::int32_t>(end);
 }
 
-// The first point after a root, or the code of what ends the strand before, else 0.
+// The first point after a root, or the code of the reason for an earlier end, else 0.
 struct Sprout {
     Eigen::Vector3f to;
     std::int32_t end;
@@ -236,7 +236,7 @@ class LaneGrower {
         return {go, way, root(dot(way, way)), all(std::int32_t{0})};
     }
 
-    // Ends segments before the next points, where asked.
+    // Shortens segments before the next points, if asked.
     LISSOM_INLINE void shorten(Segments& next, const Ints& asked, const Floats& share) {
         const Ints yes = asked & next.go;
         next.way = choose(yes, scaled(next.way, share), next.way);
@@ -279,8 +279,8 @@ class LaneGrower {
         }
     }
 
-    // How much longer strands in tails grow, by where they are along its spine: in the bend of a
-    // tail the way is longer outside; and where in it they are.
+    // Factors of the growth of strands in tails, by their place along its spine: in the bend of a
+    // tail the way is longer outside; and their places in it.
     LISSOM_INLINE void follow_tails(Segments& next, const Reading& here) {
         const Ints tied = next.go & no(tie_ < all(0));
         if (!any(tied)) return;
@@ -353,7 +353,7 @@ class LaneGrower {
         way_length_ = choose(take, next.length, way_length_);
         at_ = choose(take, to_, at_);
         to_ = choose(take, sum(to_, scaled(here.vector, scale)), to_);
-        // As far as the slope here tells, which saves most pushes later.
+        // By the slope here, which saves most pushes later.
         const Floats distance = here.distance + scale * dot(here.slope, here.vector);
         const Floats missing = missing_height(distance, grown);
         const Ints low = take & inside_ & (missing > all(0.0f));
@@ -372,8 +372,8 @@ class LaneGrower {
         end = choose(yes, all(code(why)), end);
     }
 
-    // The code of what ends each strand with this segment, or before it, or 0; the last that holds
-    // counts.
+    // Returns the code of each strand's end with this segment, or before it, or 0; the last
+    // condition that holds counts.
     LISSOM_INLINE Ints ends_of(const Segments& next, const Ints& moves, const Ints& turns,
                                const Floats& left, const Floats& speed) const {
         Ints end = all(0);
@@ -411,7 +411,8 @@ class LaneGrower {
         }
     }
 
-    // The code of what ends each strand at its root, or 0; the last that holds counts.
+    // Returns the code of each strand's end at its root, or 0; the last condition that holds
+    // counts.
     LISSOM_INLINE Ints ends_of_roots(const Floats& speed, const Floats& lifted_speed) const {
         Ints end = all(0);
         mark(end, no(lifted_speed > all(0.0f)), StrandEnd::slow);
@@ -421,7 +422,7 @@ class LaneGrower {
         return end;
     }
 
-    // Adds the next points to the strands; of those that do not take them they are overwritten
+    // Adds the next points to the strands; in lanes that do not take them they are overwritten
     // later.
     LISSOM_INLINE void put_points(const Ints& take) {
         const Eigen::Matrix3f& m = rules_.linear;
@@ -452,7 +453,7 @@ class LaneGrower {
         }
     }
 
-    // Room for the beginning of a strand behind those that are done.
+    // Makes room for the beginning of a strand behind the finished ones.
     void make_room(int k) {
         const std::size_t needed = starts_[k] + 3 * kFirstBuffer;
         if (list(k).size() < needed) list(k).resize(2 * needed);
@@ -483,7 +484,7 @@ class LaneGrower {
         make_room(k);
     }
 
-    // Gives lane k the next seed that can grow; those that cannot are their roots.
+    // Gives lane k the next seed that can grow; others are strands of their roots alone.
     void begin_strand(int k) {
         growing_[k] = 0;
         while (next_ < seeds_.size()) {
@@ -524,7 +525,7 @@ class LaneGrower {
     Floats3 at_{}, to_{}, way_{};
     Floats way_length_{}, grown_{}, length_{}, floor_{}, cut_{}, tail_{};
     Ints growing_{}, segments_{}, pushes_{}, tie_{};
-    // Of strands in a tail: how long they become along its spine, the next of its planes, and their
+    // For strands in a tail: their final length along its spine, the next of its planes, and their
     // places across it, in its radius.
     struct Tails {
         Floats length, right, above;
@@ -533,7 +534,7 @@ class LaneGrower {
     // Zeros from here: without optimisation gcc 12 does not compile such values of the members
     // above.
     Tails tails_{};
-    // Of the next points: their cells, places in them, and whether they are in the grid.
+    // For the next points: their cells, places in them, and whether they are in the grid.
     Ints cell_{}, inside_{};
     Floats3 place_{};
     // Segments for which there is room.
@@ -545,12 +546,12 @@ class LaneGrower {
     const GrowthRules& rules_;
     std::span<const StrandSeed> seeds_;
     StrandBatch& batch_;
-    // Where the strand of each lane begins in its list, and where it goes on after the root.
+    // The beginning of each lane's strand in its list, and its continuation after the root.
     std::array<std::size_t, kLanes> starts_{};
     float* ends_[kLanes]{};
     std::array<std::size_t, kLanes> seed_of_{};
     std::size_t next_ = 0;
-    // Of the seeds.
+    // First segments of the seeds.
     std::vector<Sprout> sprouts_;
     int growing_count_ = 0;
 };

@@ -6,7 +6,7 @@
 #include <numeric>
 
 // Darts are thrown in rounds. Within a round all have one radius, so that most can be told apart
-// from the roots of before on any thread and in any order; those that are left are placed one after
+// from earlier roots on any thread and in any order; the remaining ones are placed one after
 // another, in the order they were thrown. Rounds do not depend on the number of roots wanted.
 namespace lissom {
 namespace {
@@ -137,7 +137,7 @@ class DartThrower {
         return radius_ / std::sqrt(std::max(density, kLeastDensity));
     }
 
-    // The triangle that each dart falls on, or kNoDart where it is lost to a lower density.
+    // Finds the triangle of each dart, or kNoDart if it is lost to a lower density.
     void find_triangles(Index darts) {
         triangle_.resize(darts);
         context_.parallel_for(0, darts, 2048, [&](Index from, Index to) {
@@ -150,8 +150,8 @@ class DartThrower {
         });
     }
 
-    // Darts that are not lost, those of a triangle together, so that what is near in space is near
-    // in time.
+    // Returns the darts that are not lost, grouped by triangle, so that neighbours in space are
+    // neighbours in time.
     std::vector<Index> by_triangle(Index darts) const {
         std::vector<Index> begin(at(surface_.triangle_count()) + 1, 0);
         for (Index i = 0; i < darts; ++i) {

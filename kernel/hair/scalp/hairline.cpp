@@ -17,11 +17,11 @@ constexpr double kBelow = 1.0 / 6.0;
 // head's slice by more than the share of its width.
 constexpr double kEarFront = 78.0 * kDegree, kEarBack = 122.0 * kDegree, kEarTop = 14.0 * kDegree;
 constexpr double kEarDepth = 4.0 / 155.0;
-// What is farther from the axis than this many ellipses, or lower than this many widths, is neck or
+// Points farther from the axis than this many ellipses, or lower than this many widths, are neck or
 // shoulder.
 constexpr double kReach = 1.3, kLowest = 0.75;
 
-// What has a place at the hairline has more than -kMost, which stands for what no hair grows on.
+// Points at the hairline have more than -kMost, which stands for skin without hair.
 constexpr double kLeast = -0.999 * kMost;
 
 double to_margin(double distance, double softness) {
@@ -34,8 +34,8 @@ double ellipses(const HeadFrame& frame, const Vec3& p) {
     return 2.0 * hypotenuse(p.x() / frame.width, p.z() / frame.length);
 }
 
-// Angle above the hairline: the difference in elevation, which is more where the line is steep,
-// over the length of its gradient.
+// Returns the angle above the hairline: the difference in elevation, larger at a steep line, over
+// the length of its gradient.
 double angle_above(const std::vector<HairlinePoint>& hairline, double azimuth, double elevation) {
     constexpr double kStep = 0.5 * kDegree;
     const double rise = hairline_elevation(hairline, azimuth + kStep) -
@@ -59,7 +59,7 @@ double inside_hairline(const HairlineTest& test, const Vec3& p) {
     return inside;
 }
 
-// Marks what can be reached from `start` over vertices whose flag is set.
+// Marks the vertices reachable from `start` over vertices with a set flag.
 std::vector<char> reached(const Topology& topology, const std::vector<char>& flags, Index start) {
     std::vector<char> found(flags.size(), 0);
     std::vector<Index> open{start};

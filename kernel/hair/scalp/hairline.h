@@ -12,16 +12,17 @@
 
 namespace lissom {
 
-/// What is needed to judge a vertex by a hairline.
+/// Data for testing a vertex against a hairline.
 struct HairlineTest {
     const HeadFrame& frame;
     const std::vector<HairlinePoint>& hairline;
     /// Width of the band in which hair thins out, in the mesh's unit; 0 is a sharp line.
     double softness = 0.0;
 
-    /// Whether a vertex of this margin lies above the hairline.
+    /// Returns whether a vertex of this margin lies above the hairline.
     static bool inside(double margin);
-    /// Whether a margin is that of a vertex on which no hair grows wherever the hairline is.
+    /// Returns whether a margin is that of a vertex on which no hair grows wherever the hairline
+    /// is.
     static bool bald(double margin);
     /// Distance of a point of the head above the hairline in units of the softness.
     double margin_at(const Vec3& point) const;
@@ -32,13 +33,13 @@ struct HairlineTest {
 void require_hairline(const std::vector<HairlinePoint>& hairline);
 
 /// For each vertex its distance above the hairline in units of the softness, -1000 to 1000 (as
-/// Scalp::margins). Ears, the neck and shoulders, what faces the center of the head and what is not
-/// connected to its top count as outside.
+/// Scalp::margins). Ears, the neck and shoulders, faces towards the center of the head and parts
+/// not connected to its top count as outside.
 std::vector<double> margins_of_hairline(const Mesh& head, const std::vector<Vec3>& normals,
                                         const HairlineTest& test);
 
-/// The same by the distance along edges from the vertices of `region` at its outline, which are at
-/// 0; open boundaries of the mesh are no outline.
+/// Returns the same by the distance along edges from the vertices of `region` at its outline, which
+/// are at 0; open boundaries of the mesh are no outline.
 std::vector<double> margins_of_region(const Mesh& head, const Region& region, double softness);
 
 }  // namespace lissom

@@ -18,7 +18,7 @@ namespace {
 constexpr double kCenterDepth = 0.65;  // of the frame's center below the top, in widths
 constexpr int kMirrorSamples = 300;
 // Least width of a head's slice over the root of the whole surface's area; of a body it is 0.11.
-// What is narrower is a bump on the head, or a nose.
+// Narrower parts are a bump on the head, or a nose.
 constexpr double kLeastWidth = 0.07;
 
 // The part of the mesh that is the head, as points and edges.
@@ -78,8 +78,8 @@ Slice slice_at(const Part& part, const Mat3& axes, double height) {
     return slice;
 }
 
-// Depth below the top at which what lies above is as wide as twice the depth, from the vertices
-// alone; 0 if there is none.
+// Returns the depth below the top at which the part above is as wide as twice the depth, from the
+// vertices alone; 0 if there is none.
 double rough_depth(const Part& part, const Mat3& axes, double& top) {
     std::vector<std::pair<double, double>> by_height;
     for (const Vec3& p : part.points) {
@@ -99,7 +99,7 @@ double rough_depth(const Part& part, const Mat3& axes, double& top) {
     return 0.0;
 }
 
-// The depth where the width is exactly twice the depth, near `depth`.
+// Returns the depth near `depth` at which the width is exactly twice the depth.
 double refined_depth(const Part& part, const Mat3& axes, double top, double depth) {
     double shallow = 0.5 * depth, deep = 1.5 * depth;
     for (int i = 0; i < 30; ++i) {
@@ -292,7 +292,7 @@ std::vector<Vec3> directions(const std::optional<Vec3>& hint, const char* name) 
     return all;
 }
 
-// All frames that the hints allow. Where only the front is known it is taken as exact.
+// All frames that the hints allow. If only the front is known it is taken as exact.
 std::vector<Mat3> possible_axes(const HeadHints& hints) {
     std::vector<Mat3> result;
     for (const Vec3& up : directions(hints.up, "up")) {
@@ -379,7 +379,7 @@ std::vector<Index> largest_component(const Mesh& mesh) {
 }
 
 HeadFrame guess_head_frame(const Mesh& mesh, const HeadHints& hints, const Context& context) {
-    // What speaks for the mesh's own axes.
+    // Bonus of the mesh's own axes.
     constexpr double kAxisBonus = 0.15;
     std::vector<Mat3> choices = possible_axes(hints);
     const std::size_t along_axes = choices.size();
@@ -404,7 +404,7 @@ HeadFrame guess_head_frame(const Mesh& mesh, const HeadHints& hints, const Conte
                     "the mesh is not like a head: nowhere is it as wide as twice the depth below "
                     "its top; give a head, or its up direction");
     }
-    // Of equally good ones the first.
+    // The first of equally good ones.
     std::stable_sort(found.begin(), found.end(),
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
     Candidate& best = found.front();

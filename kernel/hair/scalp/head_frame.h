@@ -1,4 +1,4 @@
-/// Where a head is, which way it stands and how large it is, guessed from its bald shape.
+/// Place, orientation and size of a head, guessed from its bald shape.
 #pragma once
 
 #include <optional>
@@ -12,14 +12,14 @@
 
 namespace lissom {
 
-/// A frame on a head. Width and length are those of the horizontal slice whose depth below the top
-/// is half its width: it lies above the ears of any head, whatever its unit.
+/// A frame on a head. Width and length are those of the horizontal slice with a depth below the top
+/// of half its width: it lies above the ears of any head, for any unit.
 struct HeadFrame {
     /// On the axis of the slice, 0.65 widths below the top: about the middle between the ears.
     Vec3 center = Vec3::Zero();
     /// Columns: the head's left (+x), up (+y) and front (+z), orthonormal.
     Mat3 axes = Mat3::Identity();
-    /// Of the slice, in the mesh's unit.
+    /// Width and length of the slice, in the mesh's unit.
     double width = 0.0, length = 0.0;
     /// How well the shape is that of a head: the mean distance of the head to its mirror image and
     /// of the slice to an ellipse, as fractions of the width. Heads have less than 0.05 of each.
@@ -29,11 +29,11 @@ struct HeadFrame {
     double forwardness = 0.0;
     /// Share of the directions above the center that the surface lies in: 1 for a whole head.
     double coverage = 0.0;
-    /// How sure the guess is, 0 to 1: near 1 where the shape is that of a whole head and no other
-    /// direction fits nearly as well, 0 for masks, halves of heads and what is none. Directions
-    /// that were given are not doubted.
+    /// Confidence of the guess, 0 to 1: near 1 for the shape of a whole head without another
+    /// direction that fits nearly as well, 0 for masks, halves of heads and other shapes.
+    /// Directions that were given are not doubted.
     double confidence = 0.0;
-    /// What makes it least sure, as words that follow "because"; empty if nothing does.
+    /// Main reason of a low confidence, as words that follow "because"; empty if there is none.
     std::string doubt = {};
 
     Vec3 left() const { return axes.col(0); }
@@ -44,17 +44,17 @@ struct HeadFrame {
     Vec3 world(const Vec3& local) const { return center + axes * local; }
 };
 
-/// What is known of a head. Directions need not have unit length; front is made upright to up.
+/// Known properties of a head. Directions need not have unit length; front is made upright to up.
 struct HeadHints {
     std::optional<Vec3> up = std::nullopt, front = std::nullopt;
 };
 
-/// Guesses the frame of a bald head, bust or body. Of the directions along the mesh's axes those
-/// are chosen that make the top of the head round, its halves alike and the face look forward; of
-/// equally good ones those nearest to up = +y, front = +z. Only the component with the largest area
-/// counts. If the head has them, these count as well: its eyes, two openings or further components
-/// that are alike and lie as eyes do, also where the line through them is along no axis; its
-/// greatest opening, which is the neck or, around a mask, looks away from the face. Errors:
+/// Guesses the frame of a bald head, bust or body. Tries the directions along the mesh's axes and
+/// takes the ones that make the top of the head round, its halves alike and the face look forward;
+/// of equally good ones those nearest to up = +y, front = +z. Only the component with the largest
+/// area counts. If the head has them, these count as well: its eyes, two openings or further
+/// components that are alike and lie as eyes do, also if the line through them is along no axis;
+/// its greatest opening, which is the neck or, around a mask, looks away from the face. Errors:
 /// mesh_empty without faces; invalid_argument for hints without length or parallel, and if no
 /// direction has a slice as wide as twice its depth; not_finite for hints; cancelled.
 HeadFrame guess_head_frame(const Mesh& mesh, const HeadHints& hints = {},

@@ -10,7 +10,7 @@
 
 namespace lissom {
 
-/// What may be an eye: an opening of the head or a component beside it.
+/// A candidate for an eye: an opening of the head or a component beside it.
 struct Spot {
     Vec3 center = Vec3::Zero();
     /// Mean distance of its points from the center.
@@ -33,7 +33,7 @@ struct Landmarks {
 /// `part`: the vertices of the component that counts; `part_area`: of its faces.
 Landmarks landmarks_of(const Mesh& mesh, const std::vector<Index>& part, double part_area);
 
-/// Whether two spots lie in a frame as eyes do.
+/// Returns whether two spots lie in a frame as eyes do.
 bool are_eyes(const EyePair& pair, const HeadFrame& frame);
 
 }  // namespace lissom

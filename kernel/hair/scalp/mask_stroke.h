@@ -1,4 +1,4 @@
-/// Masks of a scalp as the strokes that painted them: where hair is shorter, longer or thinner.
+/// Masks of a scalp as the strokes that painted them: factors of length and density.
 #pragma once
 
 #include <span>
@@ -13,15 +13,15 @@ enum class MaskKind {
     density,  ///< relative density of roots
 };
 
-/// What a round brush painted. Lengths and points are in metres of the scalp's frame, so that a
-/// mask fits any head.
+/// Stroke of a round brush. Lengths and points are in metres of the scalp's frame, so that a mask
+/// fits any head.
 struct MaskStroke {
     MaskKind kind = MaskKind::length;
     /// The way of the brush over the head; one point is a dab.
     std::vector<Vec3> points;
-    /// What it painted: 0 to kGreatestLengthMask, of a density to 1. 1 takes away what was there.
+    /// Painted value: 0 to kGreatestLengthMask, for a density to 1. 1 erases.
     double value = 0.5;
-    /// Of the brush, above 0.
+    /// Radius of the brush, above 0.
     double radius = 0.02;
     /// The share of the radius, at its rim, over which the brush fades; 0 to 1.
     double softness = 0.5;
@@ -42,8 +42,8 @@ class ScalpMask {
     ScalpMask(std::span<const MaskStroke> strokes, MaskKind kind);
 
     bool is_empty() const { return layers_.empty(); }
-    /// 1 where nothing was painted; each stroke draws what was there towards its value. Does not
-    /// depend on the vertices of the head.
+    /// Returns the mask at a point: 1 without strokes; each stroke moves the value before it
+    /// towards its own. Does not depend on the vertices of the head.
     double at(const Vec3& point) const;
 
   private:

@@ -48,7 +48,7 @@ class RootSurface {
 
     /// A random point, even in area.
     struct Dart {
-        /// Of `triangles`.
+        /// Index into `triangles`.
         Index triangle = kNoIndex;
         Vec3 barycentric = Vec3::Zero();
     };
@@ -59,7 +59,7 @@ class RootSurface {
     double density(const Dart& dart) const;
     /// Without its normal.
     Root root(const Dart& dart) const;
-    /// The density at a point of a face; 0 if the face is no part of the scalp.
+    /// Returns the density at a point of a face; 0 if the face is no part of the scalp.
     double density_at(Index face, const Triangle& triangle, const Vec3& barycentric) const;
 
   private:

@@ -1,4 +1,4 @@
-/// Roots: where strands grow from a scalp.
+/// Roots: starting points of strands on a scalp.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,7 @@ namespace lissom {
 
 enum class RootPattern {
     /// Evenly spread: no two of the first n roots are nearer than 0.6 sqrt(a / n) on an open scalp
-    /// of area a, weighted with the density over the largest; where less room is left, a little
-    /// nearer.
+    /// of area a, weighted with the density over the largest; a little nearer if less room is left.
     poisson,
     /// The cells of a grid of polar angles around the center of the frame, each with a root at a
     /// random place (thesis, section 4.6). Roots are dense at the crown.
@@ -47,7 +46,7 @@ struct RootOptions {
 inline constexpr Index kMaximumRoots = 10'000'000;
 
 struct Root {
-    /// Of the head, and the vertices of the triangle of it that the root lies in.
+    /// Face of the head, and the vertices of its triangle that contains the root.
     Index face = kNoIndex;
     Triangle triangle{kNoIndex, kNoIndex, kNoIndex};
     Vec3 barycentric = Vec3::Zero();
@@ -58,11 +57,11 @@ struct Root {
 
 /// Roots in an order of which every beginning is spread alike: the first n of a larger count are
 /// those of count n, but for RootPattern::steps; for a seed, on any number of threads. Darts are
-/// thrown at the scalp with a radius that shrinks as roots are added (McCool and Fiume 1992); where
-/// the density is lower they are wider. Time is about linear in the count. `head` must be the mesh
-/// that `scalp` was made for. Errors: out_of_range for a count; invalid_argument for a density of
-/// the wrong size; not_finite; region_empty if the density is 0 on the whole scalp;
-/// topology_mismatch; memory_limit; cancelled.
+/// thrown at the scalp with a radius that shrinks as roots are added (McCool and Fiume 1992); a
+/// lower density widens them. Time is about linear in the count. `head` must be the mesh that
+/// `scalp` was made for. Errors: out_of_range for a count; invalid_argument for a density of the
+/// wrong size; not_finite; region_empty if the density is 0 on the whole scalp; topology_mismatch;
+/// memory_limit; cancelled.
 std::vector<Root> make_roots(const Mesh& head, const Scalp& scalp, const RootOptions& options = {},
                              const Context& context = {});
 

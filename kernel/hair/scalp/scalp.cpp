@@ -35,8 +35,8 @@ void tell_doubts(const Scalp& scalp, const ScalpOptions& options, const Context&
     if (scalp.confidence() < kDoubtful && !all_given) {
         std::ostringstream message;
         message.precision(2);
-        message << "where the head is, and which way it looks, is a guess (confidence "
-                << scalp.confidence() << "), because " << frame.doubt
+        message << "place and direction of the head are a guess (confidence " << scalp.confidence()
+                << "), because " << frame.doubt
                 << "; look at up and front of the scalp, or give up, front and region";
         context.log(LogLevel::warning, message.str());
     }

@@ -1,5 +1,4 @@
-/// Scalp: where hair grows on a head, and the frame in which hairstyles are described so that they
-/// fit any head.
+/// Scalp: the skin of a head with hair, and the frame that makes hairstyles fit any head.
 #pragma once
 
 #include <memory>
@@ -23,8 +22,8 @@ struct ScalpOptions {
     HeadHints hints;
     /// Metres in one unit of the mesh; guessed if absent.
     std::optional<double> unit = std::nullopt;
-    /// Where hair grows. Where absent it is the mesh's region "scalp", and without one it is what
-    /// lies above the hairline, but for the ears.
+    /// Skin with hair. If absent it is the mesh's region "scalp", and without one the skin above
+    /// the hairline, except the ears.
     std::optional<Region> region = std::nullopt;
     /// Ascending azimuths in [0, pi], radians; elevations between the points change smoothly.
     std::vector<HairlinePoint> hairline = default_hairline();
@@ -58,22 +57,22 @@ class Scalp {
     /// cancelled.
     explicit Scalp(const Mesh& head, const ScalpOptions& options = {}, const Context& context = {});
 
-    /// What it was made with.
+    /// Returns the options it was made with.
     const ScalpOptions& options() const { return options_; }
     const HeadFrame& frame() const { return frame_; }
     /// Mesh units in one metre of the scalp's frame: the head's width over that of an average head
     /// (0.155 m). Styles made in metres fit every head.
     double scale() const { return scale_; }
-    /// Metres in one unit of the mesh: as given, or the usual unit (metre, centimetre, millimetre,
-    /// decimetre or inch) that makes this the width of a person's head, or, where none does,
-    /// 1 / scale(), with which it is an average head.
+    /// Returns the metres in one unit of the mesh: as given, or the usual unit (metre, centimetre,
+    /// millimetre, decimetre or inch) that makes this the width of a person's head, or, if none
+    /// does, 1 / scale(), with which it is an average head.
     double unit() const { return unit_; }
     /// False if no usual unit makes this a person's head, as for a model scaled to some size.
     bool knows_unit() const { return knows_unit_; }
-    /// How sure the frame is, 0 to 1: as HeadFrame::confidence. Where it is below 0.5 and something
-    /// was guessed, making the scalp logs a warning.
+    /// Returns how sure the frame is, 0 to 1: as HeadFrame::confidence. If it is below 0.5 and
+    /// something was guessed, making the scalp logs a warning.
     double confidence() const { return frame_.confidence; }
-    /// Whether the region was guessed from the hairline.
+    /// Returns whether the region was guessed from the hairline.
     bool guessed() const { return guessed_; }
     const Region& region() const { return region_; }
     const SpatialTree& tree() const { return tree_; }
@@ -81,11 +80,11 @@ class Scalp {
     /// Faces that roots may lie on, ascending: those of a given region; of a guessed one all that
     /// reach into it.
     const std::vector<Index>& root_faces() const { return root_faces_; }
-    /// How far each vertex is inside the hairline in units of the softness: hair grows with the
-    /// probability smoothstep(0, 1, margin). At least -1000, at most 1000.
+    /// Returns how far each vertex is inside the hairline in units of the softness: hair grows with
+    /// the probability smoothstep(0, 1, margin). At least -1000, at most 1000.
     const std::vector<double>& margins() const { return margins_; }
-    /// The same at a point of the surface: of a guessed region that of the hairline itself,
-    /// whatever the size of the faces.
+    /// Returns the same at a point of the surface: for a guessed region that of the hairline
+    /// itself, for any size of the faces.
     double margin_at(const Triangle& triangle, const Vec3& barycentric, const Vec3& position) const;
 
     /// Exit point of the ray from the center in a direction, offset by `lift` metres (of the frame)
@@ -99,8 +98,8 @@ class Scalp {
     /// Unit vector in the mesh.
     Vec3 vector_of(const ScalpDirection& direction) const;
 
-    /// A point given in metres of the frame from the center (x to the head's left, y up, z to the
-    /// front), in the mesh; and back.
+    /// Returns a point given in metres of the frame from the center (x to the head's left, y up, z
+    /// to the front), in the mesh; and back.
     Vec3 from_metres(const Vec3& metres) const { return frame_.world(scale_ * metres); }
     Vec3 to_metres(const Vec3& point) const { return frame_.local(point) / scale_; }
     /// Unit normal at a point of the surface, interpolated from those of the vertices.
@@ -111,8 +110,8 @@ class Scalp {
     /// head across.
     Box default_box() const;
 
-    /// The default volume of a hairstyle in metres of the frame: around the head with room for
-    /// volume on all sides, and below it for hair to the shoulders.
+    /// Returns the default volume of a hairstyle in metres of the frame: around the head with room
+    /// for volume on all sides, and below it for hair to the shoulders.
     static Box default_volume() { return {{-0.2, -0.42, -0.24}, {0.2, 0.22, 0.22}}; }
 
   private:

@@ -78,7 +78,7 @@ class StepSampler {
     const Context& context_;
 };
 
-// The number of rows that should give `wanted` roots where `rows` gave `found`.
+// Returns the number of rows expected to give `wanted` roots, if `rows` gave `found`.
 Index better_rows(Index rows, double found, double wanted) {
     const double factor = std::sqrt(wanted / std::max(found, 1.0));
     return static_cast<Index>(std::min<double>(std::ceil(rows * factor), kMostRows));

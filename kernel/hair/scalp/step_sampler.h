@@ -10,8 +10,8 @@
 
 namespace lissom {
 
-/// The roots of RootPattern::steps, without normals, in random order. Errors: region_empty if
-/// hardly any direction meets the scalp; cancelled.
+/// Returns the roots of RootPattern::steps, without normals, in random order. Errors: region_empty
+/// if hardly any direction meets the scalp; cancelled.
 std::vector<Root> roots_in_steps(const Scalp& scalp, const RootSurface& surface,
                                  const RootOptions& options, const Context& context);
 

@@ -21,7 +21,7 @@ class SurfaceDistance {
   private:
     const Scalp& scalp_;
     const DistanceGrid& grid_;
-    /// -1 where the faces of the head look inward.
+    /// -1 if the faces of the head look inward.
     double outward_ = 1.0;
 };
 

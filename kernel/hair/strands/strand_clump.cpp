@@ -34,7 +34,7 @@ void require_clump(const ClumpOptions& options) {
 struct Guide {
     GuideCurve curve;
     GuideKey key;
-    /// The strength with its variation, and where its tip goes.
+    /// The strength with its variation, and the target of its tip.
     double strength;
     Vec3 offset;
 };

@@ -11,7 +11,7 @@ namespace lissom {
 
 /// Which strands gather around which.
 struct ClumpOptions {
-    /// Number of guides: the strands of the lowest ids. As these are spread over the scalp, any
+    /// Number of guides: the strands of the lowest ids. These are spread over the scalp, so any
     /// part of the hair that has them gathers as the whole does. At least 1.
     Index clumps = 2500;
     /// Part of the way to the guide that tips move; 0 to 1.
@@ -23,8 +23,8 @@ struct ClumpOptions {
     /// Strands rooted further than this from their guide stay, those nearer are pulled the less the
     /// further they are; metres, positive. Infinite: no limit.
     double radius = 0.03;
-    /// Of two guides the nearer one counts, and so does how far apart the middles of the strands
-    /// are combed, times this: a strand gathers with those of its own side of a parting. 0 or more.
+    /// The nearest guide counts; its distance includes that of the combed middles of the strands,
+    /// times this: a strand gathers with those of its own side of a parting. 0 or more.
     double apart = 0.5;
     /// Random distance in metres by which the tips of a clump miss their guide; 0 or more.
     double tip_spread = 0.001;
@@ -38,11 +38,11 @@ struct ClumpOptions {
 };
 
 /// Pulls each strand towards its guide G: with (a, b, c) the offset of the roots in the guide's
-/// root frame (N, B, T), which runs along it with the least twist, and s = t^shape, a point moves
-/// s * strength * falloff of the way to G(t) + (1 - s) (a N + b B + c T) + s (tip_spread random of
-/// the strand + offset random of the clump). What all operators keep: strand_operators.h; a prefix
-/// is one only where it holds all guides.
-/// Errors: invalid_argument for options out of range; not_finite; memory_limit, cancelled.
+/// root frame (N, B, T), which runs along it with the least twist, and s = t^shape, a point moves s
+/// * strength * falloff of the way to G(t) + (1 - s) (a N + b B + c T) + s (tip_spread random of
+/// the strand + offset random of the clump). Guarantees of all operators: strand_operators.h; a
+/// prefix is one only if it holds all guides. Errors: invalid_argument for options out of range;
+/// not_finite; memory_limit, cancelled.
 void clump(Strands& strands, const ClumpOptions& options = {}, const Context& context = {});
 
 }  // namespace lissom

@@ -1,4 +1,4 @@
-/// Choosing, joining and moving strands. What is known of each strand goes with it.
+/// Choosing, joining and moving strands. Data of each strand go with it.
 #pragma once
 
 #include <functional>
@@ -12,21 +12,21 @@
 
 namespace lissom {
 
-/// The strands named in `list`, in its order. They keep their ids. Errors: out_of_range.
+/// Returns the strands named in `list`, in its order. They keep their ids. Errors: out_of_range.
 Strands select(const Strands& strands, std::span<const Index> list);
 
-/// The strands for which `choose(strand)` is true, in their order.
+/// Returns the strands for which `choose(strand)` is true, in their order.
 Strands select(const Strands& strands, const std::function<bool(Index)>& choose);
 
-/// The strands of a group. Errors: out_of_range if there is no group of this name.
+/// Returns the strands of a group. Errors: out_of_range if there is no group of this name.
 Strands select_group(const Strands& strands, std::string_view group);
 
-/// The first `count` strands, or all where there are fewer: a level of detail of strands in random
-/// order. Errors: out_of_range for a negative count.
+/// Returns the first `count` strands, or all if there are fewer: a level of detail of strands in
+/// random order. Errors: out_of_range for a negative count.
 Strands prefix(const Strands& strands, Index count);
 
-/// Adds the strands of `other` after those of `strands`. Groups of the same name become one. What
-/// one of them has no values of gets: widths and transparencies those it had in common, colours
+/// Adds the strands of `other` after those of `strands`. Groups of the same name become one. Values
+/// missing in one of them are filled in: widths and transparencies those it had in common, colours
 /// black, faces kNoIndex, root uvs 0; ids that exist already, or that no list holds, become new
 /// ones above all others. Errors: invalid_argument if there would be more points than can be
 /// numbered.

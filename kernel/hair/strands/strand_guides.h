@@ -14,7 +14,7 @@ namespace lissom {
 /// root, so that neighbours that are combed to different sides of a parting are far apart.
 using GuideKey = Eigen::Matrix<double, 6, 1>;
 
-/// The key of a finite strand; `apart` weighs the second part.
+/// Returns the key of a finite strand; `apart` weighs the second part.
 GuideKey guide_key(const StrandView& strand, double apart);
 
 /// A tree of keys that finds the nearest.

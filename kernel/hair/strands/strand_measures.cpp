@@ -140,7 +140,7 @@ class Hasher {
     template <typename Value>
     void add_values(const StrandValues<Value>& values) {
         add(static_cast<Index>(values.domain));
-        // Where there are others it is not used.
+        // Unused if there are others.
         if (values.domain == StrandDomain::all) add(values.common);
         add_list(values.values);
     }

@@ -29,7 +29,7 @@ struct StrandStatisticsOptions {
     /// Signed distance in metres to the head at a point, negative inside; empty: penetration is not
     /// measured. Called on several threads.
     std::function<double(const Vec3&)> distance;
-    /// A strand penetrates where a point is deeper than this, in metres.
+    /// A strand penetrates if a point is deeper than this, in metres.
     double depth = 0.0;
     /// A turn counts as sharp above this angle between two segments, in radians.
     double sharp_turn = kPi / 2.0;

@@ -17,8 +17,8 @@ namespace {
 constexpr double kSpread = 1.5;
 
 // How much the deviation may change along a segment, as a fraction of its length: so much turns it
-// by 27 degrees. Of segments shorter than usual it is less still: where hair turns sharply, as at
-// tips that run out in a weak field, it has short segments.
+// by 27 degrees. For segments shorter than usual it is less still: sharply turning hair, as at tips
+// that run out in a weak field, has short segments.
 constexpr double kSteepest = 0.5;
 
 double fade_curve(double x) {

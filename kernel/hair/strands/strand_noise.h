@@ -14,8 +14,8 @@ namespace lissom {
 Vec3 smooth_noise(const Vec3& place, std::uint64_t seed);
 
 struct NoiseOptions {
-    /// Greatest distance in metres, about, that a tip moves; 0 or more. Where it would turn a
-    /// segment by more than 27 degrees, or a shorter one than usual by less, it moves less.
+    /// Greatest distance in metres, about, that a tip moves; 0 or more. It moves less if it would
+    /// turn a segment by more than 27 degrees, or a shorter one than usual by less.
     double amplitude = 0.0016;
     /// Distance in metres of roots that wander apart; positive.
     double across = 0.02;
@@ -31,8 +31,8 @@ struct NoiseOptions {
 };
 
 /// Moves points across their strand by smooth noise: at the root's place / across, shifted along
-/// with the arc length / along, less its value at the root. Strands do not fold. What all operators
-/// keep: strand_operators.h. Errors: invalid_argument for options out of range; not_finite;
+/// with the arc length / along, less its value at the root. Strands do not fold. Guarantees of all
+/// operators: strand_operators.h. Errors: invalid_argument for options out of range; not_finite;
 /// memory_limit, cancelled.
 void noise(Strands& strands, const NoiseOptions& options = {}, const Context& context = {});
 

@@ -1,12 +1,12 @@
 /// Local detail of strands, first the simple operators; clump, noise and trim have files of their
 /// own (strand_clump.h, strand_noise.h, strand_trim.h).
 ///
-/// What all of them keep: roots never move, and what happens to a strand depends on it, its id, the
-/// seed and its guide alone - not on the number of threads, the order of the strands, or how many
-/// there are. So the first n of all strands are what the operator makes of the first n, and the
-/// count can change while the look stays. `t` is the arc length along a strand as a fraction of the
-/// whole, 0 at the root, 1 at the tip. Strands with a coordinate that is not finite stay as they
-/// are. An operator that throws has changed nothing.
+/// Guarantees of all of them: roots never move, and the result of a strand depends on it, its id,
+/// the seed and its guide alone - not on the number of threads, the order of the strands, or their
+/// count. So the first n of all results are the results of the first n strands, and the count can
+/// change while the look stays. `t` is the arc length along a strand as a fraction of the whole, 0
+/// at the root, 1 at the tip. Strands with a coordinate that is not finite stay as they are. An
+/// operator that throws has changed nothing.
 #pragma once
 
 #include <functional>
@@ -17,12 +17,12 @@
 
 namespace lissom {
 
-/// Widths are multiplied by 1 from the root to `start`, and from there on by what goes from 1 to
-/// `tip` as t^shape.
+/// Widths are multiplied by 1 from the root to `start`, and from there on by a factor that goes
+/// from 1 to `tip` as t^shape.
 struct TaperOptions {
     /// Width of the tip as a fraction of that without taper; positive.
     double tip = 0.2;
-    /// `t` where the taper begins, 0 to below 1.
+    /// `t` at the start of the taper, 0 to below 1.
     double start = 0.0;
     /// Exponent, positive: 1 is a cone, 2 stays wide for longer.
     double shape = 1.0;
@@ -47,8 +47,8 @@ void smooth(Strands& strands, const StrandSmoothOptions& options = {}, const Con
 
 /// Moves the points of every strand that is finite and has more than its root: `move(strand, old,
 /// made)` is called on several threads and writes the columns of `made`, which begin as the old
-/// points. The root is put back where it was. Nothing changes where it throws.
-/// Errors: not_finite naming strands that were finite and no longer are; memory_limit, cancelled.
+/// points. The root is put back. Nothing changes if it throws. Errors: not_finite naming strands
+/// that were finite and no longer are; memory_limit, cancelled.
 void move_points(
     Strands& strands,
     const std::function<void(Index strand, const StrandView& old, StrandEdit& made)>& move,

@@ -16,7 +16,8 @@ constexpr std::size_t kLookedAt = 2000;
 // Ratio of the distances that may remain between both: else they are of another mesh.
 constexpr double kTolerance = 0.02;
 
-// Of the size of a mesh: hair is seldom smaller than that of a body's, or larger than a head's.
+// Relative to the size of a mesh: hair is seldom smaller than that of a body's, or larger than a
+// head's.
 constexpr double kSmallest = 0.05, kLargest = 20.0;
 
 struct UsualUnit {

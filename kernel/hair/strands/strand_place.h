@@ -1,4 +1,4 @@
-/// Where strands belong in the world of a mesh.
+/// Placement of strands in the world of a mesh.
 #pragma once
 
 #include <optional>

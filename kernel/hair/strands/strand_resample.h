@@ -24,16 +24,16 @@ Strands at_places(const Strands& strands,
                   const std::function<void(Index strand, std::vector<StrandPlace>& places)>& find,
                   const Context& context = {});
 
-/// The place on a strand where the arc length fraction is `t`; `fractions` are those of its points
-/// (`arc_fractions`), of which there are at least two.
+/// Returns the place on a strand at the arc length fraction `t`; `fractions` are those of its
+/// points (`arc_fractions`), of which there are at least two.
 StrandPlace place_at(const std::vector<double>& fractions, double t);
 
 /// One of the two must be set.
 struct ResampleOptions {
     /// Points of each strand; at least 2, or 0 for `step`.
     Index count = 0;
-    /// Distance in metres of points along the strand, changed a little so that the tip stays where
-    /// it is; positive, or 0 for `count`.
+    /// Distance in metres of points along the strand, adjusted a little to keep the tip; positive,
+    /// or 0 for `count`.
     double step = 0.0;
 };
 

@@ -59,7 +59,7 @@ std::vector<Index> strands_rooted_in(const Strands& strands, const Region& regio
     const std::vector<Index>& faces = strands.roots().faces;
     if (faces.empty() && !strands.empty()) {
         throw Error(ErrorCode::invalid_argument,
-                    "it is not known where these strands are rooted; grow them on a head");
+                    "the roots of these strands are not known; grow them on a head");
     }
     std::vector<char> inside(region.topology()->face_count(), 0);
     for (const Index f : region.faces()) inside[f] = 1;

@@ -1,5 +1,5 @@
-/// Finding strands by where they grow and where they pass. Lists ascend; `select` (strand_edit.h)
-/// makes strands of them.
+/// Finding strands by their roots and by their course. Lists ascend; `select` (strand_edit.h) makes
+/// strands of them.
 #pragma once
 
 #include <span>
@@ -13,13 +13,14 @@
 
 namespace lissom {
 
-/// The strands rooted on a face of `region`, which is one of the head that they grew on. Errors:
-/// invalid_argument if no faces of roots are known, or one is not a face of the region's mesh.
+/// Returns the strands rooted on a face of `region`, which is one of the head that they grew on.
+/// Errors: invalid_argument if no faces of roots are known, or one is not a face of the region's
+/// mesh.
 std::vector<Index> strands_rooted_in(const Strands& strands, const Region& region);
 
-/// The strands that come nearer to a curve than `radius`; both in the unit of the strands. The same
-/// for any number of threads.
-/// Errors: as require_curve; invalid_argument for a radius that is not 0 or more; cancelled.
+/// Returns the strands that come nearer to a curve than `radius`; both in the unit of the strands.
+/// The same for any number of threads. Errors: as require_curve; invalid_argument for a radius that
+/// is not 0 or more; cancelled.
 std::vector<Index> strands_near_curve(const Strands& strands, std::span<const Vec3> curve,
                                       double radius, const Context& context = {});
 

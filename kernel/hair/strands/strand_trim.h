@@ -11,21 +11,21 @@
 
 namespace lissom {
 
-/// What lies on the side that `normal` points to is cut off.
+/// Cuts off the side that `normal` points to.
 struct StrandTrimPlane {
     Vec3 point = Vec3::Zero();
     /// Any length but zero.
     Vec3 normal = -Vec3::UnitY();
 };
 
-/// A strand is cut where the first of these says so.
+/// A strand is cut at the first of these limits.
 struct StrandTrimOptions {
     /// Longest length that is left, in metres; infinite for no limit.
     double length = std::numeric_limits<double>::infinity();
     /// Part of its length that each strand keeps, 0 to 1.
     double factor = 1.0;
-    /// Each strand keeps this much less at most, at random, as a fraction of what it would keep;
-    /// 0 to 1. Applies to `length` and `factor`.
+    /// Each strand is randomly shortened by up to this fraction of its kept length; 0 to 1. Applies
+    /// to `length` and `factor`.
     double variation = 0.0;
     std::optional<StrandTrimPlane> plane;
     /// Each strand meets the plane moved by at most this along its normal, either way, at random,
@@ -37,7 +37,7 @@ struct StrandTrimOptions {
 };
 
 /// Cuts strands off at the tip; a new last point lies on the old strand. Roots stay, strands with
-/// nothing to cut stay to the bit, and what happens to a strand depends on it, its id and the seed
+/// nothing to cut stay to the bit, and the result of a strand depends on it, its id and the seed
 /// alone. Errors: invalid_argument for options out of range; memory_limit, cancelled.
 void trim(Strands& strands, const StrandTrimOptions& options, const Context& context = {});
 

@@ -1,5 +1,5 @@
-/// Strands: hair as polylines, root to tip, with what is known of each of them. Lengths are in
-/// metres, the axes those of the head; points are 32-bit numbers, 12 bytes each.
+/// Strands: hair as polylines, root to tip, with the data of each. Lengths are in metres, the axes
+/// those of the head; points are 32-bit numbers, 12 bytes each.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,7 @@ namespace lissom {
 /// Diameter of strands that nobody gave one: that of a human hair, 70 to 80 micrometres.
 inline constexpr float kHairWidth = 75e-6f;
 
-/// What has a value of its own.
+/// Domain of values.
 enum class StrandDomain {
     all,     ///< all strands share one
     strand,  ///< each strand
@@ -31,13 +31,13 @@ enum class StrandDomain {
 /// Values for all strands, for each strand, or for each point.
 template <typename Value>
 struct StrandValues {
-    /// The value of all strands; not used where there are others.
+    /// The value of all strands; unused if there are others.
     Value common;
     StrandDomain domain = StrandDomain::all;
     /// One for each element of the domain; empty for StrandDomain::all.
     std::vector<Value> values = {};
 
-    /// The value at a point; `point` counts over all strands.
+    /// Returns the value at a point; `point` counts over all strands.
     const Value& at(Index strand, Index point) const {
         if (domain == StrandDomain::all) return common;
         return values[lissom::at(domain == StrandDomain::strand ? strand : point)];
@@ -52,11 +52,11 @@ struct StrandWidths : StrandValues<float> {
     /// none.
     std::vector<float> profile;
 
-    /// The profile at `t`, 0 at the root and 1 at the tip; 1 if there is none.
+    /// Returns the profile at `t`, 0 at the root and 1 at the tip; 1 if there is none.
     float factor(double t) const;
 };
 
-/// Where strands are rooted on the mesh of the head. Lists have one entry a strand, or none.
+/// Roots of strands on the mesh of the head. Lists have one entry a strand, or none.
 struct StrandRoots {
     std::vector<Index> faces;
     /// Weights of the face's first three corners.
@@ -115,11 +115,11 @@ class Strands {
     /// Group of each strand, as a place in `group_names`, or kNoIndex; empty if there are none.
     const std::vector<Index>& groups() const { return groups_; }
     const std::vector<std::string>& group_names() const { return group_names_; }
-    /// The group of a strand, or kNoIndex.
+    /// Returns the group of a strand, or kNoIndex.
     Index group(Index strand) const { return groups_.empty() ? kNoIndex : groups_[at(strand)]; }
-    /// The group called `name`, or kNoIndex.
+    /// Returns the group called `name`, or kNoIndex.
     Index find_group(std::string_view name) const;
-    /// The id of each strand; empty if every id is the strand's number.
+    /// Returns the id of each strand; empty if every id is the strand's number.
     const std::vector<std::uint32_t>& ids() const { return ids_; }
     std::uint32_t id(Index strand) const {
         return ids_.empty() ? static_cast<std::uint32_t>(strand) : ids_[at(strand)];
@@ -128,10 +128,10 @@ class Strands {
     const StrandValues<Eigen::Vector3f>* colors() const { return has_colors_ ? &colors_ : nullptr; }
     /// 0 is opaque.
     const StrandValues<float>& transparency() const { return transparency_; }
-    /// What the file said about itself.
+    /// Returns the file's own comment.
     const std::string& comment() const { return comment_; }
 
-    /// These replace what was there. Errors: invalid_argument if lists have another length than
+    /// These replace the old values. Errors: invalid_argument if lists have another length than
     /// their elements, or a group has no name.
     void set_widths(StrandWidths widths);
     void set_roots(StrandRoots roots);

@@ -1,10 +1,10 @@
-/// Contours of a function on a mesh: where it crosses edges, joined to lines; private to
+/// Contours of a function on a mesh: its crossings of edges, joined to lines; private to
 /// kernel/mesh.
 ///
 /// Values are linear on the triangles of the mesh, polygons being triangulated (triangulation.h).
-/// No vertex lies on a contour: one whose value is 0 counts as positive, or as negative where all
-/// that surrounds the zeros it belongs to is negative. So contours never branch, and a function
-/// that only touches 0 has none there.
+/// No vertex lies on a contour: one with the value 0 counts as positive, or as negative if all
+/// neighbours of its connected zeros are negative. So contours never branch, and a function that
+/// only touches 0 has none there.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ struct LevelSet {
 /// Sides for `value`, one a vertex; those within `tolerance` of 0 are made 0 first.
 LevelSet level_set(const Topology& topology, std::vector<double> value, double tolerance);
 
-/// Where a contour crosses an edge: `t` of the way from its positive end to its negative one.
+/// Crossing of a contour and an edge: `t` of the way from its positive end to its negative one.
 struct Crossing {
     Index positive = kNoIndex, negative = kNoIndex;
     double t = 0.5;
@@ -57,8 +57,8 @@ struct ContourLine {
     std::vector<Vec3> points(const Mesh& mesh) const;
 };
 
-/// All contours of a function, in the order of the faces at which they are first met. Errors:
-/// nonmanifold_edge if triangulated polygons share a diagonal; cancelled.
+/// Returns all contours of a function, in the order of the faces at which they are first met.
+/// Errors: nonmanifold_edge if triangulated polygons share a diagonal; cancelled.
 std::vector<ContourLine> trace_contours(const Mesh& mesh, const LevelSet& levels,
                                         const Context& context);
 

@@ -8,12 +8,12 @@
 namespace lissom {
 namespace {
 
-// What a slide may move a face's corner off its plane, as a fraction of the edge slid along.
+// Limit of a face corner's move off its plane by a slide, as a fraction of the edge slid along.
 constexpr double kMostOffPlane = 0.06;
 // A face's smallest angle may be halved by a slide, but not below this one.
 constexpr double kSmallAngle = 10.0 * kPi / 180.0;
-// Crossings stay this far from the ends of their edge where those do not slide. Seams may be
-// displaced by as much.
+// Crossings stay this far from the ends of their edge if those do not slide. Seams may be displaced
+// by as much.
 constexpr double kLeastFraction = 0.03;
 
 double angle(const Vec3& a, const Vec3& b) {
@@ -33,7 +33,7 @@ Index local_corner(std::span<const Index> face, Index v) {
     return index_of(std::find(face.begin(), face.end(), v) - face.begin());
 }
 
-// Decides slides one by one; each must leave what was decided before valid.
+// Decides slides one by one; each must keep the earlier decisions valid.
 class Slider {
   public:
     Slider(const Mesh& mesh, const std::vector<ContourLine>& lines,
@@ -116,7 +116,7 @@ class Slider {
         return simple;
     }
 
-    // What lies on both sides of an edge from a vertex to another one on the line.
+    // Both sides of an edge from a vertex to another one on the line.
     struct Spoke {
         Index to;
         signed char left, right;

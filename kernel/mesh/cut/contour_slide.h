@@ -23,10 +23,10 @@ struct Slides {
 };
 
 /// Chooses the vertices to slide: nearest crossings first, those within `limit` of an edge's
-/// length. A vertex stays where the contour would no longer be a simple line, a face would turn
-/// over, become thin or leave the surface, a vertex would leave an open boundary, or an attribute's
-/// seam would be displaced. `side` tells for each vertex the side of the lines it is on. Crossings
-/// very close to a vertex that stays are moved away from it.
+/// length. A vertex stays if otherwise the contour would no longer be a simple line, a face would
+/// turn over, become thin or leave the surface, a vertex would leave an open boundary, or an
+/// attribute's seam would be displaced. `side` tells for each vertex the side of the lines it is
+/// on. Crossings very close to a vertex that stays are moved away from it.
 Slides slide_vertices(const Mesh& mesh, const std::vector<ContourLine>& lines,
                       const std::vector<signed char>& side, double limit, CrossedEdges& crossed,
                       const Context& context);

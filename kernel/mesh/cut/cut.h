@@ -25,7 +25,7 @@ namespace lissom {
 
 /// Which of the lines in which a plane crosses a mesh are cut.
 enum class CutLoops {
-    /// The one nearest to the picked point; where the plane crosses elsewhere the mesh stays whole.
+    /// The one nearest to the picked point; the other lines of the plane leave the mesh whole.
     nearest,
     /// All of them.
     all,
@@ -33,7 +33,7 @@ enum class CutLoops {
 
 struct CutOptions {
     CutLoops loops = CutLoops::nearest;
-    /// A vertex slides onto the line where that crosses one of its edges within this fraction of
+    /// A vertex slides onto the line if the line crosses one of its edges within this fraction of
     /// the edge's length; 0 to 0.45.
     double slide = 0.25;
 };
@@ -69,11 +69,11 @@ struct CutRegion {
 
 /// The line along which a function is 0, linear on the triangles of the mesh.
 struct CutContour {
-    /// One value a vertex, none of them NaN; the part where they are positive is kept.
+    /// One value a vertex, none of them NaN; the part with positive values is kept.
     std::vector<double> value;
 };
 
-/// Why the result of a cut may not be what was wanted.
+/// Possible defects of a cut.
 enum class CutConcern {
     /// A line ends at an open boundary, which now belongs to both parts in pieces.
     touches_boundary,
@@ -86,15 +86,15 @@ enum class CutConcern {
     keeps_most,
     /// A region has several outlines, which were all cut.
     several_outlines,
-    /// The sides of the lines are connected elsewhere: a cut would fail. Of a preview only.
+    /// The sides of the lines are connected elsewhere: a cut would fail. Only in previews.
     not_separating,
 };
 
 struct CutWarning {
     CutConcern concern = CutConcern::touches_boundary;
-    /// What was found and what to do about it.
+    /// Finding and remedy.
     std::string message;
-    /// Old vertices where it was found.
+    /// Old vertices of the finding.
     Elements elements;
 };
 
@@ -114,7 +114,7 @@ struct CutReport {
     Index divided_faces = 0;
 };
 
-/// A part of a mesh and where its elements come from in the old one.
+/// A part of a mesh, with the old elements of its elements.
 struct CutPiece {
     Mesh mesh;
     MeshMap map;
@@ -132,20 +132,20 @@ struct Cut {
     CutReport report;
 };
 
-/// Where a cut would run.
+/// Predicted lines of a cut.
 struct CutPreview {
     /// Lines that would be cut, of free points, each with the kept part on its left.
     std::vector<Path> lines;
     /// Lines in which the plane crosses the mesh and which would stay whole.
     std::vector<Path> others;
-    /// Without what is known once the mesh is divided: `slid_vertices` and `divided_faces`.
+    /// Without `slid_vertices` and `divided_faces`, which are known only after the mesh is divided.
     CutReport report;
 };
 
-/// Cuts by a plane. Of the lines in which it crosses the mesh the one nearest to the picked point
-/// is cut, so that a plane through a neck leaves the legs alone; everything connected to either
-/// side of it goes there whole. Components that are not cut go to the side of the plane on which
-/// the mean of their vertices lies. A plane that only touches the surface does not cross it.
+/// Cuts by a plane. If the plane crosses the mesh in several lines, the one nearest to the picked
+/// point is cut, so that a plane through a neck leaves the legs alone; everything connected to
+/// either side of it goes there whole. Components that are not cut go to the side of the plane on
+/// which the mean of their vertices lies. A plane that only touches the surface does not cross it.
 /// Errors: mesh_empty; invalid_argument for a normal without length, options out of range, or a
 /// plane that does not cross the mesh; not_finite; boundary_conflict if the line does not separate
 /// the mesh, because both sides are connected elsewhere; nonmanifold_edge; cancelled.
@@ -170,15 +170,15 @@ Cut cut(const Mesh& mesh, const CutPath& path, const CutOptions& options = {},
 Cut cut(const Mesh& mesh, const CutRegion& region, const CutOptions& options = {},
         const Context& context = {});
 
-/// Cuts along all lines on which a function is 0, to the bit where `slide` is 0, and keeps the part
-/// where it is positive. Components without a line go to the side of their values' sum.
-/// Errors: mesh_empty; invalid_argument for options out of range, a wrong number of values, or a
-/// function without a line; not_finite for NaN; nonmanifold_edge; cancelled.
+/// Cuts along all lines on which a function is 0, exactly if `slide` is 0, and keeps the part with
+/// positive values. Components without a line go to the side of their values' sum. Errors:
+/// mesh_empty; invalid_argument for options out of range, a wrong number of values, or a function
+/// without a line; not_finite for NaN; nonmanifold_edge; cancelled.
 Cut cut(const Mesh& mesh, const CutContour& contour, const CutOptions& options = {},
         const Context& context = {});
 
-/// The lines along which `cut` would divide the mesh, before vertices slide onto them; the mesh
-/// stays as it is. If the lines would not separate it, they are shown with a warning
+/// Returns the lines along which `cut` would divide the mesh, before vertices slide onto them; the
+/// mesh stays as it is. If the lines would not separate it, they are shown with a warning
 /// (not_separating). Errors: otherwise as `cut`.
 CutPreview preview_cut(const Mesh& mesh, const CutPlane& plane, const CutOptions& options = {},
                        const Context& context = {});

@@ -99,7 +99,7 @@ void add_touched_boundaries(const Mesh& mesh, const std::vector<ContourLine>& li
     report.warnings.push_back(
         {CutConcern::touches_boundary,
          "the cut ends at an open boundary of the mesh, so that its line is not a closed loop; "
-         "move it away from the boundary, or fill that first, where a loop is needed",
+         "move it away from the boundary, or fill that first, if a loop is needed",
          std::move(ends)});
 }
 

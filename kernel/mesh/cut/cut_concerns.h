@@ -1,4 +1,4 @@
-/// What a user should know about the lines of a cut; private to kernel/mesh.
+/// Warnings about the lines of a cut; private to kernel/mesh.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ void add_concerns(const Mesh& mesh, const std::vector<ContourLine>& lines, CutRe
 void add_kept_fraction(const Mesh& mesh, const std::vector<ContourLine>& lines,
                        const CutSides& sides, CutReport& report);
 
-/// Adds how many outlines and pieces the cut of a region has, where there are several outlines.
+/// Adds the numbers of outlines and pieces of a region's cut, if there are several outlines.
 void add_outlines(const Mesh& mesh, const std::vector<ContourLine>& lines, const CutSides& sides,
                   CutReport& report);
 

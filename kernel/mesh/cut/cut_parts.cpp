@@ -16,7 +16,7 @@ namespace {
     }
     throw Error(ErrorCode::boundary_conflict,
                 "the cut does not separate the mesh: its two sides are connected elsewhere; cut "
-                "all lines of the plane at once, or cut where the mesh falls in two",
+                "all lines of the plane at once, or cut elsewhere",
                 std::move(edges));
 }
 

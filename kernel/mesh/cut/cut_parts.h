@@ -1,4 +1,4 @@
-/// What the ways of cutting share once they know the lines to cut along; private to kernel/mesh.
+/// Common steps of all cuts once their lines are known; private to kernel/mesh.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@ namespace lissom {
 /// Errors: mesh_empty; invalid_argument.
 void require_cuttable(const Mesh& mesh, const CutOptions& options);
 
-/// The side of the lines that each vertex is on: 1 or -1, and 0 in components without a line.
-/// Errors: boundary_conflict if the sides are connected.
+/// Returns the side of the lines that each vertex is on: 1 or -1, and 0 in components without a
+/// line. Errors: boundary_conflict if the sides are connected.
 std::vector<signed char> sides_of(const Mesh& mesh, const std::vector<ContourLine>& lines);
 
 /// Gives components that no line crosses the side that `side_of` names for their vertices, and
@@ -26,7 +26,7 @@ using SideOfComponent = std::function<signed char(const std::vector<Index>& vert
 Index assign_whole_components(const Mesh& mesh, std::vector<signed char>& side,
                               const SideOfComponent& side_of);
 
-/// The side of the vertex nearest to `seed` among those that have one.
+/// Returns the side of the nearest vertex to `seed` that has one.
 signed char side_near(const Mesh& mesh, const std::vector<signed char>& side, const Vec3& seed);
 
 /// Lines of a cut.
@@ -36,9 +36,9 @@ struct CutLines {
     CutReport report;
 };
 
-/// What lies on which side of the lines.
+/// Sides of the lines.
 struct CutSides {
-    /// Of every vertex: 1 or -1.
+    /// Side of every vertex: 1 or -1.
     std::vector<signed char> side;
     /// The side that is kept.
     signed char kept = 1;
@@ -53,7 +53,7 @@ struct CutSides {
 Cut cut_along(const Mesh& mesh, CutLines found, CutSides sides, const CutOptions& options,
               const Context& context);
 
-/// What `cut_along` would do with the sides that `decide` returns.
+/// Returns the preview of `cut_along` with the sides that `decide` returns.
 CutPreview preview_along(const Mesh& mesh, const CutLines& found,
                          const std::function<CutSides()>& decide);
 

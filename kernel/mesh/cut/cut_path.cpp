@@ -49,8 +49,8 @@ std::vector<Index> stations(const Mesh& mesh, const Path& path, const Context& c
     return stations;
 }
 
-// A loop of vertices without the detours on which it comes back to a vertex soon: where picked
-// points lie beside the shortest ways, those go there and back again.
+// Returns a loop of vertices without short detours that come back to a vertex: shortest ways to
+// picked points beside the loop go there and back again.
 std::vector<Index> without_detours(const std::vector<Index>& loop) {
     const std::size_t longest = loop.size() / kDetour;
     std::vector<Index> kept;

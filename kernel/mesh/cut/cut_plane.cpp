@@ -12,7 +12,7 @@ namespace {
 // Distances from the plane that rounding of the coordinates explains count as 0.
 constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
-// Another line is nearby where it is less than this many times as far from the picked point.
+// Another line is nearby if it is less than this many times as far from the picked point.
 constexpr double kNearby = 2.0;
 
 void require_plane(const CutPlane& plane) {

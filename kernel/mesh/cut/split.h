@@ -13,12 +13,12 @@
 
 namespace lissom {
 
-/// Where and how a mesh is split.
+/// Lines and sides of a split.
 struct Splitting {
     /// The contours to split along; no others are.
     std::vector<ContourLine> lines;
     /// For each vertex the part that it goes to: 1 the positive one, -1 the negative one. Edges
-    /// join different parts only where a line crosses them.
+    /// join different parts only if a line crosses them.
     std::vector<signed char> side;
     /// Fraction of an edge within which its end slides onto a line.
     double slide = 0.25;

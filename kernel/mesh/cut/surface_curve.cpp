@@ -116,8 +116,8 @@ void SurfaceCurve::sample(std::span<const Vec3> points, std::span<const Vec3> no
 
 void SurfaceCurve::smooth(double sigma) {
     const Gaussian gaussian(sigma, count_of(points_));
-    // What a first pass takes away is smoothed and given back, 2 S - S S: bends keep their place,
-    // where a Gaussian alone would draw them inwards.
+    // The remainder of a first pass is smoothed and added again, 2 S - S S: bends keep their place,
+    // whereas a Gaussian alone would draw them inwards.
     const std::vector<Vec3> once = gaussian.smoothed(points_);
     const std::vector<Vec3> twice = gaussian.smoothed(once);
     for (std::size_t i = 0; i < points_.size(); ++i) points_[i] = once[i] + (once[i] - twice[i]);

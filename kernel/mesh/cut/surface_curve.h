@@ -32,8 +32,8 @@ class SurfaceCurve {
                  const std::vector<Vec3>& normals, double smoothing);
 
     double length() const { return length_; }
-    /// The nearest place of the whole curve, or of the part within `window` of its length to both
-    /// sides of `around`.
+    /// Returns the nearest place of the whole curve, or of the part within `window` of its length
+    /// to both sides of `around`.
     CurvePlace nearest(const Vec3& p) const;
     CurvePlace nearest(const Vec3& p, double around, double window) const;
 
@@ -61,8 +61,8 @@ CurveDistances distances_to_curve(const Mesh& mesh, const SurfaceCurve& curve,
                                   std::span<const Index> seeds, double width,
                                   const Context& context);
 
-/// The contour of `levels` that runs once along the whole curve, in its direction; of several the
-/// shortest. None: an empty list.
+/// Returns the contour of `levels` that runs once along the whole curve, in its direction; of
+/// several the shortest. None: an empty list.
 std::vector<ContourLine> contour_along(const Mesh& mesh, const LevelSet& levels,
                                        const CurveDistances& distances, const Context& context);
 

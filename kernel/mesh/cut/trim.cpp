@@ -16,7 +16,7 @@ namespace {
 // The band in which distances are known reaches this many edges beyond the new boundary.
 constexpr double kTrimBandEdges = 3.0;
 
-// How often the smoothing is halved where no line is found.
+// Maximum number of halvings of the smoothing until a line is found.
 constexpr int kMostHalvings = 3;
 
 void require_options(const TrimOptions& options) {

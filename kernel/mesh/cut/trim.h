@@ -11,8 +11,8 @@ namespace lissom {
 
 struct TrimOptions {
     /// How smooth: standard deviation of the Gaussian that smooths the loop, as a fraction of its
-    /// length; above 0, at most 0.1. Halved, up to three times, where a loop with sharp turns has
-    /// no smooth line beside it.
+    /// length; above 0, at most 0.1. Halved, up to three times, if a loop with sharp turns has no
+    /// smooth line beside it.
     double smoothing = 0.04;
     /// Distance of the new boundary from the innermost vertex of the old one, in mean edge lengths
     /// there; at least 0.
@@ -36,9 +36,9 @@ struct Trim {
 
 /// Cuts a thin strip off along an open boundary. The loop is smoothed; the new boundary is the line
 /// on the surface at a constant distance from the smooth loop, so far inside that it meets no
-/// vertex of the old one. What remains is as after `cut`. Errors: topology_mismatch;
-/// not_a_boundary; invalid_argument for options out of range; boundary_conflict if the strip meets
-/// another boundary or leaves nothing; nonmanifold_edge; cancelled.
+/// vertex of the old one. The rest is as after `cut`. Errors: topology_mismatch; not_a_boundary;
+/// invalid_argument for options out of range; boundary_conflict if the strip meets another boundary
+/// or leaves nothing; nonmanifold_edge; cancelled.
 Trim trim(const Mesh& mesh, const Path& boundary, const TrimOptions& options = {},
           const Context& context = {});
 

@@ -116,7 +116,7 @@ std::vector<char> faces_of(const Mesh& mesh, const Region& region) {
     return chosen;
 }
 
-// Where the elements of the part come from.
+// Sources of the elements of the part.
 MemoryCharge room_for_part(const Mesh& mesh, const Context& context) {
     return context.charge(mesh.memory_bytes(), "a part of a mesh");
 }

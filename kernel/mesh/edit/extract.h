@@ -1,4 +1,4 @@
-/// Parts of a mesh: what a region holds, and what is left without it.
+/// Parts of a mesh: a region, and the mesh without it.
 #pragma once
 
 #include <span>
@@ -11,28 +11,27 @@
 
 namespace lissom {
 
-/// A mesh that was taken out of another, and where its elements were.
+/// A mesh taken out of another, with the old ids of its elements.
 struct MeshPart {
     Mesh mesh;
     /// For each vertex and face of `mesh`, the old vertex or face. Order is kept.
     std::vector<Index> vertex_map, face_map;
 };
 
-/// The faces of `region` (those with all vertices inside) with their vertices, and the region's
-/// vertices that have no faces in `mesh` at all. If the faces taken touch at a vertex only, each
-/// fan gets a copy of that vertex, after all others. Attributes, labels and named regions are
-/// carried. Errors: topology_mismatch; region_empty if the region holds no face; cancelled.
+/// Returns the faces of `region` (those with all vertices inside) with their vertices, and the
+/// region's vertices that have no faces in `mesh` at all. If the faces taken touch at a vertex
+/// only, each fan gets a copy of that vertex, after all others. Attributes, labels and named
+/// regions are carried. Errors: topology_mismatch; region_empty if the region holds no face;
+/// cancelled.
 MeshPart extract(const Mesh& mesh, const Region& region, const Context& context = {});
 
-/// The mesh without the faces of `region`, and without those of its vertices that no face is left
-/// for: the complement of `extract`, with the same rules. Both keep the vertices on the region's
-/// outline.
-/// Errors: as extract.
+/// Returns the mesh without the faces of `region`, and without those of its vertices that no face
+/// is left for: the complement of `extract`, with the same rules. Both keep the vertices on the
+/// region's outline. Errors: as extract.
 MeshPart remove(const Mesh& mesh, const Region& region, const Context& context = {});
 
-/// The given faces of `mesh`, in any order, repeats allowed, with their vertices, by the same
-/// rules.
-/// Errors: out_of_range naming the faces; cancelled.
+/// Returns the given faces of `mesh`, in any order, repeats allowed, with their vertices, by the
+/// same rules. Errors: out_of_range naming the faces; cancelled.
 MeshPart extract_faces(const Mesh& mesh, std::span<const Index> faces, const Context& context = {});
 
 }  // namespace lissom

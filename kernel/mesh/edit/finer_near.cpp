@@ -217,7 +217,7 @@ class Bisection {
         }
     }
 
-    // Halves an edge, and before it those that are longer in the triangles beside it.
+    // Halves an edge, after any longer ones in the adjacent triangles.
     void halve(Index a, Index b) {
         std::vector<Edge> edges{edge(a, b)};
         while (!edges.empty()) {

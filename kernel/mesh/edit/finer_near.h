@@ -28,17 +28,16 @@ struct FinerMesh {
     MeshMap map;
 };
 
-/// The faces that touch the ball of a place and hang together with its face through such faces, in
-/// the order in which they are reached.
+/// Returns the faces that touch the ball of a place and hang together with its face through such
+/// faces, in the order in which they are reached.
 std::vector<Index> faces_touching(const Mesh& mesh, const FinePlace& place);
 
 /// Halves edges until no face that touches the ball of a place has an edge longer than its length,
 /// at places with an edge that is too long. The longest edge of a triangle is halved before its
-/// others (Rivara 1984), so that no angle becomes smaller than half of what it was. The shape
-/// stays, and the mesh conforms: polygons in a ball are triangulated, those beside it take the new
-/// vertices in. The faces made from one face follow each other in its place; attributes are
-/// interpolated within faces. Nothing if all places are fine enough. Errors: memory_limit;
-/// cancelled.
+/// others (Rivara 1984), so that every angle keeps at least half its size. The shape stays, and the
+/// mesh conforms: polygons in a ball are triangulated, those beside it take the new vertices in.
+/// The faces made from one face follow each other in its place; attributes are interpolated within
+/// faces. Nothing if all places are fine enough. Errors: memory_limit; cancelled.
 std::optional<FinerMesh> finer_near(const Mesh& mesh, std::span<const FinePlace> places,
                                     const Context& context);
 

@@ -1,4 +1,4 @@
-/// What meshes carry when they become one; private to the kernel.
+/// Contents of meshes being joined; private to the kernel.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace lissom {
 
-/// What two meshes carry, by the numbers that their elements have once one is appended.
+/// Contents of two meshes, by their element ids after one is appended.
 struct JoinedContent {
     /// With the labels.
     AttributeSet attributes;
@@ -23,8 +23,9 @@ struct JoinedContent {
     std::vector<std::string> material_libraries;
 };
 
-/// What `append` gives the mesh that it makes, but for its asset. `renames` holds the labels of
-/// `other` that mean something else in `mesh`. Errors: as require_complete_attributes; cancelled.
+/// Returns the contents of the mesh that `append` makes, without its asset. `renames` holds the
+/// labels of `other` that mean something else in `mesh`. Errors: as require_complete_attributes;
+/// cancelled.
 JoinedContent joined_content(const Mesh& mesh, const Mesh& other, const LabelRenames& renames,
                              const Context& context);
 

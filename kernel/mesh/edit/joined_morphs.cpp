@@ -43,7 +43,7 @@ bool has_value(std::span<const double> value) {
 }
 
 // The objects of a mesh, by their labels: that of each face, and of each vertex that of one of its
-// faces. The last is that of what has no label.
+// faces. The last is for elements without a label.
 class Objects {
   public:
     explicit Objects(const Mesh& mesh) : mesh_(mesh) {

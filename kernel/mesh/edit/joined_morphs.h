@@ -12,15 +12,15 @@
 
 namespace lissom {
 
-/// The targets of `mesh`, then those of `other` whose names it does not have. Targets without names
-/// are paired by their numbers.
+/// Returns the targets of `mesh`, then those of `other` whose names it does not have. Targets
+/// without names are paired by their numbers.
 std::vector<MorphTarget> joined_morphs(const Mesh& mesh, const Mesh& other);
 
-/// The mesh with its "morph.N" attributes numbered by the places of their targets in `all`; nothing
-/// if they have these numbers.
+/// Returns the mesh with its "morph.N" attributes numbered by the places of their targets in `all`;
+/// nothing if they have these numbers.
 std::optional<Mesh> with_morph_numbers(const Mesh& mesh, const std::vector<MorphTarget>& all);
 
-/// The asset with these targets: `asset` itself where nothing differs, or it is null.
+/// Returns the asset with these targets: `asset` itself if nothing differs, or if it is null.
 std::shared_ptr<const Asset> with_morphs(const std::shared_ptr<const Asset>& asset,
                                          const std::vector<MorphTarget>& all);
 

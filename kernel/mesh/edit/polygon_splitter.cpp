@@ -122,7 +122,7 @@ void PolygonSplitter::assign(std::size_t polygon, Split split) {
     for_each_diagonal(polygon, splits_[polygon], [&](Key diagonal) { owner_[diagonal] = polygon; });
 }
 
-// Gives the polygon diagonals that no other has; those that have them find others first.
+// Gives the polygon unused diagonals; polygons using them find others first.
 bool PolygonSplitter::place(std::size_t polygon, int depth) {
     if (depth > kDeepest) return false;
     while (true) {
@@ -160,8 +160,8 @@ PolygonSplitter::Split PolygonSplitter::best_split(std::size_t polygon) const {
     if (n > kMostCorners) return turned_split(polygon);
     const Vec3 area = vector_area_of(points);
     const Vec3 normal = area.isZero(0.0) ? area : Vec3(area.normalized());
-    // Of the corners from i to j: what closing them costs, and the third corner of the triangle on
-    // the chord.
+    // For the corners from i to j: the cost of closing them, and the third corner of the triangle
+    // on the chord.
     std::vector<double> cost(n * n, 0.0);
     std::vector<std::size_t> apex(n * n, 0);
     for (std::size_t length = 2; length < n; ++length) {

@@ -19,8 +19,8 @@ namespace lissom {
 /// Every polygon is first split as triangulate_polygon does. Polygons that touch along a diagonal
 /// are split otherwise, by augmenting paths as in a bipartite matching: a polygon that needs the
 /// diagonal of another makes that one look for a new one. For quads this finds a solution wherever
-/// there is one; polygons of more than 320 corners are tried in sixteen ways. Where nothing is
-/// found they keep their first triangles, and share a diagonal.
+/// there is one; polygons of more than 320 corners are tried in sixteen ways. Polygons without a
+/// solution keep their first triangles, and share a diagonal.
 class PolygonSplitter {
   public:
     PolygonSplitter(const Topology& topology, std::span<const Vec3> positions,

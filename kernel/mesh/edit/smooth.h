@@ -14,7 +14,7 @@ namespace lissom {
 /// spacing of vertices; cotangent weights keep it and move along the normal only.
 enum class SmoothWeights { uniform, cotangent };
 
-/// What happens to vertices on open boundaries: they stay, or are smoothed along their loop.
+/// Treatment of vertices on open boundaries: they stay, or are smoothed along their loop.
 enum class SmoothBoundary { fixed, along };
 
 struct SmoothOptions {

@@ -344,7 +344,7 @@ std::vector<Index> faces_to_triangulate(const Mesh& mesh, SubdivisionScheme sche
     return faces;
 }
 
-// Triangulates what the scheme cannot split, and follows the flags of the faces.
+// Triangulates the faces that the scheme cannot split, and follows the flags of the faces.
 void prepare_faces(Mesh& mesh, SubdivisionScheme scheme, std::vector<char>& split,
                    const Context& context) {
     const std::vector<Index> faces = faces_to_triangulate(mesh, scheme, split);

@@ -26,14 +26,14 @@ struct SubdivideOptions {
     Index levels = 1;
     SubdivisionScheme scheme = SubdivisionScheme::midpoint;
     /// Splits the faces of this region only; all faces if absent. Triangles beside it are divided
-    /// where their edges are, and polygons take the new vertices in, so that there are no
+    /// along with their edges, and polygons take the new vertices in, so that there are no
     /// T-junctions. Only vertices whose faces are all split are smoothed.
     std::optional<Region> region = std::nullopt;
 };
 
-/// The subdivided mesh. Old vertices keep their ids; then follow those on edges, in the order of
-/// the edges, and those inside faces. Attributes are interpolated linearly, corner attributes
-/// within each face, so that seams stay, but what morph targets add to positions is subdivided as
+/// Returns the subdivided mesh. Old vertices keep their ids; then follow those on edges, in the
+/// order of the edges, and those inside faces. Attributes are interpolated linearly, corner
+/// attributes within each face, so that seams stay; offsets of morph targets are subdivided as
 /// positions are; the faces made from one face follow each other. Errors: invalid_argument for
 /// negative levels; topology_mismatch for a region of another mesh; region_empty for a region
 /// without a face; out_of_range if the result would have more elements than Index can number;

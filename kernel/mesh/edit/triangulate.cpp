@@ -30,7 +30,7 @@ void triangulate(Mesh& mesh, std::span<const Index> faces, const Context& contex
     const std::vector<Index> polygons = polygons_among(topology, faces);
     if (polygons.empty()) return;
     Progress progress(context, "triangulate");
-    // Where the elements come from.
+    // Sources of the elements.
     const MemoryCharge working = context.charge(mesh.memory_bytes(), "triangulating a mesh");
     const PolygonSplitter splitter(topology, mesh.positions(), polygons);
 

@@ -178,7 +178,7 @@ class FairingSystem {
         return {sum.begin(), sum.end()};
     }
 
-    // What a vertex outside the region adds to the right side of a row.
+    // Contribution of a vertex outside the region to the right side of a row.
     struct Known {
         Index row, vertex;
         double value;
@@ -232,7 +232,7 @@ void fair(Mesh& mesh, const Region& region, FairContinuity continuity, const Con
             shape = last.solve(context);
         }
     }
-    // What the last system makes of its unknowns does not depend on where they were.
+    // The solution of the last system does not depend on the old positions of its unknowns.
     const MorphColumns morphs =
         mapped_morphs(mesh, [&](std::vector<Vec3> x) { return last.solved(std::move(x)); });
     mesh.set_positions(std::move(shape));

@@ -29,14 +29,14 @@ struct FillOptions {
     /// Moves the inserted vertices so that the patch continues the surface smoothly (a bi-Laplacian
     /// system over them); without it they stay in the flat pieces of the coarse patch.
     bool fair = true;
-    /// In what it continues it. With `curvature` a large patch in a round surface is round, but on
-    /// rough surfaces it carries on what little is known at its rim.
+    /// Continuity with the surface around. With `curvature` a large patch in a round surface is
+    /// round, but on rough surfaces it extends the little that is known at its rim.
     FairContinuity continuity = FairContinuity::tangents;
     /// Vertices that refinement may insert at most; it stops there and the report says so.
     Index maximum_vertices = 200000;
 };
 
-/// What was done to close a hole. Old ids stay; new ones follow them.
+/// Report of a closed hole. Old ids stay; new ones follow them.
 struct FillReport {
     /// Vertices around the hole.
     Index loop_size = 0;
@@ -54,10 +54,10 @@ struct FillReport {
 /// Closes one open boundary of `mesh`, in place, by triangles: minimum-weight triangulation,
 /// refinement, fairing (Liepa 2003). The dynamic programme is cubic: a loop of more than 300 edges
 /// is first divided by short chords, or with `area` triangulated as `minimum_area_triangles` says.
-/// The topology is a new one; named regions move to it, and a new vertex is in those that its
-/// sources are all in. Vertex attributes of new vertices are blended from the loop; corner and face
-/// attributes of new faces are NaN and their labels none. What morph targets add goes through
-/// refinement and fairing with the weights that positions have there. Errors: topology_mismatch;
+/// The topology is a new one; named regions move to it, and a new vertex is in the regions that
+/// contain all its sources. Vertex attributes of new vertices are blended from the loop; corner and
+/// face attributes of new faces are NaN and their labels none. Offsets of morph targets go through
+/// refinement and fairing with the weights of the positions. Errors: topology_mismatch;
 /// invalid_argument if `boundary` is not an open boundary of the mesh, or options are out of range;
 /// memory_limit; cancelled. The mesh is then unchanged.
 FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options = {},

@@ -10,8 +10,8 @@
 namespace lissom {
 namespace {
 
-// A triangle is large where its corners are farther from its center than this many spacings: one
-// over Liepa's density factor, the square root of 2, with room for rounding.
+// A triangle is large if its corners are farther from its center than this many spacings: one over
+// Liepa's density factor, the square root of 2, with room for rounding.
 constexpr double kFarthest = 0.70710678 * (1.0 + 1e-6);
 // A new vertex remembers this many sources at most.
 constexpr std::size_t kMaximumSources = 16;
@@ -164,8 +164,8 @@ void HolePatch::relax(std::vector<std::pair<Index, Index>> edges) {
     }
 }
 
-// Flips an edge where the angles opposite to it sum to more than pi and the new triangles look the
-// way the old ones do.
+// Flips an edge if the angles opposite to it sum to more than pi and the new triangles face as the
+// old ones do.
 bool HolePatch::flip_if_better(Index a, Index b) {
     const Index t = triangle_at(a, b), u = triangle_at(b, a);
     const auto apex = [](const Triangle& triangle, Index from, Index to) {

@@ -26,8 +26,8 @@ class HolePatch {
     const std::vector<Triangle>& triangles() const { return triangles_; }
     Index new_vertex_count() const { return count_of(new_positions_); }
     const std::vector<Vec3>& new_positions() const { return new_positions_; }
-    /// The mean that each new vertex was put at, of positions or displacements of the mesh's
-    /// vertices: those of the new ones after them.
+    /// Returns the mean that each new vertex was put at, of positions or displacements of the
+    /// mesh's vertices: those of the new ones after them.
     std::vector<Vec3> with_middles(std::vector<Vec3> x) const;
     /// Mesh vertices that a new vertex blends, with weights.
     const std::vector<ElementMap::Source>& sources(Index new_vertex) const {

@@ -41,7 +41,7 @@ struct Weight {
     bool possible() const { return std::isfinite(area); }
 };
 
-// Angle by which the surface turns over an edge; the worst where a triangle has no area.
+// Returns the dihedral angle at an edge; pi if a triangle has no area.
 double turn(const Vec3& a, const Vec3& b) {
     const double lengths = a.norm() * b.norm();
     return lengths > 0.0 ? std::acos(std::clamp(a.dot(b) / lengths, -1.0, 1.0)) : kPi;

@@ -11,10 +11,9 @@ namespace lissom {
 
 /// Adds triangles that close `loop` to the patch: those with the least largest dihedral angle, of
 /// equals those with the least area, by dynamic programming (Liepa 2003, section 3; Barequet and
-/// Sharir 1995). The loop runs in the direction of the triangles. Edges that exist are not used
-/// again; where that leaves no triangulation, a fan around a new vertex in the middle closes the
-/// hole. A loop of more than 300 edges is divided by short chords first. Returns the number of
-/// parts.
+/// Sharir 1995). The loop runs in the direction of the triangles. Existing edges are not used
+/// again; if that leaves no triangulation, a fan around a new vertex in the middle closes the hole.
+/// A loop of more than 300 edges is divided by short chords first. Returns the number of parts.
 Index triangulate_hole(HolePatch& patch, std::span<const Index> loop, const Context& context);
 
 /// The same by `minimum_area_triangles`: those with the least area.

@@ -11,10 +11,10 @@ namespace lissom {
 namespace {
 
 constexpr Index kMaximumExactLoop = 300;
-// How far the ends of a chord may lie from those of a chord of the coarser line, in points; twice
-// as far where that gives nothing.
+// Distance of a chord's ends from those of a chord of the coarser line, in points; doubled if that
+// gives nothing.
 constexpr Index kChordReach = 3, kFarthestReach = 12;
-// What squared edges count beside areas, times how many areas they are; at most so many.
+// Weight of squared edges beside areas, times their ratio to the areas, which is limited.
 constexpr double kShapeCost = 1e-8, kWorstShape = 1e4;
 // Costs that differ by a smaller part are equal, so that the first of symmetric solutions is taken
 // in every frame.
@@ -54,7 +54,7 @@ class LeastArea {
     }
 
   private:
-    // From a point to a later one, with what it costs to close the part between.
+    // Chord from a point to a later one, with the cost of closing the part between.
     struct Chord {
         Index to, middle;
         double cost;
@@ -91,7 +91,7 @@ class LeastArea {
     }
 
     std::span<const Vec3> points_;
-    // Of each point, ascending.
+    // Chords of each point, ascending.
     std::vector<std::vector<Chord>> chords_;
     // Cost of the part from each point to the one that is at hand.
     std::vector<double> cost_to_;

@@ -34,7 +34,7 @@ bool is_unit(AttributeRole role) {
     return role == AttributeRole::normal || role == AttributeRole::tangent;
 }
 
-// What morph targets add to positions goes through the map that positions went through.
+// Offsets of morph targets go through the linear map of the positions.
 bool turns_with_surface(const Attribute& attribute) {
     return is_direction(attribute) && attribute.domain != Domain::face &&
            role_of(attribute) != AttributeRole::morph_position;
@@ -45,7 +45,7 @@ bool has_directions(const Mesh& mesh) {
     return std::any_of(all.begin(), all.end(), turns_with_surface);
 }
 
-// The map without its scale, so that what is added to unit vectors keeps its size.
+// Returns the map without its scale, so that offsets of unit vectors keep their size.
 Mat3 without_scale(const Mat3& map) {
     return map / cube_root(std::abs(map.determinant()));
 }

@@ -1,4 +1,4 @@
-/// Attributes that are directions (normals, tangents and what morph targets add) while the shape
+/// Attributes that are directions (normals, tangents and offsets of morph targets) while the shape
 /// under them changes.
 #pragma once
 
@@ -26,7 +26,7 @@ class DirectionCarrier {
     std::vector<Vec3> before_;
 };
 
-/// Applies the linear map of positions to directions: what morph targets add to positions follows
+/// Applies the linear map of positions to directions: offsets of morph targets to positions follow
 /// it, tangents keep their length, normals stay at right angles to the surface. `linear` must not
 /// be singular.
 void map_directions(AttributeSet& attributes, const Mat3& linear);

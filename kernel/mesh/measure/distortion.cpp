@@ -19,7 +19,7 @@ void require_same_faces(const Mesh& mesh, const Mesh& rest) {
                 "another shape");
 }
 
-// Of the edges at each vertex the ratio of lengths that is farthest from 1, as a factor.
+// Returns the ratio of lengths farthest from 1 among the edges at each vertex, as a factor.
 std::vector<double> edge_stretch(const Mesh& mesh, const Mesh& rest) {
     std::vector<double> stretch(mesh.vertex_count(), kNone);
     for (Index e = 0; e < mesh.topology().edge_count(); ++e) {

@@ -22,8 +22,8 @@ Box bounds(const Mesh& mesh, const Region& region);
 /// Mean of the positions of the region's vertices. Errors: topology_mismatch; region_empty.
 Vec3 center(const Mesh& mesh, const Region& region);
 
-/// Centroid of the surface, weighted by area. Of the vertices if the mesh has no area; the origin
-/// for a mesh without vertices.
+/// Centroid of the surface, weighted by area. Weighted by vertices if the mesh has no area; the
+/// origin for a mesh without vertices.
 Vec3 surface_centroid(const Mesh& mesh);
 
 /// Size of a mesh: the RMS distance of its surface to the surface's centroid, integrated exactly
@@ -36,9 +36,9 @@ double area(const Mesh& mesh);
 /// Area of every face.
 std::vector<double> face_areas(const Mesh& mesh);
 
-/// Signed volume enclosed by a closed mesh, positive where the faces look outward. For an open mesh
-/// each boundary loop is closed by a cone to its mean point, so that the value does not depend on
-/// the frame.
+/// Returns the signed volume enclosed by a closed mesh, positive if the faces look outward. For an
+/// open mesh each boundary loop is closed by a cone to its mean point, so that the value does not
+/// depend on the frame.
 double volume(const Mesh& mesh);
 
 /// V - E + F over vertices that have faces.

@@ -10,7 +10,7 @@
 namespace lissom {
 namespace {
 
-// Which corner lies on the other side of each edge where just two faces meet.
+// The corner on the other side of each edge with exactly two faces.
 struct Neighbors {
     std::vector<Index> partner;
     // Whether the two run in opposite directions, as they should.

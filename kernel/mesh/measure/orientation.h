@@ -13,10 +13,10 @@ namespace lissom {
 /// Vector area of a polygon (Newell): its length is the area, its direction the normal.
 Vec3 vector_area(std::span<const Vec3> positions, std::span<const Index> face);
 
-/// Turns faces over until neighbours, where just two faces meet at an edge, run along it in
-/// opposite directions. A connected piece that was consistent stays as it is; another that is
-/// closed ends up facing outward, and an open one as the greater part of its area did. On a surface
-/// with one side only some edges stay in conflict. Adds the faces turned, as numbered in the file.
+/// Turns faces over until neighbours at edges with exactly two faces run along them in opposite
+/// directions. A connected piece that was consistent stays as it is; another that is closed ends up
+/// facing outward, and an open one as the greater part of its area did. On a surface with one side
+/// only some edges stay in conflict. Adds the faces turned, as numbered in the file.
 void orient_faces(std::span<const Vec3> positions, CornerFaces& work, Report& report);
 
 }  // namespace lissom

@@ -11,7 +11,7 @@ namespace {
 // moved or turned copy of a mesh does not change the choice.
 constexpr double kDiagonalTolerance = 1e-6;
 
-// A triangle is flat where its area is below this fraction of its longest side squared.
+// A triangle is flat if its area is below this fraction of its longest side squared.
 constexpr double kFlat = 1e-9;
 
 // Polygons of more corners are clipped without looking for the best ear each time.
@@ -71,8 +71,8 @@ double ear_quality(std::span<const Vec3> points, const std::vector<Index>& loop,
     if (area <= flat) return kInLine;
     for (const Index other : loop) {
         const Vec3& p = points[other];
-        // Another vertex at the same place as a corner, where an outline touches itself, does not
-        // count.
+        // Another vertex at the same place as a corner, at a point of self-contact of the outline,
+        // does not count.
         if (p == a || p == b || p == c) continue;
         const bool covered = signed_area(a, b, p, normal) >= -flat &&
                              signed_area(b, c, p, normal) >= -flat &&
@@ -133,7 +133,7 @@ class EarWalk {
     }
 
   private:
-    // Enough for any outline that is drawn, and a bound for those that are made to be slow.
+    // Enough for any outline that is drawn, and a bound for outlines made to be slow.
     static constexpr std::size_t kTestsPerCorner = 5000;
 
     enum Shape { convex, in_line, reflex };

@@ -20,7 +20,7 @@ using Triangle = std::array<Index, 3>;
 /// `triangles`. The choice does not change under similarities of the points, up to rounding.
 void triangulate_polygon(std::span<const Vec3> points, std::vector<Triangle>& triangles);
 
-/// A triangulation of faces and where its triangles come from.
+/// A triangulation of faces, with the face of each triangle.
 struct Triangulation {
     std::vector<Triangle> triangles;
     /// For each triangle, the face it is part of.

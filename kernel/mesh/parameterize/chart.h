@@ -18,7 +18,7 @@ namespace lissom {
 struct Chart {
     /// Around their mean, so that nothing is lost far from the origin.
     std::vector<Vec3> positions;
-    /// Those of the faces, then those that close holes.
+    /// Triangles of the faces, then triangles that close holes.
     std::vector<Triangle> triangles;
     /// The vertex of the mesh of each of `positions`, and the face of each of the first triangles.
     std::vector<Index> vertex, face;

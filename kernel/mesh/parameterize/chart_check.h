@@ -1,4 +1,4 @@
-/// What triangles must be to be laid out in the plane; private to kernel/mesh.
+/// Requirements of triangles that are to be laid out in the plane; private to kernel/mesh.
 #pragma once
 
 #include <span>

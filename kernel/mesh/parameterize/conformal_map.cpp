@@ -22,11 +22,11 @@ constexpr double kShift = 1e-9;
 constexpr Index kMaximumSteps = 60;
 constexpr double kResidual = 1e-10;
 
-// Vertices of the open boundary and what each has of its length, all together 1.
+// Vertices of the open boundary and the fraction of its length at each, with sum 1.
 struct BoundarySpread {
     std::vector<Index> vertex;
     std::vector<double> fraction;
-    // Where the search begins: the longest loop around a circle by arc length, the others on 0.
+    // Start of the search: the longest loop around a circle by arc length, the others on 0.
     ComplexVector start;
 };
 
@@ -55,8 +55,8 @@ BoundarySpread boundary_spread(const Chart& chart) {
     return spread;
 }
 
-// Edges that the area of the image is a sum over, by pair_key(low, high): positive where the
-// boundary runs from the lower vertex to the higher.
+// Edges in the sum for the area of the image, by pair_key(low, high): positive if the boundary runs
+// from the lower vertex to the higher.
 using AreaEdges = std::unordered_map<std::uint64_t, double>;
 
 AreaEdges area_edges(const Chart& chart) {
@@ -217,7 +217,7 @@ class ConformalLanczos {
 
     ConformalInverse& inverse_;
     std::vector<ComplexVector> basis_;
-    // Of the tridiagonal matrix of the inverse in this basis.
+    // Entries of the tridiagonal matrix of the inverse in this basis.
     std::vector<double> diagonal_, beside_;
     Eigen::VectorXd weights_;
 };

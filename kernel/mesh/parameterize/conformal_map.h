@@ -10,11 +10,11 @@
 
 namespace lissom {
 
-/// The map with the least conformal energy (Dirichlet energy less area) beside the spread of its
-/// open boundary, each point of which counts by length (Mullen et al. 2008, section 3, with lengths
-/// for their counts of vertices). It is the eigenvector of the least eigenvalue, one complex number
-/// a vertex, found by Lanczos iteration with the inverse. Scale and rotation are arbitrary.
-/// Errors: not_positive_definite; memory_limit; cancelled.
+/// Returns the map with the least conformal energy (Dirichlet energy less area) beside the spread
+/// of its open boundary, each point of which counts by length (Mullen et al. 2008, section 3, with
+/// lengths for their counts of vertices). It is the eigenvector of the least eigenvalue, one
+/// complex number a vertex, found by Lanczos iteration with the inverse. Scale and rotation are
+/// arbitrary. Errors: not_positive_definite; memory_limit; cancelled.
 std::vector<Vec2> conformal_map(const Chart& chart, const std::vector<TriangleShape>& shapes,
                                 const Context& context);
 

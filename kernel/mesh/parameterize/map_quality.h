@@ -1,4 +1,4 @@
-/// What a map of a chart into the plane is like; private to kernel/mesh.
+/// Quality of a map of a chart into the plane; private to kernel/mesh.
 #pragma once
 
 #include <span>

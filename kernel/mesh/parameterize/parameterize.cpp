@@ -13,7 +13,7 @@
 namespace lissom {
 namespace {
 
-// Lays out a chart, and keeps of each method what the next is worth.
+// Lays out a chart, and keeps the quality of each method's map.
 class ChartLayout {
   public:
     ChartLayout(const Chart& chart, const ParameterizeOptions& options, const Context& context)
@@ -37,7 +37,7 @@ class ChartLayout {
     }
 
   private:
-    // Whole iterations; where they end with flips, also ones that stop short of these.
+    // Whole iterations; if they end with flips, also iterations that stop short of flips.
     RigidMap best_rigid_map() const {
         const auto with = [&](RigidSteps steps) {
             return rigid_map(chart_, shapes_, result_.uv, steps, options_.maximum_iterations,
@@ -49,7 +49,7 @@ class ChartLayout {
         return shorter.reached() < whole.reached() ? std::move(shorter) : std::move(whole);
     }
 
-    // Kept where it flips nothing, and where no boundary crosses another that did not before.
+    // Kept if it flips nothing and adds no crossing of boundaries.
     void make_rigid() {
         result_.method = ParameterizeMethod::lscm;
         RigidMap rigid = best_rigid_map();

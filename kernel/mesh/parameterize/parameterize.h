@@ -19,8 +19,8 @@ enum class ParameterizeMethod {
     /// angles are kept as well as can be, scale is not. No vertex is pinned.
     lscm,
     /// As rigid as possible (Liu et al. 2008), from `lscm`: angles and lengths are kept. If that
-    /// ends with flipped faces, iterations that stop short of flips, or the last one that had none,
-    /// whichever has the lower energy; `lscm` if there is none, or where boundaries come to cross.
+    /// ends with flipped faces, the better in energy of two: iterations that stop short of flips,
+    /// or the last one without flips; `lscm` if there is none, or if boundaries come to cross.
     arap,
     /// Onto a disk (Tutte 1963, Floater 1997), with positive weights: never flips a face or covers
     /// a point twice, and keeps neither angles nor lengths.
@@ -29,8 +29,7 @@ enum class ParameterizeMethod {
 
 struct ParameterizeOptions {
     ParameterizeMethod method = ParameterizeMethod::arap;
-    /// Iterations of `arap`, 0 or more; it ends before where its energy falls by less than 1e-6 of
-    /// it.
+    /// Iterations of `arap`, 0 or more; it ends early if its energy falls by less than 1e-6 of it.
     Index maximum_iterations = 20;
     /// Closes every boundary but the longest by triangles of least area over its vertices. They
     /// take part in the map, so that the loops of a ring do not cross one another or themselves;
@@ -42,15 +41,15 @@ struct ParameterizeOptions {
 };
 
 /// A piece of surface in the plane. Lengths are those of the mesh: for `lscm` and `tutte` the scale
-/// is such that the area is that of the surface, for `arap` it is what its energy has made of it.
-/// The mean of the outer loop is at the origin and the loop's lowest vertex on the positive u axis,
-/// so that the result depends neither on the place of the mesh nor on how it is turned.
+/// makes the area that of the surface, for `arap` the scale follows from its energy. The mean of
+/// the outer loop is at the origin and the loop's lowest vertex on the positive u axis, so that the
+/// result depends neither on the place of the mesh nor on how it is turned.
 struct Parameterization {
-    /// Vertices of the mesh, ascending, and where they lie.
+    /// Vertices of the mesh, ascending, and their positions.
     std::vector<Index> vertex;
     std::vector<Vec2> uv;
-    /// Triangles over places in `vertex`, counter-clockwise in the plane: first those of the
-    /// faces, `face.size()` of them, then those that close holes.
+    /// Triangles over places in `vertex`, counter-clockwise in the plane: first those of the faces,
+    /// `face.size()` of them, then the ones that close holes.
     std::vector<Triangle> triangles;
     /// The face of the mesh that each triangle of the surface is part of.
     std::vector<Index> face;
@@ -58,15 +57,14 @@ struct Parameterization {
     /// which is the outer one, and then the others by their lowest vertex.
     std::vector<std::vector<Index>> loops;
 
-    /// What made the map: `lscm` where `arap` was asked for and flips from its first iteration on.
+    /// Method of the map: `lscm` if `arap` was asked for and flips from its first iteration on.
     ParameterizeMethod method = ParameterizeMethod::lscm;
     /// Iterations of `arap` that are in the result.
     Index iterations = 0;
     /// Energy of `arap` before the first iteration and after each that was made, as the mean
     /// squared difference of the map's derivative from a rotation. Never increases.
     std::vector<double> energy;
-    /// Faces with a triangle that is turned over, ascending, and triangles among those that close
-    /// holes.
+    /// Faces with a triangle that is turned over, ascending, and such triangles that close holes.
     std::vector<Index> flipped;
     Index flipped_fill = 0;
     /// Faces with a triangle that has hardly an area on the surface, ascending: one narrower than
@@ -95,7 +93,7 @@ struct Parameterization {
 /// cancelled.
 Parameterization parameterize(const Mesh& mesh, std::span<const Index> faces,
                               const ParameterizeOptions& options = {}, const Context& context = {});
-/// The same for the faces of a region. Errors: also topology_mismatch.
+/// Returns the same for the faces of a region. Errors: also topology_mismatch.
 Parameterization parameterize(const Mesh& mesh, const Region& region,
                               const ParameterizeOptions& options = {}, const Context& context = {});
 

@@ -11,10 +11,10 @@
 namespace lissom {
 namespace {
 
-// It ends where the energy falls by less than this part of it, or of that of a doubled length.
+// It ends if the energy falls by less than this part of it, or of that of a doubled length.
 constexpr double kEnergyFall = 1e-6, kNoEnergy = 1e-24;
-// Part that is taken of the way to where the first triangle has no area, and the least part of an
-// iteration that is worth while.
+// Part of the step to the first triangle without area that is taken, and the least useful part of
+// an iteration.
 constexpr double kWayToFlip = 0.8, kLeastWay = 0.02;
 
 class RigidIteration {

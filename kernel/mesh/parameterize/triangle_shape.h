@@ -29,11 +29,11 @@ struct TriangleShape {
     double opposite(int k) const { return cotangent[at((k + 2) % 3)]; }
 };
 
-/// All triangles of the chart.
+/// Returns all triangles of the chart.
 std::vector<TriangleShape> triangle_shapes(const Chart& chart);
 
-/// The matrix of sum over edges of w |x_i - x_j|^2, where w is half the cotangents opposite to the
-/// edge.
+/// Returns the matrix of sum over edges of w |x_i - x_j|^2, with w half the cotangents opposite to
+/// the edge.
 SymmetricMatrix chart_laplacian(const Chart& chart, const std::vector<TriangleShape>& shapes);
 
 /// Derivative of the map that takes a triangle to `a`, `b` and `c`, as its parts that keep angles

@@ -8,8 +8,8 @@
 
 namespace lissom {
 
-/// Where a map is put: shrunk or grown into the square from 0 to 1, whose longer side it fills and
-/// in whose middle it lies, or as it is, in lengths of the mesh.
+/// Placement of a map: scaled into the square from 0 to 1, centered and filled by the longer side,
+/// or as it is, in lengths of the mesh.
 enum class UvPlacement { unit_square, as_is };
 
 /// Writes a map to the corners of its faces, as the attribute `name` of width 2, which is made if

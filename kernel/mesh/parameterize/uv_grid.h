@@ -1,4 +1,4 @@
-/// UvGrid: where points of the plane lie in a surface that is laid out there.
+/// UvGrid: finds the points of a surface from points of its layout in the plane.
 #pragma once
 
 #include <algorithm>
@@ -22,16 +22,16 @@ struct UvPoint {
 };
 
 /// Triangles of the plane in the cells of a grid, about four a cell. Building takes time in
-/// proportion to their number, a look-up does not depend on it where they are of about one size.
-/// Keeps copies of what it needs. Several threads may look up at once.
+/// proportion to their number; a look-up does not depend on it if they are of about one size. Keeps
+/// copies of its inputs. Several threads may look up at once.
 class UvGrid {
   public:
     /// Over places in `uv`. Triangles may be turned over, and those without an area hold no point.
     /// Errors: not_finite; out_of_range naming triangles with a corner that does not exist.
     UvGrid(std::span<const Vec2> uv, std::span<const Triangle> triangles);
 
-    /// The triangle that `point` lies in, its outline included (to 1e-9 of its weights); the first
-    /// of several. Nothing if none does.
+    /// Returns the triangle that `point` lies in, its outline included (to 1e-9 of its weights);
+    /// the first of several. Nothing if none does.
     std::optional<UvPoint> locate(const Vec2& point) const;
 
   private:

@@ -49,7 +49,7 @@ void BoxTree::build(std::span<const Box> boxes, const Context& context) {
 }
 
 // Divides the items of a node by the surface area heuristic over bins of box centers, or in two
-// halves where that finds nothing or `halve` is asked for. Returns where the second part begins.
+// halves if that finds nothing or `halve` is set. Returns the start of the second part.
 Index BoxTree::split(const Node& node, std::span<const Box> boxes, bool halve) {
     const auto begin = order_.begin() + node.first, end = begin + node.count;
     Box centers;

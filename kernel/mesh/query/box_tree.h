@@ -13,7 +13,7 @@
 
 namespace lissom {
 
-/// The least box around both.
+/// Returns the least box around both.
 inline Box united(const Box& a, const Box& b) {
     return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
 }
@@ -44,13 +44,13 @@ class BoxTree {
     explicit BoxTree(std::span<const Box> boxes, const Context& context = {});
 
     /// Gives the items new boxes, box_of(item), and keeps the hierarchy: linear, and queries give
-    /// the same answers, but later where items that were neighbours no longer are (see `wear`).
+    /// the same answers, but slower if former neighbours move apart (see `wear`).
     template <typename BoxOf>
     void refit(const BoxOf& box_of) noexcept;
 
-    /// How much more a query is expected to cost since the tree was built, by the surface area
-    /// heuristic: 1 for a new tree. A new one is worth its time where this is far above 1 and many
-    /// queries follow.
+    /// Returns how much more a query is expected to cost since the tree was built, by the surface
+    /// area heuristic: 1 for a new tree. A new one is worth its time if this is far above 1 and
+    /// many queries follow.
     double wear() const { return built_cost_ > 0.0 && cost_ > 0.0 ? cost_ / built_cost_ : 1.0; }
 
     bool empty() const { return nodes_.empty(); }
@@ -70,7 +70,8 @@ class BoxTree {
   private:
     void build(std::span<const Box> boxes, const Context& context);
     Index split(const Node& node, std::span<const Box> boxes, bool halve);
-    /// What the boxes of the node and of what it holds add to the cost of a query.
+    /// Returns the contribution of the boxes of the node and of its contents to the cost of a
+    /// query.
     static double cost_of(const Node& node) {
         return half_surface(node.box) * (node.count > 0 ? node.count : 2);
     }

@@ -15,10 +15,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Heat falls by e with every sqrt(t) of distance and must not fall below what a double can hold.
+// Heat falls by e with every sqrt(t) of distance and must not fall below the range of a double.
 constexpr double kMaximumDecay = 600.0;
 
-// What the surface takes, and the entries of two matrices while they are gathered.
+// Memory of the surface, and the entries of two matrices while they are gathered.
 constexpr std::size_t kSurfaceBytesPerCorner = 64, kTripletBytesPerTriangle = 700;
 
 // An upper bound of the distance between any two vertices of a component.
@@ -102,7 +102,7 @@ struct HeatDistances::State {
     // Positions and topology alone.
     Mesh shape;
     const Topology* topology;
-    // Of the surface, whose edges may be others than the mesh's.
+    // Memory of the surface. Its edges may be others than the mesh's.
     MemoryCharge charge;
     IntrinsicDelaunay surface;
     // Without a boundary, the second of these is not used.
@@ -211,7 +211,7 @@ std::vector<double> HeatDistances::State::divergence_of_directions(const std::ve
     return divergence;
 }
 
-// Distances, but for a constant in each component. Sources weigh alike where no weights are given.
+// Distances, but for a constant in each component. Sources weigh alike if no weights are given.
 std::vector<double> HeatDistances::State::up_to_a_constant(std::span<const Index> sources,
                                                            std::span<const double> weights,
                                                            const Context& context) const {
@@ -263,15 +263,14 @@ std::vector<double> HeatDistances::from(std::span<const Index> sources,
     }
     std::vector<double> distance = state_->up_to_a_constant(sources, {}, context);
     state_->shift_to_sources(distance, sources);
-    // Heat overshoots where it is squeezed through narrow parts; no geodesic is longer than a way
-    // along edges.
+    // Heat overshoots behind narrow parts; no geodesic is longer than a way along edges.
     const std::vector<double> bound = edge_distances(state_->shape, sources, kInfinity, context);
     for (std::size_t v = 0; v < distance.size(); ++v) distance[v] = std::min(distance[v], bound[v]);
     return distance;
 }
 
-// The mean of the triangle's corners fixes the constant; within a step of the point, where heat
-// does not tell, distances are at least the straight ones.
+// The mean of the triangle's corners fixes the constant; within a step of the point heat says
+// nothing, and distances are at least the straight ones.
 std::vector<double> HeatDistances::from_point(const SurfacePoint& point,
                                               const Context& context) const {
     const Triangle& corners = point.triangle;

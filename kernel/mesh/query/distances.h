@@ -14,14 +14,15 @@
 namespace lissom {
 
 /// Length of the shortest way along edges from any of `sources` to every vertex; infinity for
-/// vertices out of reach or beyond `limit`. The work is proportional to what lies within the limit,
-/// apart from filling the result.
-/// Errors: out_of_range; invalid_argument for a limit that is negative or NaN; cancelled.
+/// vertices out of reach or beyond `limit`. The work is proportional to the number of elements
+/// within the limit, apart from filling the result. Errors: out_of_range; invalid_argument for a
+/// limit that is negative or NaN; cancelled.
 std::vector<double> edge_distances(const Mesh& mesh, std::span<const Index> sources,
                                    double limit = std::numeric_limits<double>::infinity(),
                                    const Context& context = {});
 
-/// The same from a point of the surface: straight to a corner of its triangle, then along edges.
+/// Returns the same from a point of the surface: straight to a corner of its triangle, then along
+/// edges.
 std::vector<double> edge_distances(const Mesh& mesh, const SurfacePoint& point,
                                    double limit = std::numeric_limits<double>::infinity(),
                                    const Context& context = {});
@@ -57,7 +58,7 @@ class HeatDistances {
     std::unique_ptr<State> state_;
 };
 
-/// One query of HeatDistances. For several queries on one mesh keep the solver.
+/// Returns one query of HeatDistances. For several queries on one mesh keep the solver.
 std::vector<double> heat_distances(const Mesh& mesh, std::span<const Index> sources,
                                    const Context& context = {});
 

@@ -60,7 +60,7 @@ class Front {
     // Triangles around each vertex: around_[first_[v]] .. around_[first_[v + 1] - 1].
     std::vector<Index> first_, around_;
     std::vector<double> distance_;
-    // The source that each vertex is reached from: two of one triangle agree on where it lies.
+    // Source of each vertex: two vertices of one triangle agree on its position.
     std::vector<Index> source_;
     std::vector<std::pair<double, Index>> queue_;
 };

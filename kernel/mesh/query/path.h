@@ -28,11 +28,11 @@ struct PathPoint {
 class Path {
   public:
     /// A path through vertices; consecutive ones differ but need not share an edge. At least 2
-    /// vertices, at least 3 where closed (the first is not repeated at the end).
-    /// Errors: invalid_argument; out_of_range naming the vertices.
+    /// vertices, at least 3 if closed (the first is not repeated at the end). Errors:
+    /// invalid_argument; out_of_range naming the vertices.
     Path(std::shared_ptr<const Topology> topology, std::vector<Index> vertices, bool closed);
-    /// A path of free points. At least 2 points, at least 3 where closed.
-    /// Errors: invalid_argument; not_finite.
+    /// A path of free points. At least 2 points, at least 3 if closed. Errors: invalid_argument;
+    /// not_finite.
     Path(std::vector<Vec3> points, bool closed);
 
     bool closed() const { return closed_; }
@@ -42,7 +42,7 @@ class Path {
 
     /// True if the path runs through vertices of a mesh.
     bool on_mesh() const { return topology_ != nullptr; }
-    /// The topology whose vertices it runs through; null for free points.
+    /// Returns the topology whose vertices it runs through; null for free points.
     const std::shared_ptr<const Topology>& topology() const { return topology_; }
     /// Vertices in order; empty for free points.
     const std::vector<Index>& vertices() const { return vertices_; }
@@ -52,21 +52,21 @@ class Path {
     /// any start.
     bool is_boundary() const;
 
-    /// Positions along the path: of its vertices in `mesh`, or its own points whatever the mesh.
+    /// Returns positions along the path: of its vertices in `mesh`, or its own points for any mesh.
     /// Errors: topology_mismatch.
     std::vector<Vec3> points(const Mesh& mesh) const;
-    /// Its own points. Errors: invalid_argument if the path runs through vertices.
+    /// Returns its own points. Errors: invalid_argument if the path runs through vertices.
     const std::vector<Vec3>& points() const;
 
     /// Length of the polyline. Errors: as `points`.
     double length(const Mesh& mesh) const;
     double length() const;
 
-    /// The point of the polyline nearest to `p`; of equals the first. Errors: as `points`.
+    /// Returns the point of the polyline nearest to `p`; of equals the first. Errors: as `points`.
     PathPoint nearest(const Mesh& mesh, const Vec3& p) const;
     PathPoint nearest(const Vec3& p) const;
 
-    /// The same path run the other way; a closed one starts at the same point.
+    /// Returns the same path run the other way; a closed one starts at the same point.
     Path reversed() const;
 
   private:
@@ -78,14 +78,14 @@ class Path {
     bool closed_ = false;
 };
 
-/// The open boundaries of a mesh, each a closed path with the surface on its left, in the order of
-/// Topology::boundary_loops.
+/// Returns the open boundaries of a mesh, each a closed path with the surface on its left, in the
+/// order of Topology::boundary_loops.
 std::vector<Path> boundaries(const Mesh& mesh);
 
-/// The loops around the faces of a region, as Region::boundaries.
+/// Returns the loops around the faces of a region, as Region::boundaries.
 std::vector<Path> boundaries(const Region& region);
 
-/// Shortest path along edges that visits `vertices` in order, and returns to the first where
+/// Returns the shortest path along edges that visits `vertices` in order, and the first again if
 /// `closed`. Errors: out_of_range; invalid_argument for fewer than 2 vertices, for equal
 /// neighbours, or if two lie in different components; cancelled.
 Path path_through(const Mesh& mesh, std::span<const Index> vertices, bool closed,

@@ -8,7 +8,7 @@
 
 namespace lissom {
 
-/// As the functions of the same name in path.h, with progress; errors: also cancelled, and then
+/// Like the functions of the same name in path.h, with progress; errors: also cancelled, and then
 /// nothing was moved.
 void smooth_path(Mesh& mesh, const Path& path, Index iterations, double strength,
                  const Context& context);

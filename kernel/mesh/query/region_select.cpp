@@ -89,7 +89,7 @@ Region select_fraction(const Mesh& mesh, const Box& fractions) {
     Box box = fractions;
     for (int axis = 0; axis < 3 && !whole.empty(); ++axis) {
         for (double* side : {&box.min[axis], &box.max[axis]}) {
-            // Exact at 0 and 1, and infinite where the fraction is.
+            // Exact at 0 and 1, and infinite if the fraction is.
             if (std::isfinite(*side)) *side = std::lerp(whole.min[axis], whole.max[axis], *side);
         }
     }

@@ -28,11 +28,11 @@ Region select_box(const Mesh& mesh, const Box& box);
 /// of an axis, 1 the greatest. Sides may be infinite. Errors: as select_box.
 Region select_fraction(const Mesh& mesh, const Box& fractions);
 
-/// The part of a region that edges between its vertices connect with `vertex`. Errors: out_of_range
-/// if it is not in the region.
+/// Returns the part of a region that edges between its vertices connect with `vertex`. Errors:
+/// out_of_range if it is not in the region.
 Region connected_part(const Region& region, Index vertex);
-/// The same for the vertex of the region that is nearest to `point`.
-/// Errors: region_empty; topology_mismatch; not_finite.
+/// Returns the same for the vertex of the region that is nearest to `point`. Errors: region_empty;
+/// topology_mismatch; not_finite.
 Region connected_part(const Mesh& mesh, const Region& region, const Vec3& point);
 
 /// Vertices on the side of a plane that `normal` points to, the plane included.
@@ -46,7 +46,7 @@ Region select_plane(const Mesh& mesh, const Vec3& point, const Vec3& normal);
 Region select_geodesic(const Mesh& mesh, std::span<const Index> from, double radius,
                        const Context& context = {});
 
-/// The same from a point of the surface, which need not be a vertex.
+/// Returns the same from a point of the surface, which need not be a vertex.
 Region select_around(const Mesh& mesh, const SurfacePoint& from, double radius,
                      const Context& context = {});
 
@@ -62,9 +62,10 @@ Region select_component(const Mesh& mesh, Index number);
 /// Vertices of the component that contains `vertex`. Errors: out_of_range.
 Region select_component_of(const Mesh& mesh, Index vertex);
 
-/// Vertices where a value of the attribute `name` lies in [min, max]. Of a wide attribute the first
-/// number counts. A corner or face attribute selects the vertices of the corners or faces in range.
-/// Errors: invalid_argument for an unknown name (naming those there are) or if min exceeds max.
+/// Selects vertices with a value of the attribute `name` in [min, max]. The first number of a wide
+/// attribute counts. A corner or face attribute selects the vertices of the corners or faces in
+/// range. Errors: invalid_argument for an unknown name (naming those there are) or if min exceeds
+/// max.
 Region select_attribute(const Mesh& mesh, std::string_view name, double min, double max);
 
 /// Vertices for which `predicate(vertex, position)` holds. It is called in ascending order, once

@@ -158,7 +158,7 @@ class Search {
         return chosen;
     }
 
-    // Of some vertices, with room for what touches it.
+    // Returns the box of some vertices, with room for touching faces.
     Box box_of(std::span<const Index> vertices) const {
         Box box;
         for (const Index v : vertices) box.extend(mesh_.position(v));
@@ -175,7 +175,7 @@ class Search {
         return std::sqrt(squared);
     }
 
-    // The faces of either set, without those that are far from all of the other.
+    // Returns the faces of either set that are near the other.
     std::vector<Index> faces_that_may_meet() const {
         Box of_faces, of_others;
         const Index count = mesh_.face_count();

@@ -11,7 +11,8 @@
 
 namespace lissom {
 
-/// Searches from vertices outward. One object serves many searches; each costs what it visits.
+/// Searches from vertices outward. One object serves many searches; each costs as much as the
+/// vertices it visits.
 class ShortestPaths {
   public:
     explicit ShortestPaths(const Mesh& mesh);
@@ -19,8 +20,8 @@ class ShortestPaths {
     /// Lengths of the shortest ways from `sources`, infinity beyond `limit`.
     const std::vector<double>& from(std::span<const Index> sources, double limit,
                                     const Context& context);
-    /// Vertices of the shortest way, both ends included. Of equally short ways the one found
-    /// through smaller vertices. Errors: invalid_argument if there is none.
+    /// Vertices of the shortest way, both ends included. The one found through smaller vertices
+    /// among equally short ways. Errors: invalid_argument if there is none.
     std::vector<Index> between(Index from, Index to, const Context& context);
 
   private:

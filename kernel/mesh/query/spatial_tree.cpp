@@ -10,8 +10,7 @@
 namespace lissom {
 namespace {
 
-// What rounding may do to distances, as a fraction of them; far above it, far below what is
-// visible.
+// Rounding error of distances, as a fraction of them; an upper bound far below visible sizes.
 constexpr double kBoxRounding = 1e-13;
 // Points that are as near as this fraction of a surface's size are at one place.
 constexpr double kSamePlace = 1e-9;
@@ -37,8 +36,8 @@ Candidate nearest_on_edge(const std::array<Vec3, 3>& corners, int from, const Ve
     return {barycentric, (corners[from] + t * along - p).squaredNorm()};
 }
 
-// The foot of the perpendicular where it lies inside, else the nearest point of an edge; the latter
-// also where the triangle has no area worth the name.
+// Returns the foot of the perpendicular if it lies inside, else the nearest point of an edge; the
+// latter also for triangles with almost no area.
 Candidate nearest_on_triangle(const std::array<Vec3, 3>& corners, const Vec3& p) {
     const Vec3 ab = corners[1] - corners[0], ac = corners[2] - corners[0], ap = p - corners[0];
     const Vec3 normal = ab.cross(ac);
@@ -59,8 +58,7 @@ Candidate nearest_on_triangle(const std::array<Vec3, 3>& corners, const Vec3& p)
 }
 
 // The edge function of two sheared points. Both triangles at an edge see the same value with
-// opposite signs, whatever the compiler makes of the products, because the vertices are taken in
-// one order.
+// opposite signs for every compiler, because the vertices are taken in one order.
 double edge_function(Index a, const Vec3& pa, Index b, const Vec3& pb) {
     if (a > b) return -edge_function(b, pb, a, pa);
     return pa.x() * pb.y() - pa.y() * pb.x();
@@ -73,8 +71,8 @@ void require_finite(const Vec3& v, const char* what) {
 
 }  // namespace
 
-// A ray with what each test needs: the axis it runs along most as z, the shear that turns it into
-// that axis, and how far rounding may move a hit.
+// A ray prepared for the tests: its main axis as z, the shear that turns it into that axis, and the
+// error of a hit by rounding.
 struct SpatialTree::Line {
     Vec3 origin, direction, inverse;
     std::array<int, 3> axis{};
@@ -96,7 +94,7 @@ struct SpatialTree::Line {
         padding = kBoxRounding * (box.diagonal() + (box.center() - origin).norm());
     }
 
-    // Where the ray enters the box, or infinity if it misses it.
+    // Returns the entry of the ray into the box, or infinity if it misses it.
     double entry(const Box& box) const {
         double in = 0.0, out = std::numeric_limits<double>::infinity();
         for (int k = 0; k < 3; ++k) {
@@ -114,7 +112,7 @@ struct SpatialTree::Line {
                                                 : std::numeric_limits<double>::infinity();
     }
 
-    // A point in the sheared frame, where the ray is the z axis.
+    // Returns a point in the sheared frame, with the ray as the z axis.
     Vec3 shear(const Vec3& p) const {
         const Vec3 d = p - origin;
         return {d[axis[0]] - shear_x * d[axis[2]], d[axis[1]] - shear_y * d[axis[2]], d[axis[2]]};
@@ -287,7 +285,7 @@ bool SpatialTree::hides(const Vec3& point, const Vec3& towards, const HideOption
         if (!(hit.distance <= limit) || hit.distance <= options.slack) return;
         const auto [a, b, c] = triangles_[hit.triangle];
         const std::array corners{positions_[a], positions_[b], positions_[c]};
-        // Of most points asked about it is a corner.
+        // Most query points lie at a corner.
         const auto touches = [&](const Vec3& p) {
             return (p - point).squaredNorm() <= touching * touching;
         };

@@ -44,16 +44,16 @@ struct RayOptions {
     bool back_faces = true;
 };
 
-/// What hides a point from an eye.
+/// Options of occlusion between a point and an eye.
 struct HideOptions {
     /// Distance of the eye.
     double eye = std::numeric_limits<double>::infinity();
     /// Whether triangles hide it that the eye sees from behind.
     bool back_faces = true;
-    /// Triangles that are as near to the point as this do not hide it, as those that meet in a
-    /// vertex; at least what rounding asks for.
+    /// Triangles as near to the point as this do not hide it, for instance adjacent ones at a
+    /// vertex; at least the rounding error.
     double touching = 0.0;
-    /// Nor does what is as near to it as this on the way to the eye.
+    /// Triangles as near to it as this on the way to the eye do not hide it either.
     double slack = 0.0;
 };
 
@@ -68,31 +68,30 @@ class SpatialTree {
     /// a small part of building one, but see `wear`. Errors: topology_mismatch; memory_limit;
     /// cancelled. The tree is then as it was.
     void refit(const Mesh& mesh, const Context& context = {});
-    /// How much more a query is expected to cost than when the tree was built: 1 for a new tree.
-    /// Building it again is worth the time where this is far above 1 and many queries follow.
+    /// Returns how much more a query is expected to cost than when the tree was built: 1 for a new
+    /// tree. Building it again is worth the time if this is far above 1 and many queries follow.
     double wear() const { return boxes_.wear(); }
 
-    /// The point of the surface nearest to `point`; of equally near triangles the one of the
-    /// smallest face.
-    /// Errors: not_finite.
+    /// Returns the point of the surface nearest to `point`; of equally near triangles the one of
+    /// the smallest face. Errors: not_finite.
     SurfacePoint nearest(const Vec3& point) const;
-    /// As `nearest`, or nothing if the surface is farther than `limit`.
+    /// Returns the result of `nearest`, or nothing if the surface is farther than `limit`.
     std::optional<SurfacePoint> nearest_within(const Vec3& point, double limit) const;
 
-    /// The first hit of a ray, on either side of the surface; of equally far triangles the one of
-    /// the smallest face. `direction` need not have unit length. Rays through edges and vertices do
-    /// not slip through (Woop, Benthin and Wald 2013).
-    /// Errors: invalid_argument for a direction without length; not_finite.
+    /// Returns the first hit of a ray, on either side of the surface; of equally far triangles the
+    /// one of the smallest face. `direction` need not have unit length. Rays through edges and
+    /// vertices do not slip through (Woop, Benthin and Wald 2013). Errors: invalid_argument for a
+    /// direction without length; not_finite.
     std::optional<SurfacePoint> pick(const Vec3& origin, const Vec3& direction,
                                      const RayOptions& options = {}) const;
 
-    /// Whether the surface lies between `point` and an eye in the direction `towards`. A point of
-    /// the surface is not hidden by the triangles that it is a point of, however flat the view.
-    /// Errors: as `pick`.
+    /// Returns whether the surface lies between `point` and an eye in the direction `towards`. A
+    /// point of the surface is not hidden by the triangles that it is a point of, however flat the
+    /// view. Errors: as `pick`.
     bool hides(const Vec3& point, const Vec3& towards, const HideOptions& options = {}) const;
 
-    /// All hits of a ray in ascending distance; equally far ones in the order of their faces.
-    /// Errors: as `pick`.
+    /// Returns all hits of a ray in ascending distance; equally far ones in the order of their
+    /// faces. Errors: as `pick`.
     std::vector<SurfacePoint> pick_all(const Vec3& origin, const Vec3& direction) const;
 
     /// Mesh::revision of the shape it has.

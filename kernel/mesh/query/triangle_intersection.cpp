@@ -68,7 +68,7 @@ int corner_of(const Triangle& a, Index v) {
     return -1;
 }
 
-// Triangles with a common edge meet elsewhere where they are folded upon each other.
+// Triangles with a common edge also meet elsewhere if they are folded upon each other.
 bool is_fold(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, int a_apex, int b_apex,
              double tolerance) {
     const Plate plate(a, tolerance);

@@ -29,8 +29,8 @@ struct SoupSources {
                             std::is_sorted(faces.corner_source.begin(), faces.corner_source.end());
     }
 
-    // Whether the faces are the `file_count` of the file. A face without
-    // corners may be gone where all corners stay.
+    // Whether the faces are the `file_count` of the file. A face without corners may be gone
+    // although all corners stay.
     bool faces_unchanged(std::size_t file_count) const {
         return corners_unchanged && work.face_source.size() == file_count &&
                std::adjacent_find(work.face_source.begin(), work.face_source.end(),

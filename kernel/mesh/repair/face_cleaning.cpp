@@ -36,7 +36,7 @@ class FaceSplitter {
     }
 
   private:
-    // What was walked since `depth` is a loop; its vertices may come again, all but the first.
+    // The walk since `depth` is a loop; its vertices may come again, all but the first.
     void close_loop(const std::vector<Index>& vertices, Index depth) {
         const std::vector<Index> loop(walk_.begin() + depth, walk_.end());
         for (const Index c : loop) depth_of_vertex_[vertices[c]] = kNoIndex;

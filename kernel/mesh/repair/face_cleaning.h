@@ -7,13 +7,14 @@
 
 namespace lissom {
 
-/// Drops repeats of a vertex in a row, splits faces at vertices that they pass twice and drops what
-/// keeps fewer than three vertices. Adds to `report` the faces concerned, as numbered in the file.
+/// Drops repeats of a vertex in a row, splits faces at vertices that they pass twice and drops
+/// faces left with fewer than three vertices. Adds to `report` the faces concerned, as numbered in
+/// the file.
 void clean_faces(CornerFaces& work, Report& report);
 
-/// Drops faces that are there too often: those with the vertices of an earlier face in the same
-/// cyclic order, a face that is there once more in reverse where the surface is complete without
-/// it, and flaps: pairs of equal faces that only hang on an edge of a complete surface.
+/// Drops duplicate faces: faces with the vertices of an earlier face in the same cyclic order, a
+/// repeated face in reverse if the surface is complete without it, and flaps: pairs of equal faces
+/// that only hang on an edge of a complete surface.
 void drop_duplicates(Index vertex_count, CornerFaces& work, Report& report);
 
 }  // namespace lissom

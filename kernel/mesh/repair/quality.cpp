@@ -76,7 +76,7 @@ bool is_inside_another(const std::vector<Component>& list, const Component& c) {
     });
 }
 
-// Told where the closed components together enclose less than nothing.
+// Reported if the closed components together have a negative volume.
 constexpr const char* kInsideOut = "the mesh is inside out; mesh:flip() turns it";
 
 void flag_components(const Mesh& mesh, Report& report) {

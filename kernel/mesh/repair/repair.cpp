@@ -38,7 +38,7 @@ void require_finite(const Soup& soup) {
     }
     if (bad.count == 0) return;
     refuse(ErrorCode::not_finite, std::move(bad), "NaN or infinite are the positions of",
-           "correct them where they come from");
+           "correct them at their source");
 }
 
 // Lets every face use the first of the vertices that lie at one place.
@@ -60,8 +60,8 @@ void weld_known(Soup& soup) {
     for (Index& v : soup.faces.vertices) v = soup.same_as[v];
 }
 
-// A face that shares no vertex with another has no seam along which it could be welded where its
-// own corners coincide. Its coincident corners become one here, which shows it as collapsed.
+// A face that shares no vertex with another has no seam along which its own coincident corners
+// could be welded. Its coincident corners become one here, which shows it as collapsed.
 void weld_within_loose_faces(Soup& soup) {
     std::vector<Index> uses(soup.positions.size(), 0);
     for (const Index v : soup.faces.vertices) ++uses[v];
@@ -148,7 +148,7 @@ void insert_vertices(const std::vector<Index>& added, FanVertices& fans) {
     fans.unchanged = false;
 }
 
-// What became of the vertices of the file.
+// Findings about the vertices of the file.
 class VertexFindings {
   public:
     VertexFindings(const Soup& soup, std::span<const Index> file_corners, const CornerFaces& work,
@@ -240,7 +240,7 @@ Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Rep
     require_indices(soup);
     require_finite(soup);
     require_attributes_fit(soup);
-    // Lists by corner and by vertex: what is welded, which edges meet, how vertices are split.
+    // Lists by corner and by vertex: welds, matched edges, splits of vertices.
     constexpr std::size_t kBytesPerCorner = 48, kBytesPerVertex = 64;
     const MemoryCharge working = context.charge(
         kBytesPerCorner * soup.faces.vertices.size() + kBytesPerVertex * soup.positions.size(),

@@ -1,8 +1,8 @@
-/// Check and repair: makes an oriented 2-manifold of polygons as they come, and says what it did.
+/// Check and repair: makes an oriented 2-manifold of any polygons, and reports the changes.
 ///
 /// Nothing is moved. Vertices and faces that survive keep their order; vertices that had to be
-/// split get their copies at the end. What the soup holds on vertices, corners and faces follows; a
-/// vertex attribute whose values differ among welded vertices becomes one of corners.
+/// split get their copies at the end. Attributes, labels and regions of the soup follow; a vertex
+/// attribute with different values among welded vertices becomes one of corners.
 #pragma once
 
 #include "kernel/core/context.h"
@@ -15,7 +15,7 @@ namespace lissom {
 /// Which vertices at the same place (equal coordinates) become one.
 enum class Weld {
     none,
-    /// Those that join two boundary edges at the same place and of opposite direction, as along a
+    /// Edges that join two boundary edges at the same place and of opposite direction, as along a
     /// seam of texture coordinates. Surfaces that merely touch, as closed lips do, stay apart; so
     /// do the two sides of a doubled sheet and faces with different labels "object".
     seams,
@@ -23,7 +23,7 @@ enum class Weld {
     all,
 };
 
-/// What becomes of vertices that no face uses.
+/// Treatment of vertices that no face uses.
 enum class UnusedVertices {
     drop,
     /// They stay in their order: programs that match vertices by number, as those of morph targets
@@ -33,20 +33,20 @@ enum class UnusedVertices {
 
 struct RepairOptions {
     Weld weld = Weld::seams;
-    /// False: what would be mended is an error instead, and so are faces without area.
+    /// False: each defect is an error instead of a repair, and so are faces without area.
     bool repair = true;
     UnusedVertices unused = UnusedVertices::drop;
 };
 
-/// The mesh of `soup`; its report() starts with the findings of `report`. Faces are, in this order:
-/// freed of repeated corners, split where they are pinched, dropped where collapsed or duplicate,
-/// cut apart where more than two meet (faces that bound the same piece of space stay together),
+/// Returns the mesh of `soup`; its report() starts with the findings of `report`. Faces are, in
+/// this order: freed of repeated corners, split at pinches, dropped if collapsed or duplicate, cut
+/// apart at edges of more than two (faces that bound the same piece of space stay together),
 /// oriented like their neighbours (a closed piece that had to be reoriented faces outward, an open
 /// one as most of its area did), and vertices are split into one for each fan. Vertices without
-/// faces are dropped, unless `unused` keeps them or there is no face at all.
-/// Errors: face_index; not_finite; invalid_argument for attributes that do not fit; cancelled; and
-/// without `repair`: face_too_small, repeated_vertex, duplicate_face, nonmanifold_edge,
-/// inconsistent_orientation, nonmanifold_vertex, unreferenced_vertex, zero_area.
+/// faces are dropped, unless `unused` keeps them or there is no face at all. Errors: face_index;
+/// not_finite; invalid_argument for attributes that do not fit; cancelled; and without `repair`:
+/// face_too_small, repeated_vertex, duplicate_face, nonmanifold_edge, inconsistent_orientation,
+/// nonmanifold_vertex, unreferenced_vertex, zero_area.
 Mesh repair(Soup soup, const RepairOptions& options = {}, const Context& context = {},
             Report report = {});
 

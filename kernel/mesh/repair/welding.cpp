@@ -147,7 +147,7 @@ void Welding::weld_seams(std::span<const Index> label_of_face) {
 }
 
 // Open edges at one place: a pair is a seam. If more lie there, as in copies of a torn surface,
-// those that bound the same piece of space belong together, if none is left over.
+// edges that bound the same piece of space belong together, if none is left over.
 void Welding::weld_seam(std::span<const OpenEdge> edges) {
     const auto ascending =
         std::count_if(edges.begin(), edges.end(), [](const OpenEdge& e) { return e.ascending; });
@@ -178,7 +178,7 @@ FanVertices Welding::fans() const {
             result.of_corner[at] = fan;
             lowest = std::min(lowest, work_->faces.vertices[at]);
         };
-        // Once around; where that ends at an open edge, the other way for the rest.
+        // Once around; if that ends at an open edge, the other way for the rest.
         Index at = c;
         do {
             add(at);

@@ -26,17 +26,18 @@ class Welding {
     /// `positions` and `work` must live as long.
     Welding(std::span<const Vec3> positions, const CornerFaces& work);
 
-    /// Welds faces where exactly two meet in opposite directions. False if other edges exist.
+    /// Welds faces along edges at which exactly two meet in opposite directions. False if other
+    /// edges exist.
     bool weld_regular_edges();
-    /// Welds faces along the edges where they share vertices: the two of a regular edge; where more
-    /// meet, those that bound the same piece of space. Adds the edges left open to `report`.
+    /// Welds faces along their shared edges: the two of a regular edge; of more than two, the ones
+    /// that bound the same piece of space. Adds the edges left open to `report`.
     void weld_edges(Report& report);
     /// Welds pairs of open edges that lie at the same place in opposite directions, but not faces
     /// that are back to back, nor those with different `label_of_face` (empty: no labels). If more
-    /// than two lie there, those that bound the same piece of space are pairs.
+    /// than two lie there, edges that bound the same piece of space are pairs.
     void weld_seams(std::span<const Index> label_of_face);
     /// Numbers the fans: in the order of the soup's vertices, further fans of a vertex last. Opens
-    /// what would join the same two vertices by more than one edge.
+    /// edges if one pair of vertices would be joined by several.
     FanVertices number_fans();
 
     /// For each corner, the one along the same edge the other way, or kNoIndex.

@@ -23,7 +23,7 @@ constexpr double kArmRadius = 0.64 * kTrunkRadius;
 constexpr double kBevel = 0.35 * kTrunkRadius;
 constexpr double kBlend = 0.45 * kTrunkRadius;
 
-// Latitude on the rounded tips where the rings end and the square patch begins.
+// Latitude on the rounded tips between the last ring and the square patch.
 constexpr double kPatchLatitude = 62.0 * kPi / 180.0;
 constexpr int kRelaxSteps = 60;
 
@@ -213,7 +213,7 @@ Layout layout_with(const CactusOptions& options, Index per_rib) {
     return layout_with(options, per_rib, coarse);
 }
 
-// Of all numbers of columns the one that makes the quads most nearly square.
+// Returns the layout with the number of columns that makes the quads most nearly square.
 Layout choose_layout(const CactusOptions& options) {
     std::optional<Layout> best;
     double best_stretch = std::log(kMaximumStretch);
@@ -253,7 +253,7 @@ class CactusBuilder {
     }
 
   private:
-    // Where a vertex lies: on a limb's tube, or in a patch (column kNoIndex).
+    // Position of a vertex: on a limb's tube, or in a patch (column kNoIndex).
     struct Vertex {
         Vec3 position;
         std::size_t limb = 0;

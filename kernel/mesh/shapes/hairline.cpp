@@ -13,8 +13,8 @@ double slope_between(const HairlinePoint& a, const HairlinePoint& b) {
     return (b.elevation - a.elevation) / (b.azimuth - a.azimuth);
 }
 
-// Slope at a point, so that the line is smooth and rises and falls as its points do (Fritsch and
-// Butland 1984); level at the ends, where the line meets its mirror image.
+// Returns the slope at a point, so that the line is smooth and rises and falls as its points do
+// (Fritsch and Butland 1984); level at the ends, at which the line meets its mirror image.
 double slope_at(const std::vector<HairlinePoint>& hairline, std::size_t i) {
     if (i == 0 || i + 1 == hairline.size()) return 0.0;
     const double before = slope_between(hairline[i - 1], hairline[i]);

@@ -11,8 +11,8 @@ struct HairlinePoint {
     double azimuth = 0.0, elevation = 0.0;
 };
 
-/// The hairline of an adult without receding hair: across the forehead, down in front of the ears,
-/// around and below them, and to the nape.
+/// Returns the hairline of an adult without receding hair: across the forehead, down in front of
+/// the ears, around and below them, and to the nape.
 std::vector<HairlinePoint> default_hairline();
 
 /// Elevation of a hairline at an azimuth of any sign; smooth between the points, whose azimuths

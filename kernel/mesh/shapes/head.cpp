@@ -28,7 +28,7 @@ constexpr double kFaceLines = 2.2;
 // from it.
 struct Warp {
     double low = 0.0, high = 0.0;            // of the box
-    double band_low = 0.0, band_high = 0.0;  // where lines are close
+    double band_low = 0.0, band_high = 0.0;  // near dense lines
     double fine = kFaceLines;
 
     static constexpr double kFade = 0.03;
@@ -39,7 +39,7 @@ struct Warp {
         return 1.0 + (fine - 1.0) / (1.0 + out * out);
     }
 
-    // Positions of lines that are `step` apart where they are far, from `start` to past both ends.
+    // Returns positions of lines, `step` apart in the far range, from `start` to past both ends.
     // The start lies in the middle between two lines.
     std::vector<double> lines(double start, double step) const {
         std::vector<double> up = walk(start, step, high), down = walk(start, -step, low);
@@ -172,7 +172,7 @@ class HeadBuilder {
         positions_.emplace_back(-p.x(), p.y(), p.z());
     }
 
-    // The mean of where the surface crosses the cell's edges.
+    // Returns the mean of the surface's crossings with the cell's edges.
     std::optional<Vec3> cell_point(const Cell& cell) const {
         Vec3 sum = Vec3::Zero();
         int count = 0;
@@ -203,7 +203,7 @@ class HeadBuilder {
         }
     }
 
-    // The quad around the grid's edge from `a` along `axis`, which turns with the axis where it
+    // Adds the quad around the grid's edge from `a` along `axis`, turning with the axis if it
     // leaves the form.
     void add_face(const Cell& a, int axis) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;

@@ -6,7 +6,7 @@
 
 #include "kernel/core/roots.h"
 
-// Solids that are blended into each other: skull, face, neck and chest first, then what lies on
+// Solids that are blended into each other: skull, face, neck and chest first, then the parts on
 // them. Every solid that is not in the middle stands for two, since only |x| counts. Lengths are
 // metres.
 namespace lissom {

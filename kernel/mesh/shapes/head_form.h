@@ -12,7 +12,7 @@ inline constexpr double kHeadBottom = -0.3, kHeadTop = 0.1;
 Box head_form_box();
 
 /// The form of a head, as fine as a mesh with cells of a given size can show it: thin parts are no
-/// thinner than such a mesh needs, and what is smaller than the cells is left out.
+/// thinner than such a mesh needs, and details smaller than the cells are left out.
 class HeadForm {
   public:
     /// `cell`: longest edge of the cells at the face, in metres; 0 gives the form as it is.
@@ -20,7 +20,7 @@ class HeadForm {
 
     /// About the distance to the surface, negative inside. Even in x to the bit.
     double operator()(const Vec3& p) const;
-    /// The derivative, by differences.
+    /// Returns the derivative, by differences.
     Vec3 gradient(const Vec3& p) const;
     /// About the distance to the ears alone.
     double ears(const Vec3& p) const;

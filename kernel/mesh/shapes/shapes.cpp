@@ -93,7 +93,7 @@ Mesh box_mesh(const LatticeBox& box, const Vec3& size, const Context& context) {
     return box.mesh([&](const Vec3& p) { return Vec3(0.5 * size.cwiseProduct(p)); }, context);
 }
 
-// Room for what a shape of `faces` faces is made from, positions and numbers by keys among it.
+// Charges the memory for building a shape of `faces` faces, positions and numbers by keys among it.
 // Errors: as require_countable; memory_limit.
 MemoryCharge room_for(std::int64_t faces, const Context& context) {
     constexpr std::size_t kBytesPerFace = 128;

@@ -1,5 +1,5 @@
 /// Generated meshes. All are oriented outward, closed unless said, centred at the origin unless
-/// said, and stand along y where one axis is special. Lengths must be finite and above 0, counts as
+/// said, and stand along y if one axis is special. Lengths must be finite and above 0, counts as
 /// documented; otherwise invalid_argument names the option. Counts that would exceed Index are
 /// out_of_range.
 #pragma once
@@ -45,8 +45,8 @@ struct SphereOptions {
 };
 Mesh make_sphere(const SphereOptions& options = {}, const Context& context = {});
 
-/// A cylinder along y. Regions: "bottom" and "top" (its end circles, with the caps where there are
-/// any), and "caps" where there are.
+/// A cylinder along y. Regions: "bottom" and "top" (its end circles, with any caps), and "caps" if
+/// there are caps.
 struct CylinderOptions {
     double radius = 0.5, height = 2.0;
     /// Quads around (at least 3) and along (at least 1).
