@@ -31,7 +31,7 @@ struct Kept : KeptBytes {
 
 class ContentStore {
   public:
-    /// What it counts is charged to `account` too; null: to none.
+    /// Counted bytes are charged to `account` too; null: to none.
     explicit ContentStore(std::shared_ptr<MemoryAccount> account = nullptr)
         : account_(std::make_shared<MemoryAccount>(0, std::move(account))) {}
 
@@ -46,8 +46,8 @@ class ContentStore {
     std::shared_ptr<const Kept<T>> keep(const std::shared_ptr<const T>& value, std::size_t bytes) {
         return keep_on(account_, value, bytes);
     }
-    /// The same for a value that is charged to an account already, as topologies are: its bytes
-    /// only add to `bytes()`.
+    /// Returns the same for a value that is charged to an account already, as topologies are: its
+    /// bytes only add to `bytes()`.
     template <typename T>
     std::shared_ptr<const Kept<T>> keep_counted(const std::shared_ptr<const T>& value,
                                                 std::size_t bytes) {
@@ -73,7 +73,7 @@ class ContentStore {
 
     std::shared_ptr<MemoryAccount> account_;
     std::shared_ptr<MemoryAccount> counted_ = std::make_shared<MemoryAccount>(0);
-    // By the address of the value, which lives as long as what is kept of it.
+    // Keyed by the address of the value, which lives as long as its kept bytes.
     std::map<const void*, std::weak_ptr<const KeptBytes>> kept_;
     std::size_t forget_at_ = 64;
 };

@@ -15,7 +15,7 @@
 
 namespace lissom {
 
-/// What was asked of a deformation, and what it shows.
+/// Inputs of a deformation, and its shown result.
 class DeformContent : public ItemContent {
   public:
     DeformContent(Deformer& deformer, ContentStore& store);

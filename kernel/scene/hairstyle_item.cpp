@@ -43,7 +43,8 @@ void HairstyleContent::list_kept(std::vector<const KeptBytes*>& list) const {
     list.push_back(inputs_.get());
 }
 
-// What a style file says, and what it leaves out: the place on the head, and the scalp step.
+// Hashes the contents of a style file, and its omissions: the place on the head, and the scalp
+// step.
 std::uint64_t HairstyleContent::compute_hash() const {
     Hasher hasher;
     hasher.add(encode_style(content_of(inputs(), options_)));

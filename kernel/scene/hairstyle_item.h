@@ -20,7 +20,7 @@ class HairstyleContent : public ItemContent {
   public:
     HairstyleContent(const Hairstyle& style, ContentStore& store)
         : HairstyleContent(style, style.inputs(), store) {}
-    /// Of `style` with other inputs.
+    /// Makes the content of `style` with other inputs.
     HairstyleContent(const Hairstyle& style, const StyleInputs& inputs, ContentStore& store);
 
     /// To be given to Hairstyle::restore.
@@ -45,12 +45,12 @@ class HairstyleItem : public SceneItem {
 
     const Hairstyle& style() const { return *style_; }
     const std::shared_ptr<SceneItem>& head() const { return head_; }
-    /// Whether the mesh has the shape that the style was made on.
+    /// Returns whether the mesh has the shape that the style was made on.
     bool is_head_unchanged() const;
-    /// Whether `mesh` is that shape.
+    /// Returns whether `mesh` is that shape.
     bool is_head(const Mesh& mesh) const;
-    /// The head that the style was made on: that mesh, or where it has changed the shape that the
-    /// style keeps.
+    /// Returns the head that the style was made on: that mesh, or if it has changed the shape that
+    /// the style keeps.
     Mesh head_as_it_was() const;
 
     ItemKind kind() const override { return ItemKind::hairstyle; }

@@ -13,12 +13,12 @@
 namespace lissom {
 
 /// A list of states with a place in it: steps before it can be undone, those behind it done again.
-/// The limit bounds what is held beside the present state: the oldest steps go first.
+/// The limit bounds the bytes held beside the present state: the oldest steps go first.
 class History {
   public:
     struct Step {
         std::string name;
-        /// What was captured for it, and live objects that it took out of the scene.
+        /// Bytes captured for it, and of live objects that it took out of the scene.
         std::size_t captured = 0, removed = 0;
         /// The state that it led to.
         std::shared_ptr<const SceneState> state;
@@ -29,7 +29,7 @@ class History {
         : store_(store), limit_(limit), first_(std::move(first)) {}
 
     const std::shared_ptr<const SceneState>& present() const { return state(place_); }
-    /// The state before the present one, or behind it; null if there is none.
+    /// Returns the state before the present one, or behind it; null if there is none.
     std::shared_ptr<const SceneState> before() const {
         return place_ ? state(place_ - 1) : nullptr;
     }
@@ -37,7 +37,7 @@ class History {
         return place_ < steps_.size() ? state(place_ + 1) : nullptr;
     }
     const std::deque<Step>& steps() const { return steps_; }
-    /// The state after the first `i` steps.
+    /// Returns the state after the first `i` steps.
     const std::shared_ptr<const SceneState>& state(std::size_t i) const {
         return i == 0 ? first_ : steps_[i - 1].state;
     }
@@ -51,8 +51,8 @@ class History {
     /// Moves the place to `before` or `after`, which is there.
     void go_back() { --place_; }
     void go_on() { ++place_; }
-    /// Adds a step that leads from the present state to `next`, for which `captured` bytes were
-    /// captured; what could be done again goes.
+    /// Adds a step that leads from the present state to `next`, with `captured` bytes captured for
+    /// it; steps to be done again go.
     void push(std::string name, std::shared_ptr<const SceneState> next, std::size_t captured);
     /// Forgets all steps, as if the present state had been the first.
     void clear();

@@ -36,7 +36,7 @@ std::size_t size_in_bytes(const Report& report) {
     return bytes;
 }
 
-// What is kept of `value`, which `last` keeps already where it is the same.
+// Returns the kept copy of `value`, that of `last` if it is the same.
 template <typename T>
 std::shared_ptr<const Kept<T>> keep_equal(const T& value,
                                           const std::shared_ptr<const Kept<T>>* last,
@@ -104,7 +104,7 @@ bool MeshContent::operator==(const MeshContent& other) const {
            std::equal(attributes_.begin(), attributes_.end(), other.attributes_.begin(), same);
 }
 
-// Positions are written behind the mesh's checks: what was there comes back, whatever it was.
+// Positions are written behind the mesh's checks: the old ones come back, even invalid ones.
 Mesh MeshContent::mesh() const {
     std::vector<Vec3> zeros(at(topology().vertex_count()), Vec3::Zero());
     Mesh mesh(std::move(zeros), topology_->value);

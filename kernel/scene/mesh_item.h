@@ -31,7 +31,7 @@ class MeshContent : public ItemContent {
     MeshContent(const Mesh& mesh, const MeshContent* last, bool same_positions,
                 ContentStore& store);
 
-    /// The mesh again, with all that it held.
+    /// Returns the mesh again, with all that it held.
     Mesh mesh() const;
     /// Puts it back into `mesh`, which holds `present` now; false if that has another form, so that
     /// more than numbers must change.
@@ -63,8 +63,8 @@ class MeshContent : public ItemContent {
     std::vector<std::string> material_libraries_;
 };
 
-/// Positions are compared with those captured before only where the mesh's revision has grown:
-/// whoever writes through a span that edit_positions() gave long ago calls that again.
+/// Positions are compared with those captured before only if the mesh's revision has grown: callers
+/// that write through an old span of edit_positions() call it again.
 class MeshItem : public SceneItem {
   public:
     explicit MeshItem(std::shared_ptr<Mesh> mesh) : mesh_(std::move(mesh)) {}
@@ -86,7 +86,7 @@ class MeshItem : public SceneItem {
     virtual void restored() {}
 
     std::shared_ptr<Mesh> mesh_;
-    // What was captured last, and the mesh's revision then.
+    // The last capture, and the mesh's revision then.
     mutable std::weak_ptr<const ItemContent> captured_;
     mutable std::uint64_t revision_ = 0;
 };

@@ -15,7 +15,7 @@ namespace {
                 "the scene has no object " + std::to_string(id.value) + " (any more)");
 }
 
-// Parts stand before what they are parts of; each thing stands once.
+// Parts stand before their wholes; each thing stands once.
 void list_items(const std::shared_ptr<SceneItem>& item, std::unordered_set<const void*>& known,
                 std::vector<CapturedItem>& items) {
     if (!known.insert(item->identity()).second) return;
@@ -33,7 +33,7 @@ Scene::Scene(const SceneOptions& options)
 
 // ---- Objects
 
-// Changes the list of objects, as a step where none is open.
+// Changes the list of objects, as a step if none is open.
 template <typename Change>
 void Scene::change(const char* verb, const std::string& name, const Change& change) {
     with_memory_errors([&] {
@@ -128,7 +128,7 @@ const NamedObject& Scene::object(ObjectId id) const {
 
 // ---- Steps
 
-// Brings `seen_` up to date; it stays the same state where nothing has changed.
+// Brings `seen_` up to date; it stays the same state if nothing has changed.
 void Scene::capture() {
     SceneState next;
     next.objects = objects_;
@@ -147,7 +147,7 @@ void Scene::record(std::string name, std::size_t bytes_before) {
     history_.push(std::move(name), seen_, bytes > bytes_before ? bytes - bytes_before : 0);
 }
 
-// What was changed outside a step becomes one.
+// Makes a step of changes outside a step.
 void Scene::settle() {
     const std::size_t bytes = store_.bytes();
     capture();
@@ -183,7 +183,7 @@ bool Scene::commit() {
 
 void Scene::rollback() {
     require(!open_.empty(), "there is no step to roll back; begin one before");
-    // Whatever ended the step, a limit too: the scene becomes what it was.
+    // The scene returns to its old state after any end of the step, also by a limit.
     const MemoryOverdraft overdraft(options_.account);
     with_memory_errors([&] {
         capture();

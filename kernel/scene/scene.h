@@ -1,4 +1,4 @@
-/// Scene: named objects in an order, and a history of what was done to them.
+/// Scene: named objects in an order, and the history of their changes.
 ///
 ///     Scene scene;
 ///     auto bar = std::make_shared<Mesh>(make_bar());
@@ -7,8 +7,8 @@
 ///     scene.undo();    // `bar` itself is as before
 ///
 /// Objects are live: whoever holds one may change it at any time, and undo puts content back into
-/// the very object. What was changed outside a step is found at the next step, undo or hash, and
-/// becomes a step of its own called "edited".
+/// the very object. Changes outside a step are found at the next step, undo or hash, and become a
+/// step of their own called "edited".
 #pragma once
 
 #include <cstddef>
@@ -32,17 +32,17 @@ namespace lissom {
 
 struct SceneOptions {
     /// Bytes that the history may hold beside one copy of the present content; the oldest steps go
-    /// where it would be more.
+    /// if it would be more.
     std::size_t history_bytes = std::size_t{512} << 20;
-    /// What the history is charged to, as a context's memory(); null: nothing.
+    /// Account charged by the history, as a context's memory(); null: none.
     std::shared_ptr<MemoryAccount> account = {};
 };
 
-/// What the history of a scene holds.
+/// Contents of a scene's history.
 struct HistoryReport {
     struct Step {
         std::string name;
-        /// What the step added to the memory of the history.
+        /// Bytes that the step added to the history.
         std::size_t bytes = 0;
     };
 
@@ -61,7 +61,7 @@ struct HistoryReport {
 /// they were. Every function that takes memory may throw memory_limit.
 class Scene {
   public:
-    /// Name of the step that holds what was changed outside a step.
+    /// Name of the step made of changes outside a step.
     static constexpr std::string_view kEdited = "edited";
 
     explicit Scene(const SceneOptions& options = {});
@@ -83,19 +83,19 @@ class Scene {
     void set_look(ObjectId id, ObjectLook look);
 
     const ObjectList& objects() const { return objects_; }
-    /// The object called `name`, or null.
+    /// Returns the object called `name`, or null.
     const NamedObject* find(std::string_view name) const;
     const NamedObject& object(ObjectId id) const;
 
     // ---- Steps
 
-    /// Opens a step: what is done to the scene and its objects until `commit` is undone at once. A
+    /// Opens a step: all changes to the scene and its objects until `commit` are undone at once. A
     /// step inside another becomes part of it. Errors: invalid_argument for an empty name.
     void begin(std::string name);
     /// Ends the step opened last. False if nothing has changed: then there is no step to undo.
     /// Errors: invalid_argument if none is open.
     bool commit();
-    /// Ends the step opened last and takes back what was done since. Errors: as commit.
+    /// Ends the step opened last and reverts its changes. Errors: as commit.
     void rollback();
     /// Number of open steps.
     std::size_t depth() const { return open_.size(); }
@@ -123,11 +123,11 @@ class Scene {
     /// Forgets all steps; the scene stays as it is. Errors: as undo.
     void clear_history();
 
-    /// The states before the first step of the history and after each; none while a step is open.
+    /// Returns the states before the first step of the history and after each; none while a step is
+    /// open.
     std::vector<std::shared_ptr<const SceneState>> past() const;
-    /// Adds a step that was done before, for what reads histories: `objects` are those after it,
-    /// whose items hold what it led to. It is a step even where nothing has changed. Errors: as
-    /// undo.
+    /// Adds a step that was done before, for readers of histories: `objects` are those after it,
+    /// with the items of the new state. It is a step even if nothing has changed. Errors: as undo.
     void append(std::string name, ObjectList objects);
 
     /// Values that tools and scripts keep with the scene, by whose they are. They are no part of
@@ -136,16 +136,16 @@ class Scene {
     /// No values: forgets those of `owner`.
     void set_parameters(const std::string& owner, SceneParameters values);
 
-    /// Of names, order, looks and contents of all objects, whatever led there; the same on every
-    /// run, platform and number of threads.
+    /// Returns the hash of names, order, looks and contents of all objects, for any history; the
+    /// same on every run, platform and number of threads.
     std::uint64_t hash();
-    /// The scene as it is now.
+    /// Returns the scene as it is now.
     std::shared_ptr<const SceneState> state();
 
   private:
     struct OpenStep {
         std::string name;
-        /// What rollback returns to.
+        /// State that rollback returns to.
         std::shared_ptr<const SceneState> before;
         std::size_t bytes;
     };

@@ -92,7 +92,7 @@ SceneRecord record_scene(Scene& scene, std::vector<std::string>& left_out, const
         for (PlacedRecord& placed : records) result.items.push_back(std::move(placed.record));
         const auto* mesh = dynamic_cast<const MeshItem*>(captured.item.get());
         if (mesh && mesh->mesh().asset()) {
-            left_out.push_back("what the file of a mesh had beside it: materials, skeletons");
+            left_out.push_back("contents of a mesh's file beside it: materials, skeletons");
         }
     }
     for (const auto& object : state->objects) {
@@ -230,7 +230,7 @@ void take_parameters(const SceneRecord& record, Scene& scene) {
     for (const auto& [owner, values] : record.parameters) scene.set_parameters(owner, values);
 }
 
-// What an object refuses is a fault of the file.
+// Content that an object refuses is a fault of the file.
 [[noreturn]] void refuse_content(const Error& error) {
     constexpr ErrorCode kOwn[] = {ErrorCode::memory_limit,    ErrorCode::cancelled,
                                   ErrorCode::unsupported,     ErrorCode::file_truncated,
@@ -259,7 +259,8 @@ bool keeps_history(const Scene& scene) {
     return scene.history().limit > 0;
 }
 
-// The history of a folder, where it has one that is wanted; it belongs to these very files.
+// Returns the history of a folder, if it has one and it is asked for; it belongs to these very
+// files.
 std::optional<FileContent> history_of_folder(const fs::path& folder, const SceneJson& json,
                                              const Scene& scene, const Context& context) {
     if (!keeps_history(scene) || !has_in_folder(folder, kHistoryFile)) return std::nullopt;

@@ -1,6 +1,6 @@
 /// Scene files: a whole scene in one file or in a folder, to be gone on with. Numbers are kept to
-/// the bit, so that what is loaded has the hash of what was saved; its history is kept where that
-/// is asked for. What files had beside a mesh (materials, skeletons) is not kept.
+/// the bit, so that a loaded scene has the hash of the saved one; its history is kept on request.
+/// Contents of files beside a mesh (materials, skeletons) are not kept.
 ///
 /// A file is an uncompressed tar archive. Its part "scene.json" lists objects and items with their
 /// plain values; lists of numbers are parts of their own, little-endian as they lie in memory,
@@ -46,7 +46,7 @@ class ItemMaker {
 };
 
 enum class SceneForm {
-    /// A folder where the path is one, ends with '/', or names nothing that exists and has no
+    /// A folder if the path is one, ends with '/', or names nothing that exists and has no
     /// extension; else a file.
     automatic,
     file,
@@ -59,9 +59,9 @@ struct SceneSaveOptions {
     bool history = false;
 };
 
-/// A scene as the bytes of a file, and what had no place in it, a sentence each: materials of
-/// meshes, deformations whose mesh has another topology by now, and steps of the history with such
-/// a deformation. Errors: memory_limit; file_too_large; cancelled; invalid_argument for a history
+/// A scene as the bytes of a file, and its omissions, a sentence each: materials of meshes,
+/// deformations whose mesh has another topology by now, and steps of the history with such a
+/// deformation. Errors: memory_limit; file_too_large; cancelled; invalid_argument for a history
 /// while a step is open.
 struct EncodedScene {
     std::string bytes;
@@ -70,15 +70,15 @@ struct EncodedScene {
 EncodedScene encode_scene(Scene& scene, const SceneSaveOptions& options = {},
                           const Context& context = {});
 
-/// Adds the objects of a file to an empty scene, with its parameters, and with its history where
-/// the file has one and the scene keeps any; else its history then begins there. Errors:
-/// file_syntax, file_truncated, for what is no scene file or a damaged one; unsupported for a newer
-/// version; invalid_argument for a scene with objects or an open step; memory_limit; cancelled. The
-/// scene is then empty as before.
+/// Adds the objects of a file to an empty scene, with its parameters, and with its history if the
+/// file has one and the scene keeps any; else its history then begins there. Errors: file_syntax,
+/// file_truncated, for other files or a damaged one; unsupported for a newer version;
+/// invalid_argument for a scene with objects or an open step; memory_limit; cancelled. The scene is
+/// then empty as before.
 void decode_scene(std::string_view bytes, Scene& scene, ItemMaker& maker,
                   const Context& context = {});
 
-/// Writes the scene as it is now, whole or not at all, and returns what was left out. In a folder,
+/// Writes the scene as it is now, whole or not at all, and returns its omissions. In a folder,
 /// files that are no part of the scene stay, and parts that have not changed are not written.
 /// Errors: also file_write_failed; file_is_directory.
 std::vector<std::string> save_scene(Scene& scene, const std::filesystem::path& path,

@@ -13,10 +13,10 @@
 
 namespace lissom {
 
-/// What an object of a scene is.
+/// Kinds of objects of a scene.
 enum class ItemKind { mesh, deformation, strands, hairstyle, polyline };
 
-/// The name of a kind in scripts and files: "mesh".
+/// Returns the name of a kind in scripts and files: "mesh".
 std::string_view kind_name(ItemKind kind);
 
 /// The content of an item at one time: immutable, and shared by all states of the scene between two
@@ -47,19 +47,19 @@ class SceneItem {
     SceneItem& operator=(const SceneItem&) = delete;
     virtual ~SceneItem();
     virtual ItemKind kind() const = 0;
-    /// The live thing: two items of one thing are captured once.
+    /// Returns the live thing: two items of one thing are captured once.
     virtual const void* identity() const = 0;
     /// Items that change along with it, and are captured and put back before it: the mesh of a
     /// deformation.
     virtual std::vector<std::shared_ptr<SceneItem>> parts() const { return {}; }
-    /// The content now: `last` itself where nothing has changed since that was captured, and else a
-    /// content that shares with it what is the same. `last` may be null.
+    /// Returns the content now: `last` itself if nothing has changed since its capture, else a
+    /// content that shares with it all equal parts. `last` may be null.
     virtual std::shared_ptr<const ItemContent> capture(
         const std::shared_ptr<const ItemContent>& last, ContentStore& store) const = 0;
-    /// Puts a content of this item back into the live thing, to the bit. `present` is what the
-    /// thing holds now, or null if that is not known. After an error nothing has changed.
+    /// Puts a content of this item back into the live thing, to the bit. `present` is the content
+    /// of the thing now, or null if that is not known. After an error nothing has changed.
     virtual void restore(const ItemContent& content, const ItemContent* present) = 0;
-    /// Bytes of the live thing, about, beside what its contents share with it.
+    /// Returns the bytes of the live thing, about, beside those shared with its contents.
     virtual std::size_t memory_bytes() const = 0;
 
   protected:

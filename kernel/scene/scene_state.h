@@ -14,12 +14,12 @@
 
 namespace lissom {
 
-/// How an object is drawn; what its kind has no use for is left alone. Colours are sRGB, each part
-/// 0 to 1.
+/// Look of a drawn object; fields without a use for its kind are ignored. Colours are sRGB, each
+/// part 0 to 1.
 struct ObjectStyle {
     /// Absent: that of its kind, or of a mesh's vertices.
     std::optional<Vec3> color = std::nullopt;
-    /// Draw the colours of the attribute "color" where a mesh has it.
+    /// Draw the colours of the attribute "color" if a mesh has it.
     bool vertex_colors = true;
     /// One normal a face instead of smooth ones.
     bool flat = false;
@@ -85,10 +85,10 @@ struct CapturedItem {
 /// A scene at one time; immutable.
 struct SceneState {
     ObjectList objects;
-    /// All items of the objects, each once, parts before what they are parts of.
+    /// All items of the objects, each once, parts before their wholes.
     std::vector<CapturedItem> items;
 
-    /// The content of the item of this identity, or null; found at once where it is the one at
+    /// Returns the content of the item of this identity, or null; found at once if it is the one at
     /// `hint`.
     std::shared_ptr<const ItemContent> find(const void* identity, std::size_t hint = 0) const;
     bool operator==(const SceneState&) const = default;

@@ -1,4 +1,4 @@
-/// SharedBlocks: an immutable copy of an array, in blocks that it shares with an earlier copy where
+/// SharedBlocks: an immutable copy of an array, in blocks that it shares with an earlier copy if
 /// both are equal; so a change of an eighth of the array costs an eighth.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace lissom {
 
 class SharedBlocks {
   public:
-    /// Of one block: 4096 positions.
+    /// Bytes of one block: 4096 positions.
     static constexpr std::size_t kBlockBytes = std::size_t{96} << 10;
 
     /// No bytes.
@@ -47,7 +47,7 @@ class SharedBlocks {
     std::vector<std::shared_ptr<const Block>> blocks_;
 };
 
-/// The bytes of a list of numbers or vectors.
+/// Returns the bytes of a list of numbers or vectors.
 template <typename T>
 std::span<const std::byte> byte_view(const std::vector<T>& list) {
     return std::as_bytes(std::span<const T>(list));

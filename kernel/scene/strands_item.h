@@ -23,7 +23,7 @@ class StrandsContent : public ItemContent {
     /// Shares with `last`, which may be null.
     StrandsContent(const Strands& strands, const StrandsContent* last, ContentStore& store);
 
-    /// The strands again, with all that they held.
+    /// Returns the strands again, with all that they held.
     Strands strands() const;
     /// Puts them back into `strands`, which hold `present` now; false if more than points differ.
     bool write_points(Strands& strands, const StrandsContent& present) const;

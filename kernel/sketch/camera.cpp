@@ -82,7 +82,7 @@ constexpr std::array<std::string_view, 7> kViewNames{"front", "back",   "left", 
 constexpr double kThreeQuarterAzimuth = 35.0 * kPi / 180.0;
 constexpr double kThreeQuarterElevation = 20.0 * kPi / 180.0;
 
-// From the object to the camera, and the picture's up, where y is up and z comes to the front.
+// From the object to the camera, and the picture's up, with y up and z to the front.
 struct ViewAxes {
     Vec3 outward;
     Vec3 up;
@@ -130,7 +130,7 @@ void require_valid(std::span<const Vec3> points, const FramingOptions& options) 
 }
 
 // The nearest pair of planes through one axis of the picture that hold all points between them: the
-// distance of the line they meet in, before depth 0, and where it crosses the axis.
+// distance of their line of intersection, before depth 0, and its crossing of the axis.
 struct Fit {
     double distance;
     double center;

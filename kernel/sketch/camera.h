@@ -13,9 +13,9 @@
 
 namespace lissom {
 
-/// What a camera is made from.
+/// Parameters of a camera.
 struct CameraOptions {
-    /// Where the camera stands; without perspective, the plane that depths are measured from.
+    /// Position of the camera; without perspective, the plane that depths are measured from.
     Vec3 eye = Vec3(0.0, 0.0, 5.0);
     /// The point in the middle of the picture.
     Vec3 target = Vec3::Zero();
@@ -64,15 +64,15 @@ class Camera {
     Vec3 to_camera(const Vec3& world) const { return axes_ * (world - options_.eye); }
     Vec3 to_world(const Vec3& camera) const { return axes_.transpose() * camera + options_.eye; }
 
-    /// Half the height, in world units, of what the picture shows at `depth`.
+    /// Returns half the height, in world units, of the picture at `depth`.
     double half_height(double depth) const;
 
     /// World point to (x, y, depth), x and y in pixels. With perspective, x and y of a point that
     /// is not in front of the camera (depth <= 0) are NaN.
     Vec3 project(const Vec3& world, const PictureSize& size) const;
-    /// The inverse: pixel position and depth to the world point.
+    /// Returns the inverse: pixel position and depth to the world point.
     Vec3 unproject(const Vec3& pixel_and_depth, const PictureSize& size) const;
-    /// The ray of points seen at a pixel position; it starts at depth 0.
+    /// Returns the ray of points seen at a pixel position; it starts at depth 0.
     Ray ray(double x, double y, const PictureSize& size) const;
 
   private:
@@ -87,7 +87,7 @@ enum class StandardView { front, back, left, right, top, bottom, three_quarter }
 
 /// Name of a view: "front", ..., "three-quarter".
 std::string_view view_name(StandardView view);
-/// The view called `name`, or nothing.
+/// Returns the view called `name`, or nothing.
 std::optional<StandardView> find_view(std::string_view name);
 
 /// The axis of the world that points up in a standard view.
@@ -98,18 +98,18 @@ struct FramingOptions {
     ViewUp up = ViewUp::y;
     /// Width of the picture divided by its height.
     double aspect = 4.0 / 3.0;
-    /// Vertical opening angle in radians; unused where `ortho`.
+    /// Vertical opening angle in radians; unused with `ortho`.
     double fov = kPi / 6.0;
     bool ortho = false;
     /// Share of the picture left free on every side, 0 to less than 0.5.
     double margin = 0.06;
 };
 
-/// The camera that sees `points` from a side, as large as the margin allows and centred. A single
-/// point is framed as if it had extent 1. Errors: invalid_argument for no points or options out of
-/// range; not_finite.
+/// Returns the camera that sees `points` from a side, as large as the margin allows and centred. A
+/// single point is framed as if it had extent 1. Errors: invalid_argument for no points or options
+/// out of range; not_finite.
 Camera frame_points(StandardView view, std::span<const Vec3> points, const FramingOptions& = {});
-/// The same for all of a bounding box. Errors: also invalid_argument for an empty box.
+/// Returns the same for all of a bounding box. Errors: also invalid_argument for an empty box.
 Camera frame_box(StandardView view, const Box& box, const FramingOptions& = {});
 
 }  // namespace lissom

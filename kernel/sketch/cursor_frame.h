@@ -15,21 +15,21 @@ class CursorFrame {
   public:
     CursorFrame(const View& view, const Vec2& pixel, const PickScene::Object& object);
 
-    /// A point of the object: to the right and upwards from the pixel's ray, and its depth.
+    /// Returns a point of the object: to the right and upwards from the pixel's ray, and its depth.
     Vec3 from_ray(const Vec3& local) const { return axes_ * (local - origin_) - shift_; }
-    /// Whether a point can be seen at all, by its depth.
+    /// Returns whether a point can be seen at all, by its depth.
     bool is_in_front(double depth) const { return ortho_ ? depth >= 0.0 : depth > 0.0; }
-    /// Pixels from the pixel to where a point in front is seen, to the right and down.
+    /// Returns pixels from the pixel to the image of a point in front, to the right and down.
     Vec2 pixels(const Vec3& from_ray) const {
         const double scale = ortho_ ? scale_ : scale_ / from_ray.z();
         return {scale * from_ray.x(), -scale * from_ray.y()};
     }
-    /// No point of the box is seen nearer to the pixel, across and up or down; infinite where all
-    /// of it is behind the camera.
+    /// Returns a lower bound for pixels to any point of the box, across and up or down; infinite if
+    /// all of it is behind the camera.
     Vec2 least_pixels(const Box& box) const;
 
-    /// How much corners of the given depths, all in front, count in the point that lies in the
-    /// picture where they count as much as `seen`; both sum to 1.
+    /// Returns the weights of corners of the given depths, all in front, for the point of the
+    /// picture at which their weights are `seen`; both sum to 1.
     template <typename Vector>
     Vector weights(const Vector& seen, const Vector& depths) const {
         if (ortho_) return seen;
@@ -37,8 +37,8 @@ class CursorFrame {
         return counts / counts.sum();
     }
 
-    /// The depth that segments are cut off at that end behind the camera, of one that reaches
-    /// `depth`.
+    /// Returns the depth that segments are cut off at that end behind the camera, of one that
+    /// reaches `depth`.
     double nearest_depth(double depth) const { return ortho_ ? 0.0 : 1e-6 * depth; }
 
     /// From a point to the eye, in the object's frame; its length is that of the way to the eye, or

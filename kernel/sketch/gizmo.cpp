@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 15> kPartNames{
     "move-x",   "move-y",   "move-z",      "move-yz", "move-zx", "move-xy", "move-view", "rotate-x",
     "rotate-y", "rotate-z", "rotate-view", "scale-x", "scale-y", "scale-z", "scale-all"};
 
-// Places of the parts, as fractions of the size. Where all are shown they keep out of each other's
+// Places of the parts, as fractions of the size. If all are shown they keep out of each other's
 // way.
 constexpr double kShaftStart = 0.18;
 constexpr double kPlaneNear = 0.28, kPlaneFar = 0.48;
@@ -38,7 +38,7 @@ constexpr double kEndOn = 0.15, kFromTheSide = 0.3;
 constexpr double kFacing = 0.98;
 constexpr int kRingSegments = 64;
 
-// What of a gizmo is asked for again and again in one view.
+// Values of a gizmo reused in one view.
 struct Frame {
     const View& view;
     Vec3 origin, to_eye;
@@ -78,7 +78,7 @@ void add_arrow(const Frame& frame, int k, double tip, GizmoShape& shape) {
     const GizmoPart part = axis_part(GizmoPart::move_x, k);
     shape.lines.push_back(
         {part, axis_role(k), {frame.point(axis, kShaftStart), frame.point(axis, tip)}});
-    // Barbs that are seen in full from where the camera stands.
+    // Barbs seen in full from the camera.
     const Vec3 aside = kBarbWidth * frame.length * axis.cross(frame.to_eye).normalized();
     const Vec3 back = frame.point(axis, tip - kBarbLength);
     shape.lines.push_back(
@@ -140,7 +140,7 @@ Distance distance_to(const GizmoPoint& point, const View& view, const Vec2& curs
     return {(seen.head<2>() - cursor).norm(), seen.z()};
 }
 
-// Lines of a gizmo are short beside its depth; those that reach behind the camera are not dragged.
+// Lines of a gizmo are short beside its depth; lines that reach behind the camera are not dragged.
 Distance distance_to(const GizmoLine& line, const View& view, const Vec2& cursor) {
     std::vector<Vec3> seen;
     for (const Vec3& p : line.points) seen.push_back(view.project(p));
@@ -256,7 +256,7 @@ GizmoShape Gizmo::shape(const View& view) const {
 
 std::optional<GizmoPart> Gizmo::hit(const View& view, const Vec2& cursor, double reach) const {
     const GizmoShape shown = shape(view);
-    // What the cursor is on comes first, then distance and depth.
+    // A part under the cursor comes first, then distance and depth.
     enum { on_point, on_line, in_plane, near_line, nothing };
     using Rank = std::tuple<int, double, double>;
     Rank best{nothing, 0.0, 0.0};

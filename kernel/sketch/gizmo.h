@@ -1,6 +1,6 @@
 /// Gizmo: axes, planes and rings around a point, by which a hand moves, turns and scales. A value
-/// that draws nothing: `shape` says what to draw, `hit` what is under the cursor, and GizmoDrag
-/// (gizmo_drag.h) what a drag of it means.
+/// that draws nothing: `shape` returns the lines to draw, `hit` the part under the cursor, and
+/// GizmoDrag (gizmo_drag.h) interprets a drag of it.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,14 @@
 
 namespace lissom {
 
-/// What the parts do.
+/// Action of the parts.
 enum class GizmoMode { move, rotate, scale, all };
 
-/// Where the axes point: along those of the world, of the object, or of the picture (to the right,
-/// upwards and to the viewer).
+/// Directions of the axes: along those of the world, of the object, or of the picture (to the
+/// right, upwards and to the viewer).
 enum class GizmoAxes { world, local, view };
 
-/// What can be dragged. Planes are named by the axes that lie in them.
+/// Parts that can be dragged. Planes are named by the axes that lie in them.
 enum class GizmoPart {
     move_x,
     move_y,
@@ -44,13 +44,13 @@ enum class GizmoPart {
 
 /// Name of a part: "move-x", ..., "scale-all".
 std::string_view part_name(GizmoPart part);
-/// The part called `name`, or nothing.
+/// Returns the part called `name`, or nothing.
 std::optional<GizmoPart> find_part(std::string_view name);
 
-/// What a part belongs to, for its color: an axis, or the view.
+/// Group of a part, for its color: an axis, or the view.
 enum class GizmoRole { x, y, z, view };
 
-/// Color of a role in sRGB, each part 0 to 1; of what is under the cursor the same for all.
+/// Returns the color of a role in sRGB, each part 0 to 1; one color for every highlighted role.
 Vec3 role_color(GizmoRole role, bool highlighted);
 
 /// A polyline to draw, in the world.
@@ -58,7 +58,7 @@ struct GizmoLine {
     GizmoPart part;
     GizmoRole role;
     std::vector<Vec3> points;
-    /// Runs back to its first point; what it goes around belongs to the part.
+    /// Runs back to its first point; the area inside belongs to the part.
     bool closed = false;
     /// Pixels.
     double width = 2.0;
@@ -100,20 +100,21 @@ class Gizmo {
     const GizmoOptions& options() const { return options_; }
     const Vec3& origin() const { return options_.origin; }
 
-    /// The three axes in a view, as columns of unit length.
+    /// Returns the three axes in a view, as columns of unit length.
     Mat3 axes(const Camera& camera) const;
     /// Length of an axis in the world, as `size` asks for it at the origin.
     double length(const View& view) const;
-    /// Whether the origin lies in front of the camera: nothing is shown or dragged otherwise.
+    /// Returns whether the origin lies in front of the camera: nothing is shown or dragged
+    /// otherwise.
     bool is_seen(const View& view) const;
 
-    /// What to draw. Axes that are seen end-on and planes that are seen from the side are left out;
-    /// of rings the half in front is shown.
+    /// Returns the lines to draw. Axes that are seen end-on and planes that are seen from the side
+    /// are left out; of rings the half in front is shown.
     GizmoShape shape(const View& view) const;
 
-    /// The part under the cursor, of those that `shape` shows: a point before a line, a line before
-    /// the inside of a plane, and that before lines that are only near, up to `reach` pixels; of
-    /// several the nearest in pixels, then in depth.
+    /// Returns the part under the cursor, of those that `shape` shows: a point before a line, a
+    /// line before the inside of a plane, and that before lines that are only near, up to `reach`
+    /// pixels; of several the nearest in pixels, then in depth.
     std::optional<GizmoPart> hit(const View& view, const Vec2& cursor, double reach = 7.0) const;
 
   private:

@@ -28,7 +28,7 @@ GizmoKind kind_of(GizmoPart part) {
     return part >= GizmoPart::rotate_x ? GizmoKind::rotate : GizmoKind::move;
 }
 
-// Place of a part among those that are alike: 0 to 2, or 3 for that of the view.
+// Returns the place of a part in its group: 0 to 2, or 3 for that of the view.
 int axis_of(GizmoPart part, GizmoPart first) {
     return static_cast<int>(part) - static_cast<int>(first);
 }
@@ -47,7 +47,7 @@ double factor_of(double outwards) {
     return outwards >= 0.0 ? 1.0 + outwards : 1.0 / (1.0 - outwards);
 }
 
-// Of the matrix that maps lengths to pixels the inverse, but no pixel makes more than 1 / `least`.
+// Returns the inverse of the matrix that maps lengths to pixels, but limits a pixel to 1 / `least`.
 Eigen::Matrix2d bounded_inverse(const Eigen::Matrix2d& map, double least) {
     const Eigen::Matrix2d square = map.transpose() * map;
     const double angle = 0.5 * std::atan2(2.0 * square(0, 1), square(0, 0) - square(1, 1));
@@ -161,8 +161,9 @@ void GizmoDrag::set_ring(const Vec3& axis) {
     set_track(first, axis.cross(first));
 }
 
-// What the cursor says: lengths along the track, an angle, or how far outwards a handle has gone,
-// in its own distance. From the same place of the cursor always the same, but for full turns.
+// Returns the reading of the cursor: lengths along the track, an angle, or the distance of a handle
+// outwards, in its own distance. From the same place of the cursor always the same, but for full
+// turns.
 Vec2 GizmoDrag::read(const Vec2& cursor) {
     const Vec2 from_origin = cursor - origin_;
     if (motion_.kind == GizmoKind::rotate) return {read_angle(from_origin), 0.0};
@@ -179,7 +180,7 @@ double GizmoDrag::read_angle(const Vec2& from_origin) {
     const Vec2 flat = track_.unproject * from_origin;
     const double angle = std::atan2(flat.y(), flat.x());
     if (has_angle_) return angle + 2.0 * kPi * std::round((read_.x() - angle) / (2.0 * kPi));
-    // The first place that has an angle is where the turn starts.
+    // The turn starts at the first place that has an angle.
     has_angle_ = true;
     anchor_read_.x() = angle;
     return angle;

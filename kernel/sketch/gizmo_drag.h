@@ -1,4 +1,4 @@
-/// GizmoDrag: what a hand that holds a part of a gizmo means by its moves.
+/// GizmoDrag: converts cursor drags of a gizmo's part to transforms.
 #pragma once
 
 #include <optional>
@@ -11,30 +11,30 @@ namespace lissom {
 
 enum class GizmoKind { move, rotate, scale };
 
-/// What has been done since the press.
+/// Motion since the press.
 struct GizmoMotion {
     GizmoKind kind = GizmoKind::move;
-    /// Of a move.
+    /// Translation of a move.
     Vec3 translation = Vec3::Zero();
-    /// Of a turn: unit vector, and angle in radians, which counts full turns.
+    /// Turn: unit vector, and angle in radians, which counts full turns.
     Vec3 axis = Vec3::Zero();
     double angle = 0.0;
-    /// Of scaling: along the gizmo's axes, the columns of `axes`.
+    /// Factors of scaling: along the gizmo's axes, the columns of `axes`.
     Vec3 factors = Vec3::Ones();
     Mat3 axes = Mat3::Identity();
     /// The point that it is about: the gizmo's origin.
     Vec3 origin = Vec3::Zero();
-    /// What was asked for, as `set_amount` takes it: a length along the axis or two in the plane,
+    /// Amount of the motion, as `set_amount` takes it: a length along the axis or two in the plane,
     /// an angle, a factor.
     Vec2 amount = Vec2::Zero();
 
-    /// The turn or scaling alone, without the place that it is about.
+    /// Returns the turn or scaling alone, without the place that it is about.
     Mat3 linear() const;
-    /// All of it as a map of the world.
+    /// Returns all of it as a map of the world.
     Affine affine() const;
 };
 
-/// What keys say during a drag.
+/// Modifiers set by keys during a drag.
 struct GizmoModifiers {
     /// Whole steps only.
     bool snap = false;
@@ -55,9 +55,9 @@ struct GizmoSteps {
 /// The part follows the cursor as exactly as perspective allows. If that would run away - an axis
 /// seen end-on, a plane seen from the side, the cursor near or beyond the horizon - it moves at
 /// most ten times as fast as at the gizmo's origin. Without snapping the motion depends on the
-/// cursor continuously and, full turns apart, on nothing else: it is the identity again where the
-/// cursor is back. Only a turn changes fast where the cursor passes by the origin; within 4 pixels
-/// of it the angle stays.
+/// cursor continuously and, full turns apart, on nothing else: it is the identity again if the
+/// cursor is back. Only a turn changes fast if the cursor passes by the origin; within 4 pixels of
+/// it the angle stays.
 class GizmoDrag {
   public:
     /// The cursor presses `part`, which need not be under it. The view is that of the whole drag.
@@ -66,21 +66,21 @@ class GizmoDrag {
     GizmoDrag(const Gizmo& gizmo, GizmoPart part, const View& view, const Vec2& cursor,
               const GizmoSteps& steps = {});
 
-    /// The cursor has moved. When `precise` changes, the motion goes on from where it is.
-    /// Errors: not_finite.
+    /// Moves the cursor and returns the motion. When `precise` changes, the motion goes on from its
+    /// present value. Errors: not_finite.
     const GizmoMotion& drag(const Vec2& cursor, const GizmoModifiers& modifiers = {});
 
-    /// A typed number in place of the cursor: the length of a move along the axis, the angle in
-    /// radians, the factor; in a plane the lengths along its two axes (to the right and upwards in
-    /// that of the view). Not snapped. A later `drag` goes on as if it had not been typed.
-    /// Errors: not_finite; invalid_argument for a factor of 0.
+    /// Returns a typed number in place of the cursor: the length of a move along the axis, the
+    /// angle in radians, the factor; in a plane the lengths along its two axes (to the right and
+    /// upwards in that of the view). Not snapped. A later `drag` goes on as if it had not been
+    /// typed. Errors: not_finite; invalid_argument for a factor of 0.
     const GizmoMotion& set_amount(double amount) { return set_amount(Vec2(amount, 0.0)); }
     const GizmoMotion& set_amount(const Vec2& amounts);
 
     const GizmoMotion& motion() const { return motion_; }
     GizmoPart part() const { return part_; }
 
-    /// The gizmo at the end of the motion: moved along, its local axes turned.
+    /// Returns the gizmo at the end of the motion: moved along, its local axes turned.
     Gizmo moved() const;
 
   private:
@@ -111,9 +111,9 @@ class GizmoDrag {
     Track track_;
     /// Distance of a scale handle that the cursor holds.
     double reach_ = 1.0;
-    /// Of a ring that is seen from the side: radians a pixel.
+    /// For a ring that is seen from the side: radians a pixel.
     std::optional<Vec2> tangent_;
-    /// What was read last, and the value it stands for; the same where `precise` changed last.
+    /// The last reading, and its value; the same at the last change of `precise`.
     Vec2 read_ = Vec2::Zero(), value_ = Vec2::Zero();
     Vec2 anchor_read_ = Vec2::Zero(), anchor_value_ = Vec2::Zero();
     bool has_angle_ = false;

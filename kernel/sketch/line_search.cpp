@@ -8,8 +8,8 @@
 namespace lissom {
 namespace {
 
-// What is seen in a square around the pixel lies inside of four planes through the eye; points have
-// a bit for each that they are outside of.
+// The points seen in a square around the pixel lie inside of four planes through the eye; points
+// have a bit for each plane that they are outside of.
 class SquareCone {
   public:
     SquareCone(const Affine& to_world, const View& view, const Vec2& cursor, double radius) {
@@ -41,7 +41,7 @@ class SquareCone {
     std::array<double, 4> distances_;
 };
 
-// A segment with both ends outside of one plane is not seen in the square. Of a line of which
+// A segment with both ends outside of one plane is not seen in the square. For a line of which
 // nothing is seen the run is {line, 0, -1}.
 LineRun seen_run(const SquareCone& cone, const float* points, Index count, Index line) {
     LineRun run{line, 0, -1};

@@ -19,11 +19,11 @@ struct LineRun {
     bool operator==(const LineRun&) const = default;
 };
 
-/// The lines that may be seen nearer to `cursor` than `radius` pixels, across and up or down, in
-/// ascending order: all of those that are, and few others. Of each the shortest run that has all
-/// of its segments that may be. Line i has the points offsets[i] ..
-/// offsets[i + 1] - 1 of `points`, x y z of each; lines with a point that is not finite are left
-/// out. Errors: invalid_argument for a radius that is negative or not finite; cancelled.
+/// Returns the lines that may be seen nearer to `cursor` than `radius` pixels, across and up or
+/// down, in ascending order: all of those that are, and few others. Each has the shortest run with
+/// all of its segments that may be. Line i has the points offsets[i] .. offsets[i + 1] - 1 of
+/// `points`, x y z of each; lines with a point that is not finite are left out. Errors:
+/// invalid_argument for a radius that is negative or not finite; cancelled.
 std::vector<LineRun> lines_near(std::span<const float> points, std::span<const Index> offsets,
                                 const Affine& to_world, const View& view, const Vec2& cursor,
                                 double radius, const Context& context = {});

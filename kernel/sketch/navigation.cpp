@@ -12,7 +12,7 @@ namespace {
 // How near to its up a camera may look, in radians.
 constexpr double kPole = 1e-3 * kDegree;
 constexpr double kNearest = 1e-6, kFarthest = 1e6;
-// Depth of the nearest corner of what is framed, in radii.
+// Depth of the nearest corner of the framed box, in radii.
 constexpr double kNearestCorner = 1e-3;
 
 void require_finite_drag(const Vec2& drag) {
@@ -62,7 +62,7 @@ Camera panned(const View& view, const Vec2& drag) {
 
 Camera zoomed(const View& view, const Vec2& cursor, double factor, double size) {
     require(factor > 0.0 && std::isfinite(factor), "a zoom needs a factor above 0");
-    require(size > 0.0 && std::isfinite(size), "what is looked at needs a size above 0");
+    require(size > 0.0 && std::isfinite(size), "the object looked at needs a size above 0");
     require_finite_drag(cursor);
     const Camera& camera = view.camera;
     CameraOptions options = camera.options();
@@ -106,7 +106,7 @@ Camera framed(const View& view, const Box& box, double margin) {
     // A point is framed as a small box.
     const double least = 1e-12 * (1.0 + box.center().norm());
     const double radius = std::max(half.norm(), least);
-    // Of a picture without perspective, and of one with it at depth 1.
+    // Room of a picture without perspective, and of one with it at depth 1.
     const double room = 1.0 - 2.0 * margin;
     const double tangent = room * (camera.is_ortho() ? 1.0 : std::tan(0.5 * camera.fov()));
     double height = least / room, distance = 2.0 * least;

@@ -1,5 +1,5 @@
-/// PickScene: what can be picked in a picture: surfaces, points such as handles, and polylines such
-/// as curves and strands, each where it stands in the world.
+/// PickScene: the pickable objects of a picture: surfaces, points such as handles, and polylines
+/// such as curves and strands, each placed in the world.
 #pragma once
 
 #include <span>
@@ -45,7 +45,7 @@ class PolylineSet {
     std::span<const Segment> segments() const { return segments_; }
     /// Place of a segment in its line, from 0.
     Index place(const Segment& segment) const { return segment.first - offsets_[at(segment.line)]; }
-    /// The boxes of the segments.
+    /// Returns the boxes of the segments.
     const BoxTree& boxes() const { return boxes_; }
 
   private:
@@ -55,7 +55,7 @@ class PolylineSet {
     BoxTree boxes_;
 };
 
-/// Where an object stands, and how it is drawn.
+/// Placement of an object, and its drawn sides.
 struct Placement {
     /// From the object's own frame to the world.
     Affine to_world = {};

@@ -21,9 +21,9 @@ namespace {
 // Pixels' length that points and lines may lie behind a surface: they are drawn that much nearer.
 constexpr double kOverlaySlack = 2.0;
 constexpr int kMostLookedAt = 10000;
-// From so many on it is worth to know what hides them.
+// From this many on, testing for occlusion pays.
 constexpr int kManyHidden = 16;
-// Distances that differ by less are one: what lies behind one another is told by its depth.
+// Distances that differ by less are equal: depth then decides.
 constexpr double kPixelStep = 1e-6;
 constexpr double kSameDistance = 1e-12;
 
@@ -35,8 +35,7 @@ struct Candidate {
     Vec3 local = Vec3::Zero();
 };
 
-// A triangle that has hidden something, in the world: where much is hidden, it mostly hides the
-// next thing too.
+// A triangle that has hidden something, in the world: it often hides the next thing too.
 class Curtain {
   public:
     Curtain(const View& view, const std::array<Vec3, 3>& corners)
@@ -65,7 +64,7 @@ class Curtain {
     Mat3 frame_;
 };
 
-// The nearest things of one kind, one after the other: boxes and what is in them wait in one queue
+// The nearest things of one kind, one after the other: boxes and their contents wait in one queue
 // by their least distance (Hjaltason and Samet 1999).
 class NearestSearch {
   public:
@@ -77,11 +76,11 @@ class NearestSearch {
   private:
     struct Entry {
         double step;
-        // A node, or where the node is kNoIndex a candidate.
+        // A node, or a candidate if the node is kNoIndex.
         Index object, node;
         Candidate candidate;
 
-        // What is seen at one place: first nodes, then by depth.
+        // Order at equal distance: first nodes, then by depth.
         auto order() const {
             return std::tuple(step, node == kNoIndex, candidate.depth, object, candidate.index,
                               candidate.segment);
@@ -227,7 +226,7 @@ void NearestSearch::offer_point(Index object, Index index, const Vec3& point) {
     offer({pixels, from_ray.z(), object, index, 0, 0.0, point});
 }
 
-// The point of a segment that is seen nearest to the cursor, where that is within the radius.
+// Returns the point of a segment that is seen nearest to the cursor, if it is within the radius.
 std::optional<Candidate> NearestSearch::nearest_on(Index object, const Vec3& a,
                                                    const Vec3& b) const {
     const CursorFrame& frame = frames_[at(object)];
@@ -394,7 +393,7 @@ void NearestSearch::attach_edge(const Candidate& candidate, PickHit& hit) const 
     hit.vertex = candidate.along > 0.5 ? b : a;
 }
 
-// Of the faces those that are turned to the camera, of these the first one, and its triangle with
+// Prefers faces that are turned to the camera, of these the first one, and adds its triangle with
 // all the vertices.
 void NearestSearch::attach_face(std::span<const Index> faces, std::span<const Index> vertices,
                                 PickHit& hit) const {
@@ -421,7 +420,7 @@ PickHit face_hit(const PickScene& scene, const View& view, Index object,
     return hit;
 }
 
-// Faces along the ray in ascending distance: all of them where `through`, or the first.
+// Returns faces along the ray in ascending distance: all of them with `through`, else the first.
 std::vector<PickHit> pick_faces(const PickScene& scene, const View& view, const Vec2& cursor,
                                 const PickOptions& options) {
     const Ray ray = view.ray(cursor);
@@ -435,7 +434,7 @@ std::vector<PickHit> pick_faces(const PickScene& scene, const View& view, const 
         const double length = direction.norm();
         const auto keep = [&](const SurfacePoint& point) {
             const double distance = point.distance / length;
-            // Two triangles of a face meet where the ray hits it: that is one hit.
+            // A hit on the shared edge of two triangles of a face is one hit.
             const bool again = !found.empty() && found.back().second.object == i &&
                                found.back().second.face == point.face &&
                                distance <= found.back().first * (1.0 + kSameDistance);

@@ -1,5 +1,5 @@
-/// Picking: what lies under the cursor in a picture, by rays and by distances in pixels. Nothing is
-/// drawn for it.
+/// Picking: finds the element under the cursor in a picture, by rays and by distances in pixels.
+/// Nothing is drawn for it.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace lissom {
 
-/// What can be picked, in the order in which one is preferred to another within the radius: what
-/// lies over a surface before what it consists of, and smaller things before larger ones.
+/// Kinds of pickable elements, in order of preference within the radius: elements over a surface
+/// before its own, and smaller ones before larger ones.
 enum class PickKind {
     /// A point of a PointSet.
     point,
@@ -32,19 +32,18 @@ enum class PickKind {
 };
 
 struct PickOptions {
-    /// What to look for; of several kinds the first of PickKind that has anything within the
-    /// radius.
+    /// Kinds to search for; the first of PickKind within the radius counts.
     std::vector<PickKind> kinds{PickKind::face};
     /// Pixels that points and lines may be away from the cursor.
     double radius = 8.0;
     /// Whether faces count that are seen from behind. If not, they are as if they were not there:
     /// neither picked nor hiding anything.
     bool back_faces = true;
-    /// Also what surfaces hide.
+    /// Includes elements that surfaces hide.
     bool through = false;
 };
 
-/// What was found. Ids are those of the object's own elements.
+/// Picked element. Ids are those of the object's own elements.
 struct PickHit {
     PickKind kind = PickKind::face;
     /// Number of the object in the scene, and of the point, line, vertex, loop, edge or face in it.
@@ -53,7 +52,7 @@ struct PickHit {
     /// that is seen nearest to the cursor, 0 to 1; an edge runs as Topology::edge says.
     Index segment = kNoIndex;
     double along = 0.0;
-    /// Of a surface: the face at the point, the triangle of that face, the barycentric coordinates
+    /// For a surface: the face at the point, the triangle of that face, the barycentric coordinates
     /// of the point in it and the nearest of its vertices. An edge or vertex has a face that is
     /// turned to the camera if there is one.
     Index face = kNoIndex;
@@ -67,19 +66,17 @@ struct PickHit {
     double depth = 0.0, pixels = 0.0;
 };
 
-/// What lies under the cursor: of the first kind that there is, the nearest in pixels that is not
-/// hidden, where the picture is nearer than `radius`; of equally near ones the one with the least
+/// Returns the element under the cursor: of the first kind that is found, the nearest in pixels
+/// that is not hidden, if it is nearer than `radius`; of equally near ones the one with the least
 /// depth. Without `through`, hidden things are skipped; of very many within the radius the nearest
 /// 10,000 are looked at. Points and lines may lie two pixels' length behind a surface without being
-/// hidden by it.
-/// Errors: invalid_argument for a radius that is negative or not finite, or a picture without size;
-/// not_finite for the cursor.
+/// hidden by it. Errors: invalid_argument for a radius that is negative or not finite, or a picture
+/// without size; not_finite for the cursor.
 std::optional<PickHit> pick(const PickScene& scene, const View& view, const Vec2& cursor,
                             const PickOptions& options = {});
 
-/// All of it in that order, at most `most`; of faces with `through` all along the ray, without it
-/// the first.
-/// Errors: as `pick`.
+/// Returns all of it in that order, at most `most`; of faces with `through` all along the ray,
+/// without it the first. Errors: as `pick`.
 std::vector<PickHit> pick_all(const PickScene& scene, const View& view, const Vec2& cursor,
                               const PickOptions& options = {}, std::size_t most = 1000);
 

@@ -87,7 +87,7 @@ class Shape {
             (p.array() >= low_.array()).all() && (p.array() <= high_.array()).all();
         return in_rectangle && encloses(p);
     }
-    // A point of the triangle inside the shape, where the shape selects what it touches.
+    // Returns a point of the triangle inside the shape, if the shape selects triangles it touches.
     virtual std::optional<Vec2> touched(const Corners&) const { return std::nullopt; }
 
   protected:
@@ -127,8 +127,8 @@ class Dab : public Shape {
     double radius_;
 };
 
-// What an outline winds around. Its sides are kept by the bands of the picture that they cross, so
-// that a point is compared with few of them.
+// The inside of an outline, by winding number. Its sides are kept by the bands of the picture that
+// they cross, so that a point is compared with few of them.
 class Lasso : public Shape {
   public:
     explicit Lasso(std::span<const Vec2> outline, const Vec2& low, const Vec2& high)
@@ -169,14 +169,14 @@ class Lasso : public Shape {
     double low_, per_pixel_;
 };
 
-// A point of a surface that lies in the shape, and what is selected if it is not hidden.
+// A point of a surface that lies in the shape, and the element it selects if it is not hidden.
 struct Witness {
     Index element;
     Vec3 local;
 };
 
-// The search on one surface. Shapes are looked at one after the other, and what one of them has
-// selected is not looked at again.
+// The search on one surface. Shapes are tested one after the other; elements selected by one are
+// not tested again.
 class SurfaceSelection {
   public:
     SurfaceSelection(const PickScene& scene, const View& view, Index object,
@@ -193,7 +193,9 @@ class SurfaceSelection {
                                : surface_.topology().face_count()),
                 false) {
         if (!known_) return;
-        require(by_vertex(), "known vertices are left out where vertices are selected, not faces");
+        require(by_vertex(),
+                "known vertices can be left out only when selecting vertices, not "
+                "faces");
         require(known_->topology() == surface_.shared_topology(),
                 "known vertices belong to another mesh, or to an older version of this one",
                 ErrorCode::topology_mismatch);
@@ -229,7 +231,7 @@ class SurfaceSelection {
     const Context& context_;
     Visibility visibility_;
     const Region* known_;
-    // What needs no further look: what is found or known, and vertices that are hidden.
+    // Elements that need no further test: found or known ones, and hidden vertices.
     std::vector<char> done_;
     // Vertices that this shape was asked for.
     std::vector<char> asked_;

@@ -1,4 +1,4 @@
-/// Selection of vertices and faces by what is drawn over a picture: a rectangle, a lasso, a brush.
+/// Selection of vertices and faces by shapes drawn over a picture: a rectangle, a lasso, a brush.
 #pragma once
 
 #include <span>
@@ -12,28 +12,28 @@
 
 namespace lissom {
 
-/// What is selected where a shape is drawn.
+/// Elements selected by a shape.
 enum class SelectKind {
     /// Vertices that are seen inside.
     vertices,
-    /// Faces of which the centroid of a triangle is seen inside, and under a brush those that it
-    /// touches; with all their vertices.
+    /// Faces with a triangle whose centroid is seen inside; a brush also selects faces that it
+    /// touches. With all their vertices.
     faces
 };
 
 struct SelectOptions {
     SelectKind kind = SelectKind::vertices;
-    /// Also what surfaces hide.
+    /// Includes elements that surfaces hide.
     bool through = false;
     /// Whether faces count that are seen from behind. If not, they are as if they were not there:
     /// neither selected, nor their vertices, nor hiding anything.
     bool back_faces = true;
-    /// Vertices that are known already and not looked at, so that a long stroke costs only what is
-    /// new under it: a region for each object of the scene, or null.
+    /// Vertices that are known already and not tested, so that a long stroke costs only as much as
+    /// the new elements under it: a region for each object of the scene, or null.
     std::span<const Region* const> known = {};
 };
 
-/// What is selected of one surface.
+/// Selected elements of one surface.
 struct Selected {
     /// Its number in the scene.
     Index object;
@@ -45,16 +45,16 @@ struct Selected {
     Region unseen;
 };
 
-/// What is seen inside a shape, of every surface of the scene in their order. Pixels may lie
-/// outside the picture. What is partly behind the camera is selected by what is in front. Errors:
-/// not_finite; invalid_argument for a negative radius, a picture without size, or known vertices if
-/// faces are selected; topology_mismatch for those of another surface; cancelled.
+/// Selects the elements seen inside a shape, for every surface of the scene in their order. Pixels
+/// may lie outside the picture. Elements partly behind the camera are selected by their part in
+/// front. Errors: not_finite; invalid_argument for a negative radius, a picture without size, or
+/// known vertices if faces are selected; topology_mismatch for those of another surface; cancelled.
 ///
 /// The rectangle with two opposite corners `a` and `b`.
 std::vector<Selected> select_rectangle(const PickScene& scene, const View& view, const Vec2& a,
                                        const Vec2& b, const SelectOptions& options = {},
                                        const Context& context = {});
-/// What the closed outline goes around, in either direction; where it crosses itself, all that it
+/// Selects inside the closed outline, in either direction; if it crosses itself, everywhere that it
 /// goes around at least once. Fewer than three points enclose nothing.
 std::vector<Selected> select_lasso(const PickScene& scene, const View& view,
                                    std::span<const Vec2> outline, const SelectOptions& options = {},

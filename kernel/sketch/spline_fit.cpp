@@ -68,7 +68,7 @@ class NarrowSystem {
         }
     }
 
-    // Of each row the diagonal and what is 1, 2 and 3 places before it.
+    // Diagonal of each row, and the entries 1, 2 and 3 places before it.
     std::vector<std::array<double, kOrder>> rows_;
     std::vector<Vec2> right_;
 };

@@ -26,9 +26,9 @@ struct CurveSamples {
     std::span<const double> parameters;
 };
 
-/// The spline of `intervals` polynomials nearest to the samples in the sense of least squares. The
-/// first and last sample count as `end_weight` others; `smoothness` weighs the squared second
-/// differences of the controls, so that spans without a sample are determined.
+/// Returns the spline of `intervals` polynomials nearest to the samples in the sense of least
+/// squares. The first and last sample count as `end_weight` others; `smoothness` weighs the squared
+/// second differences of the controls, so that spans without a sample are determined.
 PlaneSpline fit_spline(const CurveSamples& samples, Index intervals, double end_weight = 50.0,
                        double smoothness = 1e-3);
 

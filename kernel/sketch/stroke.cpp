@@ -14,7 +14,7 @@ namespace {
 constexpr double kClickPixels = 6.0, kClickSeconds = 0.25;
 
 // A piece at an end, no longer than this and than a share of the stroke, that turns by more than
-// the angle against what follows, is a hook.
+// the angle against the rest, is a hook.
 constexpr double kHookPixels = 10.0, kHookShare = 0.25, kHookTurn = 57.0 * kPi / 180.0;
 // A shorter one is jitter.
 constexpr double kLeastHook = 3.0;
@@ -31,7 +31,7 @@ constexpr double kFitError = 2.0;
 // Parameters of the fit come from a course that jitter has not made longer.
 constexpr double kParameterSoftening = 4.0;
 
-// Of all lists of a stroke, the events in logical pixels, the place along them of each.
+// Lists of a stroke: the events in logical pixels, the place along them of each.
 struct Course {
     std::vector<Vec2> points;
     std::vector<double> places;
@@ -127,7 +127,7 @@ Course reversed(const Course& course) {
     return course_of({course.points.rbegin(), course.points.rend()});
 }
 
-// First and last event of what was meant.
+// Returns the first and last event without the hooks.
 std::pair<std::size_t, std::size_t> without_hooks(const Course& course) {
     if (course.points.size() < 4) return {0, course.points.size() - 1};
     const std::size_t first = hook_length(course), last = hook_length(reversed(course));
@@ -173,7 +173,8 @@ std::pair<Vec2, Vec2> line_through(const Course& course, double from, double to)
     return {mean, {std::cos(angle), std::sin(angle)}};
 }
 
-// Where the lines to both sides of a place meet, if that is near; else the place itself.
+// Returns the intersection of the lines to both sides of a place, if that is near; else the place
+// itself.
 Vec2 corner_point(const Course& course, double place) {
     const Vec2 seen = course.at(place);
     const auto [a, u] = line_through(course, place - kCornerLineEnd, place - kCornerLineStart);
@@ -245,7 +246,7 @@ std::vector<Vec2> fair_piece(const Course& piece, const StrokeOptions& options) 
 Course piece_between(const Course& course, const Corner& from, const Corner& to) {
     std::vector<Vec2> points{from.point};
     for (std::size_t i = 0; i < course.points.size(); ++i) {
-        // What lies nearer to a corner than that was moved would fold the piece back.
+        // Points nearer to a corner than its displacement would fold the piece back.
         const bool inside = course.places[i] > from.place && course.places[i] < to.place;
         if (inside) points.push_back(course.points[i]);
     }

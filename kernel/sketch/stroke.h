@@ -1,4 +1,4 @@
-/// Stroke: what a hand drew on a picture, as it was meant. Lengths are logical pixels.
+/// Stroke: the intended curve of a drawing on a picture. Lengths are logical pixels.
 #pragma once
 
 #include <span>
@@ -14,13 +14,13 @@ struct StrokeEvent {
     Vec2 pixel = Vec2::Zero();
     /// Seconds from any start; may stand still.
     double time = 0.0;
-    /// 0 to 1; 1 where the device does not tell.
+    /// 0 to 1; 1 if the device does not report it.
     double pressure = 1.0;
 };
 
 struct StrokeOptions {
-    /// How far the stroke may leave what was drawn, as a multiple of what suits a mouse (a mean of
-    /// 2 pixels); 0 keeps every wiggle.
+    /// Distance that the stroke may leave the events, as a multiple of the one for a mouse (a mean
+    /// of 2 pixels); 0 keeps every wiggle.
     double smoothing = 1.0;
     /// Pixels between two points of the result.
     double spacing = 4.0;
@@ -31,7 +31,7 @@ struct StrokeOptions {
 /// A fair curve of evenly spaced points.
 struct Stroke {
     std::vector<Vec2> points;
-    /// Of each point, interpolated along the events.
+    /// Values at each point, interpolated along the events.
     std::vector<double> times, pressures;
     /// The points, in ascending order, that are corners which were meant; never an end.
     std::vector<Index> corners;
@@ -40,16 +40,16 @@ struct Stroke {
     double length() const;
 };
 
-/// Whether the events are a click: within 6 logical pixels and a quarter of a second. Errors:
-/// invalid_argument without events; not_finite.
+/// Returns whether the events are a click: within 6 logical pixels and a quarter of a second.
+/// Errors: invalid_argument without events; not_finite.
 bool is_click(std::span<const StrokeEvent> events, double scale = 1.0);
 
-/// The curve that was meant: hooks where the pen touched and left the ground are dropped, corners
-/// of 45 degrees and more are kept, and between them a cubic B-spline follows the events, with the
-/// fewest knots (90 to 20 pixels apart) that stay near enough. The first point stays where the hand
-/// aimed, but for a hook. A click gives its first point alone; times that run backwards are taken
-/// as standing still. Errors: invalid_argument without events, for a spacing or scale that is not
-/// positive, or a negative smoothing; not_finite.
+/// Returns the intended curve: hooks at the touch and the lift of the pen are dropped, corners of
+/// 45 degrees and more are kept, and between them a cubic B-spline follows the events, with the
+/// fewest knots (90 to 20 pixels apart) that stay near enough. The first point stays at the first
+/// event, unless it begins a hook. A click gives its first point alone; times that run backwards
+/// are taken as standing still. Errors: invalid_argument without events, for a spacing or scale
+/// that is not positive, or a negative smoothing; not_finite.
 Stroke fair_stroke(std::span<const StrokeEvent> events, const StrokeOptions& options = {});
 
 }  // namespace lissom

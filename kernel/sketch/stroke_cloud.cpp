@@ -56,7 +56,7 @@ class StrokeCells {
     std::unordered_map<std::int64_t, std::vector<std::size_t>> cells_;
 };
 
-// Of each point of the stroke the depths of what is seen around it.
+// Returns the depths of the points seen around each point of the stroke.
 std::vector<std::vector<float>> depths_around(std::span<const Vec2> stroke, const View& view,
                                               std::span<const float> cloud, double radius,
                                               const Context& context) {
@@ -79,7 +79,7 @@ double front_of(std::vector<float>& depths, double before) {
     return depths[static_cast<std::size_t>(place)];
 }
 
-// Fills in what is not seen, evenly between what is.
+// Fills in unseen depths, evenly between seen ones.
 void bridge(std::vector<double>& depths) {
     const auto seen = [](double depth) { return depth != kUnseen; };
     const auto first = std::find_if(depths.begin(), depths.end(), seen);

@@ -17,11 +17,11 @@ struct CloudStrokeOptions {
     double before = 0.1;
 };
 
-/// As deep as the front of the cloud under the stroke: in front of all but a few of the points that
-/// are seen within `radius`. If there are none, depth changes evenly between the places that have
-/// some, and stays beyond the first and last of them. `cloud` has three coordinates a point.
-/// Errors: not_finite; invalid_argument if none of the cloud is seen under the stroke, or for
-/// options out of range; cancelled.
+/// Returns the stroke at the front of the cloud: in front of all but a few of the points that are
+/// seen within `radius`. If there are none, depth changes evenly between the places that have some,
+/// and stays beyond the first and last of them. `cloud` has three coordinates a point. Errors:
+/// not_finite; invalid_argument if none of the cloud is seen under the stroke, or for options out
+/// of range; cancelled.
 std::vector<Vec3> stroke_before_cloud(std::span<const Vec2> stroke, const View& view,
                                       std::span<const float> cloud,
                                       const CloudStrokeOptions& options = {},

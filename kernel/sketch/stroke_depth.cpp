@@ -23,7 +23,7 @@ void require_points(std::span<const Vec2> stroke) {
         throw Error(ErrorCode::invalid_argument, "a stroke needs at least one point");
 }
 
-// What is seen at a pixel: the depth of the first surface there, whether it may be drawn on, and
+// Surface seen at a pixel: the depth of the first surface there, whether it may be drawn on, and
 // whether it is seen from behind. A part of a surface, such as hair grows on, has one side alone.
 struct Seen {
     double depth = kNothing;
@@ -61,7 +61,8 @@ std::vector<Seen> look_along(std::span<const Vec2> stroke, const View& view,
                     : "the stroke starts beside the surface; start it on the surface");
 }
 
-// Of each point the depth of what may be drawn on, or of the last that was; the first one counts.
+// Returns the depth of each point on the surface to be drawn on, or of the last such point; the
+// first one counts.
 std::vector<double> carried_depths(std::span<const Seen> seen) {
     std::vector<double> depths;
     double last = seen.front().depth;
@@ -74,7 +75,7 @@ std::vector<double> carried_depths(std::span<const Seen> seen) {
 
 // ---- the envelope
 
-// The pixel within reach, nearest first in rings, where the surface may be drawn on.
+// Returns the pixel within reach, nearest first in rings, at which the surface may be drawn on.
 std::optional<Vec2> nearest_start(const Vec2& pixel, const View& view, const DrawnSurface& surface,
                                   double reach) {
     constexpr double kRing = 2.0;
@@ -89,8 +90,8 @@ std::optional<Vec2> nearest_start(const Vec2& pixel, const View& view, const Dra
     return std::nullopt;
 }
 
-// The stroke from where it is on the region: from the first point that is, within reach of the
-// start, else with the nearest pixel before it.
+// Returns the stroke from its first point on the region: within reach of the start, else with the
+// nearest pixel before it.
 std::vector<Vec2> with_start(std::span<const Vec2> stroke, const View& view,
                              const DrawnSurface& surface, double reach) {
     const Seen start = look(stroke.front(), view, surface);
@@ -205,8 +206,8 @@ std::vector<Vec3> stroke_on_plane(std::span<const Vec2> stroke, const View& view
             throw Error(
                 ErrorCode::invalid_argument,
                 "point " + std::to_string(i + 1) +
-                    " of the stroke does not meet the plane in front of the camera; look at "
-                    "it less flatly, or from where it is in front");
+                    " of the stroke does not meet the plane in front of the camera; turn the "
+                    "view towards the plane");
         }
         points.emplace_back(ray.origin + along * ray.direction);
     }

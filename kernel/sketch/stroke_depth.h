@@ -12,7 +12,7 @@
 
 namespace lissom {
 
-/// The points of a stroke at these depths along the view, one for each.
+/// Returns the points of a stroke at these depths along the view, one for each.
 std::vector<Vec3> at_depths(std::span<const Vec2> stroke, std::span<const double> depths,
                             const View& view);
 
@@ -21,7 +21,7 @@ std::vector<Vec3> at_depths(std::span<const Vec2> stroke, std::span<const double
 std::vector<Vec3> stroke_on_plane(std::span<const Vec2> stroke, const View& view, const Vec3& point,
                                   const Vec3& normal);
 
-/// A surface that is drawn on, where it stands in the world.
+/// A surface that is drawn on, placed in the world.
 struct DrawnSurface {
     const SpatialTree& tree;
     /// Faces that may be drawn on from outside, one mark a face; empty for all, from both sides.
@@ -29,9 +29,10 @@ struct DrawnSurface {
     std::span<const char> faces;
 };
 
-/// On the surface where the stroke is over it, and beyond it at the depth of the last point that
-/// was (section 4.5). Points are `lift` nearer to the viewer. Errors: not_finite; invalid_argument
-/// if the stroke starts beside the surface, which says whether something else is there; cancelled.
+/// Returns the stroke on the surface while it is over it, and beyond it at the depth of the last
+/// point that was (section 4.5). Points are `lift` nearer to the viewer. Errors: not_finite;
+/// invalid_argument if the stroke starts beside the surface, which says whether something else is
+/// there; cancelled.
 std::vector<Vec3> stroke_on_surface(std::span<const Vec2> stroke, const View& view,
                                     const DrawnSurface& surface, double lift = 0.0,
                                     const Context& context = {});
@@ -52,13 +53,13 @@ struct EnvelopeOptions {
     double averages = 12.0, snap = 20.0;
 };
 
-/// Over a head, for hair that falls or stands off: the lowest envelope in front of the region where
-/// hair grows and of the rest of the head, whose depth changes no faster than `slope`, so that it
-/// bridges ears and passes silhouettes without a corner. It begins on the region and, moving
-/// towards the viewer alone, never enters the head. Depths beyond the silhouette are a guess; draw
-/// again from another view. If the start has to be moved, the point that it is moved to comes
-/// before the others. Errors: not_finite; invalid_argument if the stroke starts neither on the
-/// region nor near it, with the reason, or for options out of range; cancelled.
+/// Returns a stroke over a head, for hair that falls or stands off: the lowest envelope in front of
+/// the skin with hair and of the rest of the head, with a depth that changes no faster than
+/// `slope`, so that it bridges ears and passes silhouettes without a corner. It begins on the
+/// region and, moving towards the viewer alone, never enters the head. Depths beyond the silhouette
+/// are a guess; draw again from another view. If the start has to be moved, the point that it is
+/// moved to comes before the others. Errors: not_finite; invalid_argument if the stroke starts
+/// neither on the region nor near it, with the reason, or for options out of range; cancelled.
 std::vector<Vec3> stroke_over_head(std::span<const Vec2> stroke, const View& view,
                                    const DrawnSurface& head, const EnvelopeOptions& options = {},
                                    const Context& context = {});

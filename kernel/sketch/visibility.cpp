@@ -18,7 +18,7 @@ bool Visibility::is_hidden(Index object, const Vec3& local, double slack) const 
     const Vec3 world = scene_.object(object).to_world(local);
     const double depth = view_.camera.to_camera(world).z();
     const double way = view_.camera.is_ortho() ? depth : (view_.camera.eye() - world).norm();
-    // What rounding may move a point by on its way from one frame to another.
+    // Rounding error of a point on its way from one frame to another.
     const double rounding = 16.0 * std::numeric_limits<double>::epsilon();
     for (Index i = 0; i < count_of(frames_); ++i) {
         const PickScene::Object& other = scene_.object(i);

@@ -1,4 +1,4 @@
-/// Visibility: what the surfaces of a scene hide in a view; private to kernel/sketch.
+/// Visibility: occlusion by the surfaces of a scene in a view; private to kernel/sketch.
 #pragma once
 
 #include <span>
@@ -15,16 +15,16 @@ namespace lissom {
 
 class Visibility {
   public:
-    /// `back_faces`: whether faces that are seen from behind hide what is beyond them.
+    /// `back_faces`: whether faces that are seen from behind hide the points beyond them.
     Visibility(const PickScene& scene, const View& view, bool back_faces);
 
-    /// Whether a surface hides a point of an object, given in the object's frame, and more than
-    /// `slack` (in the world) in front of it.
+    /// Returns whether a surface hides a point of an object, given in the object's frame, and more
+    /// than `slack` (in the world) in front of it.
     bool is_hidden(Index object, const Vec3& local, double slack = 0.0) const;
-    /// Whether the camera stands in front of a triangle of a face of a surface that has all of
-    /// these vertices.
+    /// Returns whether the camera stands in front of a triangle of a face of a surface that has all
+    /// of these vertices.
     bool faces_eye(Index object, Index face, std::span<const Index> vertices = {}) const;
-    /// Whether it stands in front of one of the triangles around a vertex.
+    /// Returns whether it stands in front of one of the triangles around a vertex.
     bool vertex_faces_eye(Index object, Index v) const;
 
   private:
@@ -34,11 +34,11 @@ class Visibility {
     std::vector<CursorFrame> frames_;
 };
 
-/// The triangles of a face that have all of these vertices.
+/// Returns the triangles of a face that have all of these vertices.
 std::vector<Triangle> triangles_with(const SpatialTree& surface, Index face,
                                      std::span<const Index> vertices);
 
-/// The normal of a face, as long as its area.
+/// Returns the normal of a face, as long as its area.
 Vec3 face_vector(const SpatialTree& surface, Index face);
 
 }  // namespace lissom

@@ -1,5 +1,5 @@
-/// The lists of a history: in blocks, each kept once, so that steps share what they have in common;
-/// private to kernel/scene.
+/// The lists of a history: in blocks, each kept once, so that steps share equal parts; private to
+/// kernel/scene.
 #pragma once
 
 #include <cstddef>

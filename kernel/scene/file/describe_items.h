@@ -1,4 +1,4 @@
-/// How scene files name what they hold: one description of each record for writing and reading;
+/// Names of the contents of scene files: one description of each record for writing and reading;
 /// private to kernel/scene.
 #pragma once
 
@@ -25,7 +25,7 @@
 
 namespace lissom {
 
-// ---- What files are called after
+// ---- Names of files
 
 inline std::string label_of(const Attribute& attribute) {
     return attribute.name;

@@ -67,7 +67,7 @@ std::string lines_of(const std::vector<Number>& numbers, std::size_t width) {
     return text;
 }
 
-// A component of a path without what file systems and shells have other uses for.
+// Returns a component of a path without the special characters of file systems and shells.
 std::string tame(std::string_view name) {
     std::string result;
     for (const char c : name.substr(0, kLongestName)) {
@@ -191,7 +191,7 @@ std::size_t count_in(const SceneJson& entry, const char* key) {
 void require_count(const std::string& name, const char* what, std::size_t has, std::size_t needs) {
     if (has == needs) return;
     throw Error(has < needs ? ErrorCode::file_truncated : ErrorCode::file_syntax,
-                name + ": has " + std::to_string(has) + " " + what + " where scene.json says " +
+                name + ": has " + std::to_string(has) + " " + what + " but scene.json says " +
                     std::to_string(needs));
 }
 
@@ -227,7 +227,7 @@ struct ModelText {
     std::vector<Index> offsets{0}, corners;
 };
 
-// What other programs write beside points and elements is passed over.
+// Content of other programs beside points and elements is passed over.
 ModelText read_model(std::string_view text, const std::string& name, bool lines) {
     WordReader words(text, name);
     ModelText model;

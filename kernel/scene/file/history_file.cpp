@@ -42,7 +42,7 @@ struct NumberedObject {
     ObjectRecord object;
 };
 
-// What a step led to. Names are those of steps; the first state has none.
+// State after a step. Names are those of steps; the first state has none.
 struct StateRecord {
     std::string step;
     std::vector<PlacedRecord> changes;
@@ -86,7 +86,7 @@ class HistoryWriter {
         }
         return true;
     }
-    // Of the first state that had no place.
+    // Returns the index of the first state without a place.
     std::size_t stopped_at(const SceneJson& json, std::size_t first) const {
         return first + json.size();
     }

@@ -1,5 +1,5 @@
-/// The history of a scene as an archive: its states, each as what differs from the one before, and
-/// blocks that they share; private to kernel/scene.
+/// The history of a scene as an archive: its states, each as its difference from the one before,
+/// and blocks that they share; private to kernel/scene.
 #pragma once
 
 #include <string>
@@ -14,13 +14,13 @@
 
 namespace lissom {
 
-/// Adds the history to an archive. `mark` tells which present it belongs to. What has no place in
-/// it is told in `left_out`. Errors: invalid_argument while a step is open.
+/// Adds the history to an archive. `mark` tells which present it belongs to. Parts without a place
+/// in it are told in `left_out`. Errors: invalid_argument while a step is open.
 void add_history(Scene& scene, const std::string& mark, PartWriter& parts,
                  std::vector<std::string>& left_out, const Context& context);
 
-/// Whether an archive has a history, and the mark that it was written with. Errors: file_syntax,
-/// file_truncated; unsupported.
+/// Returns whether an archive has a history, and the mark that it was written with. Errors:
+/// file_syntax, file_truncated; unsupported.
 bool has_history(const PartReader& parts);
 std::string history_mark(const PartReader& parts);
 
@@ -28,7 +28,7 @@ std::string history_mark(const PartReader& parts);
 /// Errors: also those of the objects; the scene is then empty.
 void read_history(const PartReader& parts, Scene& scene, ItemMaker& maker, const Context& context);
 
-/// The JSON of a part. Errors: file_syntax, file_truncated.
+/// Returns the JSON of a part. Errors: file_syntax, file_truncated.
 SceneJson parse_part(std::string_view text);
 
 }  // namespace lissom

@@ -58,7 +58,7 @@ Mesh rest_mesh(const RestShape& rest, const Mesh& mesh) {
     try {
         write_rest(rest, result);
     } catch (const Error& error) {
-        // Where the mesh has changed around the region nothing can be carried.
+        // If the mesh has changed around the region nothing can be carried.
         if (error.code() != ErrorCode::topology_mismatch) throw;
         const std::span<Vec3> positions = result.edit_positions();
         for (std::size_t row = 0; row < rest.positions.size(); ++row) {

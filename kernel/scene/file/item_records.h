@@ -1,4 +1,4 @@
-/// What a scene file holds of each kind of item, as plain values; private to kernel/scene.
+/// Contents of a scene file for each kind of item, as plain values; private to kernel/scene.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ struct RegionRecord {
     std::vector<Index> vertices;
 };
 
-/// A mesh; what it has of files (its Asset) is not held.
+/// A mesh; its contents of files (its Asset) are not held.
 struct MeshRecord {
     std::vector<Vec3> positions;
     std::vector<Index> offsets, corners;
@@ -64,14 +64,14 @@ struct DeformRecord {
     std::vector<Index> region;
     DeformOptions options;
     DeformDescription description;
-    /// Of the region's vertices: where they are at rest, and what is shown.
+    /// Positions of the region's vertices: at rest, and as shown.
     std::vector<Vec3> rest, shown;
     std::vector<Mat3> gradients, turns_without_faces;
     /// Normals and tangents of the mesh at rest.
     std::vector<Attribute> directions;
 };
 
-/// Where a scalp was made, so that it is made again.
+/// Parameters of a scalp, so that it is made again.
 struct ScalpRecord {
     std::optional<Vec3> up, front;
     std::optional<double> unit;
@@ -83,7 +83,7 @@ struct ScalpRecord {
 /// A hairstyle on the head that is item `head` of the file.
 struct HairstyleRecord {
     Index head = 0;
-    /// As a style file (kernel/io/style_file.h).
+    /// Text of a style file (kernel/io/style_file.h).
     std::string style;
     /// Start and end of the left and the right tilt of each dividing curve, in radians: style files
     /// have degrees.
@@ -98,7 +98,7 @@ struct HairstyleRecord {
 
 MeshRecord record_of(const Mesh& mesh);
 /// Errors of these: file_syntax; those of the objects' constructors and setters. The mesh has the
-/// very topology `known`, which may be null, where its faces are the same.
+/// very topology `known`, which may be null, if its faces are the same.
 Mesh mesh_of(MeshRecord record, const Context& context,
              const std::shared_ptr<const Topology>& known = nullptr);
 
@@ -108,7 +108,7 @@ Strands strands_of(StrandsRecord record, const Context& context);
 /// `mesh` is the one that is deformed, in its present shape.
 DeformRecord record_of(const DeformSetup& setup, const ShownResult& shown, const Mesh& mesh);
 Deformer deformer_of(DeformRecord record, const Mesh& mesh, const Context& context);
-/// What it asks of `deformer`, which has the same region, and shows of it.
+/// Returns the inputs for `deformer`, which has the same region, and the shown result.
 std::pair<DeformSetup, std::shared_ptr<const ShownResult>> setup_of(DeformRecord record,
                                                                     const Deformer& deformer);
 

@@ -1,5 +1,5 @@
-/// Where the lists of numbers of a scene file go, which its JSON does not hold: one interface for
-/// archives, folders and histories; private to kernel/scene.
+/// Storage of the lists of numbers of a scene file, outside its JSON: one interface for archives,
+/// folders and histories; private to kernel/scene.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ using SceneJson = nlohmann::ordered_json;
 
 enum class NumberType { float32, float64, int32, uint32, int64 };
 
-/// What one list holds: numbers of one type, `width` for each element.
+/// Form of one list: numbers of one type, `width` for each element.
 struct ListForm {
     NumberType type = NumberType::float64;
     std::size_t width = 1;
@@ -35,13 +35,12 @@ constexpr NumberType number_type() {
 
 std::size_t bytes_of(NumberType type);
 
-/// Where a list stands: in the file ("items/0/positions"), and what people call it
-/// ("items/head/positions").
+/// Place of a list: in the file ("items/0/positions"), and for people ("items/head/positions").
 struct ListPlace {
     std::string path, label;
 };
 
-/// A surface or a set of lines: `offsets` tell where the corners of each element begin.
+/// A surface or a set of lines: `offsets` are the first corners of the elements.
 struct ModelView {
     std::span<const Vec3> positions;
     std::span<const float> points;
@@ -54,9 +53,9 @@ struct ModelView {
 class ListSink {
   public:
     virtual ~ListSink();
-    /// Keeps a list. Returns what the JSON says of it; null for nothing.
+    /// Keeps a list. Returns its entry for the JSON; null for nothing.
     virtual SceneJson put(const ListPlace& place, std::string_view bytes, ListForm form) = 0;
-    /// Keeps a model as a file of its own, and returns what the JSON says of it; null if the store
+    /// Keeps a model as a file of its own, and returns its entry for the JSON; null if the store
     /// has no such files, so that it is lists as all else.
     virtual SceneJson put_model(const std::string& label, const ModelView& model);
 };
@@ -65,8 +64,8 @@ class ListSink {
 class ListSource {
   public:
     virtual ~ListSource();
-    /// The bytes of a list; `entry` is what the JSON says of it, or null. They are valid until the
-    /// next call.
+    /// Returns the bytes of a list; `entry` is its entry in the JSON, or null. They are valid until
+    /// the next call.
     virtual std::string_view get(const std::string& path, const SceneJson* entry,
                                  ListForm form) = 0;
     /// The surface or the lines of a model.

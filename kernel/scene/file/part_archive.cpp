@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kRecord = 512;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 33;
 
-// Fields of a header: where they begin and how long they are.
+// Fields of a header: their offsets and lengths.
 struct Field {
     std::size_t begin, length;
 };

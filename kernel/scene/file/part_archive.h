@@ -20,7 +20,7 @@ class PartWriter : public ListSink {
     void add(std::string_view name, std::string_view bytes);
     /// Adds all parts of another.
     void append(const PartWriter& other) { bytes_ += other.bytes_; }
-    /// The archive.
+    /// Returns the archive.
     std::string finish() &&;
 
   private:
@@ -34,7 +34,7 @@ class PartReader : public ListSource {
     /// Errors: file_syntax if it is none or a part is damaged; file_truncated.
     explicit PartReader(std::string_view archive);
 
-    /// The bytes of a part. Errors: file_truncated if it is missing.
+    /// Returns the bytes of a part. Errors: file_truncated if it is missing.
     std::string_view find(std::string_view name) const;
     bool has(std::string_view name) const { return parts_.contains(name); }
 

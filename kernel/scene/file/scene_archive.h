@@ -1,4 +1,4 @@
-/// SceneWriter and SceneReader: one description of what an object holds serves for writing and for
+/// SceneWriter and SceneReader: one description of an object's contents serves for writing and for
 /// reading. Plain values go to JSON, lists of numbers to parts of their own; private to
 /// kernel/scene.
 #pragma once
@@ -25,7 +25,7 @@
 
 namespace lissom {
 
-/// What people call a record of a list, for names of files; empty for its place in the list.
+/// Name of a record of a list for people, used for files; empty for its place in the list.
 template <typename T>
 std::string label_of(const T&) {
     return {};
@@ -44,7 +44,7 @@ struct ListElement<T> {
     using Scalar = typename T::Scalar;
 };
 
-/// The form of a list whose elements have `width` numbers, or 0: those of their type.
+/// Returns the form of a list whose elements have `width` numbers, or 0: those of their type.
 template <typename T>
 ListForm list_form(std::size_t width) {
     using Scalar = typename ListElement<T>::Scalar;

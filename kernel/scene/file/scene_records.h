@@ -1,4 +1,4 @@
-/// A scene as records, and records as live objects: what scenes and their histories have in common;
+/// A scene as records, and records as live objects: the common part of scenes and their histories;
 /// private to kernel/scene.
 #pragma once
 

@@ -112,7 +112,7 @@ double depth_beside(const Vec2& pixel, std::span<const Vec3> curve) {
         const double distance = (pixel - a - t * side).squaredNorm();
         if (!(distance < nearest)) continue;
         nearest = distance;
-        // Of perspective 1 / depth is linear on the picture; segments are short.
+        // With perspective 1 / depth is linear on the picture; segments are short.
         depth = (1.0 - t) * curve[i].z() + t * curve[i + 1].z();
     }
     return depth;

@@ -26,17 +26,17 @@ struct SupportStroke {
     std::size_t beside = 0;
 };
 
-/// On a supporting surface. If the line of sight meets it several times, the stroke goes on from
-/// where it was along the curve; it begins at the place that is nearest to the curve. Between two
-/// parts over the surface depth changes evenly. Errors: not_finite; invalid_argument if the surface
-/// is seen edge-on, less squarely than 0.3, or the stroke is nowhere over it.
+/// On a supporting surface. If the line of sight meets it several times, the stroke continues at
+/// its present place along the curve; it begins at the place that is nearest to the curve. Between
+/// two parts over the surface depth changes evenly. Errors: not_finite; invalid_argument if the
+/// surface is seen edge-on, less squarely than 0.3, or the stroke is nowhere over it.
 SupportStroke stroke_on_support(std::span<const Vec2> stroke, const View& view,
                                 const SupportSurface& support,
                                 const SupportStrokeOptions& options = {});
 
-/// As deep as the place of the curve that is seen nearest to each point. Errors: not_finite;
-/// invalid_argument for a curve of less than two points that differ, or one that is not wholly in
-/// front of the camera.
+/// Returns the stroke at the depth of the curve's place that is seen nearest to each point. Errors:
+/// not_finite; invalid_argument for a curve of less than two points that differ, or one that is not
+/// wholly in front of the camera.
 std::vector<Vec3> stroke_beside_curve(std::span<const Vec2> stroke, const View& view,
                                       std::span<const Vec3> curve);
 

@@ -15,7 +15,7 @@ namespace {
 
 // Nearer to the line of sight than this, the plane of tangent and line of sight is noise.
 constexpr double kAlongSight = 15.0 * kDegree;
-// Of the radius of the curve's bend: a strip is no wider.
+// Limit of a strip's width as a fraction of the curve's radius of curvature.
 constexpr double kOfBend = 0.8;
 constexpr int kExtensionRulings = 8;
 // Share of a triangle by which a ray may miss it, so that no rounding opens a seam between two.
@@ -58,8 +58,8 @@ std::vector<double> lengths_along(std::span<const Vec3> points) {
     return lengths;
 }
 
-// Unit tangents: the mean of those of the segments beside a point; at a point where the curve turns
-// back, that of the segment before.
+// Unit tangents: the mean of those of the segments beside a point; at a reversal of the curve, that
+// of the segment before.
 std::vector<Vec3> tangents_along(std::span<const Vec3> points) {
     std::vector<Vec3> tangents;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -81,7 +81,8 @@ Vec3 end_direction(std::span<const Vec3> points, std::span<const double> lengths
     return (points.back() - points[points.size() - 2]).normalized();
 }
 
-// Radius of the circle through the points before and behind; infinite where they are in line.
+// Returns the radius of the circle through the points before and behind; infinite if they are in
+// line.
 double bend_radius(std::span<const Vec3> points, std::size_t i) {
     if (i == 0 || i + 1 >= points.size()) return std::numeric_limits<double>::infinity();
     const Vec3 a = points[i] - points[i - 1], b = points[i + 1] - points[i];
@@ -90,8 +91,8 @@ double bend_radius(std::span<const Vec3> points, std::size_t i) {
                       : std::numeric_limits<double>::infinity();
 }
 
-// The normals of the triangles of segment and viewpoint, with one sign along the curve; where the
-// curve runs along the line of sight that of the points before.
+// Returns the normals of the triangles of segment and viewpoint, with one sign along the curve;
+// along the line of sight that of the points before.
 std::vector<Vec3> strip_directions(std::span<const Vec3> tangents, std::span<const Vec3> sights,
                                    const Vec3& otherwise) {
     std::vector<Vec3> across(tangents.size());
@@ -167,7 +168,7 @@ double SupportSurface::seen_from(const Camera& camera) const {
     return weight > 0.0 ? sum / weight : 0.0;
 }
 
-// Of the two triangles between a ruling and the next.
+// Adds the hits of the two triangles between a ruling and the next.
 void SupportSurface::add_hits(std::size_t first, const Ray& ray, std::vector<Hit>& hits) const {
     struct Corner {
         Vec3 at;

@@ -25,12 +25,12 @@ enum class SupportMode {
 /// Lengths in world units.
 struct SupportOptions {
     SupportMode mode = SupportMode::strip;
-    /// To each side of the curve. A strip is narrower where the curve bends more tightly, so that
-    /// it does not fold.
+    /// To each side of the curve. A strip is narrower if the curve bends more tightly, so that it
+    /// does not fold.
     double width = 0.03;
     /// How far it goes on straight beyond the last point.
     double extension = 0.035;
-    /// Of the end of the curve, whose mean direction the extension has.
+    /// Length of the end of the curve, whose mean direction the extension has.
     double end = 0.015;
 };
 
@@ -43,7 +43,7 @@ class SupportSurface {
         /// Arc length from the first point of the curve to the center.
         double along = 0.0;
     };
-    /// Where a ray meets the surface.
+    /// Hit of a ray on the surface.
     struct Hit {
         Vec3 position = Vec3::Zero();
         /// Distance from the ray's origin.
@@ -53,24 +53,24 @@ class SupportSurface {
         double along = 0.0, across = 0.0;
     };
 
-    /// Of a curve, points in the world, as seen from the viewpoint of `camera`; one without
-    /// perspective has its viewpoint far away. Points equal to the one before are left out. Errors:
-    /// not_finite; invalid_argument if fewer than two points differ, one of them is at the
-    /// viewpoint, or a length is negative or the width 0.
+    /// Builds the surface of a curve, points in the world, as seen from the viewpoint of `camera`;
+    /// one without perspective has its viewpoint far away. Points equal to the one before are left
+    /// out. Errors: not_finite; invalid_argument if fewer than two points differ, one of them is at
+    /// the viewpoint, or a length is negative or the width 0.
     SupportSurface(std::span<const Vec3> curve, const Camera& camera, const SupportOptions& = {});
 
     SupportMode mode() const { return mode_; }
-    /// One a point of the curve, and those of the extension behind them.
+    /// Returns one a point of the curve, and those of the extension behind them.
     std::span<const Ruling> rulings() const { return rulings_; }
-    /// Of the curve.
+    /// Returns the length of the curve.
     double length() const { return length_; }
     /// Share of the curve's length, 0 to 1, that is less than 15 degrees from the line of sight of
     /// the viewpoint: there a surface says little of the curve.
     double end_on() const { return end_on_; }
-    /// How squarely a camera sees the surface: the mean over the curve of the cosine between its
-    /// normal and the line of sight, 0 for edge-on to 1. Strokes need about 0.3.
+    /// Returns how squarely a camera sees the surface: the mean over the curve of the cosine
+    /// between its normal and the line of sight, 0 for edge-on to 1. Strokes need about 0.3.
     double seen_from(const Camera& camera) const;
-    /// Where a ray meets it, nearest to its origin first.
+    /// Returns the hits of a ray, nearest to its origin first.
     std::vector<Hit> hits(const Ray& ray) const;
     /// Two vertices a ruling, two triangles between rulings.
     Mesh mesh(const Context& context = {}) const;
