@@ -1,4 +1,4 @@
-/// What a glTF file that a mesh came from says of its animations.
+/// Animations of the glTF file that a mesh came from.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,8 @@ struct AnimationInfo {
     std::size_t frames = 0;
 };
 
-/// The animations that are saved with the mesh, in the order of the file; none for other formats.
+/// Returns the animations that are saved with the mesh, in the order of the file; none for other
+/// formats.
 std::vector<AnimationInfo> animations_of(const Mesh& mesh);
 
 }  // namespace lissom

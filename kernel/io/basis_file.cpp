@@ -188,7 +188,7 @@ std::vector<Index> read_vertices(const Header& header, ByteReader& reader) {
     return vertices;
 }
 
-// `names` begin where each handle's record says.
+// `names` begin at each handle's offset.
 void set_names(std::string_view names, std::span<const std::uint32_t> starts,
                std::vector<EngineHandle>& handles) {
     if (!names.empty() && names.back() != '\0') refuse_damaged("the last name has no end");

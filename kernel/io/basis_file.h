@@ -35,7 +35,7 @@ struct EngineBasis {
     /// Vertices of the region, ascending; one row of the basis each.
     std::vector<Index> vertices;
     std::vector<EngineHandle> handles;
-    /// Where the vertices lie while no handle moves, relative to the origin.
+    /// Positions of the vertices while no handle moves, relative to the origin.
     std::vector<Eigen::Vector3f> rest;
     /// For each handle one 4-vector a row.
     std::vector<std::vector<Eigen::Vector4f>> weights;
@@ -45,8 +45,8 @@ struct EngineBasis {
     std::vector<Vec3> positions(std::span<const Affine> transforms) const;
 };
 
-/// The basis of a deformer with its present handles and constraints. `names` are those of the
-/// handles in their order; handles beyond them have none. Errors: as Deformer::prepare;
+/// Returns the basis of a deformer with its present handles and constraints. `names` are those of
+/// the handles in their order; handles beyond them have none. Errors: as Deformer::prepare;
 /// invalid_argument for more names than handles, or a name with a zero byte; not_finite naming
 /// vertices whose values exceed the range of floats.
 EngineBasis make_engine_basis(Deformer& deformer, std::span<const std::string> names = {},
@@ -58,14 +58,14 @@ void save_basis(const EngineBasis& basis, const std::filesystem::path& path,
                 const Context& context = {});
 
 /// Reads a basis file. Errors: file_not_found, file_is_directory, file_empty, file_unreadable;
-/// file_truncated; file_syntax for what is no basis or contradicts itself; unsupported for another
-/// version; not_finite; memory_limit, cancelled.
+/// file_truncated; file_syntax for other files or contradictions; unsupported for another version;
+/// not_finite; memory_limit, cancelled.
 EngineBasis load_basis(const std::filesystem::path& path, const Context& context = {});
 
-/// As `save_basis`, into memory.
+/// Returns the bytes of `save_basis`.
 std::string encode_basis(const EngineBasis& basis);
 
-/// As `load_basis`, from memory.
+/// Loads as `load_basis` does, from memory.
 EngineBasis decode_basis(std::string_view bytes);
 
 }  // namespace lissom

@@ -148,12 +148,12 @@ Vec3 moved_origin(const Mesh& mesh, const Format& format, const SaveOptions& opt
 
 void tell_origin(const Vec3& origin, const Format& format, const Context& context) {
     if (origin.isZero(0.0)) return;
-    // As many digits as 32-bit numbers have.
+    // As many digits as 32-bit numbers need.
     char place[64];
     std::snprintf(place, sizeof place, "(%.9g, %.9g, %.9g)", origin.x(), origin.y(), origin.z());
     context.log(LogLevel::warning, "the origin of the file is the point " + std::string(place) +
                                        " of the mesh, which " + std::string(format.name) +
-                                       " cannot hold; add it to what is read");
+                                       " cannot hold; add it to the points that are read");
 }
 
 // Values that were written out in decimals, flipped or turned need more than a float.
@@ -172,8 +172,8 @@ RepairOptions repair_options(const LoadOptions& options, const MeshData& data) {
     return {options.weld.value_or(usual), options.repair, options.unused};
 }
 
-// What was changed is a warning, and so is a mesh that is wholly inside out, which has a message;
-// that seams were closed, or that a face is poor, is not.
+// Changes are a warning, and so is a mesh that is wholly inside out, which has a message; closed
+// seams and poor faces are not.
 void log_findings(const Report& report, const Context& context) {
     for (const Finding& finding : report.findings()) {
         const bool is_quality = finding.kind >= FindingKind::faces_zero_area &&
@@ -273,7 +273,7 @@ class FileGroup {
         }
     }
 
-    // As far as that can be done, for an error is under way.
+    // Best effort, for an error is under way.
     void restore(const Old& old) const noexcept try {
         std::error_code ignored;
         if (old.bytes) {

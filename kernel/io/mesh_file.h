@@ -1,11 +1,11 @@
 /// Mesh files: loading and saving by extension. OBJ, PLY, OFF, STL and glTF 2.0 (.gltf, .glb); each
-/// format has a file of its own, which says what it reads and what it writes.
+/// format has a file of its own, which documents its contents.
 ///
-/// What is read is checked and repaired (repair.h); the mesh's report() says what was changed, and
-/// so does the Context's log. What a format cannot hold is named in a warning of the log when a
-/// mesh is saved.
+/// Meshes are checked and repaired when read (repair.h); the mesh's report() names the changes, and
+/// so does the Context's log. A warning of the log names contents lost in a format when a mesh is
+/// saved.
 ///
-/// All functions may throw, besides what they list: cancelled, memory_limit. Messages begin with
+/// All functions may throw, besides their own errors: cancelled, memory_limit. Messages begin with
 /// the file's path, and with the line if there is one: "cup.obj:12: ...". The ids of an error with
 /// ElementKind::line are 0-based as all ids.
 #pragma once
@@ -22,7 +22,7 @@
 
 namespace lissom {
 
-/// What became of a mesh that was saved.
+/// Result of saving a mesh.
 struct SavedFile {
     /// The point of the mesh that is the origin of the file. Zero but for FileOrigin::automatic.
     Vec3 origin = Vec3::Zero();
@@ -45,12 +45,12 @@ Mesh load_mesh(const std::filesystem::path& path, const LoadOptions& options = {
 SavedFile save_mesh(const Mesh& mesh, const std::filesystem::path& path,
                     const SaveOptions& options = {}, const Context& context = {});
 
-/// As `load_mesh`, from the content of a file in memory, which can refer to no other. `extension`
-/// as in `readable_extensions`.
+/// Loads as `load_mesh` does, from the content of a file in memory, which can refer to no other.
+/// `extension` as in `readable_extensions`.
 Mesh decode_mesh(std::string_view bytes, std::string_view extension,
                  const LoadOptions& options = {}, const Context& context = {});
 
-/// As `save_mesh`, into memory. `extension` as in `writable_extensions`.
+/// Saves as `save_mesh` does, into memory. `extension` as in `writable_extensions`.
 std::string encode_mesh(const Mesh& mesh, std::string_view extension,
                         const SaveOptions& options = {}, const Context& context = {});
 

@@ -17,12 +17,12 @@ namespace {
 // As many as the writer of glTF numbers.
 constexpr std::size_t kMaximumTargets = 10000;
 
-// What a value of an attribute of vertices or corners belongs to.
+// Returns the vertex of a value of an attribute of vertices or corners.
 Index vertex_of(const Mesh& mesh, Domain domain, Index element) {
     return domain == Domain::vertex ? element : mesh.topology().faces().vertices[element];
 }
 
-// Flags for the region and the ring around it, where normals change too.
+// Returns flags for the region and the ring around it, because normals change there too.
 std::vector<char> flags_around(const Region& moving) {
     return moving.grown(1).mask();
 }
@@ -38,7 +38,7 @@ void drop_morphs(Mesh& mesh, const Context& context) {
                 "the morph targets that the mesh had, and their animations, are not baked");
 }
 
-// Normals or tangents that the mesh has where files can hold them, or null.
+// Returns normals or tangents of the mesh in a form that files can hold, or null.
 const Attribute* find_directions(const Mesh& mesh, std::string_view name, Index width) {
     const Attribute* found = mesh.attributes().find(name);
     return found && found->domain != Domain::face && found->width == width ? found : nullptr;
@@ -110,7 +110,8 @@ void MorphBaker::require_later(double time) const {
                     " s; times must be finite, not negative and ascending");
 }
 
-// Of all channels, one after another; what is no number adds nothing.
+// Returns the differences of all channels, one after another; values that are not finite count as
+// zero.
 std::vector<float> MorphBaker::differences(const Mesh& shape) const {
     std::vector<float> result;
     const std::vector<Vec3> normals = makes_normals_ ? vertex_normals(shape) : std::vector<Vec3>();

@@ -25,7 +25,8 @@
 
 namespace lissom {
 
-/// What happens between two keys: the shape moves along straight lines, or it stays and then jumps.
+/// Interpolation between two keys: the shape moves along straight lines, or it stays and then
+/// jumps.
 enum class KeyInterpolation { linear, step };
 
 struct BakeOptions {
@@ -41,22 +42,22 @@ struct BakeOptions {
 /// needs none.
 class MorphBaker {
   public:
-    /// `rest` is the shape without targets; vertices outside `moving` stay where they are. Morph
-    /// targets of `rest` and what its file animated with them are left out; the log says so.
-    /// Errors: topology_mismatch; unsupported for a mesh without faces; memory_limit.
+    /// `rest` is the shape without targets; vertices outside `moving` keep their positions. Morph
+    /// targets of `rest` and their animations from its file are left out; the log says so. Errors:
+    /// topology_mismatch; unsupported for a mesh without faces; memory_limit.
     MorphBaker(const Mesh& rest, const Region& moving, BakeOptions options = {},
                Context context = {});
 
-    /// The mesh has the shape of `shape` at `time`, in seconds: positions, and normals and tangents
-    /// where the rest shape has them. Errors: invalid_argument for times that are negative or not
-    /// after the one before, as 32-bit numbers, and beyond 10000 different shapes;
+    /// Adds a key: the mesh has the shape of `shape` at `time`, in seconds: positions, and normals
+    /// and tangents if the rest shape has them. Errors: invalid_argument for times that are
+    /// negative or not after the one before, as 32-bit numbers, and beyond 10000 different shapes;
     /// topology_mismatch; memory_limit; cancelled.
     void add(double time, const Mesh& shape);
 
     Index key_count() const { return count_of(times_); }
     Index target_count() const { return count_of(targets_); }
 
-    /// The rest shape with its targets as attributes "morph.N.position" and so on, and the
+    /// Returns the rest shape with its targets as attributes "morph.N.position" and so on, and the
     /// animation in its asset. Errors: invalid_argument if no shape was added.
     Mesh finish() const;
 

@@ -1,7 +1,7 @@
 /// Part files: features to paste, as a library of parts keeps them. A part is a .glb or .gltf file
-/// like others, in which the part stands upright (its `up` along y, its `front` along z), with the
-/// regions "region", what lies around the feature, and perhaps "feature", the feature itself. Any
-/// such file is a part, whatever wrote it.
+/// like others, with the part standing upright (its `up` along y, its `front` along z), with the
+/// regions "region", the surroundings of the feature, and perhaps "feature", the feature itself.
+/// Any such file is a part, from any program.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@
 
 namespace lissom {
 
-/// A feature with what a paste needs of it.
+/// A feature with the data for pasting it.
 struct Part {
     Mesh mesh;
     Region region;
-    /// Absent: what lies deep in the region.
+    /// Absent: the deep part of the region.
     std::optional<Region> feature;
 };
 

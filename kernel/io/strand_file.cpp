@@ -24,8 +24,7 @@
 namespace lissom {
 namespace {
 
-// A format: how it is read, from a source or as a text, if at all, how it is written, and what it
-// holds.
+// A format: its reader, of a source or a text, if any, its writer, and its limits.
 struct StrandFormat {
     std::string_view extension;
     Strands (*read)(ByteSource& source, const Context& context);
@@ -134,8 +133,8 @@ void require_scene(const RibScene& scene, std::string_view extension) {
                 "an archive holds hair alone; leave out 'archive', or the head and the camera");
 }
 
-// Puts points and widths into another frame: those of a file that is z-up into the kernel's where
-// `up` is 1, the other way where it is -1, as they are where it is 0.
+// Puts points and widths into another frame: those of a z-up file into the kernel's if `up` is 1,
+// the other way if it is -1, unchanged if it is 0.
 void change_frame(Strands& strands, int up, double scale, const Context& context) {
     if (up == 0 && scale == 1.0) return;
     context.parallel_for(0, strands.size(), 256, [&](Index begin, Index end) {
@@ -199,7 +198,7 @@ EncodedStrands encode_as(const Strands& strands, const StrandFormat& format,
     require_unit(options.unit);
     Progress progress(context, "save strands");
     progress.step(0.3);
-    // As much as the text of numbers may take, in a list that grows by doubling.
+    // Upper bound for the text of numbers, in a list that grows by doubling.
     const MemoryCharge charge = context.charge(10 * strands.memory_bytes(), "saving strands");
     CheckedStrands checked = check_strands(strands, format.capacity, options, context);
     progress.step(0.7);

@@ -1,13 +1,13 @@
 /// Hair files: loading and saving strands by extension. .hair (Cem Yuksel), .data (HairSalon) and
 /// .usda (BasisCurves) are read and written; .rib (a scene for RenderMan), .glb and .gltf (one
-/// LINES primitive) and .obj (lines) are written. Each format has a file of its own, which says
-/// what it holds.
+/// LINES primitive) and .obj (lines) are written. Each format has a file of its own, which
+/// documents its contents.
 ///
 /// In the kernel hair is in metres, y up, widths are diameters. Strands are checked before they are
-/// written: the report says what was found, what was changed for the file, and what was left out of
-/// it; so does the Context's log.
+/// written: the report names the findings, the changes for the file, and the omissions; so does the
+/// Context's log.
 ///
-/// All functions may throw, besides what they list: cancelled, memory_limit. Messages begin with
+/// All functions may throw, besides their own errors: cancelled, memory_limit. Messages begin with
 /// the file's path, and with the line if there is one.
 #pragma once
 
@@ -36,32 +36,32 @@ Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions&
 /// format. The strands stay as they are. Errors: unknown_format; file_write_failed,
 /// file_is_directory; file_too_large if the format cannot count as many; not_finite if values
 /// exceed the range of 32-bit numbers; invalid_argument for a bad unit, and, with mend false, for
-/// what would be changed.
+/// each needed change.
 StrandReport save_strands(const Strands& strands, const std::filesystem::path& path,
                           const StrandSaveOptions& options = {}, const Context& context = {});
 
-/// As `save_strands` of a .rib file, with this scene. Errors: also invalid_argument for another
-/// extension, an archive with head or camera, or a scene out of range.
+/// Saves as `save_strands` does to a .rib file, with this scene. Errors: also invalid_argument for
+/// another extension, an archive with head or camera, or a scene out of range.
 StrandReport save_rib(const Strands& strands, const std::filesystem::path& path,
                       const RibScene& scene, const StrandSaveOptions& options = {},
                       const Context& context = {});
 
-/// As `load_strands`, from the content of a file in memory. `extension` as in
+/// Loads as `load_strands` does, from the content of a file in memory. `extension` as in
 /// `readable_strand_extensions`.
 Strands decode_strands(std::string_view bytes, std::string_view extension,
                        const StrandLoadOptions& options = {}, const Context& context = {});
 
-/// The content of a file and what was found before.
+/// The content of a file and the report of its check.
 struct EncodedStrands {
     std::string bytes;
     StrandReport report;
 };
 
-/// As `save_strands`, into memory. `extension` as in `writable_strand_extensions`.
+/// Saves as `save_strands` does, into memory. `extension` as in `writable_strand_extensions`.
 EncodedStrands encode_strands(const Strands& strands, std::string_view extension,
                               const StrandSaveOptions& options = {}, const Context& context = {});
 
-/// As `save_rib`, into memory.
+/// Saves as `save_rib` does, into memory.
 EncodedStrands encode_rib(const Strands& strands, const RibScene& scene,
                           const StrandSaveOptions& options = {}, const Context& context = {});
 

@@ -29,9 +29,9 @@ StyleJson json_of(const Vec3& p) {
     return {p.x(), p.y(), p.z()};
 }
 
-// ---- One description of what each object holds serves for writing and reading.
+// ---- One description of each object serves for writing and reading.
 
-// Appends what it is shown to an object.
+// Appends the values shown to it to an object.
 class Writer {
   public:
     explicit Writer(StyleJson& object) : object_(object) {}
@@ -77,7 +77,7 @@ class Writer {
     StyleJson& object_;
 };
 
-// Takes what it is asked for from an object, and leaves what is absent as it is.
+// Takes the requested values from an object, and leaves absent ones unchanged.
 class Reader {
   public:
     Reader(const StyleJson& object, std::string where) : object_(object), where_(std::move(where)) {
@@ -392,7 +392,7 @@ StyleContent content_from(const StyleJson& json) {
 }
 
 std::string text_of(const StyleContent& content) {
-    // Described as what can be changed.
+    // Described as mutable values.
     StyleContent copy = content;
     StyleJson json = {{"format", kFormat}, {"version", kStyleVersion}};
     Writer writer(json);

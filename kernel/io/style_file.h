@@ -17,9 +17,9 @@
 ///       ]
 ///     }
 ///
-/// Whatever is left out has the default of its C++ option; a key that is not known is an error.
-/// "fidelity": "thesis" of the style changes defaults, its own and those of the curves; of a curve,
-/// where it differs from that of the style, those of the curve.
+/// Omitted values have the default of their C++ option; an unknown key is an error. "fidelity":
+/// "thesis" of the style changes defaults, its own and those of the curves; of a curve, if it
+/// differs from that of the style, those of the curve.
 #pragma once
 
 #include <filesystem>
@@ -38,7 +38,7 @@
 
 namespace lissom {
 
-/// What a style file holds.
+/// Contents of a style file.
 struct StyleContent {
     /// The path of the head's mesh as the file has it; empty if it names none.
     std::string head;
@@ -46,17 +46,17 @@ struct StyleContent {
     std::vector<StyleCurve> curves;
     /// Whether the scalp step is to be taken when the curves are there (Hairstyle::avoid_scalp).
     bool avoids_scalp = false;
-    /// What was painted on the scalp.
+    /// Strokes painted on the scalp.
     std::vector<MaskStroke> masks = {};
 };
 
-/// The content of a hairstyle. Errors: memory_limit.
+/// Returns the content of a hairstyle. Errors: memory_limit.
 StyleContent content_of(const Hairstyle& style, std::string head = {});
-/// The same of what one is made of.
+/// Returns the content of the inputs of a style.
 StyleContent content_of(const StyleInputs& inputs, const HairstyleOptions& options);
 
-/// A hairstyle of this content on a head. Errors: as Hairstyle's constructor and add, naming the
-/// curve.
+/// Returns a hairstyle of this content on a head. Errors: as Hairstyle's constructor and add,
+/// naming the curve.
 Hairstyle make_style(const StyleContent& content, const Mesh& head,
                      std::shared_ptr<const Scalp> scalp, const Context& context = {});
 
@@ -65,11 +65,11 @@ Hairstyle make_style(const StyleContent& content, const Mesh& head,
 void save_style(const StyleContent& content, const std::filesystem::path& path,
                 const Context& context = {});
 
-/// Errors: file_not_found, file_is_directory, file_empty, file_unreadable; file_syntax, saying what
-/// is wrong if; unsupported for a newer version; memory_limit; cancelled.
+/// Errors: file_not_found, file_is_directory, file_empty, file_unreadable; file_syntax, with the
+/// defect and its place; unsupported for a newer version; memory_limit; cancelled.
 StyleContent load_style(const std::filesystem::path& path, const Context& context = {});
 
-/// As `save_style` and `load_style`, to and from memory.
+/// Work as `save_style` and `load_style` do, to and from memory.
 std::string encode_style(const StyleContent& content);
 StyleContent decode_style(std::string_view bytes);
 

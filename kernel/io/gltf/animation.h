@@ -1,5 +1,5 @@
-/// Adds an animation of morph targets to what a glTF file holds beside its surface; private to
-/// kernel/io and not installed.
+/// Adds an animation of morph targets to the document of a glTF asset; private to kernel/io and not
+/// installed.
 #pragma once
 
 #include <memory>
@@ -22,9 +22,9 @@ struct MorphKeys {
     Index target_count = 0;
 };
 
-/// The asset of `mesh`, or a new one, without its animations of morph targets and with this one: it
-/// moves every object that has a vertex with a flag in `moves`. Nodes are added for objects that
-/// have none.
+/// Returns the asset of `mesh`, or a new one, without its animations of morph targets and with this
+/// one: it moves every object that has a vertex with a flag in `moves`. Nodes are added for objects
+/// that have none.
 std::shared_ptr<const GltfAsset> with_morph_animation(const Mesh& mesh,
                                                       const std::vector<char>& moves,
                                                       const MorphKeys& keys);

@@ -120,7 +120,7 @@ void repair_members(Json& json) {
     }
 }
 
-// Leaves of a primitive what is not surface, or null.
+// Returns a primitive without its surface, or null.
 Json reduced(const Json& primitive) {
     Json rest;
     for (const char* key : {"extras", "extensions"}) {
@@ -152,7 +152,7 @@ struct MediaType {
     std::string_view begin, type;
 };
 
-// Those that glTF and its extensions know, and others that textures are found in.
+// Types that glTF and its extensions know, and others found for textures.
 constexpr MediaType kMediaTypes[] = {
     {"\x89PNG", "image/png"},
     {"\xff\xd8\xff", "image/jpeg"},
@@ -192,7 +192,7 @@ void describe_images(Json& json, const std::vector<SharedBytes>& images) {
         image.erase("uri");
         const std::string type = sniffed_media_type(*images[i]);
         if (!type.empty()) image["mimeType"] = type;
-        // Images inside a file must have a type; readers find out by themselves what this one is.
+        // Images inside a file must have a type; readers detect the type of this one themselves.
         if (text_member(image, "mimeType").empty()) image["mimeType"] = kUnknownMediaType;
     }
 }
@@ -211,7 +211,7 @@ std::shared_ptr<const Asset> GltfAsset::joined(const Asset& other, LabelRenames&
 }
 
 std::size_t GltfAsset::memory_bytes() const {
-    // Of the order of what the JSON takes.
+    // Approximate memory of the JSON per node.
     constexpr std::size_t kBytesPerNode = 256;
     std::size_t bytes = kBytesPerNode * json.size();
     if (const Json* nodes = member(json, "nodes")) bytes += kBytesPerNode * nodes->size();

@@ -1,4 +1,4 @@
-/// GltfAsset: what a glTF file holds beside its surface; private to kernel/io and not installed.
+/// GltfAsset: contents of a glTF file beside its surface; private to kernel/io and not installed.
 #pragma once
 
 #include <cstddef>
@@ -26,19 +26,19 @@ struct KeptAccessor {
     SharedBytes bytes;
 };
 
-/// The document without buffers, buffer views and accessors. Primitives have only what is not
-/// surface: material, extras and extensions. Accessors that skins and animations name by number are
-/// those of `accessors`.
+/// The document without buffers, buffer views and accessors. Primitives keep only their material,
+/// extras and extensions. Accessors that skins and animations name by number are those of
+/// `accessors`.
 class GltfAsset : public Asset, public SkinnedAsset, public MorphAsset {
   public:
     Json json = Json::object();
     std::vector<KeptAccessor> accessors;
-    /// Content of each image; null for those that were not found, which keep their URI.
+    /// Content of each image; null for missing ones, which keep their URI.
     std::vector<SharedBytes> images;
     /// The node that each label "object" stands for, and the material of each label "material".
     std::map<std::string, std::size_t> node_of_object, material_of_label;
     bool from_libraries = false;
-    /// Of objects without a node.
+    /// Morph targets of objects without a node.
     std::vector<MorphTarget> new_morphs;
     /// The same in assets that differ by morph targets only.
     std::shared_ptr<const int> origin = std::make_shared<const int>(0);
@@ -51,8 +51,8 @@ class GltfAsset : public Asset, public SkinnedAsset, public MorphAsset {
     std::shared_ptr<const Asset> with_morphs(const std::vector<MorphTarget>& all) const override;
 };
 
-/// Keeps what is left of a document once its surface was read; `document` is used up.
-/// Errors: file_syntax and file_too_large for accessors that cannot be kept.
+/// Keeps the rest of a document after its surface was read; `document` is used up. Errors:
+/// file_syntax and file_too_large for accessors that cannot be kept.
 std::shared_ptr<const GltfAsset> keep_asset(GltfDocument& document, const AccessorReader& accessors,
                                             const std::vector<GltfInstance>& instances,
                                             const std::vector<std::string>& materials,

@@ -1,6 +1,6 @@
 /// glTF 2.0, as text (.gltf) and binary (.glb); private to kernel/io.
 ///
-/// gltf_document opens a file and checks it, gltf_nodes finds what stands where in its scene,
+/// gltf_document opens a file and checks it, gltf_nodes finds the objects of its scene,
 /// gltf_accessor reads numbers, gltf_reader makes polygons of primitives and gltf_asset keeps the
 /// rest; gltf_pool and gltf_surface lay out a surface for gltf_writer.
 #pragma once
@@ -29,14 +29,14 @@ namespace lissom {
 MeshData read_gltf(const FileInput& file, const Context& context);
 
 /// Writes a text with all data inside. One mesh for each face label "object", at the node that it
-/// was read from; one primitive for each material. Vertices are split where corners differ.
-/// Polygons are triangulated as FB_ngon_encoding has it, where a fan can make them. Other labels
-/// and the regions stand in the extras of the meshes. Errors: not_finite naming vertices beyond the
-/// range of 32-bit numbers; unsupported if these would flatten faces; file_too_large; cancelled.
+/// was read from; one primitive for each material. Vertices are split if corners differ. Polygons
+/// are triangulated as FB_ngon_encoding has it, if a fan can make them. Other labels and the
+/// regions stand in the extras of the meshes. Errors: not_finite naming vertices beyond the range
+/// of 32-bit numbers; unsupported if these would flatten faces; file_too_large; cancelled.
 void write_gltf(SavedParts& parts, const SaveOptions& options, std::string& bytes,
                 const Context& context);
 
-/// As `write_gltf`, as one binary file.
+/// Writes as `write_gltf` does, as one binary file.
 void write_glb(SavedParts& parts, const SaveOptions& options, std::string& bytes,
                const Context& context);
 

@@ -115,8 +115,8 @@ bool has_texture(const Json& material) {
     return found;
 }
 
-// Adds labels whose elements have been moved by `offset`; `same(old, added)` tells where a label
-// means the same in both. `json` has the elements, which take over new names.
+// Adds labels for elements moved by `offset`; `same(old, added)` returns whether a label means the
+// same in both. `json` has the elements, which take over new names.
 template <typename Same>
 void join_labels(std::map<std::string, std::size_t>& labels,
                  const std::map<std::string, std::size_t>& added, std::size_t offset,

@@ -1,4 +1,4 @@
-/// Joins what two glTF files hold beside their surfaces; private to kernel/io and not installed.
+/// Joins the assets of two glTF files; private to kernel/io and not installed.
 #pragma once
 
 #include "kernel/io/gltf/asset.h"
@@ -6,7 +6,7 @@
 
 namespace lissom {
 
-/// Adds what `other` holds after what `asset` holds, with all references renumbered; its scene
+/// Appends the contents of `other` to those of `asset`, with all references renumbered; its scene
 /// joins the default one. Labels of `other` that mean something else in `asset` are entered in
 /// `renames`.
 void join_assets(GltfAsset& asset, const GltfAsset& other, LabelRenames& renames);

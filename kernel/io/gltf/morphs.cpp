@@ -14,7 +14,7 @@
 namespace lissom {
 namespace {
 
-// The targets of `all` with own weights where there are own ones.
+// Returns the targets of `all` with own weights if they exist.
 std::vector<MorphTarget> with_own_weights(std::vector<MorphTarget> all,
                                           const std::vector<MorphTarget>& own) {
     const std::vector<Index> places = morph_places(own, all);
@@ -82,7 +82,7 @@ class WeightTracks {
         samplers.push_back(std::move(sampler));
     }
 
-    // Of three values of a spline the second is the weight, the others are tangents.
+    // The second of a spline's three values is the weight, the others are tangents.
     KeptAccessor laid_out(const KeptAccessor& old, std::size_t groups, std::size_t values,
                           const std::vector<Index>& places) const {
         const std::size_t width = places.size();

@@ -1,4 +1,4 @@
-/// The nodes of a glTF file: where its meshes stand; private to kernel/io and not installed.
+/// The nodes of a glTF file: placement of its meshes; private to kernel/io and not installed.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace lissom {
 /// Gives each thing a name of its own.
 class UniqueNames {
   public:
-    /// `name`, with a number after it where it is taken.
+    /// Returns `name`, with a number after it if it is taken.
     std::string take(const std::string& name);
 
   private:
@@ -26,12 +26,12 @@ class UniqueNames {
     std::unordered_map<std::string, std::size_t> next_;
 };
 
-/// The transform of every node to the world. Errors: file_syntax naming nodes that do not exist,
-/// have two parents or are their own ancestors, are nested too deep, or have a transform that is
-/// none.
+/// Returns the transform of every node to the world. Errors: file_syntax naming nodes that do not
+/// exist, have two parents or are their own ancestors, are nested too deep, or have a transform
+/// that is none.
 std::vector<Affine> world_transforms(const Json& document);
 
-/// A mesh where it stands.
+/// A mesh at its place.
 struct GltfInstance {
     int mesh = -1;
     /// The node, or -1 for a mesh of a file without nodes.
@@ -41,8 +41,8 @@ struct GltfInstance {
     std::string label;
 };
 
-/// The meshes of the default scene in the order of its nodes. Reports those that are not in it.
-/// Errors: file_syntax.
+/// Returns the meshes of the default scene in the order of its nodes. Reports the meshes outside of
+/// it. Errors: file_syntax.
 std::vector<GltfInstance> find_instances(const Json& document, Report& report);
 
 /// Replaces nodes that EXT_mesh_gpu_instancing repeats by a child for each copy. If the copies
@@ -50,11 +50,11 @@ std::vector<GltfInstance> find_instances(const Json& document, Report& report);
 void expand_instancing(Json& document, const AccessorReader& accessors, GltfBudget& budget,
                        Report& report);
 
-/// The scene that is shown first. A document without scenes gets one of all its root nodes, as it
-/// would be shown.
+/// Returns the scene that is shown first. A document without scenes gets one of all its root nodes,
+/// as it would be shown.
 Json& default_scene(Json& document);
 
-/// A name for each material, made unique.
+/// Returns a name for each material, made unique.
 std::vector<std::string> material_names(const Json& document);
 
 }  // namespace lissom

@@ -61,7 +61,7 @@ class SurfaceReader {
         });
     }
 
-    // Those that are read; the others are counted.
+    // Primitives to read; the others are counted.
     std::vector<const Primitive*> primitives_of(const GltfInstance& instance) {
         const PrimitiveShape wanted = only_points_ ? PrimitiveShape::points : PrimitiveShape::faces;
         std::vector<const Primitive*> result;
@@ -185,7 +185,7 @@ class SurfaceReader {
         }
     }
 
-    // Puts together the faces that were parts of polygons. False, and nothing was done, where some
+    // Puts together the faces that were parts of polygons. Returns false, without a change, if some
     // do not make one.
     bool join_parts(const std::vector<Index>& parts, Index first_face) {
         if (parts.empty()) return true;

@@ -8,11 +8,11 @@
 
 namespace lissom {
 
-/// Writes one mesh "Hair" of one LINES primitive with 32-bit indices, and COLOR_0 where there are
-/// colours, as a text with all data inside. glTF's lines have no width.
+/// Writes one mesh "Hair" of one LINES primitive with 32-bit indices, and COLOR_0 if there are
+/// colours, as a text with all data inside.
 void write_gltf_strands(const Strands& strands, std::string& bytes, const Context& context);
 
-/// As `write_gltf_strands`, as one binary file. Errors: file_too_large beyond 4 GiB.
+/// Writes as `write_gltf_strands` does, as one binary file. Errors: file_too_large beyond 4 GiB.
 void write_glb_strands(const Strands& strands, std::string& bytes, const Context& context);
 
 }  // namespace lissom

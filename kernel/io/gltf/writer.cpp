@@ -41,7 +41,7 @@ Index uv_count(const Json& material) {
     return count;
 }
 
-// Puts a document together of what a mesh and its asset hold.
+// Assembles a document from a mesh and its asset.
 class DocumentWriter {
   public:
     DocumentWriter(SavedParts& parts, const SaveOptions& options, const Context& context)
@@ -114,7 +114,7 @@ class DocumentWriter {
 
     void log_changes(const MeshWriter& writer) const {
         if (writer.lost_tangents() > 0) {
-            context_.log(LogLevel::warning, "tangents were not saved where there are no normals");
+            context_.log(LogLevel::warning, "tangents were not saved because there are no normals");
         }
         const Mesh& mesh = parts_.mesh();
         std::size_t alone = 0;
@@ -397,7 +397,7 @@ Json document_of(DocumentWriter& writer) {
         return writer.write();
     } catch (const Json::exception& error) {
         throw Error(ErrorCode::unsupported,
-                    "what the mesh's file held beside its surface cannot be saved: " +
+                    "contents of the mesh's file beside its surface cannot be saved: " +
                         std::string(error.what()));
     }
 }

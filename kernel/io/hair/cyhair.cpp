@@ -129,7 +129,7 @@ void set_values(const HairHeader& header, ByteSource& source, Strands& strands) 
     }
     strands.set_transparency(std::move(transparency));
     StrandValues<Eigen::Vector3f> colors{Eigen::Vector3f(header.color.data())};
-    // Black stands where nobody gave a colour.
+    // Missing colours are black.
     if (!header.has(kColors) && colors.common.isZero(0.0f)) return;
     if (header.has(kColors)) {
         colors.domain = StrandDomain::point;

@@ -18,7 +18,7 @@ namespace lissom {
 /// unsupported if there are no points; not_finite naming the strand; cancelled, memory_limit.
 Strands read_cyhair(ByteSource& source, const Context& context);
 
-/// Writes what `read_cyhair` reads: of the arrays those that differ between strands or points.
+/// Writes the data that `read_cyhair` reads, but only arrays that differ between strands or points.
 /// Errors: file_too_large naming strands of more than 65,535 segments.
 void write_cyhair(const Strands& strands, std::string& bytes);
 

@@ -1,4 +1,4 @@
-/// What stands around hair in a scene for RenderMan.
+/// Surroundings of hair in a scene for RenderMan.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@
 
 namespace lissom {
 
-/// What a .rib file holds besides the hair: a RenderMan renderer makes the picture from it alone,
+/// Contents of a .rib file besides the hair: a RenderMan renderer makes the picture from it alone,
 /// with the shaders and lights that all of them have.
 struct RibScene {
-    /// The curves alone, for another RIB file to read; what follows is not used.
+    /// The curves alone, for another RIB file to read; the fields below are not used.
     bool archive = false;
     /// Drawn below the hair; null for none.
     const Mesh* head = nullptr;
@@ -22,7 +22,7 @@ struct RibScene {
     std::optional<double> unit = std::nullopt;
     /// Absent: head and hair whole, from the front, a little aside and above.
     std::optional<CameraOptions> camera = std::nullopt;
-    /// Of the picture, in pixels.
+    /// Size of the picture, in pixels.
     Index width = 800, height = 800;
     /// The file that the renderer writes; empty: named after the .rib file.
     std::string picture = {};

@@ -30,14 +30,14 @@ const std::array<RibLight, 3> kRibLights = {{{{-0.62, 0.62, 0.48}, {1.1, 1.08, 1
 constexpr const char* kRibAmbient =
     "LightSource \"ambientlight\" 1 \"intensity\" [ 0.3 ] \"lightcolor\" [ 1 1 1 ]\n";
 
-// Of the distance of the camera.
+// Near plane as a fraction of the distance of the camera.
 constexpr double kRibNearest = 1e-3;
 
 void append_vector(std::string& text, const Vec3& v) {
     append_numbers(text, std::span(v.data(), 3));
 }
 
-// Where a camera sees head and hair whole.
+// Returns a camera that sees head and hair whole.
 Camera framing_camera(const RibScene& scene, const Box& content) {
     FramingOptions framing;
     framing.fov = kPi * 24.0 / 180.0;

@@ -1,5 +1,5 @@
-/// What stands around the curves of a RIB file, so that a renderer can make the picture alone: a
-/// camera, lights, and the head; private to kernel/io.
+/// Text around the curves of a RIB file, so that a renderer can make the picture alone: a camera,
+/// lights, and the head; private to kernel/io.
 #pragma once
 
 #include <string>
@@ -11,8 +11,7 @@
 
 namespace lissom {
 
-/// Writes a scene: first what comes before the hair, then what ends it. Coordinates are those of
-/// the file.
+/// Writes a scene: first the part before the hair, then its end. Coordinates are those of the file.
 class RibSceneWriter {
   public:
     /// `hair` bounds the strands in metres, `placement` takes metres to the file. A unit that is

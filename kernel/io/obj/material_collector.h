@@ -22,10 +22,10 @@ namespace lissom {
 /// The member of a material's extras with the statements of MTL that glTF has no place for.
 inline constexpr const char* kMtlExtras = "mtl";
 
-/// The media type of a PNG or JPEG picture, "" for other bytes.
+/// Returns the media type of a PNG or JPEG picture, "" for other bytes.
 std::string picture_type(std::string_view bytes);
 
-/// The relative URI of a file of this name.
+/// Returns the relative URI of a file of this name.
 std::string uri_of_name(const std::string& name);
 
 /// Reads the files of one folder.

@@ -23,8 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file of any content was read whatever its size says: pictures are, and nothing else is asked
-// for.
+// Pictures of any content and size are read; no other files are requested.
 SharedBytes content_beside(GltfFolder& folder, const std::string& name) {
     if (name.empty()) return nullptr;
     try {
@@ -36,7 +35,7 @@ SharedBytes content_beside(GltfFolder& folder, const std::string& name) {
     }
 }
 
-// ---- What the JSON of a material says, which may come from anywhere ----
+// ---- Values of a material's JSON, which may come from anywhere ----
 
 double number_in(const Json* value, double fallback) {
     const bool is_number = value && value->is_number();
@@ -311,7 +310,7 @@ std::string first_names(const std::vector<std::string>& names) {
     return text + (names.size() > kShown ? ", ..." : "");
 }
 
-// Decides where the materials of one OBJ file are defined.
+// Decides the library files that define the materials of one OBJ file.
 class Planner {
   public:
     Planner(const Mesh& mesh, const fs::path& path, const Context& context)

@@ -16,7 +16,7 @@ struct SideFile {
     std::string bytes;
 };
 
-/// Where the materials of an OBJ file are defined.
+/// Library files that define the materials of an OBJ file.
 struct MaterialFiles {
     /// Names for "mtllib", relative to the OBJ file.
     std::vector<std::string> libraries;
@@ -26,11 +26,11 @@ struct MaterialFiles {
     bool holds_asset = false;
 };
 
-/// Finds out where the materials of `mesh` are defined if it is saved as the OBJ file `path`: in
-/// the libraries that it names, if they lie beside the file and say the same; else in one that is
-/// called as the file, with the textures that they use, a file that exists with another content
-/// never being replaced by a texture. Warnings of the log name materials that nothing defines, and
-/// what MTL cannot hold. Errors: file_too_large; memory_limit; cancelled.
+/// Returns the library files for the materials of `mesh` if it is saved as the OBJ file `path`: the
+/// libraries that it names, if they lie beside the file and say the same; else one that is called
+/// as the file, with the textures that they use, a file that exists with another content never
+/// being replaced by a texture. Warnings of the log name materials without a definition, and
+/// contents that MTL cannot hold. Errors: file_too_large; memory_limit; cancelled.
 MaterialFiles material_files(const Mesh& mesh, const std::filesystem::path& path,
                              const Context& context);
 

@@ -93,7 +93,7 @@ class LibraryReader {
         color = {*r, g.value_or(*r), b.value_or(*r)};
     }
 
-    // What follows the options, such as "-s 1 1 1" and "-clamp on"; names may have blanks.
+    // Reads the name after the options, such as "-s 1 1 1" and "-clamp on"; names may have blanks.
     void read_file_name(std::string& name) {
         std::string_view rest = text_.rest_of_line();
         while (rest.starts_with('-')) {

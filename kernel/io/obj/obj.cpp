@@ -38,8 +38,8 @@ class CornerValues {
         }
     }
 
-    // Gives a corner the values of a number as written, which is negative where it counts back
-    // from the last one before.
+    // Gives a corner the values of a number as written; a negative one counts back from the last
+    // one before.
     void refer(std::size_t corner, std::int64_t written, std::size_t line) {
         const auto known = static_cast<std::int64_t>(count());
         const std::int64_t index = written > 0 ? written - 1 : known + written;
@@ -49,7 +49,7 @@ class CornerValues {
         index_of_corner_.push_back(index_of(index));
     }
 
-    // The values of all corners as an attribute, where any corner has one.
+    // Adds the values of all corners as an attribute, if any corner has one.
     void finish(MeshData& mesh, std::string_view name) {
         drop_dangling();
         dangling_.finish(mesh.report, FindingKind::indices_dangling, std::string(plural_));
@@ -112,7 +112,7 @@ class RegionReader {
         if (state_ == State::open) regions_[name_];
         state_ = State::none;
     }
-    // True if a face now makes a group of faces of what could have been a region.
+    // Returns true if a face now turns a possible region into a group of faces.
     bool give_way() {
         if (state_ != State::open) return false;
         state_ = State::none;
@@ -297,7 +297,7 @@ class ObjReader {
         }
     }
 
-    // Statements of other programs are passed over; what is no statement at all shows that the file
+    // Statements of other programs are passed over; a line without a statement shows that the file
     // is not OBJ.
     void skip_statement(std::string_view keyword) {
         const bool is_name = std::all_of(keyword.begin(), keyword.end(), [](char c) {

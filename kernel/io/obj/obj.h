@@ -18,12 +18,12 @@ inline constexpr std::string_view kObjRegionPrefix = "region:";
 /// Reads polygons with their texture coordinates (corner attribute "uv"), normals (corner attribute
 /// "normal"), the colours of vertices (vertex attribute "color"), the names of objects, groups,
 /// materials and smoothing groups (face labels) and regions. Several group names on one line are
-/// one label. Colours are bytes where all in the file are whole numbers and one is above 1, and
-/// else fractions; without any, those of comments "#MRGB" count (see polypaint.h). Values that an
+/// one label. Colours are bytes if all in the file are whole numbers and one is above 1, and else
+/// fractions; without any, those of comments "#MRGB" count (see polypaint.h). Values that an
 /// element lacks are NaN, and so are those that are not finite and those of corners that refer to
 /// texture coordinates or normals which do not exist: the report counts these. Weights, third
 /// texture coordinates, other points, lines, free-form geometry and unknown statements are skipped
-/// and counted in the report. A comment starts at a '#' where a statement or a number could; in
+/// and counted in the report. A comment starts at a '#' in place of a statement or a number; in
 /// names it is a character as any. Errors: file_syntax, face_index, file_too_large, cancelled.
 MeshData read_obj(std::string_view text, const Context& context);
 

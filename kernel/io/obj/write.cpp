@@ -49,7 +49,7 @@ class WrittenValues {
     std::vector<Index> number_of_corner_;
 };
 
-// Writes a statement where the label of one kind changes from one face to the next.
+// Writes a statement if the label of one kind changes from one face to the next.
 class LabelWriter {
   public:
     LabelWriter(const FaceLabels* labels, std::string_view keyword, std::string_view none)

@@ -1,4 +1,4 @@
-/// What the readers of OFF in text and in binary have in common; private to kernel/io.
+/// Common part of the readers of OFF in text and in binary; private to kernel/io.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace lissom {
 
-/// What the vertices have beside positions, in the order of the file.
+/// Values of the vertices beside positions, in the order of the file.
 struct OffLayout {
     bool normals = false, colors = false, uvs = false;
 
@@ -55,7 +55,7 @@ struct OffBuilder {
         mesh.positions.emplace_back(x, y, z);
     }
 
-    /// The mesh of what was collected. Errors: face_index.
+    /// Returns the mesh of the collected data. Errors: face_index.
     MeshData finish() {
         vertices.require_below(mesh.positions.size());
         add("normal", 3, std::move(normals));
@@ -72,7 +72,7 @@ struct OffBuilder {
     }
 };
 
-/// Reads the counts and what follows them in text, whatever its line breaks; see `read_off`.
+/// Reads the counts and the data in text, with any line breaks; see `read_off`.
 MeshData read_off_text(const TextReader& text, std::size_t file_bytes, OffLayout layout,
                        const Context& context);
 

@@ -14,7 +14,7 @@ bool begins_number(std::string_view word) {
     return (word[0] >= '0' && word[0] <= '9') || word[0] == '-' || word[0] == '+';
 }
 
-// What the keyword says: [ST][C][N][4][n]OFF.
+// Parses the keyword: [ST][C][N][4][n]OFF.
 std::optional<OffLayout> parse_keyword(std::string_view word, Place place) {
     if (!word.ends_with("OFF")) return std::nullopt;
     OffLayout layout;

@@ -15,7 +15,7 @@ struct Reading {
     /// Each vertex is one line; otherwise lines mean nothing among vertices.
     bool vertices_by_line = false;
     std::size_t color_width = 0;
-    /// What follows the indices of a face on its line is its colour; otherwise faces have none.
+    /// The rest of a face's line after the indices is its colour; otherwise faces have none.
     bool face_colors = true;
     /// The number of edges stands on a line of its own.
     bool edges_on_own_line = false;
@@ -145,8 +145,8 @@ std::size_t numbers_on_next_line(TextReader text, std::size_t enough) {
     return count;
 }
 
-// What is tried, in this order. The line of the first vertex tells how many values a colour has,
-// three, four or none, whatever the keyword says. If lines mean nothing, the keyword decides.
+// Returns the readings to try, in this order. The line of the first vertex tells how many values a
+// colour has, three, four or none, for any keyword. If lines mean nothing, the keyword decides.
 std::vector<Reading> possible_readings(OffLayout layout, std::size_t on_first_line,
                                        bool has_edge_count) {
     const std::size_t others = layout.numbers_without_color();

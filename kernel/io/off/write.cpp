@@ -9,7 +9,7 @@
 namespace lissom {
 namespace {
 
-// Colours are written as bytes where they were bytes and can be told from numbers between 0 and 1.
+// Colours are written as bytes if they were bytes and can be told from numbers between 0 and 1.
 bool as_bytes(const Attribute& color) {
     if (color.type != ScalarType::uint8) return false;
     const auto end = color.values.end();
@@ -62,7 +62,7 @@ void write_off(SavedParts& parts, const SaveOptions&, std::string& text, const C
     text += uv ? "ST" : "";
     text += color ? "C" : "";
     text += normal ? "N" : "";
-    // Without a comment: OpenMesh reads no mesh where one stands before the counts.
+    // Without a comment: OpenMesh reads no mesh with one before the counts.
     text += "OFF\n";
     append_number(text, mesh.vertex_count());
     append_numbers(text, std::array{mesh.face_count(), topology.edge_count()});

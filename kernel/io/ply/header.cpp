@@ -82,7 +82,7 @@ class HeaderReader {
                     "; known are ascii, binary_little_endian and binary_big_endian");
     }
 
-    // Comments of other programs, and what is not as expected, say nothing.
+    // Comments of other programs, and malformed ones, mean nothing.
     void read_comment() {
         const std::string_view kind = text_.word();
         if (kind == "lissom_mtllib") {

@@ -36,14 +36,14 @@ struct PlyHeader {
     bool binary = false;
     Endianness endianness = Endianness::little;
     std::vector<PlyElement> elements;
-    /// What PLY has no place for stands in comments, with percent-encoded names:
-    /// names of face labels by kind, as "comment lissom group 0 left%20hand" for the number 0 of
-    /// the faces' property "group", and names of material files, as "comment lissom_mtllib a.mtl".
+    /// Content without a place in PLY stands in comments, with percent-encoded names: names of face
+    /// labels by kind, as "comment lissom group 0 left%20hand" for the number 0 of the faces'
+    /// property "group", and names of material files, as "comment lissom_mtllib a.mtl".
     std::map<std::string, std::vector<std::string>, std::less<>> label_names;
     std::vector<std::string> material_libraries;
     /// Pictures of the surface, as "comment TextureFile skin.png" of other programs names them.
     std::vector<std::string> texture_files;
-    /// Where the data begin: bytes and, for text, lines of the header.
+    /// Offset of the data: bytes and, for text, lines of the header.
     std::size_t size = 0, lines = 0;
 };
 
@@ -51,7 +51,7 @@ struct PlyHeader {
 /// Errors: file_syntax, file_truncated, file_too_large.
 PlyHeader read_ply_header(std::string_view bytes);
 
-/// The header as text, from "ply" to "end_header".
+/// Returns the header as text, from "ply" to "end_header".
 std::string to_text(const PlyHeader& header);
 
 }  // namespace lissom

@@ -1,5 +1,4 @@
-/// How the properties of PLY elements and what a mesh holds stand for each other; private to
-/// kernel/io.
+/// Mapping between the properties of PLY elements and the contents of a mesh; private to kernel/io.
 ///
 /// - Some numbers together are one attribute with a meaning, as red, green and blue are "color";
 ///   texture_u2 and texture_v2 are "uv2", and so on.
@@ -29,8 +28,8 @@ namespace lissom {
 /// Begins the names of properties that are regions.
 inline constexpr std::string_view kPlyRegionPrefix = "region_";
 
-/// Where the values of one property go while rows are read: a component of an attribute, a list, or
-/// nowhere.
+/// Destination of the values of one property while rows are read: a component of an attribute, a
+/// list, or none.
 struct PlySlot {
     double* out = nullptr;
     std::size_t stride = 0;
@@ -38,7 +37,7 @@ struct PlySlot {
     std::vector<double>* list = nullptr;
 };
 
-/// What single numbers of an element are.
+/// Roles of single numbers of an element.
 enum class PlyRole { position, attribute, region, labels };
 
 /// Numbers that belong together; a region or labels are in it as an attribute of width 1.
@@ -47,7 +46,7 @@ struct PlyColumn {
     Attribute attribute;
 };
 
-/// The columns that the single numbers of an element make, and where in them each property goes.
+/// The columns of an element's single numbers, and the column of each property.
 class PlyLayout {
   public:
     /// Both must outlive the layout; the element is one of the header's.
@@ -55,11 +54,11 @@ class PlyLayout {
 
     /// Makes room for `rows` elements. The slots are valid until the columns are taken.
     void allocate(std::size_t rows);
-    /// One slot a property.
+    /// Returns one slot a property.
     std::vector<PlySlot>& slots() { return slots_; }
     /// Lets the list called `name` be read into `list`; false if there is no such list.
     bool attach_list(std::string_view name, std::vector<double>& list);
-    /// The columns, cut to the element's number of rows; the positions first.
+    /// Returns the columns, cut to the element's number of rows; the positions first.
     std::vector<PlyColumn> take_columns();
     /// Names of the properties that go nowhere.
     std::vector<std::string> unplaced() const;
@@ -90,15 +89,15 @@ class PlyLayout {
     std::vector<PlyColumn> columns_;
 };
 
-/// The names of the properties that stand for an attribute of vertices or faces. `shielded` gives
-/// others that mean the same, for where the usual ones are in use.
+/// The names of the properties that stand for an attribute of vertices or faces. `shielded` returns
+/// other names with the same meaning, for use if the usual ones are taken.
 std::vector<std::string> ply_property_names(const std::string& attribute, Index width,
                                             Domain domain, bool shielded = false);
 
-/// An attribute of corners as a list's name tells it, without values.
+/// Returns an attribute of corners as a list's name tells it, without values.
 std::optional<Attribute> ply_corner_attribute(const PlyProperty& list);
 
-/// The name of the list that stands for an attribute of corners.
+/// Returns the name of the list that stands for an attribute of corners.
 std::string ply_list_name(const Attribute& corner_attribute);
 
 /// Largest width of an attribute of corners.

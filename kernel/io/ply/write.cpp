@@ -28,8 +28,8 @@ bool can_hold(ScalarType type, double value) {
     return !std::isnan(value) && rounded_to(type, value) == value;
 }
 
-// The type that the attribute remembers, or double where that is an integer that cannot hold its
-// values. Colours are rounded, so only those outside 0..1 do not fit.
+// Returns the type that the attribute remembers, or double if that is an integer that cannot hold
+// its values. Colours are rounded, so only those outside 0..1 do not fit.
 ScalarType written_type(const Attribute& attribute, bool is_color) {
     if (!is_integer(attribute.type)) return attribute.type;
     const bool fits =

@@ -1,5 +1,4 @@
-/// ColorReader: colours of vertices or faces in text, where their form is not declared; private to
-/// kernel/io.
+/// ColorReader: colours of vertices or faces in text without a declared form; private to kernel/io.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +9,14 @@
 
 namespace lissom {
 
-/// Collects colours of three or four numbers. They are bytes where all are whole numbers up to 255
-/// and one is above 1, and else fractions.
+/// Collects colours of three or four numbers. They are bytes if all are whole numbers up to 255 and
+/// one is above 1, and else fractions.
 class ColorReader {
   public:
     /// The colour of `element`, which is not below those set before.
     void set(std::size_t element, std::span<const double> values);
-    /// Adds attribute "color" where any element has a colour: NaN for those that have none, and
-    /// opaque those without a fourth number.
+    /// Adds attribute "color" if any element has a colour: NaN for elements without one, and opaque
+    /// ones without a fourth number.
     void finish(AttributeSet& attributes, Domain domain, std::size_t element_count);
 
   private:

@@ -1,5 +1,5 @@
-/// What mesh files and hair files have in common: extensions, units, and the place of an error;
-/// private to kernel/io.
+/// Common rules of mesh files and hair files: extensions, units, and the place of an error; private
+/// to kernel/io.
 #pragma once
 
 #include <cmath>
@@ -33,7 +33,7 @@ inline void require_unit(double unit) {
                 "unit is " + std::to_string(unit) + ", but must be positive and finite");
 }
 
-/// The result of `action`; its errors begin with the file, and the line if there is one.
+/// Returns the result of `action`; its errors begin with the file, and the line if there is one.
 template <typename Action>
 auto with_place_in_errors(const std::string& file, const Action& action) {
     try {

@@ -9,7 +9,7 @@
 namespace lissom {
 namespace {
 
-// A polygon is flat where its area is below this fraction of its longest edge squared.
+// A polygon is flat if its area is below this fraction of its longest edge squared.
 constexpr double kFlat = 1e-14;
 constexpr std::size_t kFacesPerLoss = 1000;
 

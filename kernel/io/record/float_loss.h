@@ -1,4 +1,4 @@
-/// What the 32-bit numbers of a file take from a surface; private to kernel/io and not installed.
+/// Loss of a surface by the 32-bit numbers of a file; private to kernel/io and not installed.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@
 
 namespace lissom {
 
-/// As the file holds it.
+/// Returns the point as the file holds it.
 Vec3 rounded_to_float(const Vec3& p);
 
-/// The origin that lets 32-bit numbers hold most of what lies in `box`: its middle, which is a
+/// Returns the origin that lets 32-bit numbers hold most points of `box`: its middle, which is a
 /// 32-bit number itself; zero if the box is no farther from the origin than it is large.
 Vec3 near_origin(const Box& box);
 
@@ -25,9 +25,9 @@ class FloatLoss {
   public:
     /// Looks at the polygon of a face in the coordinates that will be rounded.
     void look_at(Index face, std::span<const Vec3> points);
-    /// Tells what was found: nothing, a warning for few faces, or an error where they are more than
-    /// one in a thousand. `origin_moves`: the origin of the file can be moved to the surface and
-    /// was not. Errors: unsupported naming the faces.
+    /// Reports the loss: nothing, a warning for few faces, or an error for more than one in a
+    /// thousand. `origin_moves`: the origin of the file can be moved to the surface and was not.
+    /// Errors: unsupported naming the faces.
     void require_small(std::string_view format, bool origin_moves, const Context& context) const;
 
   private:
@@ -37,7 +37,7 @@ class FloatLoss {
     std::vector<Vec3> rounded_;
 };
 
-/// Throws if rounding puts vertices that are apart at one place, which is what joins vertices in a
+/// Throws if rounding puts vertices that are apart at one place, because this joins vertices in a
 /// format without indices. `corners` are the vertices that are written, in any order. Errors:
 /// unsupported naming vertices.
 void require_distinct_floats(std::span<const Vec3> positions, std::span<const Index> corners,

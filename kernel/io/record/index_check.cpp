@@ -8,7 +8,7 @@ void IndexCheck::refuse_index(std::int64_t index, Place place) const {
     const std::string what = std::string(element_) + " " + std::to_string(index + base_);
     refuse(ErrorCode::face_index,
            what + (index < 0 ? " does not exist; the first is " + std::to_string(base_)
-                             : " is beyond what can be numbered"),
+                             : " is beyond the range of numbers"),
            place);
 }
 

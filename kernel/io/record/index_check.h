@@ -17,7 +17,8 @@ class IndexCheck {
     /// `element` is singular; indices in the file count from `base`.
     IndexCheck(std::string_view element, int base) : element_(element), base_(base) {}
 
-    /// The 0-based index for `index`, itself 0-based. Errors: face_index if negative or too large.
+    /// Returns the 0-based index for `index`, itself 0-based. Errors: face_index if negative or too
+    /// large.
     Index checked(std::int64_t index, Place place) {
         if (index < 0 || index > kLargest) refuse_index(index, place);
         if (index > largest_) {

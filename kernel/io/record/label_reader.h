@@ -17,7 +17,7 @@ class LabelReader {
   public:
     /// The label of the faces from `face` on; empty for none.
     void set(std::string_view label, Index face);
-    /// Adds the labels to `attributes` as `kind` where any face has one.
+    /// Adds the labels to `attributes` as `kind` if any face has one.
     void finish(AttributeSet& attributes, std::string_view kind, Index face_count);
 
   private:

@@ -1,4 +1,4 @@
-/// What a reader takes from a file, before a Mesh is made of it; private to kernel/io.
+/// Data that a reader takes from a file, before a Mesh is made of it; private to kernel/io.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +28,7 @@ struct FileInput {
 struct MeshData : Soup {
     std::vector<std::string> material_libraries;
     std::shared_ptr<const Asset> asset;
-    /// What the reader left out, or found amiss.
+    /// Omissions and findings of the reader.
     Report report;
     /// True for formats that store each face by itself: all vertices at one place are one.
     bool faces_are_separate = false;
@@ -39,11 +39,12 @@ struct MeshData : Soup {
 /// Adds a face. Errors: file_too_large beyond the number of corners that can be numbered.
 void add_face(FaceList& faces, std::span<const Index> face);
 
-/// Adds an attribute of faces or vertices; where another domain has one of its name, this one is
+/// Adds an attribute of faces or vertices; if another domain has one of its name, this one is
 /// called "face_<name>", as `face_attribute_name` expects.
 void add_without_clash(AttributeSet& attributes, Attribute attribute);
 
-/// The name under which a face attribute stands in a file that tells faces and vertices apart.
+/// Returns the name under which a face attribute stands in a file that tells faces and vertices
+/// apart.
 std::string face_attribute_name(const AttributeSet& attributes, const Attribute& attribute);
 
 }  // namespace lissom

@@ -17,9 +17,9 @@ enum class UpAxis {
     z,     ///< turned about x, so that the file's z is the kernel's y and its y the kernel's -z
 };
 
-/// Where the origin of a file lies.
+/// Origin of a file.
 enum class FileOrigin {
-    keep,       ///< where that of the mesh is
+    keep,       ///< that of the mesh
     automatic,  ///< in the middle of a mesh that is farther from its origin than it is large
 };
 
@@ -28,7 +28,7 @@ struct LoadOptions {
     /// Which vertices at the same place become one; if absent, Weld::all for STL, which stores each
     /// triangle by itself, and Weld::seams for all others.
     std::optional<Weld> weld = std::nullopt;
-    /// False: what would be mended (see repair.h) is an error instead.
+    /// False: each repair (see repair.h) is an error instead.
     bool repair = true;
     /// The file's up axis.
     UpAxis up = UpAxis::none;
@@ -61,22 +61,22 @@ struct SaveOptions {
 
 /// How the coordinates of a file become those of the strands.
 struct StrandLoadOptions {
-    /// The file's up axis. None: what the file says (.usda), else nothing is turned. The sample
-    /// files of .hair are z-up.
+    /// The file's up axis. None: that of the file (.usda), else nothing is turned. The sample files
+    /// of .hair are z-up.
     UpAxis up = UpAxis::none;
     /// Length of the file's unit in metres: points and widths are multiplied by it. Positive,
-    /// finite. Absent: what the file says (.usda), else 1.
+    /// finite. Absent: that of the file (.usda), else 1.
     std::optional<double> unit = std::nullopt;
 };
 
-/// The inverse of StrandLoadOptions, and what is checked.
+/// The inverse of StrandLoadOptions, and the checks.
 struct StrandSaveOptions {
     /// The up axis the file shall have.
     UpAxis up = UpAxis::none;
     /// Length of the file's unit in metres: points and widths are divided by it. Positive, finite.
     double unit = 1.0;
-    /// False: what would be changed or left out for the file (see StrandFindingKind, but for
-    /// content_dropped) is an error instead.
+    /// False: each change or omission for the file (see StrandFindingKind, but for content_dropped)
+    /// is an error instead.
     bool mend = true;
     /// Signed distance in metres to the head; empty: it is not checked that roots come first.
     std::function<double(const Vec3&)> distance = {};

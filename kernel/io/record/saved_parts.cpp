@@ -117,7 +117,7 @@ void SavedParts::log_losses(std::string_view format, const Context& context) con
     if (!regions_taken_) {
         for (const auto& entry : mesh_.regions()) lose("region", entry.first, "");
     }
-    // What the libraries define is saved with their names as with the definitions themselves.
+    // Definitions of the libraries are saved with their names as with the definitions themselves.
     const bool defines_libraries = mesh_.asset() && mesh_.asset()->is_of_libraries();
     if (!libraries_taken_ && !(asset_taken_ && defines_libraries)) {
         for (const std::string& name : mesh_.material_libraries()) lose("material file", name, "");

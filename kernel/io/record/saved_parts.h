@@ -1,5 +1,5 @@
-/// SavedParts: keeps account of what a writer takes of a mesh, so that the rest can be named;
-/// private to kernel/io.
+/// SavedParts: keeps account of the parts of a mesh that a writer takes, so that the rest can be
+/// named; private to kernel/io.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@
 
 namespace lissom {
 
-/// A mesh as a writer sees it: what it takes counts as saved, and what is left is lost.
+/// A mesh as a writer sees it: taken parts count as saved, and the rest is lost.
 class SavedParts {
   public:
     /// Errors: invalid_argument if an attribute or label does not fit the mesh.
@@ -28,22 +28,22 @@ class SavedParts {
 
     const Mesh& mesh() const { return mesh_; }
 
-    /// The attribute called `name` where it is in one of `domains` and has one of `widths`, else
-    /// null.
+    /// Returns the attribute called `name` if it is in one of `domains` and has one of `widths`,
+    /// else null.
     const Attribute* take(std::string_view name, std::initializer_list<Domain> domains,
                           std::initializer_list<Index> widths);
     void take(const Attribute& attribute) { taken_attributes_.insert(attribute.name); }
-    /// The labels of a kind, or null.
+    /// Returns the labels of a kind, or null.
     const FaceLabels* take_labels(std::string_view kind);
     const std::vector<std::string>& take_material_libraries();
     /// Makes these the material libraries that a writer takes, in place of those of the mesh.
-    /// `have_asset`: what the asset says of materials is in them.
+    /// `have_asset`: the materials of the asset are in them.
     void replace_material_libraries(std::vector<std::string> names, bool have_asset);
     const std::map<std::string, Region, std::less<>>& take_regions();
-    /// What the mesh holds beside its surface, or null.
+    /// Returns the contents of the mesh beside its surface, or null.
     const std::shared_ptr<const Asset>& take_asset();
 
-    /// Logs a warning that names what was not taken, if there is any.
+    /// Logs a warning that names the parts that were not taken, if there are any.
     void log_losses(std::string_view format, const Context& context) const;
 
   private:

@@ -77,7 +77,7 @@ class Checker {
         result_.report.findings.push_back({kind, std::move(elements), std::move(text)});
     }
 
-    // What changes the strands; refused where they may not be changed.
+    // Records a change of the strands; refused if they may not be changed.
     void mend(StrandFindingKind kind, Elements elements, const std::string& what,
               const std::string& done, ErrorCode code = ErrorCode::invalid_argument) {
         if (options_.mend) return add(kind, std::move(elements), what + "; " + done);

@@ -11,7 +11,7 @@
 
 namespace lissom {
 
-/// What files of a format can hold.
+/// Limits of a format.
 struct StrandCapacity {
     /// Fewest points of a strand.
     Index least_points = 2;
@@ -27,8 +27,8 @@ struct CheckedStrands {
     StrandReport report;
 };
 
-/// Checks what hair files are known to break on. Errors: with options.mend false, not_finite or
-/// invalid_argument naming the strands; cancelled, memory_limit.
+/// Checks strands for values on which hair files are known to break. Errors: with options.mend
+/// false, not_finite or invalid_argument naming the strands; cancelled, memory_limit.
 CheckedStrands check_strands(const Strands& strands, const StrandCapacity& capacity,
                              const StrandSaveOptions& options, const Context& context);
 

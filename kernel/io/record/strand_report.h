@@ -1,4 +1,4 @@
-/// StrandReport: what a check before saving strands found, and what a file leaves out.
+/// StrandReport: findings of a check before saving strands, and omissions of a file.
 #pragma once
 
 #include <string>
@@ -9,30 +9,30 @@
 
 namespace lissom {
 
-/// What a finding says. The name in scripts is that of `strand_finding_name`.
+/// Kinds of findings. The name in scripts is that of `strand_finding_name`.
 enum class StrandFindingKind {
-    // Changed in what is written.
+    // Changes of the written strands.
     strands_not_finite,   ///< left out: a coordinate is NaN or infinite
     points_repeated,      ///< strands with segments without length; the second points are left out
     strands_too_short,    ///< left out: fewer points than the format needs, once repeats are gone
     widths_not_positive,  ///< strands with a width that is not above 0; replaced by the least that
                           ///< is
     groups_unnamed,       ///< groups without a name or with one that is taken; named "group 3"
-    content_dropped,      ///< what the format has no place for; the message names it
+    content_dropped,      ///< content without a place in the format; the message names it
     // Written as they are.
     roots_last,        ///< strands whose tip lies nearer to the head than their root
     root_uv_constant,  ///< all strands have the same root uv, by which hair shows bald or in one
                        ///< place
 };
 
-/// The name of a kind in scripts and reports: "points_repeated".
+/// Returns the name of a kind in scripts and reports: "points_repeated".
 std::string_view strand_finding_name(StrandFindingKind kind);
 
 struct StrandFinding {
     StrandFindingKind kind;
-    /// Strands concerned, by their numbers; kind `none` where the finding is not about strands.
+    /// Strands concerned, by their numbers; kind `none` if the finding is not about strands.
     Elements elements;
-    /// A sentence that says what was found and what was done about it.
+    /// A sentence on the finding and its treatment.
     std::string message;
 };
 
@@ -41,7 +41,7 @@ struct StrandReport {
     std::vector<StrandFinding> findings;
 
     bool empty() const { return findings.empty(); }
-    /// The finding of a kind, or null.
+    /// Returns the finding of a kind, or null.
     const StrandFinding* find(StrandFindingKind kind) const;
 };
 

@@ -14,9 +14,8 @@ namespace lissom {
 /// Reads text and binary; which of them is told by the size, for binary files may begin with
 /// "solid" too. Each triangle has three vertices of its own (MeshData::faces_are_separate). The
 /// names of solids in text are face labels "object"; normals and attribute bytes are skipped. If a
-/// binary header announces no triangles, or the largest number, those that follow are read, with
-/// a warning of the log.
-/// Errors: file_syntax, file_truncated, file_too_large, cancelled.
+/// binary header announces no triangles, or the largest number, the triangles after it are read,
+/// with a warning of the log. Errors: file_syntax, file_truncated, file_too_large, cancelled.
 MeshData read_stl(std::string_view bytes, const Context& context);
 
 /// True if the size of the data is exactly that of the binary STL which they would be.

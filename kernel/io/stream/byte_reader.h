@@ -16,14 +16,14 @@ class ByteReader {
   public:
     ByteReader(std::string_view bytes, Endianness order) : bytes_(bytes), order_(order) {}
 
-    /// What is being read, for the error of data that end too early.
+    /// Tally of the present read, for the error of data that end too early.
     Tally tally;
 
     std::size_t remaining() const { return bytes_.size() - at_; }
     /// Share of the data that lies behind, 0 to 1.
     double fraction() const { return bytes_.empty() ? 1.0 : double(at_) / double(bytes_.size()); }
 
-    /// The next number. Errors: file_truncated.
+    /// Returns the next number. Errors: file_truncated.
     template <typename T>
     T read() {
         if (remaining() < sizeof(T)) refuse_truncated(tally);
@@ -31,7 +31,8 @@ class ByteReader {
         at_ += sizeof(T);
         return from_bytes<T>(next, order_);
     }
-    /// The next number as a double, which holds every value of every type. Errors: file_truncated.
+    /// Returns the next number as a double, which holds every value of every type. Errors:
+    /// file_truncated.
     double read(ScalarType type) {
         return with_scalar(type,
                            [&](auto zero) { return static_cast<double>(read<decltype(zero)>()); });

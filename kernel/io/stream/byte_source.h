@@ -25,7 +25,7 @@ class ByteSource {
     /// Errors: as `require_file` and `addressable_size`.
     explicit ByteSource(const std::filesystem::path& path);
 
-    /// What is being read, for the error of data that end too early.
+    /// Tally of the present read, for the error of data that end too early.
     Tally tally;
 
     std::size_t size() const { return size_; }
@@ -35,7 +35,7 @@ class ByteSource {
         if (remaining() < bytes) refuse_truncated(tally);
     }
 
-    /// The next number. Errors: file_truncated, file_unreadable.
+    /// Returns the next number. Errors: file_truncated, file_unreadable.
     template <typename T>
     T read() {
         char bytes[sizeof(T)];

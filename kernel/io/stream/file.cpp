@@ -36,7 +36,7 @@ constexpr std::size_t kPieceBytes = std::size_t{8} << 20;
 
 [[noreturn]] void refuse_write(const fs::path& path, const std::error_code& reason) {
     refuse(ErrorCode::file_write_failed, path,
-           "could not be written: " + reason.message() + "; what was there before is untouched");
+           "could not be written: " + reason.message() + "; the old content is untouched");
 }
 
 std::error_code last_error() {
@@ -123,7 +123,7 @@ class HeldLock {
     int descriptor_;
 };
 
-// Whether the file is ours and nobody writes it: what is left of a process that was killed.
+// Whether the file is ours and nobody writes it: a leftover of a killed process.
 bool is_left_over(int descriptor) {
     struct stat status {};
     return fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
@@ -262,7 +262,7 @@ void require_replaceable(const fs::path& path, const fs::file_status& status) {
     }
 }
 
-// Of files, or of folders only; at most the first of a very large folder.
+// Returns the names of files, or of folders only; at most the first of a very large folder.
 std::vector<std::string> names_in(const fs::path& folder, bool folders) {
     constexpr std::size_t kMostNames = 20000;
     std::vector<std::string> names;
@@ -287,7 +287,7 @@ std::string nearest_in(const fs::path& path, bool folders) {
            display_name(path.parent_path() / std::u8string(nearest.begin(), nearest.end())) + "'?";
 }
 
-// What the host gives piece by piece is charged first, each time that the room doubles.
+// Content that the host gives piece by piece is charged first, each time that the room doubles.
 FileContent read_by_host(const fs::path& path, const Context& context) {
     context.checkpoint();
     FileContent content;
@@ -417,7 +417,7 @@ void write_file_atomically(const fs::path& path, std::string_view bytes, const C
     const bool exists = fs::exists(status);
     if (exists) require_replaceable(path, status);
 
-    // Permissions come first: what is private shall not be open to others while it is written.
+    // Permissions come first: private content shall not be open to others while it is written.
     TemporaryFile file(target);
     if (exists) file.take_permissions(status.permissions());
     Progress progress(context, "write file");

@@ -1,5 +1,5 @@
-/// Files as bytes: reading one whole, and replacing one whole or not at all. Where the context has
-/// a table of files (Context::files), that is asked instead of the system.
+/// Files as bytes: reading one whole, and replacing one whole or not at all. If the context has a
+/// table of files (Context::files), that is asked instead of the system.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,11 @@ struct FileContent {
     MemoryCharge charge;
 };
 
-/// The path as it appears in messages, in UTF-8.
+/// Returns the path as it appears in messages, in UTF-8.
 std::string display_name(const std::filesystem::path& path);
 
-/// "there is no such file, did you mean 'scan.obj'?": what a message says of a path that does not
-/// exist, with the nearest name in its folder, or of a folder that does not exist.
+/// Returns the text of a message about a path that does not exist: "there is no such file, did you
+/// mean 'scan.obj'?", with the nearest name in its folder, or about a folder that does not exist.
 std::string missing_file_text(const std::filesystem::path& path);
 
 /// Throws if `path` is not a regular file with content. A host's table is not asked. Errors:
@@ -39,14 +39,14 @@ FileContent read_file(const std::filesystem::path& path, const Context& context 
 /// result is to be saved there. A host's table is not asked. Errors: file_write_failed.
 void require_folder_of(const std::filesystem::path& path, const Context& context = {});
 
-/// Makes the folder `path`, and those above it, where they are missing. Errors: file_write_failed.
+/// Makes the folder `path`, and those above it, if they are missing. Errors: file_write_failed.
 void make_folder(const std::filesystem::path& path);
 
 /// Replaces the content of the file at `path`, or creates it. The bytes go to a temporary file in
 /// the same folder, are flushed to the disk and then renamed, so that a reader sees the old content
-/// or the new one, and no error leaves a trace. A file that exists keeps its permissions; where
-/// `path` is a symbolic link, the file it points to is replaced. Temporary files of processes that
-/// were killed while they wrote into the folder are removed. Errors: file_is_directory;
+/// or the new one, and no error leaves a trace. A file that exists keeps its permissions; if `path`
+/// is a symbolic link, the file it points to is replaced. Temporary files of processes that were
+/// killed while they wrote into the folder are removed. Errors: file_is_directory;
 /// file_write_failed, also for a file that is read-only or not a regular one, and if the host's
 /// table cannot write it; cancelled.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,

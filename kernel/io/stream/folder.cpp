@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where new files lie until all are written, and from then on until they have their names.
+// Folder of new files until all are written, and from then on until they have their names.
 constexpr const char* kUnfinished = ".lissom-new";
 constexpr const char* kFinished = ".lissom-ready";
 
@@ -22,7 +22,7 @@ void require_done(const std::error_code& error, const fs::path& path) {
     if (error) refuse_entry(path, "could not be written: " + error.message());
 }
 
-// What must not be replaced: files of others, and folders.
+// Throws for files that must not be replaced: files of others, and folders.
 void require_place(const fs::path& folder, const std::string& name, const FolderChange& change) {
     std::error_code error;
     const fs::path path = folder / name;
@@ -66,8 +66,8 @@ std::vector<std::string> files_below(const fs::path& folder) {
     return names;
 }
 
-// Gives the files of a finished change their names. What cannot be done is left for the next time:
-// readers see the new files all the same.
+// Gives the files of a finished change their names. Failures are left for the next time: readers
+// see the new files all the same.
 void settle(const fs::path& folder) {
     std::error_code error;
     const fs::path from = folder / kFinished;
@@ -90,7 +90,7 @@ void remove_with_empty_folders(const fs::path& folder, const std::string& name) 
     }
 }
 
-// What was begun goes, unless it was finished.
+// Removes an unfinished change.
 class Unfinished {
   public:
     explicit Unfinished(const fs::path& folder) : folder_(folder) {

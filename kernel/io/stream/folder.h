@@ -20,12 +20,12 @@ struct FolderChange {
     std::set<std::string> before;
 };
 
-/// Makes the change: whoever reads by `read_from_folder` sees all files as they were or all as they
-/// are afterwards, even where this process is killed at any time. New contents are written beside
-/// the old ones and take their names only once all of them are on the disk; files whose content
-/// stays are not touched, and neither are files of others. A missing folder is made; the one above
-/// it is there. Errors: file_write_failed, naming the file, also if one stands in the way that is
-/// not in `before`; cancelled. The folder is then as it was.
+/// Makes the change: readers by `read_from_folder` see all files as they were or all as they are
+/// afterwards, even if this process is killed at any time. New contents are written beside the old
+/// ones and take their names only once all of them are on the disk; files whose content stays are
+/// not touched, and neither are files of others. A missing folder is made; the one above it is
+/// there. Errors: file_write_failed, naming the file, also if one stands in the way that is not in
+/// `before`; cancelled. The folder is then as it was.
 void replace_in_folder(const std::filesystem::path& folder, const FolderChange& change,
                        const Context& context = {});
 
@@ -33,7 +33,7 @@ void replace_in_folder(const std::filesystem::path& folder, const FolderChange& 
 FileContent read_from_folder(const std::filesystem::path& folder, const std::string& name,
                              const Context& context = {});
 
-/// Whether the folder has this file, as `read_from_folder` sees it.
+/// Returns whether the folder has this file, as `read_from_folder` sees it.
 bool has_in_folder(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace lissom

@@ -1,4 +1,4 @@
-/// LineFinding: something amiss in a text, with the lines where it was found; private to kernel/io.
+/// LineFinding: a finding in a text, with its lines; private to kernel/io.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ class LineFinding {
   public:
     /// One more, on a line that is counted from 0.
     void add(std::size_t line);
-    /// Adds it to `report`, where there is any, with a message as "normals on lines 3 and 7".
+    /// Adds it to `report`, if there is any, with a message as "normals on lines 3 and 7".
     void finish(Report& report, FindingKind kind, const std::string& what);
 
   private:

@@ -11,10 +11,10 @@ namespace lissom {
 /// beyond ASCII as %HH.
 std::string percent_encoded(std::string_view name, bool keeps_utf8 = false);
 
-/// The value of a hexadecimal digit, or -1.
+/// Returns the value of a hexadecimal digit, or -1.
 int hex_digit(char c);
 
-/// One byte as %HH.
+/// Returns one byte as %HH.
 std::string percent_encoded_byte(char byte);
 
 /// The inverse; a '%' without two hexadecimal digits after it stands for itself.

@@ -25,24 +25,24 @@ struct ScalarRange {
 };
 ScalarRange range_of(ScalarType type);
 
-/// What integers of a type are divided by to give a colour between 0 and 1: the largest value of 8
+/// Returns the divisor of a type's integers for a colour between 0 and 1: the largest value of 8
 /// bits and of unsigned 16 bits. Files with other integers use them for the values of a byte, so
 /// that is 255.
 double color_divisor(ScalarType type);
 
-/// The value of an integer type that is nearest to `value`; 0 for NaN.
+/// Returns the value of an integer type that is nearest to `value`; 0 for NaN.
 double rounded_to(ScalarType integer_type, double value);
 
 /// True if `value` is one of a normal 32-bit number or zero.
 bool is_float(double value);
 
-/// Whether the machine keeps numbers in this order.
+/// Returns whether the machine keeps numbers in this order.
 inline bool is_native(Endianness order) {
     return (order == Endianness::little) == (std::endian::native == std::endian::little);
 }
 
 /// The bytes of a number in a file. Reversed bytes are never held as a number: some processors
-/// change what would be a signalling NaN on its way.
+/// change a signalling NaN on its way.
 template <typename T>
 std::array<char, sizeof(T)> to_bytes(T value, Endianness order) {
     std::array<char, sizeof(T)> bytes;
@@ -51,7 +51,7 @@ std::array<char, sizeof(T)> to_bytes(T value, Endianness order) {
     return bytes;
 }
 
-/// The number that the next bytes of a file are.
+/// Returns the number that the next bytes of a file are.
 template <typename T>
 T from_bytes(const char* next, Endianness order) {
     std::array<char, sizeof(T)> bytes;

@@ -31,7 +31,7 @@ class TextReader {
           line_(first_line),
           style_(style) {}
 
-    /// What is being read, for the error of a text that ends too early.
+    /// Tally of the present read, for the error of a text that ends too early.
     Tally tally;
 
     /// 0-based number of the present line, and the same as a place for errors.
@@ -44,9 +44,9 @@ class TextReader {
         return begin_ == end_ ? 1.0 : double(at_ - begin_) / double(end_ - begin_);
     }
 
-    /// The next character, or NUL at the end of the text.
+    /// Returns the next character, or NUL at the end of the text.
     char peek() const { return at_ == end_ ? '\0' : *at_; }
-    /// Moves over the next character where it is `c`.
+    /// Moves over the next character if it is `c`.
     bool take(char c) {
         if (at_ == end_ || *at_ != c) return false;
         ++at_;
@@ -60,22 +60,22 @@ class TextReader {
     /// Moves to the start of the next line.
     void skip_line();
 
-    /// The next word of the line, empty at its end; comments are part of it.
+    /// Returns the next word of the line, empty at its end; comments are part of it.
     std::string_view word();
-    /// What is left of the line without the blanks around it; comments are part of it.
+    /// Returns the rest of the line without the blanks around it; comments are part of it.
     std::string_view rest_of_line();
 
-    /// The next number on the line; also "nan" and "inf". Numbers beyond the range of double are
-    /// read as infinity or zero. Errors: file_syntax.
+    /// Returns the next number on the line; also "nan" and "inf". Numbers beyond the range of
+    /// double are read as infinity or zero. Errors: file_syntax.
     double number();
-    /// The next whole number on the line; beyond 64 bits it is the nearest that fits.
+    /// Returns the next whole number on the line; beyond 64 bits it is the nearest that fits.
     /// Errors: file_syntax.
     std::int64_t integer();
 
-    /// As `number` and `integer`, on this line or a later one. Errors: file_truncated.
+    /// Read as `number` and `integer` do, on this line or a later one. Errors: file_truncated.
     double next_number();
     std::int64_t next_integer();
-    /// The next word on this line or a later one. Errors: file_truncated.
+    /// Returns the next word on this line or a later one. Errors: file_truncated.
     std::string_view next_word();
 
   private:

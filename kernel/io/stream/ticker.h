@@ -12,7 +12,7 @@ class Ticker {
   public:
     explicit Ticker(Progress& progress) : progress_(progress) {}
 
-    /// Call once an element; `fraction()` gives what part is done.
+    /// Call once an element; `fraction()` returns the fraction done.
     template <typename Fraction>
     void tick(const Fraction& fraction) {
         constexpr std::size_t kEvery = 1 << 14;

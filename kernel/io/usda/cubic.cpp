@@ -33,7 +33,7 @@ Weights catmull_rom(double t) {
     refuse(code, "BasisCurves " + in_quotes(prim.name) + ": " + what, prim.place);
 }
 
-// What the basis of a prim means: how segments lie on the control points.
+// Basis of a prim: the position of segments on the control points.
 class CubicBasis {
   public:
     explicit CubicBasis(const CurvesPrim& prim) : prim_(prim), pinned_(prim.wrap == "pinned") {

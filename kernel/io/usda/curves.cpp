@@ -332,7 +332,7 @@ class LayerReader {
                                             names + (count > kShown ? ", ..." : ""));
     }
 
-    // Tells what a layer holds that has no curves at all.
+    // Describes the contents of a layer without any curves.
     void log_content() const {
         Report report;
         others_.finish(report);

@@ -3,8 +3,8 @@
 /// Widths are diameters. Root uvs are primvars:st, colours primvars:displayColor, transparency is
 /// primvars:displayOpacity; groups are the indexed primvar "group", ids, root faces and their
 /// weights the primvars "strandId", "rootFace" and "rootBarycentrics", for which USD has no names
-/// of its own. What strands hold beside that - the profile of the widths, the comment - is in
-/// attributes of the namespace "lissom", so that they come back as they were.
+/// of its own. Other data of strands - the profile of the widths, the comment - are in attributes
+/// of the namespace "lissom", so that they come back unchanged.
 #pragma once
 
 #include <optional>
@@ -17,10 +17,10 @@
 
 namespace lissom {
 
-/// What a layer holds.
+/// Contents of a layer.
 struct UsdaHair {
     Strands strands;
-    /// Length of its unit in metres and its up axis, where it says so.
+    /// Length of its unit in metres and its up axis, if it gives them.
     std::optional<double> meters_per_unit;
     UpAxis up = UpAxis::none;
     /// False if it says nothing of widths.
@@ -30,14 +30,13 @@ struct UsdaHair {
 /// Reads all BasisCurves of a layer that are drawn, in the order of the file; if there are several
 /// without groups, each is a group by its name. Transforms are applied, indexed primvars expanded,
 /// and cubic curves become polylines. Other prims are passed over. Warnings of the log name curves
-/// that are inactive or invisible, and tell what a layer without curves holds.
-/// Errors: file_syntax, file_truncated, not_finite with the line; unsupported for periodic curves,
-/// curves or transforms that change over time, and transforms that flatten; cancelled,
-/// memory_limit.
+/// that are inactive or invisible, and the contents of a layer without curves. Errors: file_syntax,
+/// file_truncated, not_finite with the line; unsupported for periodic curves, curves or transforms
+/// that change over time, and transforms that flatten; cancelled, memory_limit.
 UsdaHair read_usda(std::string_view bytes, const Context& context);
 
-/// Writes one BasisCurves "Hair", linear, with a width for each point where they differ. What is
-/// read back has the same hash in the same unit.
+/// Writes one BasisCurves "Hair", linear, with a width for each point if they differ. Strands read
+/// back have the same hash in the same unit.
 void write_usda(const Strands& strands, double meters_per_unit, UpAxis up, std::string& bytes,
                 const Context& context);
 

@@ -86,7 +86,7 @@ StrandDomain domain_of(const CurvesPrim& prim, const CurveValues& values, std::s
                                                                   : counts.points;
     if (values.numbers.size() == width * expected) return domain;
     refuse_prim(prim, std::to_string(values.numbers.size() / width) + " values of '" + what +
-                          "' where their interpolation needs " + std::to_string(expected));
+                          "' but their interpolation needs " + std::to_string(expected));
 }
 
 // Numbers, one a value, in their domain.
@@ -101,7 +101,7 @@ void take_values(const CurvesPrim& prim, const CurveValues& from, const CurveCou
     }
 }
 
-// Whether widths at all points are what the file says.
+// Returns whether the widths at all points are those of the file.
 bool are_widths(const Strands& strands, const std::vector<float>& numbers) {
     if (numbers.size() != at(strands.point_count())) return false;
     std::vector<float> widths;

@@ -26,10 +26,10 @@ struct CurveValues {
     bool is_indexed = false;
 };
 
-/// What the file says; defaults are those of USD.
+/// Values of the file; defaults are those of USD.
 struct CurvesPrim {
     std::string name;
-    /// Where the prim begins.
+    /// First place of the prim.
     Place place;
     std::string type = "cubic", basis = "bezier", wrap = "nonperiodic";
     std::vector<double> counts;
@@ -38,8 +38,8 @@ struct CurvesPrim {
     std::vector<std::string> group_names;
     std::vector<double> groups, ids, faces;
     std::vector<float> barycentrics;
-    /// What this program knows besides: widths before their profile, and what opacities were made
-    /// of. They count where widths and opacities are still those that follow from them.
+    /// Additional data of this program: widths before their profile, and the sources of opacities.
+    /// They count if widths and opacities are still those that follow from them.
     CurveValues base_widths, transparencies;
     std::vector<float> width_profile;
     std::string comment;

@@ -58,7 +58,7 @@ double number_of(const UsdaText::Token& token) {
     double value = 0.0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = stop == text.data() + text.size();
-    // What is out of range is near zero or beyond any length.
+    // A number out of range is near zero or beyond any length.
     if (whole && error == std::errc::result_out_of_range) {
         return text.find("e-") != text.npos || text.find("E-") != text.npos
                    ? 0.0

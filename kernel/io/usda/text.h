@@ -27,10 +27,10 @@ class UsdaText {
 
     explicit UsdaText(std::string_view text);
 
-    /// The next token, which stays the next, and the same with a move behind it.
+    /// Returns the next token, which stays the next, and the same with a move behind it.
     const Token& peek() const { return next_; }
     Token take();
-    /// Moves over the next token where it is this word or punctuation.
+    /// Moves over the next token if it is this word or punctuation.
     bool take(std::string_view word);
     /// Errors: file_syntax, file_truncated if it is another.
     void expect(std::string_view word);
@@ -38,14 +38,13 @@ class UsdaText {
     /// Moves over a value: one token, or brackets with all they hold. Errors: file_syntax for
     /// brackets that do not match or are nested too deep; file_truncated.
     void skip_value();
-    /// Reads a value of numbers, whatever brackets they stand in; none for a value that is blocked
-    /// ("None"). Errors: as skip_value; file_syntax for what is no number.
+    /// Reads a value of numbers, in any brackets; none for a value that is blocked ("None").
+    /// Errors: as skip_value; file_syntax for other tokens.
     std::vector<double> numbers();
-    /// As `numbers`, into 32 bits, where a value can be large. Errors: also not_finite naming the
-    /// line.
+    /// Reads as `numbers` does, into 32 bits, for values that can be large. Errors: also not_finite
+    /// naming the line.
     std::vector<float> floats();
-    /// Reads a list of texts, or one, what is escaped by backslashes as what it stands for. Errors:
-    /// as `numbers`.
+    /// Reads a list of texts, or one, with characters escaped by backslashes. Errors: as `numbers`.
     std::vector<std::string> texts();
 
     Place place() const { return {ElementKind::line, next_.line}; }

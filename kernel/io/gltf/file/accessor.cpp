@@ -39,7 +39,7 @@ ScalarType scalar_type(int component_type, int accessor) {
     }
 }
 
-// Where elements of one size lie: `stride` apart, from the start of `bytes`.
+// Elements of one size: `stride` apart, from the start of `bytes`.
 struct ElementRange {
     std::string_view bytes;
     std::size_t stride = 0, size = 0;

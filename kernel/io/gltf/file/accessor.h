@@ -13,7 +13,7 @@
 
 namespace lissom {
 
-/// Numbers as they stand in a file, without what lies between them and with sparse values in place.
+/// Numbers of a file without gaps and with sparse values in place.
 struct PackedNumbers {
     std::size_t count = 0;
     Index width = 1;

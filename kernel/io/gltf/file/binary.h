@@ -24,13 +24,13 @@ struct WrittenNumbers {
     std::vector<double> values;
 };
 
-/// What an accessor is used for.
+/// Use of an accessor.
 enum class BufferUse { vertices, indices };
 
 class GltfBinary {
   public:
-    /// Adds numbers and returns the accessor's number. Elements start at multiples of 4 bytes where
-    /// they are of vertices. `with_bounds` adds the least and largest values.
+    /// Adds numbers and returns the accessor's number. Elements of vertices start at multiples of 4
+    /// bytes. `with_bounds` adds the least and largest values.
     std::size_t add(const WrittenNumbers& numbers, BufferUse use, bool with_bounds = false);
     /// Adds an accessor with given bytes; `use` is that of their view.
     std::size_t add(Json accessor, std::string_view bytes, std::optional<BufferUse> use = {});

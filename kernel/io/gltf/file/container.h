@@ -23,7 +23,7 @@ GltfContainer open_gltf_container(std::string_view bytes);
 /// Throws file_syntax if arrays and objects of `json` are nested so deep that it may not be parsed.
 void require_shallow(std::string_view json);
 
-/// A GLB of JSON and binary data. Errors: file_too_large beyond 4 GiB.
+/// Returns a GLB of JSON and binary data. Errors: file_too_large beyond 4 GiB.
 std::string make_glb(const std::string& json, const std::string& binary);
 
 /// `size` up to a multiple of 4, as chunks and accessors begin.

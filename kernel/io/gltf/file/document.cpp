@@ -45,7 +45,7 @@ void require_gltf_2(const Json& json) {
     const Json* asset = member(json, "asset");
     const std::string version = asset ? text_member(*asset, "version") : "";
     const std::string needed = asset ? text_member(*asset, "minVersion") : "";
-    // The first version had objects where the second has lists, and need not name itself.
+    // The first version had objects in place of the second's lists, and need not name itself.
     const Json* meshes = member(json, "meshes");
     const bool is_first =
         version.starts_with("1.") || (version.empty() && meshes && meshes->is_object());
@@ -207,8 +207,8 @@ class Loader {
     std::string missing_;
 };
 
-// What tinygltf is given: all that refers to no bytes outside the text. Skins and animations are
-// not given to it either, because it refuses some that glTF allows.
+// Returns the input of tinygltf: everything without references to bytes outside the text. Skins and
+// animations are not given to it either, because it refuses some that glTF allows.
 Json part_for_parser(Json json) {
     for (const char* key : {"buffers", "images", "skins", "animations"}) json.erase(key);
     return json;

@@ -1,8 +1,8 @@
 /// GltfDocument: a glTF file opened and checked; private to kernel/io and not installed.
 ///
 /// tinygltf parses the text once it was checked and freed of buffers and images, so that it opens
-/// no file and decodes nothing. Its model places numbers and shapes, and what it finds wrong with
-/// the rest is an error. The rest is kept as JSON, of which nothing is lost when it is saved again.
+/// no file and decodes nothing. Its model places numbers and shapes; a defect that it finds in the
+/// rest is an error. The rest is kept as JSON, of which nothing is lost when it is saved again.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace lissom {
 
-/// What a file may grow to in memory, in elements (vertices, corners, nodes). A small file that
+/// Limit of a file's size in memory, in elements (vertices, corners, nodes). A small file that
 /// refers to the same bytes many times is refused when it would exceed it.
 class GltfBudget {
   public:
@@ -42,12 +42,12 @@ struct GltfDocument {
     std::vector<SharedBytes> owned;
     /// Content of each image that is there.
     std::vector<SharedBytes> images;
-    /// Bytes of the file and of those that it refers to.
+    /// Bytes of the file and of its referenced files.
     std::size_t bytes_read = 0;
     MemoryCharge charge;
 };
 
-/// The bytes of a buffer view. Errors: file_syntax naming it if they are not in its buffer.
+/// Returns the bytes of a buffer view. Errors: file_syntax naming it if they are not in its buffer.
 std::string_view bytes_of_view(const GltfDocument& document, std::size_t view);
 
 /// Opens a file. Missing images are reported; the elements of images get their media type.

@@ -13,12 +13,12 @@ namespace lissom {
 /// in one.
 void require_supported_extensions(const Json& document);
 
-/// Removes from a document what would not be true of it once its surface is written anew:
-/// extensions that refer to bytes of the file. Reports them, and those of primitives, accessors and
-/// buffer views that are not understood.
+/// Removes parts of a document that would be false once its surface is written anew: extensions
+/// that refer to bytes of the file. Reports them, and those of primitives, accessors and buffer
+/// views that are not understood.
 void drop_bound_extensions(Json& document, Report& report);
 
-/// The names of all extensions that stand somewhere in `document`, sorted.
+/// Returns the names of all extensions that stand somewhere in `document`, sorted.
 std::vector<std::string> extensions_inside(const Json& document);
 
 }  // namespace lissom

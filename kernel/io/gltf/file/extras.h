@@ -1,5 +1,5 @@
-/// What the extras of a glTF mesh hold of ours: labels of faces and named regions, for which glTF
-/// has no place; private to kernel/io and not installed.
+/// Our data in the extras of a glTF mesh: labels of faces and named regions, for which glTF has no
+/// place; private to kernel/io and not installed.
 ///
 ///     "lissom": {"vertices": 8, "faces": 6,
 ///                "labels": {"group": {"names": ["side"], "runs": [0, 4, -1, 2]}},
@@ -8,11 +8,11 @@
 ///
 /// Runs are pairs: a label (-1 for none) and the number of faces that have it; for regions the
 /// first vertex and how many follow. Vertices are those of the mesh's accessors, faces the polygons
-/// of its primitives in order; where polygons had to be written as several faces, "parts" has runs
-/// of how many each of them was made. "copies", where places do not tell which vertices are one,
-/// has runs of how many vertices in a row are. Turns are runs too: the place in each polygon of the
-/// corner that was its first. "corners" names attributes that are of corners even where none of
-/// them differ.
+/// of its primitives in order; if polygons had to be written as several faces, "parts" has runs of
+/// the number of faces of each. "copies", if positions do not identify vertices, has runs of the
+/// number of consecutive entries of one vertex. Turns are runs too: the place in each polygon of
+/// the corner that was its first. "corners" names attributes of corners, even if none of them
+/// differ.
 #pragma once
 
 #include <cstddef>
@@ -40,8 +40,8 @@ struct MeshExtras {
     std::vector<Index> copies;
 };
 
-/// The extras of `mesh`, in so far as they fit so many vertices and faces as were read; another
-/// program may have changed it. Removes them from `mesh`, where `fits` is then false if there were
+/// Returns the extras of `mesh`, in so far as they fit so many vertices and faces as were read;
+/// another program may have changed it. Removes them from `mesh`; `fits` is false if there were
 /// some that do not fit.
 MeshExtras take_extras(Json& mesh, std::size_t vertex_count, std::size_t face_count, bool& fits);
 

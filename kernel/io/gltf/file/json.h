@@ -12,27 +12,27 @@ namespace lissom {
 
 using Json = nlohmann::json;
 
-/// The member `key` of `object`; null if there is none or `object` is something else.
+/// Returns the member `key` of `object`; null if there is none or `object` is something else.
 const Json* member(const Json& object, const char* key);
 Json* member(Json& object, const char* key);
 
-/// The member `key` of the extension `name` of `object`, or null.
+/// Returns the member `key` of the extension `name` of `object`, or null.
 const Json* extension(const Json& object, const char* name);
 
-/// The member `key` as a whole number from 0 to 2^31 - 1. Absent: -1. Errors: file_syntax naming
-/// `owner` for any other value.
+/// Returns the member `key` as a whole number from 0 to 2^31 - 1. Absent: -1. Errors: file_syntax
+/// naming `owner` for any other value.
 int index_member(const Json& object, const char* key, const std::string& owner);
 
-/// The text of the member `key`, empty if it is absent or none.
+/// Returns the text of the member `key`, empty if it is absent or none.
 std::string text_member(const Json& object, const char* key);
 
 /// Elements of the array `key`, 0 if there is none.
 std::size_t size_of_member(const Json& object, const char* key);
 
-/// The object called `key` inside `parent`; made if it is absent.
+/// Returns the object called `key` inside `parent`; made if it is absent.
 Json& object_in(Json& parent, const char* key);
 
-/// `json` as text; what is not UTF-8 is replaced.
+/// Returns `json` as text; invalid UTF-8 is replaced.
 std::string to_text(const Json& json);
 
 /// Calls `visit(object)` for every object inside `json`, itself included, but not those in extras,
@@ -49,7 +49,7 @@ void for_each_object(AnyJson& json, const Visit& visit) {
     }
 }
 
-/// The array `key` of an object, made where it is missing.
+/// Returns the array `key` of an object, made if it is missing.
 Json& list_in(Json& json, const char* key);
 
 }  // namespace lissom

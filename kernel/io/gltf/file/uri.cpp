@@ -60,8 +60,8 @@ std::string scheme_of(std::string_view uri) {
 
 [[noreturn]] void refuse_path(std::string_view uri) {
     refuse(ErrorCode::unsafe_path, "the file refers to " + in_quotes(uri) +
-                                       ", which is not inside its own folder; copy what it needs "
-                                       "beside it");
+                                       ", which is not inside its own folder; copy the files "
+                                       "that it needs beside it");
 }
 
 bool has_parent_part(const fs::path& path) {

@@ -24,10 +24,10 @@ struct UriData {
     std::string media_type;
 };
 
-/// The data in `uri`, or nothing if it is not a data URI. Errors: file_syntax.
+/// Returns the data in `uri`, or nothing if it is not a data URI. Errors: file_syntax.
 std::optional<UriData> decode_data_uri(std::string_view uri);
 
-/// A data URI of `bytes`.
+/// Returns a data URI of `bytes`.
 std::string make_data_uri(std::string_view bytes);
 
 /// True for http and https.
@@ -40,11 +40,11 @@ class GltfFolder {
     GltfFolder(std::filesystem::path folder, const Context& context)
         : folder_(std::move(folder)), context_(context) {}
 
-    /// The first `length` bytes, if it has as many, of the file at the relative `uri`. Errors:
-    /// unsafe_path if it is not inside the folder; unsupported for the web; file_not_found;
+    /// Returns the first `length` bytes, if it has as many, of the file at the relative `uri`.
+    /// Errors: unsafe_path if it is not inside the folder; unsupported for the web; file_not_found;
     /// file_truncated; file_too_large if no memory can hold as many; those of require_file.
     SharedBytes read(std::string_view uri, std::uint64_t length);
-    /// All of a file, or null if there is none. Errors: as `read`; file_too_large.
+    /// Returns all of a file, or null if there is none. Errors: as `read`; file_too_large.
     SharedBytes read_if_there(std::string_view uri);
 
     /// Bytes that were read.

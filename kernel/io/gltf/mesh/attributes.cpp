@@ -26,7 +26,7 @@ Index expected_width(GltfSemantic semantic) {
     }
 }
 
-// The type that values have in a mesh, where fractions are numbers of their own.
+// Returns the type of values in a mesh, in which fractions are numbers of their own.
 ScalarType type_in_mesh(GltfSemantic semantic, const AccessorValues& read) {
     const bool keeps_integers = semantic == GltfSemantic::joints ||
                                 (semantic == GltfSemantic::color && read.normalized) ||

@@ -13,12 +13,12 @@
 
 namespace lissom {
 
-/// Collects attributes of vertices block by block. What a block does not have is NaN there.
+/// Collects attributes of vertices block by block. Values missing in a block are NaN.
 class AttributeColumns {
   public:
-    /// Values of an attribute for the vertices from `first` on, which are not before those that
-    /// were given to it last. Of different widths the larger counts: a color gets an alpha of 1,
-    /// and others NaN.
+    /// Adds values of an attribute for the vertices from `first` on, which are not before those
+    /// that were given to it last. The larger of different widths counts: a color gets an alpha of
+    /// 1, and others NaN.
     void add(const std::string& name, Index width, ScalarType type, std::size_t first,
              std::span<const double> values);
     /// Numbers that `finish` will hold.

@@ -13,14 +13,14 @@ namespace lissom {
 /// same first vertex, which differs from that of the polygon before.
 class FanWriter {
   public:
-    /// What became of a polygon: the faces that a reader will find, and where the polygon's first
-    /// corner is, counted from the first vertex of the first of them.
+    /// Result for a polygon: the faces that a reader will find, and the position of the polygon's
+    /// first corner, counted from the first vertex of the first of them.
     struct Added {
         Index parts = 1;
         Index turn = 0;
     };
     /// Adds a polygon of pool vertices `vertices` at `points`. A triangle of a surface of triangles
-    /// keeps its first vertex. There are several parts where no fan covers the polygon.
+    /// keeps its first vertex. There are several parts if no fan covers the polygon.
     Added add(const std::vector<Index>& vertices, const std::vector<Vec3>& points);
 
     /// Three vertices a triangle.

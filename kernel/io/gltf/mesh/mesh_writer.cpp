@@ -25,7 +25,7 @@ std::vector<Index> used_vertices(const std::vector<Index>& corners, std::size_t 
     return list;
 }
 
-// Numbers once written, by what they are.
+// Accessors written before, by their contents.
 using Written = std::map<std::string, std::size_t>;
 
 }  // namespace
@@ -109,7 +109,7 @@ class MeshWriter::Object {
                pool_.corners[0] != kNoIndex;
     }
 
-    // What the primitive of this material had beside the surface.
+    // Returns the contents of this material's primitive beside the surface.
     Json beside_surface(int material) const {
         for (const Json& kept : kept_primitives_) {
             if (kept.value("material", -1) != material) continue;
@@ -222,7 +222,7 @@ class MeshWriter::Object {
         }
     }
 
-    // As many for each primitive; a target that adds nothing adds zeros to the positions.
+    // As many for each primitive; a target without offsets adds zeros to the positions.
     Json targets_of(const Json& attributes) {
         Json targets = Json::array();
         for (std::size_t t = 1; t <= target_count_; ++t) {
@@ -315,9 +315,9 @@ class MeshWriter::Object {
     std::vector<Vec3> placed_;
     // The face of the mesh that each polygon read back will be.
     std::vector<Index> faces_;
-    // Where in that polygon its first corner is, and of how many faces it is put together.
+    // Position of the first corner in each polygon, and the number of its faces.
     std::vector<Index> turns_, parts_;
-    // Labels of the objects that the mesh is made of, where there are several.
+    // Labels of the objects that the mesh is made of, if there are several.
     const FaceLabels* objects_ = nullptr;
 };
 

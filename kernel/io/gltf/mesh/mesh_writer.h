@@ -20,13 +20,13 @@
 
 namespace lissom {
 
-/// What the place of an object in the document asks of its mesh.
+/// Place of an object in the document, for its mesh.
 struct ObjectPlace {
     /// From the mesh to the object's node.
     NodeTransform to_node{Affine()};
     /// Joints of the node's skin, 0 if it has none.
     std::size_t joint_count = 0;
-    /// Name, extras, extensions and weights; primitives with what they have beside the surface.
+    /// Name, extras, extensions and weights; primitives with their contents beside the surface.
     Json mesh = Json::object();
 };
 
@@ -44,16 +44,16 @@ class MeshWriter {
     MeshWriter(SavedParts& parts, const WrittenAttributes& attributes, GltfBinary& binary,
                const Context& context);
 
-    /// The mesh of one object with pool `pools.pool(number)`. `materials` has an entry for each of
-    /// its primitives.
+    /// Returns the mesh of one object with pool `pools.pool(number)`. `materials` has an entry for
+    /// each of its primitives.
     Json write(const SurfaceObject& object, const VertexPools& pools, Index number,
                const ObjectPlace& place, const std::vector<PlacedMaterial>& materials);
-    /// The mesh of a surface that has only vertices.
+    /// Returns the mesh of a surface that has only vertices.
     Json write_points(const ObjectPlace& place);
 
     /// Whether the meshes shall say which of their vertices are one.
     bool states_copies = false;
-    /// What rounding takes from the faces written so far.
+    /// Returns the loss by rounding of the faces written so far.
     const FloatLoss& float_loss() const { return float_loss_; }
     /// Tangents that were left out for want of normals, in objects so far.
     std::size_t lost_tangents() const { return lost_tangents_; }

@@ -8,7 +8,7 @@
 
 namespace lissom {
 
-/// What kind of values an attribute of glTF has.
+/// Kinds of values of glTF's attributes.
 enum class GltfSemantic { unknown, position, normal, tangent, uv, color, joints, weights, custom };
 
 /// An attribute of a primitive.
@@ -27,7 +27,8 @@ GltfAttributeName parse_gltf_attribute(std::string_view name);
 /// place in glTF (morph targets).
 GltfAttributeName parse_mesh_attribute(std::string_view name);
 
-/// The name under which a mesh's attribute stands in a primitive; not for joints and weights.
+/// Returns the name under which a mesh's attribute stands in a primitive; not for joints and
+/// weights.
 std::string gltf_attribute_name(const GltfAttributeName& attribute);
 
 /// The parts of "morph.N.position", N from 1; 0 if `name` is none.

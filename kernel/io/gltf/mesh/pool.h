@@ -19,7 +19,7 @@ struct VertexPool {
     std::vector<Index> vertices, corners;
 
     std::size_t size() const { return vertices.size(); }
-    /// What pool vertex `i` has of an attribute of vertices or corners.
+    /// Returns the value of an attribute of vertices or corners at pool vertex `i`.
     std::span<const double> value(const Attribute& attribute, std::size_t i) const {
         return attribute.at(attribute.domain == Domain::vertex ? vertices[i] : corners[i]);
     }
@@ -33,7 +33,7 @@ class VertexPools {
                 const std::vector<const Attribute*>& split_by);
 
     const VertexPool& pool(Index i) const { return pools_[i]; }
-    /// The vertex of its pool that stands for a corner of the mesh.
+    /// Returns the vertex of its pool that stands for a corner of the mesh.
     Index vertex_of_corner(Index corner) const { return vertex_of_corner_[corner]; }
 
   private:
@@ -48,7 +48,7 @@ class VertexPools {
 /// which vertices of a pool are one.
 bool seams_are_ambiguous(const Mesh& mesh, const VertexPools& pools, Index pool_count);
 
-/// All vertices of a mesh without faces.
+/// Returns all vertices of a mesh without faces.
 VertexPool pool_of_points(const Mesh& mesh);
 
 }  // namespace lissom

@@ -9,10 +9,10 @@
 
 namespace lissom {
 
-/// What the vertices of a primitive make.
+/// Shapes made by the vertices of a primitive.
 enum class PrimitiveShape { points, lines, faces };
 
-/// The shape of a mode of glTF, 0 to 6. Errors: file_syntax for others.
+/// Returns the shape of a mode of glTF, 0 to 6. Errors: file_syntax for others.
 PrimitiveShape shape_of_mode(int mode);
 
 /// How the vertices of a primitive are joined.
@@ -28,8 +28,8 @@ struct PrimitiveJoin {
 FaceList join_primitive(std::vector<Index> indices, const PrimitiveJoin& join,
                         std::size_t& left_over);
 
-/// The polygon that `count` faces from `first` on make together, from the first vertex of the first
-/// of them on. False if they make none.
+/// Returns the polygon that `count` faces from `first` on make together, from the first vertex of
+/// the first of them on. False if they make none.
 bool outline_of(const FaceList& faces, Index first, Index count, std::vector<Index>& outline);
 
 }  // namespace lissom

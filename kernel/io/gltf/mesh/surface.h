@@ -22,7 +22,7 @@ struct WrittenAttribute {
     bool normalized = false;
 };
 
-/// What a morph target adds.
+/// Offsets of a morph target.
 struct WrittenMorph {
     const Attribute* attribute = nullptr;
     MorphName name;
@@ -58,7 +58,8 @@ struct SurfaceObject {
     std::vector<SurfacePrimitive> primitives;
 };
 
-/// The objects in order of their first faces. `pool_of_face` receives the object of each face.
+/// Returns the objects in order of their first faces. `pool_of_face` receives the object of each
+/// face.
 std::vector<SurfaceObject> divide_surface(const Mesh& mesh, const FaceLabels* objects,
                                           const FaceLabels* materials,
                                           std::vector<Index>& pool_of_face);

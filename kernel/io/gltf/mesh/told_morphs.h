@@ -9,21 +9,21 @@
 
 namespace lissom {
 
-/// The targets that the extras and the weights of a mesh tell; with those of a node in place of the
-/// mesh's where it has any. Null for no node.
+/// Returns the targets told by the extras and the weights of a mesh; with the weights of a node in
+/// place of the mesh's if it has any. Null for no node.
 std::vector<MorphTarget> told_morphs(const Json& mesh, const Json* node);
 
-/// Gives a mesh names and weights: names where any target has one, weights where any is not 0, it
-/// has some, or `with_weights` asks for them.
+/// Gives a mesh names and weights: names if any target has one, weights if any is not 0, it has
+/// some, or `with_weights` is set.
 void tell_morphs(Json& mesh, const std::vector<MorphTarget>& targets, bool with_weights = false);
 
 /// Makes names and weights of a mesh those of `count` targets; none if that is 0.
 void fit_morphs(Json& mesh, std::size_t count);
 
-/// As glTF has weights.
+/// Returns the weights in the form of glTF.
 Json weights_of(const std::vector<MorphTarget>& targets);
 
-/// The larger of the numbers of names and weights.
+/// Returns the larger of the numbers of names and weights.
 std::size_t told_morph_count(const Json& mesh);
 
 }  // namespace lissom

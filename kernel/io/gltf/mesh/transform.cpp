@@ -16,7 +16,7 @@ Mat3 pseudo_inverse(const Mat3& a) {
     return least_norm_solution(a, Mat3::Identity());
 }
 
-// NaN if it has no length; what is unit up to the rounding of a float stays as it is.
+// NaN if it has no length; a vector that is unit up to the rounding of a float stays as it is.
 void normalize(Direction direction) {
     constexpr double kUnit = 1e-6;
     const double largest = direction.cwiseAbs().maxCoeff();

@@ -13,10 +13,10 @@ namespace lissom {
 class NodeTransform {
   public:
     explicit NodeTransform(const Affine& transform);
-    /// The way back; of a transform that flattens, the least squares one.
+    /// Returns the way back; of a transform that flattens, the least squares one.
     NodeTransform inverse() const;
 
-    /// The same with positions moved by `offset` afterwards.
+    /// Returns the same with positions moved by `offset` afterwards.
     NodeTransform moved(const Vec3& offset) const;
 
     bool is_identity() const { return transform_.is_identity(); }
@@ -27,14 +27,14 @@ class NodeTransform {
     void turn_normal(std::span<double> n) const;
     /// Direction and handedness.
     void turn_tangent(std::span<double> t) const;
-    /// What a morph target adds to a position, normal or tangent.
+    /// Turns the offset of a position, normal or tangent by a morph target.
     void turn_delta(GltfSemantic semantic, std::span<double> delta) const;
 
   private:
     NodeTransform(const Affine& transform, const Mat3& normals, double scale);
 
     Affine transform_;
-    // For normals; has no scale where the transform has the same in all directions.
+    // For normals; without scale if the transform has the same in all directions.
     Mat3 normals_ = Mat3::Identity();
     // Lengths along the transform, on average.
     double scale_ = 1.0;

@@ -52,7 +52,7 @@ WrittenNumbers PoolValues::positions() const {
                 std::move(beyond));
 }
 
-// Of the surface around the vertex, in the frame of the node.
+// Returns the normal of the surface around the vertex, in the frame of the node.
 Vec3 PoolValues::any_normal(std::size_t i) const {
     const Topology& topology = mesh_.topology();
     Vec3 sum = Vec3::Zero();

@@ -24,7 +24,7 @@ class PoolValues {
 
     /// Errors: not_finite naming the vertices beyond the range of 32-bit numbers.
     WrittenNumbers positions() const;
-    /// What has no value gets: a normal of the surface, a tangent across it, opaque white, zeros.
+    /// Missing values become a normal of the surface, a tangent across it, opaque white, zeros.
     WrittenNumbers attribute(const WrittenAttribute& written) const;
     WrittenNumbers morph(const WrittenMorph& morph) const;
     /// Zeros for attributes that others need.
