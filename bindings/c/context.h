@@ -49,13 +49,13 @@ class StatusError : public std::exception {
     std::string message_;
 };
 
-/// What a call ran into, as lissom_last_error tells it.
+/// Error of a call, as lissom_last_error returns it.
 struct CallError {
     lissom_status status = LISSOM_OK;
     std::string message = {};
     Elements elements = {};
 
-    /// Runs `work` and keeps what it throws.
+    /// Runs `work` and keeps its exception.
     void guard(const std::function<void()>& work) noexcept;
 };
 
@@ -75,12 +75,12 @@ class ObjectTable {
     };
 
     std::uint64_t add(Kind kind, std::shared_ptr<void> content, MemoryCharge charge);
-    /// The object, or null for a handle that is not valid or of another kind.
+    /// Returns the object, or null for a handle that is not valid or of another kind.
     Object* find(std::uint64_t id, Kind kind);
     const Object* find(std::uint64_t id, Kind kind) const;
     void release(Object& object);
     std::size_t size() const { return size_; }
-    /// The id of the context's first job.
+    /// Returns the id of the context's first job.
     std::uint64_t first_job() const { return (std::uint64_t{context_} << 48) + 1; }
     /// Calls visit(id, object) for every object.
     void for_each(const std::function<void(std::uint64_t, Object&)>& visit);
@@ -118,7 +118,7 @@ struct Job {
 
     Context context;
     std::function<void(const Context&)> work;
-    /// Takes over what was made, on the host's thread, and gives the handle of a new object, or 0.
+    /// Takes over the result, on the host's thread, and returns the handle of a new object, or 0.
     std::function<std::uint64_t()> take;
     std::vector<std::pair<std::uint64_t, Kind>> held;
     CallError error;
@@ -126,7 +126,7 @@ struct Job {
     void* task = nullptr;
 };
 
-/// What scripts and lissom_call keep; null if the library was built without Lua.
+/// State of scripts and lissom_call; null if the library was built without Lua.
 class ScriptHost;
 
 /// How objects are made and changed so that scripts can share them.
@@ -155,10 +155,10 @@ struct lissom_context {
     lissom::c::Space space;
     lissom::Context kernel;
     lissom::c::ObjectTable objects;
-    /// Of the last call; `shown` points into it.
+    /// Error of the last call; `shown` points into it.
     lissom::c::CallError error;
     lissom_error shown{};
-    /// What lissom_bytes and texts of reports point to.
+    /// Storage of lissom_bytes and texts of reports.
     std::string bytes, text, more_text;
     /// Jobs that were not finished; polled and cancelled from any thread.
     mutable std::mutex jobs_mutex;
@@ -174,7 +174,7 @@ struct lissom_context {
         return objects.add(kind, std::move(content),
                            kernel.charge(bytes_taken, "an object of the host"));
     }
-    /// The content of a valid handle that no job works with. Errors: StatusError.
+    /// Returns the content of a valid handle that no job works with. Errors: StatusError.
     template <typename T>
     T& content(std::uint64_t id, lissom::c::Kind kind) {
         return *static_cast<T*>(shared(id, kind).get());
@@ -183,7 +183,7 @@ struct lissom_context {
     std::shared_ptr<T> share(std::uint64_t id, lissom::c::Kind kind) {
         return std::static_pointer_cast<T>(shared(id, kind));
     }
-    /// The number of a list of an object, or -1 for an invalid handle.
+    /// Returns the number of a list of an object, or -1 for an invalid handle.
     std::int32_t count(const std::function<std::int32_t()>& work);
 
   private:
@@ -192,7 +192,7 @@ struct lissom_context {
 
 namespace lissom::c {
 
-/// Runs a call: `work` throws what went wrong.
+/// Runs a call: `work` throws its errors.
 lissom_status run(lissom_context* context, const std::function<void()>& work) noexcept;
 
 /// Begins a job that works with `held`, and gives its handle.
@@ -203,8 +203,8 @@ void begin_job(lissom_context& context, std::vector<std::pair<std::uint64_t, Kin
 /// Throws INVALID_ARGUMENT, naming it, if a pointer is NULL.
 void require_given(const void* pointer, const char* name);
 
-/// The options that a host gave over the defaults, whatever version of the header it was compiled
-/// with. Errors: BAD_STRUCT.
+/// Returns the options of a host over the defaults, for any version of the header that it was
+/// compiled with. Errors: BAD_STRUCT.
 template <typename Options>
 Options take_options(const Options* given, Options defaults);
 
@@ -216,9 +216,9 @@ Options take_options(const Options* given, Options defaults) {
     return defaults;
 }
 
-/// The mesh of a handle.
+/// Returns the mesh of a handle.
 Mesh& mesh_of(lissom_context& context, lissom_mesh mesh);
-/// The region of a handle.
+/// Returns the region of a handle.
 const Region& region_of(lissom_context& context, lissom_region region);
 
 }  // namespace lissom::c

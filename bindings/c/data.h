@@ -53,7 +53,7 @@ void write_points(const lissom_output* output, std::size_t count, const char* na
     }
 }
 
-/// A text that the host must give. Errors: INVALID_ARGUMENT, naming it, if it is NULL.
+/// Returns a text that the host must give. Errors: INVALID_ARGUMENT, naming it, if it is NULL.
 std::string given_text(const char* text, const char* name);
 
 }  // namespace lissom::c

@@ -6,7 +6,7 @@
 
 namespace lissom::c {
 
-/// A path of UTF-8.
+/// Returns a path of UTF-8.
 std::filesystem::path path_of(const std::string& text);
 
 }  // namespace lissom::c

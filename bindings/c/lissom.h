@@ -13,28 +13,29 @@
 ///
 /// Calls
 ///     A function that can fail returns a lissom_status; results go through the last parameters and
-///     are written where it is LISSOM_OK only. After any other status everything is as it was, and
-///     lissom_last_error has the text, the code and the elements concerned, until the next call
-///     with this context. Nothing is thrown, printed, and no function ends the process. Ids count
-///     from 0, angles are in radians, texts and paths are UTF-8.
+///     are written only for LISSOM_OK. After any other status everything is as it was, and After
+///     any other status everything is as it was, and lissom_last_error has the text, the code and
+///     the elements concerned, until the next call with this context. Nothing is thrown, printed,
+///     and no function ends the process. Ids count from 0, angles are in radians, texts and paths
+///     are UTF-8.
 ///
 /// Options
 ///     Structs of options begin with `struct_size`. Take one from its lissom_default_ function and
-///     change what you want; one that is only filled with zeros is refused (LISSOM_BAD_STRUCT).
-///     Where NULL is allowed it means the defaults. Later versions add fields at the end: programs
+///     change fields; one that is only filled with zeros is refused (LISSOM_BAD_STRUCT).
+///     NULL, if allowed, means the defaults. Later versions add fields at the end: programs
 ///     that were compiled before go on working.
 ///
 /// Objects
 ///     An object is a handle of 8 bytes, passed by value. All bits zero is no object. A handle that
 ///     was released, comes from another context or is of another kind is refused
 ///     (LISSOM_INVALID_HANDLE) and never touches memory. Objects are independent: a deformer keeps
-///     what it needs of its mesh, which may be released. `lissom_X_release` frees one,
+///     its data of the mesh, which may be released. `lissom_X_release` frees one,
 ///     `lissom_context_destroy` all.
 ///
 /// Threads
 ///     One context and its objects are for one thread at a time; any number of contexts may be used
 ///     at once. Functions marked [any thread] may be called from elsewhere at any time. Callbacks
-///     say on which thread they run. The library starts threads only where `threads` asks for them.
+///     say on which thread they run. The library starts threads only if `threads` asks for them.
 ///
 /// Space
 ///     The kernel is right-handed with y up, faces counter-clockwise seen from outside. A host with
@@ -50,12 +51,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// What stands before every function; define it before where a shared library is built or used.
+/// Prefix of every function; define it before if a shared library is built or used.
 #ifndef LISSOM_API
 #define LISSOM_API
 #endif
 /// Stands before functions that may still change or go in the next minor version, without a new
-/// LISSOM_ABI_VERSION. Define it as an attribute that warns to find where you use one.
+/// LISSOM_ABI_VERSION. Define it as an attribute that warns to find your uses.
 #ifndef LISSOM_EXPERIMENTAL
 #define LISSOM_EXPERIMENTAL
 #endif
@@ -64,7 +65,7 @@
 extern "C" {
 #endif
 
-/// Grows where a function or struct changes so that programs must be compiled again. A program that
+/// Grows if a function or struct changes so that programs must be compiled again. A program that
 /// was compiled with another header than the library does not link: the number is part of the name
 /// of lissom_context_create.
 #define LISSOM_ABI_VERSION 1
@@ -137,12 +138,12 @@ typedef enum lissom_element {
     LISSOM_STRAND = 8
 } lissom_element;
 
-/// What the last call that failed ran into.
+/// Error of the last call that failed.
 typedef struct lissom_error {
     lissom_status status;
     /// The name of the status in scripts and documentation: "file_not_found"; "" for LISSOM_OK.
     const char* code;
-    /// What happened and what to do about it.
+    /// Description and remedy.
     const char* message;
     /// Elements concerned: their kind, their true number, and the ids of the first hundred (edges:
     /// two vertices each).
@@ -154,7 +155,7 @@ typedef struct lissom_error {
 
 /// "file_not_found", ...; "unknown" for no status. Lives for ever. [any thread]
 LISSOM_API const char* lissom_status_name(lissom_status status);
-/// One paragraph on what a status means and what to do about it. Lives for ever. [any thread]
+/// Returns a paragraph on the meaning of a status and its remedy. Lives for ever. [any thread]
 LISSOM_API const char* lissom_status_explanation(lissom_status status);
 
 // ---- Version
@@ -163,7 +164,7 @@ LISSOM_API const char* lissom_status_explanation(lissom_status status);
 LISSOM_API int32_t lissom_version(void);
 /// "0.1.0". [any thread]
 LISSOM_API const char* lissom_version_text(void);
-/// Whether scripts and lissom_call are part of this library. [any thread]
+/// Returns whether scripts and lissom_call are part of this library. [any thread]
 LISSOM_API bool lissom_has_scripts(void);
 
 // ---- Context
@@ -188,25 +189,26 @@ typedef struct lissom_space {
 /// Takes bytes; more than one call may bring a file. [called by the host]
 typedef void lissom_sink(void* argument, const void* bytes, size_t size);
 
-/// What a host lends to a context. Each function is optional and gets `user`.
+/// Services of the host for a context. Each function is optional and gets `user`.
 typedef struct lissom_context_options {
     size_t struct_size;
     void* user;
     /// Receives messages, on the thread of the operation. Without it the library is silent.
     void (*log)(void* user, lissom_log_level level, const char* message);
-    /// Receives what is being done and the fraction done, 0 to 1, on the thread of the operation.
+    /// Receives the name of the step and the fraction done, 0 to 1, on the thread of the operation.
     void (*progress)(void* user, const char* label, double fraction);
     /// Calls chunk(argument, i) once for each i below `count`, in any order, on any threads, and
     /// returns when all have returned. Takes the place of threads of the library.
     void (*parallel_for)(void* user, size_t count, void (*chunk)(void* argument, size_t i),
                          void* argument);
-    /// Runs task(argument) once, on any thread, at once or later, and returns what `wait` gets.
-    /// Jobs run in it; without it a job runs when it begins. Must be given together with `wait`.
+    /// Runs task(argument) once, on any thread, at once or later, and returns the argument of
+    /// `wait`. Jobs run in it; without it a job runs when it begins. Must be given together with
+    /// `wait`.
     void* (*enqueue)(void* user, void (*task)(void* argument), void* argument);
     /// Returns once that task has returned.
     void (*wait)(void* user, void* task);
     /// Reads a file: gives its bytes to the sink and returns true, or false if there is none. With
-    /// it the library opens no file for reading: those that a file refers to (.gltf: .bin) are
+    /// it the library opens no file for reading: files that a file refers to (.gltf: .bin) are
     /// asked for likewise, by their path from the folder of that file, and so are those of scripts.
     bool (*read_file)(void* user, const char* path, lissom_sink* sink, void* argument);
     /// Writes a file, whole; false if it cannot. With it the library writes no file.
@@ -220,17 +222,17 @@ typedef struct lissom_context_options {
 
 /// [any thread]
 LISSOM_API lissom_context_options lissom_default_context_options(void);
-/// Makes a context. `options` may be NULL. [any thread]
-/// Errors: BAD_STRUCT; INVALID_ARGUMENT for threads below 1, or `enqueue` without `wait`;
-/// MEMORY_LIMIT. What is wrong is told to `log`, as there is no context to ask.
+/// Makes a context. `options` may be NULL. [any thread] Errors: BAD_STRUCT; INVALID_ARGUMENT for
+/// threads below 1, or `enqueue` without `wait`; MEMORY_LIMIT. The error is told to `log`, as there
+/// is no context to ask.
 LISSOM_API lissom_status lissom_context_create(const lissom_context_options* options,
                                                lissom_context** context);
 /// Cancels jobs, waits for them, and frees the context with all its objects. NULL is allowed.
 LISSOM_API void lissom_context_destroy(lissom_context* context);
-/// Never NULL; of status LISSOM_OK where the last call succeeded.
+/// Never NULL; of status LISSOM_OK if the last call succeeded.
 LISSOM_API const lissom_error* lissom_last_error(const lissom_context* context);
-/// Asks what runs to stop: it returns CANCELLED soon and has changed nothing. What begins later
-/// stops too, until lissom_clear_cancel. [any thread]
+/// Asks running operations to stop: they return CANCELLED soon and have changed nothing. Operations
+/// that begin later stop too, until lissom_clear_cancel. [any thread]
 LISSOM_API void lissom_cancel(lissom_context* context);
 LISSOM_API void lissom_clear_cancel(lissom_context* context);
 /// Bytes taken now, and at most so far, of objects and operations. [any thread]
@@ -259,8 +261,8 @@ typedef struct lissom_input {
 } lissom_input;
 
 /// A list in the host's memory that is written: mapped vertex buffers too, as nothing is read from
-/// it. `count` is the number of elements there is room for; where it is too small the call is
-/// refused as OUT_OF_RANGE. The functions that tell the number stand beside.
+/// it. `count` is the number of elements there is room for; if it is too small the call is refused
+/// as OUT_OF_RANGE. The functions that tell the number stand beside.
 typedef struct lissom_output {
     void* data;
     size_t count;
@@ -317,7 +319,7 @@ typedef struct lissom_object {
     uint64_t id;
 } lissom_object;
 
-/// Whether the handle names an object of this context.
+/// Returns whether the handle names an object of this context.
 LISSOM_API bool lissom_mesh_is_valid(const lissom_context* context, lissom_mesh mesh);
 LISSOM_API bool lissom_region_is_valid(const lissom_context* context, lissom_region region);
 LISSOM_API bool lissom_deformer_is_valid(const lissom_context* context, lissom_deformer deformer);
@@ -342,21 +344,21 @@ LISSOM_API lissom_status lissom_object_release(lissom_context* context, lissom_o
 
 // ---- Jobs
 //
-// Functions with `begin` in their name start what takes long and return at once where the host has
+// Functions with `begin` in their name start long operations and return at once if the host has
 // given `enqueue`. Objects that the job works with are BUSY until it is finished. Progress and log
 // are told on the thread that the host runs the job on.
 
 typedef enum lissom_job_state { LISSOM_JOB_RUNNING = 0, LISSOM_JOB_DONE = 1 } lissom_job_state;
 
-/// Whether the job has ended, well or badly. Does not wait. [any thread]
+/// Returns whether the job has ended, well or badly. Does not wait. [any thread]
 LISSOM_API lissom_status lissom_job_poll(const lissom_context* context, lissom_job job,
                                          lissom_job_state* state);
 /// Asks this job alone to stop; finish it all the same. [any thread]
 LISSOM_API lissom_status lissom_job_cancel(const lissom_context* context, lissom_job job);
-/// Waits for the job where it still runs, takes over what it has made, and frees it. Returns what
-/// the function without `begin` would have returned; the error is that of the job. `result`
-/// receives the handle of the new object where the job makes one (`id` of its struct), else 0; it
-/// may be NULL, and the object is then dropped.
+/// Waits for the job if it still runs, takes over its result, and frees it. Returns the status of
+/// the function without `begin`; the error is that of the job. `result` receives the handle of the
+/// new object if the job makes one (`id` of its struct), else 0; it may be NULL, and the object is
+/// then dropped.
 LISSOM_API lissom_status lissom_job_finish(lissom_context* context, lissom_job job,
                                            uint64_t* result);
 
@@ -372,7 +374,7 @@ typedef enum lissom_weld {
 typedef struct lissom_mesh_load_options {
     size_t struct_size;
     lissom_weld weld;
-    /// false: what would be mended is an error instead.
+    /// false: each repair is an error instead.
     bool repair;
     /// The file's z axis is up.
     bool z_up;
@@ -400,8 +402,8 @@ LISSOM_API lissom_mesh_save_options lissom_default_mesh_save_options(void);
 LISSOM_API lissom_status lissom_mesh_create(lissom_context* context, const lissom_input* positions,
                                             const lissom_input* corners, const lissom_input* sizes,
                                             lissom_mesh* mesh);
-/// Loads .obj .ply .off .stl .gltf .glb. `options` may be NULL. What was repaired goes to the log.
-/// Errors: FILE_NOT_FOUND, UNKNOWN_FORMAT, FILE_SYNTAX, ... as lissom_status lists them.
+/// Loads .obj .ply .off .stl .gltf .glb. `options` may be NULL. Repairs go to the log. Errors:
+/// FILE_NOT_FOUND, UNKNOWN_FORMAT, FILE_SYNTAX, ... as lissom_status lists them.
 LISSOM_API lissom_status lissom_mesh_load(lissom_context* context, const char* path,
                                           const lissom_mesh_load_options* options,
                                           lissom_mesh* mesh);
@@ -410,7 +412,7 @@ LISSOM_API lissom_status lissom_mesh_decode(lissom_context* context, const void*
                                             const char* extension,
                                             const lissom_mesh_load_options* options,
                                             lissom_mesh* mesh);
-/// Saves by extension, whole or not at all. What the format cannot hold is named in the log.
+/// Saves by extension, whole or not at all. Losses of the format are named in the log.
 LISSOM_API lissom_status lissom_mesh_save(lissom_context* context, lissom_mesh mesh,
                                           const char* path,
                                           const lissom_mesh_save_options* options);
@@ -421,7 +423,8 @@ LISSOM_API lissom_status lissom_mesh_encode(lissom_context* context, lissom_mesh
 LISSOM_API lissom_status lissom_mesh_copy(lissom_context* context, lissom_mesh mesh,
                                           lissom_mesh* copy);
 
-/// Numbers of elements; -1 for an invalid handle. Triangles are those that polygons are split into.
+/// Return numbers of elements; -1 for an invalid handle. Triangles are those of the split
+/// polygons.
 LISSOM_API int32_t lissom_mesh_vertex_count(lissom_context* context, lissom_mesh mesh);
 LISSOM_API int32_t lissom_mesh_face_count(lissom_context* context, lissom_mesh mesh);
 LISSOM_API int32_t lissom_mesh_corner_count(lissom_context* context, lissom_mesh mesh);
@@ -466,7 +469,8 @@ LISSOM_API lissom_status lissom_mesh_hash(lissom_context* context, lissom_mesh m
 
 LISSOM_API lissom_status lissom_region_all(lissom_context* context, lissom_mesh mesh,
                                            lissom_region* region);
-/// Of a list of ids (integers), in any order. Errors: OUT_OF_RANGE naming the vertices.
+/// Makes the region of a list of ids (integers), in any order. Errors: OUT_OF_RANGE naming the
+/// vertices.
 LISSOM_API lissom_status lissom_region_of_vertices(lissom_context* context, lissom_mesh mesh,
                                                    const lissom_input* vertices,
                                                    lissom_region* region);
@@ -487,7 +491,7 @@ LISSOM_API lissom_status lissom_region_geodesic(lissom_context* context, lissom_
 /// A region that the mesh was saved with, or was given. Errors: OUT_OF_RANGE if there is none.
 LISSOM_API lissom_status lissom_region_named(lissom_context* context, lissom_mesh mesh,
                                              const char* name, lissom_region* region);
-/// Keeps a region with its mesh under a name; it is saved where the format can.
+/// Keeps a region with its mesh under a name; it is saved if the format can.
 LISSOM_API lissom_status lissom_mesh_set_region(lissom_context* context, lissom_mesh mesh,
                                                 const char* name, lissom_region region);
 
@@ -503,7 +507,7 @@ LISSOM_API lissom_status lissom_region_combine(lissom_context* context, lissom_r
                                                lissom_region* region);
 LISSOM_API lissom_status lissom_region_invert(lissom_context* context, lissom_region a,
                                               lissom_region* region);
-/// Adds `rings` one-rings, or takes as many away where negative.
+/// Adds `rings` one-rings, or removes as many if negative.
 LISSOM_API lissom_status lissom_region_grow(lissom_context* context, lissom_region a, int32_t rings,
                                             lissom_region* region);
 /// -1 for an invalid handle.
@@ -555,10 +559,10 @@ LISSOM_API lissom_status lissom_deformer_create(lissom_context* context, lissom_
                                                 lissom_region region,
                                                 const lissom_deformer_options* options,
                                                 lissom_deformer* deformer);
-/// Adds a handle: what moves as one. It stands still until lissom_deformer_set_transform; one that
-/// is never moved holds its place. `handle` numbers the handles of this deformer from 0; messages
-/// count them from 1. Errors: REGION_EMPTY; HANDLE_OUTSIDE_REGION; HANDLE_OVERLAP, naming the
-/// vertices.
+/// Adds a handle: vertices that move as one. It stands still until lissom_deformer_set_transform;
+/// one that is never moved holds its place. `handle` numbers the handles of this deformer from 0;
+/// messages count them from 1. Errors: REGION_EMPTY; HANDLE_OUTSIDE_REGION; HANDLE_OVERLAP, naming
+/// the vertices.
 LISSOM_API lissom_status lissom_deformer_add_handle(lissom_context* context,
                                                     lissom_deformer deformer,
                                                     lissom_region vertices,
@@ -570,8 +574,8 @@ LISSOM_API lissom_status lissom_deformer_remove_handle(lissom_context* context,
 LISSOM_API lissom_status lissom_deformer_handle_center(lissom_context* context,
                                                        lissom_deformer deformer, int32_t handle,
                                                        double center[3]);
-/// Where the handle goes, from the rest shape. A drag through half a turn goes on turning.
-/// Errors: SINGULAR_TRANSFORM; HANDLE_REMOVED.
+/// Sets the target transform of the handle, from the rest shape. A drag through half a turn goes on
+/// turning. Errors: SINGULAR_TRANSFORM; HANDLE_REMOVED.
 LISSOM_API lissom_status lissom_deformer_set_transform(lissom_context* context,
                                                        lissom_deformer deformer, int32_t handle,
                                                        const lissom_transform* transform);
@@ -586,7 +590,7 @@ LISSOM_API lissom_status lissom_deformer_constrain(lissom_context* context,
 /// Frees a vertex that was constrained.
 LISSOM_API lissom_status lissom_deformer_free(lissom_context* context, lissom_deformer deformer,
                                               int32_t vertex);
-/// Factors what the handles need, so that the first frame of a drag is as fast as the others.
+/// Factors the systems of the handles, so that the first frame of a drag is as fast as the others.
 /// Errors: UNCONSTRAINED; ZERO_AREA; NOT_POSITIVE_DEFINITE; MEMORY_LIMIT; CANCELLED.
 LISSOM_API lissom_status lissom_deformer_prepare(lissom_context* context, lissom_deformer deformer);
 LISSOM_API lissom_status lissom_deformer_begin_prepare(lissom_context* context,
@@ -598,18 +602,19 @@ typedef enum lissom_quality {
     LISSOM_FULL = 2      ///< both systems
 } lissom_quality;
 
-/// Finds the surface for the present transforms. Prepares where needed. Errors: as prepare.
+/// Finds the surface for the present transforms. Prepares if needed. Errors: as prepare.
 LISSOM_API lissom_status lissom_deformer_solve(lissom_context* context, lissom_deformer deformer,
                                                lissom_quality quality);
 LISSOM_API lissom_status lissom_deformer_begin_solve(lissom_context* context,
                                                      lissom_deformer deformer,
                                                      lissom_quality quality, lissom_job* job);
-/// The vertices of the region, ascending ids (integers), and how many: the rows of what follows.
+/// Return the vertices of the region, ascending ids (integers), and their number: the rows of the
+/// lists below.
 LISSOM_API int32_t lissom_deformer_row_count(lissom_context* context, lissom_deformer deformer);
 LISSOM_API lissom_status lissom_deformer_read_rows(lissom_context* context,
                                                    lissom_deformer deformer,
                                                    const lissom_output* vertices);
-/// Positions of the region after the last solve, one triple a row: what changes in a frame of a
+/// Positions of the region after the last solve, one triple a row: the changes of a frame of a
 /// drag.
 LISSOM_API lissom_status lissom_deformer_read_positions(lissom_context* context,
                                                         lissom_deformer deformer,
@@ -676,11 +681,11 @@ typedef struct lissom_join {
 
 typedef struct lissom_merge_options {
     size_t struct_size;
-    /// The source stays where it is and bends, in place of moving wherever the target is.
+    /// The source keeps its place and bends, in place of moving to the target.
     bool fixed_configuration;
     /// Umbrella steps at the seam, at most.
     int32_t smooth;
-    /// Remesh beside a seam where one side is sparser.
+    /// Remesh beside a seam if one side is sparser.
     bool collar;
     /// Chooses widths over which the details of both sides fade into each other.
     bool transition;
@@ -690,7 +695,7 @@ typedef struct lissom_merge_options {
     bool thesis;
 } lissom_merge_options;
 
-/// What a merge or a paste did.
+/// Result of a merge or a paste.
 typedef struct lissom_merge_report {
     size_t struct_size;
     /// Whether the seams are good.
@@ -737,7 +742,7 @@ typedef struct lissom_placement {
     /// source.
     double toward[3];
     double up[3];
-    /// Turn about the surface's normal, from `toward`; NAN: what fits best.
+    /// Turn about the surface's normal, from `toward`; NAN: the best fit.
     double angle;
     double scale;
 } lissom_placement;
@@ -745,7 +750,7 @@ typedef struct lissom_placement {
 LISSOM_API lissom_placement lissom_default_placement(void);
 
 /// Prepares the paste of the feature in `region` of `source` onto `target`. `feature` and `onto`
-/// may be zero: what lies deep in the region, and a disk around the placement. Errors:
+/// may be zero: the deep part of the region, and a disk around the placement. Errors:
 /// TOPOLOGY_MISMATCH, REGION_EMPTY, BOUNDARY_CONFLICT, NOT_A_DISK naming elements; CANCELLED.
 LISSOM_EXPERIMENTAL LISSOM_API lissom_status
 lissom_paste_create(lissom_context* context, lissom_mesh source, lissom_mesh target,
@@ -774,7 +779,7 @@ typedef struct lissom_hairstyle_options {
     int32_t resolution;
     /// Metres in one unit of the head's mesh; 0: guessed.
     double unit;
-    /// Where hair grows; zero: the mesh's region "scalp", or what lies above the hairline.
+    /// Skin with hair; zero: the mesh's region "scalp", or the skin above the hairline.
     lissom_region scalp;
     /// Directions of the head in the mesh; all zero: guessed.
     double up[3];
@@ -785,7 +790,7 @@ typedef struct lissom_grow_options {
     size_t struct_size;
     int32_t count;
     uint64_t seed;
-    /// Of a strand, in metres, and the fraction by which it varies.
+    /// Length of a strand, in metres, and the fraction by which it varies.
     double length;
     double variation;
 } lissom_grow_options;
@@ -839,9 +844,9 @@ LISSOM_API lissom_status lissom_hairstyle_field(lissom_context* context, lissom_
                                                 const double point[3], double direction[3]);
 /// Brings the field up to date; lissom_hairstyle_grow does so by itself.
 LISSOM_API lissom_status lissom_hairstyle_solve(lissom_context* context, lissom_hairstyle style);
-/// Grows hair into new strands, or, where `strands` is valid, in place of those it holds, whose
-/// memory is used again: set it to zero before the first call. Errors: INVALID_ARGUMENT without a
-/// curve; CANCELLED.
+/// Grows hair into new strands, or, if `strands` is valid, in place of its strands, whose memory is
+/// used again: set it to zero before the first call. Errors: INVALID_ARGUMENT without a curve;
+/// CANCELLED.
 LISSOM_API lissom_status lissom_hairstyle_grow(lissom_context* context, lissom_hairstyle style,
                                                const lissom_grow_options* options,
                                                lissom_strands* strands);
@@ -871,30 +876,28 @@ LISSOM_API lissom_status lissom_strands_read_offsets(lissom_context* context,
                                                      lissom_strands strands,
                                                      const lissom_output* offsets);
 
-// ---- Scripts, and everything else. Where the library was built without Lua these return
-// UNSUPPORTED.
+// ---- Scripts, and everything else. If the library was built without Lua these return UNSUPPORTED.
 //
 // A context runs its scripts in one Lua state of its own, whose memory counts to the context. They
-// have Lua's libraries, but for what would end the process (os.exit) or write to its output (print
-// goes to the log), and the `lissom` of the reference, in the kernel's space. The library opens
-// files for them as for the host; Lua's own io opens any. They speak Lua's way: ids count from 1,
-// angles are in degrees.
+// have Lua's libraries, except functions that would end the process (os.exit) or write to its
+// output (print goes to the log), and the `lissom` of the reference, in the kernel's space. The
+// library opens files for them as for the host; Lua's own io opens any. They speak Lua's way: ids
+// count from 1, angles are in degrees.
 
-/// What scripts that nobody vouches for may use. Times and instructions are those of one run or
-/// call; 0 is no limit.
+/// Rights of untrusted scripts. Times and instructions are those of one run or call; 0 is no limit.
 typedef struct lissom_sandbox_options {
     size_t struct_size;
     /// Wall time.
     double seconds;
-    /// Of Lua's virtual machine, counted in hundreds.
+    /// Instructions of Lua's virtual machine, counted in hundreds.
     int64_t instructions;
-    /// Bytes that Lua, and what the library makes and does for scripts, may take together; they
-    /// count to the context too.
+    /// Bytes that Lua and the library's work for scripts may take together; they count to the
+    /// context too.
     size_t memory;
     /// Bytes that are printed and written to files, all together. A file is counted when it is
     /// there, so that the last one may go beyond.
     size_t output;
-    /// Folders below which files may be read and written, and where `require` looks for NAME.lua.
+    /// Folders below which files may be read and written, and searched by `require` for NAME.lua.
     /// Without any, none may, but those of read_file and write_file, which then decide.
     const char* const* read_folders;
     const char* const* write_folders;
@@ -909,28 +912,28 @@ typedef struct lissom_sandbox_options {
 LISSOM_API lissom_sandbox_options lissom_default_sandbox_options(void);
 /// Runs the scripts and calls of this context in a sandbox from now on: with Lua's language,
 /// strings, tables, numbers and coroutines, and the library, but without the system, without binary
-/// chunks, and within limits that hold whatever a script does. One that reaches the time, the
-/// instructions or the output is CANCELLED, one that needs too much memory gets MEMORY_LIMIT, and
-/// the next one runs. `options` may be NULL. Errors: BAD_STRUCT; INVALID_ARGUMENT after a script or
-/// call, or for limits below 0; MEMORY_LIMIT.
+/// chunks, and within limits that hold for any script. One that reaches the time, the instructions
+/// or the output is CANCELLED, one that needs too much memory gets MEMORY_LIMIT, and the next one
+/// runs. `options` may be NULL. Errors: BAD_STRUCT; INVALID_ARGUMENT after a script or call, or for
+/// limits below 0; MEMORY_LIMIT.
 LISSOM_API lissom_status lissom_sandbox_scripts(lissom_context* context,
                                                 const lissom_sandbox_options* options);
 
-/// Loads a script, as `name` in messages, and runs it up to where it declares its parameters: none
+/// Loads a script, as `name` in messages, and runs it up to the declaration of its parameters: none
 /// of its work. Errors: SCRIPT_ERROR.
 LISSOM_API lissom_status lissom_script_load(lissom_context* context, const char* text, size_t size,
                                             const char* name, lissom_script* script);
-/// The parameters that the script declares, as JSON: a list of {"name", "type", "default", "value",
-/// "min", "max", "step", "choices", "unit", "group", "help"}; [] where it declares none.
+/// Returns the parameters that the script declares, as JSON: a list of {"name", "type", "default",
+/// "value", "min", "max", "step", "choices", "unit", "group", "help"}; [] if it declares none.
 LISSOM_API lissom_status lissom_script_parameters(lissom_context* context, lissom_script script,
                                                   lissom_bytes* json);
 /// Sets a parameter by its text, as a command line does. Errors: INVALID_ARGUMENT for one that the
 /// script has not, naming the nearest, or for a value that it refuses.
 LISSOM_API lissom_status lissom_script_set(lissom_context* context, lissom_script script,
                                            const char* parameter, const char* value);
-/// Runs the script. `arguments` is a JSON list of what it gets as `...`, in the way of lissom_call,
-/// or NULL. `json` receives the list of what it returns; it may be NULL. Errors: SCRIPT_ERROR with
-/// file and line; CANCELLED; MEMORY_LIMIT; INVALID_ARGUMENT for bad JSON.
+/// Runs the script. `arguments` is a JSON list of the values of `...`, in the way of lissom_call,
+/// or NULL. `json` receives the list of its results; it may be NULL. Errors: SCRIPT_ERROR with file
+/// and line; CANCELLED; MEMORY_LIMIT; INVALID_ARGUMENT for bad JSON.
 LISSOM_API lissom_status lissom_script_run(lissom_context* context, lissom_script script,
                                            const char* arguments, lissom_bytes* json);
 
@@ -939,9 +942,9 @@ LISSOM_API lissom_status lissom_script_run(lissom_context* context, lissom_scrip
 /// table of options, as the reference has them. An object is {"object": ID} with the `id` of a
 /// handle, which is the object itself and no copy. `json` receives the list of results in the same
 /// way, objects with "type": "lissom.Mesh", ...: lissom.Mesh, Region, Deformation, Hairstyle and
-/// Strands are handles of those kinds, all others of lissom_object. Release what you no longer
-/// need. Errors: OUT_OF_RANGE for an unknown name, with the nearest; INVALID_ARGUMENT for bad JSON
-/// or arguments; INVALID_HANDLE; those of the function.
+/// Strands are handles of those kinds, all others of lissom_object. Release objects that you no
+/// longer need. Errors: OUT_OF_RANGE for an unknown name, with the nearest; INVALID_ARGUMENT for
+/// bad JSON or arguments; INVALID_HANDLE; those of the function.
 LISSOM_API lissom_status lissom_call(lissom_context* context, const char* name,
                                      const char* arguments, lissom_bytes* json);
 

@@ -1,12 +1,12 @@
-/// Where scripts connect with a context; private to bindings/c. One of two sources defines it: that
-/// of the folder script, or no_script.cpp where the library is built without Lua.
+/// Connection of scripts with a context; private to bindings/c. One of two sources defines it: that
+/// of the folder script, or no_script.cpp if the library is built without Lua.
 #pragma once
 
 #include "bindings/c/context.h"
 
 namespace lissom::c {
 
-/// Gives a context what scripts need; nothing without Lua.
+/// Gives a context its script host; nothing without Lua.
 void connect_scripts(lissom_context& context);
 
 }  // namespace lissom::c

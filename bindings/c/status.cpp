@@ -15,9 +15,9 @@ struct StatusText {
     const char* explanation;
 };
 
-// Those that the kernel does not know.
+// Statuses that the kernel does not know.
 constexpr std::array<StatusText, 5> kOwnStatus{{
-    {LISSOM_OK, "ok", "The call has done what it was asked for."},
+    {LISSOM_OK, "ok", "The call succeeded."},
     {LISSOM_INVALID_HANDLE, "invalid_handle",
      "The handle names no object of this kind in this context: it was released, was never set, or "
      "comes "
@@ -27,9 +27,8 @@ constexpr std::array<StatusText, 5> kOwnStatus{{
     {LISSOM_BUSY, "busy",
      "A job works with the object. Finish the job with lissom_job_finish, then use the object."},
     {LISSOM_BAD_STRUCT, "bad_struct",
-     "A struct of options was not taken from its lissom_default_ function, or asks for what a "
-     "later "
-     "version of the library does. Begin with the defaults and change what you want."},
+     "A struct of options was not taken from its lissom_default_ function, or asks for a feature "
+     "of a later version of the library. Begin with the defaults and change fields."},
     {LISSOM_SCRIPT_ERROR, "script_error",
      "The script raised an error; the message has its file and line."},
 }};

@@ -1,4 +1,4 @@
-/// The conversion of one mesh file, and what came of it.
+/// The conversion of one mesh file, and its result.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct ConversionOptions {
     bool shows_warnings = true;
 };
 
-/// What came of one file.
+/// Result of one file.
 struct Conversion {
     std::filesystem::path in, out;
     Index vertices = 0, faces = 0;
@@ -30,26 +30,26 @@ struct Conversion {
     Report report;
     /// The point of the mesh that is the origin of the output.
     Vec3 origin = Vec3::Zero();
-    /// What was said of parts of the mesh that the output does not hold.
+    /// Losses: parts of the mesh that the output does not hold.
     std::vector<std::string> lost;
-    /// Why it failed, where it did.
+    /// Reason of a failure.
     std::optional<Error> error;
 
     /// "converted", "repaired" (the surface is not that of the file, but for welding) or "failed".
     const char* outcome() const;
 };
 
-/// Reads `in` and writes `out`, whose folder is made first where it is missing. Errors: those of
+/// Reads `in` and writes `out`; makes its folder first if it is missing. Errors: those of
 /// `load_mesh` and `save_mesh`; file_write_failed if `out` is `in` and may not be, or if a folder
 /// cannot be created.
 Conversion convert_file(Program& program, const std::filesystem::path& in,
                         const std::filesystem::path& out, const ConversionOptions& options);
 
-/// {"file", "out", "outcome", "vertices", "faces", "seconds", "origin", "report", "lost"}, or with
-/// "error" in place of what there is only of a success.
+/// Returns {"file", "out", "outcome", "vertices", "faces", "seconds", "origin", "report", "lost"},
+/// or with "error" in place of the fields of a success.
 Json conversion_json(const Conversion& conversion);
 
-/// Why it failed, or what was repaired and lost, in a few words.
+/// Returns the reason of a failure, or the repairs and losses, in a few words.
 std::string conversion_notes(const Conversion& conversion);
 
 /// Whether both name the same existing file.

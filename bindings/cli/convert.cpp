@@ -29,7 +29,7 @@ const char* const kDescription =
     "  lissom convert IN OUT                                    one file\n"
     "  lissom convert --in 'a/*.obj' --out b/ --to glb          many files\n"
     "  lissom convert --in 'a/**/*.ply' other/ --out b/         with their folders\n\n"
-    "Of many files, a failure does not stop the others; a table tells what came of each. An output "
+    "A failure does not stop the other files; a table lists the results of all. An output "
     "replaces an older file of its name, but not one of the files to read (unless --force), and "
     "not the output of another input. Exit status: 0 all done, 1 some failed, 2 called wrongly.";
 
@@ -50,7 +50,7 @@ void declare_files(CLI::App& app, Request& request) {
                    "Files to read: names, folders (the mesh files in them) or patterns in quotes, "
                    "with * and ? in names and ** for any folders");
     app.add_option("--out", request.many.out_folder,
-                   "Folder to write to, created where it is missing; sub-folders are kept");
+                   "Folder to write to, created if it is missing; sub-folders are kept");
     app.add_option("--to", request.many.to,
                    "Format of the files in --out, by its extension (default: each as it was)")
         ->transform(normalized)
@@ -61,7 +61,7 @@ void declare_files(CLI::App& app, Request& request) {
 void declare(CLI::App& app, Request& request) {
     declare_files(app, request);
     app.add_option("--up", request.up,
-                   "Up axis that the output shall have; needs --in-up where they differ")
+                   "Up axis that the output shall have; needs --in-up if they differ")
         ->check(CLI::IsMember({"y", "z"}));
     app.add_option("--in-up", request.in_up, "Up axis of the input")
         ->check(CLI::IsMember({"y", "z"}));
@@ -75,7 +75,7 @@ void declare(CLI::App& app, Request& request) {
                    "auto: move the output's origin into a mesh that is far from it, so that 32-bit "
                    "numbers can hold its detail (default: keep)")
         ->check(CLI::IsMember({"keep", "auto"}));
-    app.add_flag("--text", request.text, "Write text where the format has text and binary");
+    app.add_flag("--text", request.text, "Write text if the format has text and binary");
     app.add_flag("--normals", request.options.save.normals,
                  "Write the normals of the surface for meshes that have none");
     app.add_flag("--big-endian", request.big_endian, "Byte order of a binary .ply");
@@ -91,7 +91,7 @@ void complete(Request& request) {
     request.load_flags.apply(request.options.load);
 }
 
-// What is wrong with the choice of files; empty if nothing is.
+// Returns the defect of the choice of files; empty if there is none.
 std::string misuse(const Request& request) {
     if (!request.is_for_many()) {
         return request.out.empty() ? "IN and OUT are required, or --in and --out" : "";

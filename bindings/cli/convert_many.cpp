@@ -39,7 +39,7 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-// What is to be done, and in which order.
+// The conversions, in order.
 class JobList {
   public:
     JobList(const ManyFiles& files, bool force) : files_(files), force_(force) {

@@ -24,9 +24,9 @@ void print_code(const Json& code) {
 }  // namespace
 
 int explain(Program& program, const std::vector<std::string>& words) {
-    CLI::App app("Says what an error code means and what to do about it.", "lissom explain");
+    CLI::App app("Explains an error code and its remedy.", "lissom explain");
     std::string name;
-    app.add_option("CODE", name, "The code; all are listed where it is left out");
+    app.add_option("CODE", name, "The code; if left out, all are listed");
     int status = kSuccess;
     if (!program.parse(app, words, status)) return status;
     Json found = Json::array();

@@ -18,7 +18,7 @@ struct MatchedFile {
     std::filesystem::path relative;
 };
 
-/// What a pattern names, sorted by path.
+/// Files that a pattern names, sorted by path.
 struct PatternMatches {
     std::vector<MatchedFile> files;
     /// Folders that could not be listed.

@@ -10,8 +10,7 @@
 namespace lissom::cli {
 
 int help(Program& program, const std::vector<std::string>& words) {
-    CLI::App app("Says how a Lua function is called, or what a type of object can do.",
-                 "lissom help");
+    CLI::App app("Describes a Lua function, or the methods of a type of object.", "lissom help");
     std::string name;
     app.add_option("NAME", name, "A function or a type: save, mesh.save, lissom.load, Mesh")
         ->required();

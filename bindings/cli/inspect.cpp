@@ -89,8 +89,8 @@ Index isolated_count(const Topology& topology) {
     return count;
 }
 
-// Each measure may take a while, so that they can be cancelled one by one. What exceeds the range
-// of numbers is NaN or infinite, and then null if JSON is written.
+// Each measure may take a while, so that they can be cancelled one by one. Values that exceed the
+// range of numbers are NaN or infinite, and then null if JSON is written.
 Json mesh_json(const std::string& file, const Mesh& mesh, const Context& context) {
     const Topology& topology = mesh.topology();
     Json json = {{"file", file}};
@@ -138,7 +138,7 @@ Json groups_json(const Strands& strands) {
     return Json::object_t(groups.begin(), groups.end());
 }
 
-// What strands hold beside points and widths.
+// Returns the contents of strands beside points and widths.
 Json strand_content_json(const Strands& strands) {
     Json list = Json::array();
     if (strands.colors()) list.push_back("colors");
@@ -317,11 +317,11 @@ void print_strands(const Json& hair) {
         line("comment", in_quotes(hair["comment"].get<std::string>()));
 }
 
-// Tells of one file after the other what it holds.
+// Describes one file after the other.
 class Inspector {
   public:
     Inspector(Program& program, const LoadOptions& options) : program_(program), options_(options) {
-        // What was found is part of the answer.
+        // Findings are part of the answer.
         program.log_filter = [this](LogLevel level, std::string_view message) {
             if (level == LogLevel::warning) warnings_.emplace_back(message);
             return program_.debug;
@@ -413,7 +413,7 @@ class Inspector {
 }  // namespace
 
 int inspect(Program& program, const std::vector<std::string>& words) {
-    CLI::App app("Says what is in mesh files, hair files and scenes.", "lissom inspect");
+    CLI::App app("Describes the contents of mesh files, hair files and scenes.", "lissom inspect");
     std::vector<std::string> files;
     LoadFlags flags;
     app.add_option("FILE", files,

@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 /// 1, pairs of vertices for edges.
 Json error_json(const Error& error);
 
-/// A list of {"kind": "faces_flipped", "count", "element": "face" or null, "of": "file" or "mesh",
-/// "ids", "message"}: what was found when a mesh was loaded. At most a hundred ids, from 1, pairs
+/// Returns a list of {"kind": "faces_flipped", "count", "element": "face" or null, "of": "file" or
+/// "mesh", "ids", "message"}: the findings of loading a mesh. At most a hundred ids, from 1, pairs
 /// of vertices for edges.
 Json report_json(const Report& report);
 

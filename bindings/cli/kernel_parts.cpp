@@ -6,14 +6,15 @@ namespace lissom::cli {
 
 ProgramParts kernel_parts() {
     ProgramParts parts;
-    parts.verbs = {{"run", "FILE [--name value ...]", "Runs a Lua script.", run_script},
-                   {"test", "PATH...", "Runs the tests of scripts.", run_tests},
-                   {"inspect", "FILE...", "Says what is in meshes, hair and scenes.", inspect},
-                   {"convert", "IN OUT", "Writes meshes in another format.", convert},
-                   {"new", "tool NAME", "Writes a tool to begin with.", make_new},
-                   {"repl", "", "Runs Lua line by line.", repl},
-                   {"help", "NAME", "Says how a Lua function is called.", help},
-                   {"explain", "[CODE]", "Says what an error code means.", explain}};
+    parts.verbs = {
+        {"run", "FILE [--name value ...]", "Runs a Lua script.", run_script},
+        {"test", "PATH...", "Runs the tests of scripts.", run_tests},
+        {"inspect", "FILE...", "Describes the contents of meshes, hair and scenes.", inspect},
+        {"convert", "IN OUT", "Writes meshes in another format.", convert},
+        {"new", "tool NAME", "Writes a tool to begin with.", make_new},
+        {"repl", "", "Runs Lua line by line.", repl},
+        {"help", "NAME", "Says how a Lua function is called.", help},
+        {"explain", "[CODE]", "Explains an error code.", explain}};
     parts.libraries = {lua::kernel_library};
     parts.version_lines = {"Lissom's own code is under the MIT licence."};
     parts.version_lines.emplace_back(

@@ -12,7 +12,7 @@ void LoadFlags::declare(CLI::App& app) {
     app.add_flag("--keep-unused", keep_unused,
                  "Keep vertices that no face uses, in their order (with --weld none: the count and "
                  "the numbers of the file)");
-    app.add_flag("--no-repair", no_repair, "Refuse what would otherwise be repaired");
+    app.add_flag("--no-repair", no_repair, "Refuse files that would otherwise be repaired");
 }
 
 void LoadFlags::apply(LoadOptions& options) const {

@@ -1,4 +1,4 @@
-/// Options of the verbs that read meshes: how what is read is repaired.
+/// Options of the verbs that read meshes: repair of the files.
 #pragma once
 
 #include <string>

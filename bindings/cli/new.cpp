@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A tool that works, with NAME in the place of its name.
-constexpr std::string_view kToolSkeleton = R"(--- What this tool does, in a sentence.
+constexpr std::string_view kToolSkeleton = R"(--- Describe the tool here, in a sentence.
 --
 -- How a hand uses it. Try it: lissom view MESH --tool NAME.lua; a change of this file is taken up at once.
 local lissom = require "lissom"

@@ -1,4 +1,4 @@
-/// The `lissom` program: verbs, and what they share. Another library adds its own verbs and Lua
+/// The `lissom` program: verbs, and their common parts. Another library adds its own verbs and Lua
 /// functions by its parts:
 ///
 ///     int main(int argc, char** argv) {
@@ -28,20 +28,20 @@ namespace lissom::cli {
 
 class Program;
 
-/// Exit statuses; that of Ctrl-C is what shells give a program that a signal ended.
+/// Exit statuses; that of Ctrl-C is the one that shells give a program ended by a signal.
 inline constexpr int kSuccess = 0, kFailure = 1, kUsage = 2, kInterrupted = 130;
 
 /// One thing that the program can do.
 struct Verb {
     std::string name;
-    /// What follows the name: "FILE [--name value ...]".
+    /// Words after the name: "FILE [--name value ...]".
     std::string usage;
     std::string summary;
     /// Runs it with the words that follow the name; returns the exit status.
     int (*run)(Program& program, const std::vector<std::string>& words);
 };
 
-/// What a program is composed of.
+/// Parts of a program.
 struct ProgramParts {
     std::vector<Verb> verbs;
     /// Make the libraries that scripts see; asked only when a verb runs Lua.
@@ -56,7 +56,7 @@ struct ProgramParts {
 ProgramParts kernel_parts();
 
 /// Runs the verb that the command line names. Returns the exit status: that of the verb,
-/// kInterrupted where Ctrl-C stopped it, kFailure where the standard output could not be written.
+/// kInterrupted if Ctrl-C stopped it, kFailure if the standard output could not be written.
 int run_program(int argc, char** argv, const ProgramParts& parts);
 
 /// How a verb's answer and its errors are written.
@@ -69,7 +69,7 @@ enum class Output {
     json_errors,
 };
 
-/// What verbs share: options that all have, the context they work under, and how they report.
+/// Common parts of verbs: options that all have, their context, and their reports.
 class Program {
   public:
     explicit Program(const ProgramParts& parts);
@@ -77,17 +77,17 @@ class Program {
 
     const ProgramParts& parts() const { return parts_; }
 
-    /// Parses the words of a verb with the options that `app` declares and those that all verbs
-    /// have: --json, --threads, --debug, --help. Returns true if the verb shall go on; otherwise
-    /// `status` holds the exit status and everything was said.
+    /// Parses the words of a verb with the options of `app` and those of all verbs: --json,
+    /// --threads, --debug, --help. Returns true if the verb shall go on; otherwise `status` holds
+    /// the exit status and everything was said.
     bool parse(CLI::App& app, const std::vector<std::string>& words, int& status);
 
     Output output = Output::text;
     bool debug = false;
-    /// Sees each message of the log first, where it is set; false keeps the message from the
-    /// standard error.
+    /// Sees each message of the log first, if it is set; false keeps the message from the standard
+    /// error.
     std::function<bool(LogLevel, std::string_view)> log_filter;
-    /// Sees progress instead of the terminal, where it is set.
+    /// Sees progress instead of the terminal, if it is set.
     std::function<void(std::string_view label, double fraction)> progress_listener;
     /// Threads of the kernel's loops; 0 for as many as there are cores.
     int threads = 0;
@@ -99,7 +99,7 @@ class Program {
     const Context& context();
     /// The same for a Lua state, which has a context of its own.
     lua::HostOptions host_options();
-    /// Ctrl-C cancels this context from now on, which must stay where it is.
+    /// Ctrl-C cancels this context from now on; it must not move.
     void listen(const Context& context);
     /// Whether Ctrl-C was pressed since.
     bool interrupted() const;
@@ -107,7 +107,7 @@ class Program {
     void forget_interrupt();
     /// While a line is typed Ctrl-C only gives it up, however often it is pressed.
     static void wait_at_prompt(bool waits);
-    /// Shows on a terminal what part of the verb's own work is done, 0 to 1.
+    /// Shows the fraction done of the verb's own work on a terminal, 0 to 1.
     void show_progress(std::string_view label, double fraction);
     /// Takes the progress bar away; before anything is written.
     void clear_progress();

@@ -98,10 +98,9 @@ Mesh joined_scene_mesh(const fs::path& path, const Context& context) {
         }
     }
     if (result) return std::move(*result);
-    throw Error(ErrorCode::mesh_empty,
-                display_name(path) +
-                    ": the scene has no visible mesh; lissom inspect lists what it "
-                    "holds");
+    throw Error(
+        ErrorCode::mesh_empty,
+        display_name(path) + ": the scene has no visible mesh; lissom inspect lists its contents");
 }
 
 }  // namespace lissom::cli

@@ -27,7 +27,7 @@ bool is_within(const fs::path& path, const fs::path& folder) {
     return !inside.empty() && *inside.begin() != "..";
 }
 
-// What opening a state needs, reachable through a light userdata inside lua_pcall.
+// Data for opening a state, reachable through a light userdata inside lua_pcall.
 struct Opening {
     const lua::HostOptions* options;
     std::string path;
@@ -68,7 +68,7 @@ void set_arguments(lua_State* L, const lua::ScriptArguments& arguments) {
 int prepare(lua_State* L) {
     const auto* opening = static_cast<const Opening*>(lua_touserdata(L, 1));
     luaL_openlibs(L);
-    // Many short-lived tables beside few long-lived native objects: what generations are good at.
+    // Generations suit many short-lived tables beside few long-lived native objects.
     lua_gc(L, LUA_GCGEN, 0, 0);
     lua_pushlightuserdata(L, const_cast<lua::HostOptions*>(opening->options));
     lua_pushcclosure(L, open_lissom, 1);
@@ -133,7 +133,7 @@ void push_calls(lua_State* L) {
     }
 }
 
-// What push_calls has left on top of the stack.
+// Returns the lines left on top of the stack by push_calls.
 std::vector<ScriptLine> calls_at_top(lua_State* L) {
     std::vector<ScriptLine> calls;
     const auto count = static_cast<lua_Integer>(lua_rawlen(L, -1));
@@ -218,8 +218,8 @@ std::string Script::shipped_scripts() {
     if (fs::is_regular_file(beside / "hairdo.lua", error)) {
         return fs::weakly_canonical(beside, error).string();
     }
-    // A program where it was built serves those of the source; one that was installed, or copied
-    // away, never looks at folders of another machine.
+    // A program in its build folder serves the scripts of the source; one that was installed, or
+    // copied away, never looks at folders of another machine.
     if (is_within(folder, LISSOM_BUILD_FOLDER) && fs::is_directory(LISSOM_SCRIPTS_FOLDER, error)) {
         return LISSOM_SCRIPTS_FOLDER;
     }
@@ -268,7 +268,7 @@ Script::~Script() {
     if (!sandbox_) lua_close(L_);
 }
 
-// As lua_pcall of the function on top of the stack.
+// Calls the function on top of the stack as lua_pcall does.
 int Script::call_protected(int handler) {
     if (sandbox_) return sandbox_->call(0, LUA_MULTRET, handler);
     return lua_pcall(L_, 0, LUA_MULTRET, handler);

@@ -14,7 +14,7 @@ namespace lissom::cli {
 
 /// A line of a script that was being run.
 struct ScriptLine {
-    /// Name of the script; as messages show it, where a long one is cut short.
+    /// Name of the script; as messages show it, shortened if it is long.
     std::string file, shown;
     int line = 0;
 };
@@ -22,21 +22,22 @@ struct ScriptLine {
 /// How a script ended.
 struct ScriptResult {
     int status = kSuccess;
-    /// What went wrong: "file:line: message", then notes; a traceback below it under --debug.
+    /// Message of the failure: "file:line: message", then notes; a traceback below it under
+    /// --debug.
     std::string message;
-    /// Code of the kernel where the error has one in brackets or came as nil, message, code.
+    /// Code of the kernel if the error has one in brackets or came as nil, message, code.
     std::string code;
-    /// Where, if known.
+    /// Its place, if known.
     std::string file;
     int line = 0;
-    /// What was being run when it failed: the innermost line first, then who called it.
+    /// Lines under execution at the failure: the innermost first, then its callers.
     std::vector<ScriptLine> calls;
 };
 
 class Script {
   public:
     /// `arguments.script` is empty for a state that runs no script. With limits it runs in a
-    /// sandbox, whose modules are those beside the script and those that ship with the program.
+    /// sandbox, with the modules beside the script and those that ship with the program.
     Script(Program& program, lua::ScriptArguments arguments,
            const std::optional<lua::SandboxLimits>& limits = {});
     ~Script();

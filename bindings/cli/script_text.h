@@ -1,4 +1,4 @@
-/// What the text of a script tells before it runs.
+/// Properties of a script's text before it runs.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@ struct ScriptTraits {
     bool reads_words = false;
 };
 
-/// Looks for words, also in comments and strings: what is said is false only where it is so.
+/// Looks for words, also in comments and strings: a false is certain.
 ScriptTraits script_traits(std::string_view text);
 
 /// Whether it may call `test`: looks for the word, as script_traits does.
 bool calls_test(std::string_view text);
 
-/// Whether it is a recording of what was done with tools, as the window writes them.
+/// Returns whether it is a recording of tools, as the window writes them.
 bool is_recording(std::string_view text);
 
 /// Returns a text without the byte order mark that editors put before it.

@@ -1,6 +1,6 @@
 /// lissom_basis.h: evaluates the handle basis of a deformation. C99 and C++, this file alone.
 ///
-/// A basis is what `edit:save_basis("arm.basis")` writes (`save_basis` in C++): the shape of a
+/// A basis is the file of `edit:save_basis("arm.basis")` (`save_basis` in C++): the shape of a
 /// deformed region as a linear function of the transforms of its handles. A program that has it
 /// moves handles and gets the surface without a solver: 4 multiplications and additions a
 /// coordinate, handle and vertex. Nothing is allocated, no library is called, there is no state.
@@ -11,13 +11,13 @@
 ///     if (lissom_basis_open(&basis, bytes, size) != LISSOM_BASIS_OK) ...
 ///     float transforms[2][12];                            // one 3 x 4 matrix a handle
 ///     lissom_basis_identity(transforms[0]);               // the first handle stays
-///     lissom_basis_local(&basis, wanted, transforms[1]);  // the second goes where `wanted` says
+///     lissom_basis_local(&basis, wanted, transforms[1]);  // the second moves by `wanted`
 ///     lissom_basis_evaluate(&basis, transforms[0], 0, basis.vertex_count, out, 3 * sizeof(float));
 ///
-/// What is exact
+/// Exactness
 ///     The result is that of `edit:preview()`, the first system of the method, to the rounding of
 ///     floats: 4e-7 of `size` for handles that move about as far as the surface is large. It
-///     follows a drag and has some shear where handles turn far; `edit:solve()` takes the shear out
+///     follows a drag and has some shear if handles turn far; `edit:solve()` takes the shear out
 ///     and cannot be written as a sum of matrices. With every handle at the identity the result is
 ///     the rest shape, to the bit. Normals are not part of a basis: `lissom_basis_normals` makes
 ///     them from the positions.
@@ -30,8 +30,8 @@
 ///
 /// The function
 ///     position(v) = rest(v) + sum over handles h of (T_h - I) weight(h, v)
-///     where T_h is 3 x 4, I the 3 x 4 identity and weight(h, v) has 4 numbers. Over all handles
-///     the weights of a vertex add up to (rest, 1) where nothing outside the region holds it.
+///     with T_h of 3 x 4, I the 3 x 4 identity and weight(h, v) has 4 numbers. Over all handles
+///     the weights of a vertex add up to (rest, 1) if nothing outside the region holds it.
 ///
 /// Threads
 ///     Every function only reads the basis. `lissom_basis_evaluate` takes a range of vertices:
@@ -49,7 +49,7 @@
 ///          32     24  3 doubles: origin, in the mesh's space
 ///          56      8  uint64: bytes of the file, 64 + 16 H + 16 n + 16 H n + N
 ///          64   16 H  for each handle, 3 floats: center of its vertices at rest, relative to the
-///                     origin; uint32: where its name begins among the names
+///                     origin; uint32: offset of its name among the names
 ///                4 n  uint32: ids of the vertices in the mesh, from 0, ascending
 ///               12 n  for each vertex, 3 floats: rest position, relative to the origin
 ///             16 H n  for each handle, for each vertex, 4 floats: weights
@@ -72,7 +72,7 @@
 
 #define LISSOM_BASIS_VERSION 1u
 
-/// What `lissom_basis_open` found.
+/// Results of `lissom_basis_open`.
 typedef enum lissom_basis_status {
     LISSOM_BASIS_OK = 0,
     /// The memory ends before the basis does.
@@ -93,7 +93,7 @@ typedef enum lissom_basis_status {
 typedef struct lissom_basis_handle {
     /// Center of its vertices at rest, relative to the origin.
     float center[3];
-    /// Where its name begins in `names`.
+    /// Offset of its name in `names`.
     uint32_t name;
 } lissom_basis_handle;
 
@@ -138,7 +138,7 @@ LISSOM_BASIS_API int lissom_basis__machine_fits(void) {
            one.bytes[0] == 0 && one.bytes[2] == 0x80 && one.bytes[3] == 0x3f;
 }
 
-/// Whether `count` numbers of 4 bytes are finite.
+/// Returns whether `count` numbers of 4 bytes are finite.
 LISSOM_BASIS_API int lissom_basis__finite(const unsigned char* at, uint64_t count) {
     uint64_t i;
     for (i = 0; i < count; ++i, at += 4) {
@@ -147,7 +147,7 @@ LISSOM_BASIS_API int lissom_basis__finite(const unsigned char* at, uint64_t coun
     return 1;
 }
 
-/// Whether ids ascend and are below the mesh's count, and names begin inside the names.
+/// Returns whether ids ascend and are below the mesh's count, and names begin inside the names.
 LISSOM_BASIS_API int lissom_basis__ids_fit(const lissom_basis* basis, uint32_t names_bytes) {
     uint32_t i;
     if (basis->mesh_vertex_count > 0x7fffffffu) return 0;
@@ -174,9 +174,9 @@ LISSOM_BASIS_API void lissom_basis__copy_double(const unsigned char* from, doubl
 // ---- Opening
 
 /// Opens the basis in `size` bytes of memory, which begin at a multiple of 4 bytes, as all memory
-/// of malloc does. Checks everything: whatever the bytes are, the functions below stay inside them.
-/// Reads all numbers once. `basis` is only changed where the result is LISSOM_BASIS_OK. Bytes
-/// behind the basis do no harm.
+/// of malloc does. Checks everything: for any bytes, the functions below stay inside them. Reads
+/// all numbers once. `basis` is only changed if the result is LISSOM_BASIS_OK. Bytes behind the
+/// basis do no harm.
 LISSOM_BASIS_API lissom_basis_status lissom_basis_open(lissom_basis* basis, const void* memory,
                                                        size_t size) {
     static const unsigned char magic[8] = {'L', 'S', 'M', 'B', 'A', 'S', 'I', 'S'};
@@ -237,7 +237,7 @@ LISSOM_BASIS_API lissom_basis_status lissom_basis_open(lissom_basis* basis, cons
     return LISSOM_BASIS_OK;
 }
 
-/// What a status means, in a few words.
+/// Returns the meaning of a status in a few words.
 LISSOM_BASIS_API const char* lissom_basis_status_text(lissom_basis_status status) {
     switch (status) {
         case LISSOM_BASIS_OK:
@@ -260,12 +260,12 @@ LISSOM_BASIS_API const char* lissom_basis_status_text(lissom_basis_status status
 
 // ---- Handles
 
-/// Name of a handle, "" where it has none or there is no such handle.
+/// Returns the name of a handle, "" if it has none or there is no such handle.
 LISSOM_BASIS_API const char* lissom_basis_handle_name(const lissom_basis* basis, uint32_t handle) {
     return handle < basis->handle_count ? basis->names + basis->handles[handle].name : "";
 }
 
-/// The first handle called `name`; `handle_count` where there is none.
+/// Returns the first handle called `name`; `handle_count` if there is none.
 LISSOM_BASIS_API uint32_t lissom_basis_find_handle(const lissom_basis* basis, const char* name) {
     uint32_t h;
     for (h = 0; h < basis->handle_count; ++h) {
@@ -278,7 +278,7 @@ LISSOM_BASIS_API uint32_t lissom_basis_find_handle(const lissom_basis* basis, co
 
 // ---- Transforms
 
-/// The transform of a handle that stays where it is.
+/// Writes the transform of a handle at rest.
 LISSOM_BASIS_API void lissom_basis_identity(float transform[12]) {
     int i;
     for (i = 0; i < 12; ++i) transform[i] = i % 5 == 0 ? 1.0f : 0.0f;
@@ -298,7 +298,7 @@ LISSOM_BASIS_API void lissom_basis_local(const lissom_basis* basis, const double
 
 // ---- Evaluation
 
-/// Adds to `count` points x what one handle does to the vertices from `first` on.
+/// Adds one handle's displacements of the vertices from `first` on to `count` points x.
 LISSOM_BASIS_API void lissom_basis__add(const float* transform, const float* weights,
                                         uint32_t count, float* x) {
     const float a = transform[0] - 1.0f, b = transform[1], c = transform[2], d = transform[3];
@@ -356,7 +356,7 @@ LISSOM_BASIS_API void lissom_basis__run(const lissom_basis* basis, const float* 
 }
 
 /// Writes the positions of the vertices `first` to `first + count - 1` of the region, 3 floats
-/// each, `stride_bytes` apart (a multiple of 4), to `out`, where the first of them stands.
+/// each, `stride_bytes` apart (a multiple of 4), to `out`, beginning with the first of them.
 /// `transforms` has 12 floats a handle. A range beyond the last vertex ends there.
 LISSOM_BASIS_API void lissom_basis_evaluate(const lissom_basis* basis, const float* transforms,
                                             uint32_t first, uint32_t count, float* out,
@@ -364,9 +364,9 @@ LISSOM_BASIS_API void lissom_basis_evaluate(const lissom_basis* basis, const flo
     lissom_basis__run(basis, transforms, first, count, out, stride_bytes, 0);
 }
 
-/// As `lissom_basis_evaluate`, into the positions of the whole mesh: vertex v of the mesh stands
-/// v * stride_bytes behind `mesh_positions`, which has room for `mesh_vertex_count`. Vertices
-/// outside the region are left alone.
+/// Evaluates as `lissom_basis_evaluate` does, into the positions of the whole mesh: vertex v of the
+/// mesh stands v * stride_bytes behind `mesh_positions`, which has room for `mesh_vertex_count`.
+/// Vertices outside the region are left alone.
 LISSOM_BASIS_API void lissom_basis_scatter(const lissom_basis* basis, const float* transforms,
                                            uint32_t first, uint32_t count, float* mesh_positions,
                                            size_t stride_bytes) {
@@ -383,7 +383,7 @@ LISSOM_BASIS_API float lissom_basis__root(float square) {
     return root;
 }
 
-/* Scales to length one and returns the length; leaves zero and what is not finite. */
+/* Scales to length one and returns the length; leaves zero and values that are not finite. */
 LISSOM_BASIS_API float lissom_basis__normalize(float* n) {
     float largest = 0.0f, length;
     int i;
@@ -445,10 +445,10 @@ LISSOM_BASIS_API void lissom_basis__add_normal(const float* p[3], float* n[3]) {
 }
 
 /// Makes unit normals of a triangle mesh from its positions: the normals of the triangles at each
-/// vertex, weighted by their angles there, as Lissom's own and those of its pictures are. Zero
-/// where no triangle at a vertex has an area. For the whole mesh, because vertices at the border of
-/// the region have triangles on both sides. `triangles` has 3 vertices each; those that name a
-/// vertex that does not exist are passed over. Strides are in bytes, multiples of 4.
+/// vertex, weighted by their angles there, as Lissom's own and those of its pictures are. Zero if
+/// no triangle at a vertex has an area. For the whole mesh, because vertices at the border of the
+/// region have triangles on both sides. `triangles` has 3 vertices each; triangles with a vertex
+/// that does not exist are passed over. Strides are in bytes, multiples of 4.
 LISSOM_BASIS_API void lissom_basis_normals(const float* positions, size_t position_stride,
                                            uint32_t vertex_count, const uint32_t* triangles,
                                            uint32_t triangle_count, float* normals,

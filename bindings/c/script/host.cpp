@@ -129,7 +129,7 @@ lua_State* ScriptHost::lua() {
 
 namespace {
 
-// Forgets what has gone, before there is much of it.
+// Forgets expired entries, before there are many of them.
 template <typename Map>
 void forget_expired(Map& map, std::size_t alive) {
     if (map.size() < 2 * alive + 64) return;

@@ -29,7 +29,7 @@ struct LuaReference {
 struct Script {
     std::string text, name;
     std::shared_ptr<lua::ParameterSet> parameters;
-    /// What was set, as the words of a command line.
+    /// Values that were set, as the words of a command line.
     std::map<std::string, std::string> values;
 };
 
@@ -41,32 +41,32 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     ScriptHost& operator=(const ScriptHost&) = delete;
 
     lissom_context& context() { return context_; }
-    /// The state; opened when it is first asked for. Errors: memory_limit.
+    /// Returns the state; opened when it is first asked for. Errors: memory_limit.
     lua_State* lua();
     lua::State& binding() { return *lua::find_state(lua()); }
     /// Opens the state as a sandbox. Errors: invalid_argument if it is open already, or for limits
     /// below 0; memory_limit.
     void open_sandbox(lua::SandboxLimits limits);
-    /// As lua_pcall without a handler, within the limits of the sandbox.
+    /// Calls as lua_pcall does without a handler, within the limits of the sandbox.
     int call(int arguments, int results);
 
     /// See Sharing.
     Sharing sharing();
-    /// The object of Lua whose content a handle's object is. For content that Lua has not seen a
-    /// new one is made where that is possible without a copy. Errors: StatusError for invalid
+    /// Returns the object of Lua whose content a handle's object is. For content that Lua has not
+    /// seen a new one is made if that is possible without a copy. Errors: StatusError for invalid
     /// handles.
     lua::Holder holder_of(std::uint64_t id);
-    /// A handle for the object of a userdata at `index`: its own where it has one.
+    /// Returns a handle for the object of a userdata at `index`: its own if it has one.
     std::uint64_t handle_of(int index);
 
     /// Pushes values by JSON; at most `kDepth` deep. Errors: invalid_argument.
     void check_values(const Json& values);
     /// To be called in protected mode, with `values` checked.
     void push_values(const Json& values);
-    /// The value at `index`, objects as handles. Errors: invalid_argument for what JSON cannot
-    /// hold.
+    /// Returns the value at `index`, objects as handles. Errors: invalid_argument for values that
+    /// JSON cannot hold.
     Json value_at(int index, int depth = 0);
-    /// The values from `first` to the top; at most `kMostValues` with all they hold.
+    /// Returns the values from `first` to the top; at most `kMostValues` with all they hold.
     Json values_from(int first);
 
     static constexpr int kDepth = 100;
@@ -89,7 +89,7 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     lua_State* L_ = nullptr;
     // Null if scripts are trusted.
     std::unique_ptr<lua::Sandbox> sandbox_;
-    // Of the results that are being converted.
+    // Room for the results that are being converted.
     std::size_t values_left_ = kMostValues;
     // The Lua object around the content of a handle, by that content.
     std::map<const void*, std::weak_ptr<void>> around_;
@@ -99,10 +99,10 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     std::map<std::uint64_t, lua::Holder> holders_;
 };
 
-/// The host of a context that can run scripts.
+/// Returns the host of a context that can run scripts.
 ScriptHost& scripts_of(lissom_context& context);
 
-/// Throws what a Lua error with this message stands for: the code in brackets at its end, else
+/// Throws the error for a Lua error with this message: the code in brackets at its end, else
 /// `status`.
 [[noreturn]] void throw_lua_error(const std::string& message, lissom_status status);
 

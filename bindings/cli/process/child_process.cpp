@@ -22,16 +22,16 @@ extern char** environ;
 namespace lissom::cli {
 namespace {
 
-// Where a child finds the channel to its parent.
+// Descriptor of a child's channel to its parent.
 constexpr int kChannel = 3;
-// Descriptors of the parent stay above those that a child gets.
+// Descriptors of the parent stay above those of a child.
 constexpr int kFirstOwn = 10;
 
 void require_done(int error, const char* what) {
     if (error != 0) throw std::runtime_error(std::string(what) + ": " + std::strerror(error));
 }
 
-// Moves a descriptor out of the way of those that a child gets; no child inherits it.
+// Moves a descriptor above those of a child; no child inherits it.
 int moved_up(int descriptor) {
     const int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstOwn);
     const int error = errno;
@@ -54,8 +54,7 @@ struct Channel {
     }
 };
 
-// What the child is given: nothing to read, the file for its outputs, the channel, a group of its
-// own.
+// Inputs of the child: nothing to read, the file for its outputs, the channel, a group of its own.
 class SpawnSettings {
   public:
     SpawnSettings(const std::filesystem::path& output, int channel) {
@@ -183,7 +182,7 @@ void ChildProcess::wait(const std::vector<const ChildProcess*>& processes, doubl
 }
 
 ParentProcess::ParentProcess() {
-    // What this process starts shall not keep the channel open.
+    // Children of this process shall not keep the channel open.
     fcntl(kChannel, F_SETFD, FD_CLOEXEC);
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);

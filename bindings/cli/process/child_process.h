@@ -1,5 +1,5 @@
-/// Other processes of this program, and what they tell it. All of the platform that `lissom test`
-/// needs is in child_process.cpp, for systems with POSIX.
+/// Other processes of this program, and their messages to it. All of the platform that `lissom
+/// test` needs is in child_process.cpp, for systems with POSIX.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace lissom::cli {
 
 /// How a process ended.
 struct ProcessEnd {
-    /// Its exit status; the number of the signal that ended it where there was one.
+    /// Its exit status; the number of the signal that ended it, if there was one.
     int status = 0;
     bool by_signal = false;
 
@@ -19,9 +19,8 @@ struct ProcessEnd {
     std::string text() const;
 };
 
-/// This program, started again. It reads nothing, and writes to a file; what it has to tell comes
-/// by lines of its own (see ParentProcess). It is killed with this object, and so is what it has
-/// started.
+/// This program, started again. It reads nothing, and writes to a file; its messages come by lines
+/// of their own (see ParentProcess). It is killed with this object, and so are its children.
 class ChildProcess {
   public:
     /// Starts the program with `words` as its command line. Both its outputs go to the end of the
@@ -31,13 +30,13 @@ class ChildProcess {
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// What it has told since the last call, without waiting.
+    /// Returns its messages since the last call, without waiting.
     std::vector<std::string> lines();
     /// Whether it has ended and all it told was taken.
     bool has_ended() const;
     /// Only of one that has ended.
     const ProcessEnd& end() const;
-    /// Ends it and what it has started at once.
+    /// Ends it and its children at once.
     void kill();
 
     /// Waits until one of the processes tells something or ends, or the time is over.
@@ -50,7 +49,7 @@ class ChildProcess {
 };
 
 /// The process that started this one by ChildProcess; at most one object in a process. If it dies,
-/// this process is ended where the system can do so.
+/// this process is ended if the system can do so.
 class ParentProcess {
   public:
     ParentProcess();
@@ -59,7 +58,7 @@ class ParentProcess {
     bool tell(const std::string& line) const;
 };
 
-/// Does to this program what Ctrl-C does.
+/// Interrupts this program as Ctrl-C does.
 void interrupt_program();
 
 /// The file of this program; empty if the system does not tell.

@@ -3,7 +3,7 @@
 
 namespace lissom::cli {
 
-/// Of this process.
+/// Returns the number of this process.
 long process_number();
 /// Whether a process with this number runs.
 bool process_runs(long number);

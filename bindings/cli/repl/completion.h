@@ -1,5 +1,5 @@
-/// What may follow at the prompt: names of variables, fields, functions, methods and options, the
-/// last three from the registration table.
+/// Completions at the prompt: names of variables, fields, functions, methods and options, the last
+/// three from the registration table.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace lissom::cli {
 
 struct Completions {
-    /// Where the word begins that they stand for.
+    /// Beginning of the word that they replace.
     std::size_t begin = 0;
     /// Whole words, in order; names of options end with " = ".
     std::vector<std::string> words;
@@ -20,8 +20,8 @@ struct Completions {
 };
 
 /// How `text`, all that was typed of a chunk up to the cursor, may go on. Runs no code of the
-/// script: reads variables and fields as they are, and takes the type of what a function returns
-/// from its description.
+/// script: reads variables and fields as they are, and takes the type of a function's results from
+/// its description.
 Completions completions(lua_State* L, std::string_view text);
 
 }  // namespace lissom::cli

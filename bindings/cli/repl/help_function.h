@@ -5,9 +5,9 @@
 
 namespace lissom::cli {
 
-/// Sets the global variable `help`: help() lists what there is, help(function), help(object) and
-/// help(name) tell what that is. The state has the library open. May raise an error of Lua if there
-/// is no memory.
+/// Sets the global variable `help`: help() lists everything, help(function), help(object) and
+/// help(name) describe one. The state has the library open. May raise an error of Lua if there is
+/// no memory.
 void provide_help(lua_State* L);
 
 }  // namespace lissom::cli

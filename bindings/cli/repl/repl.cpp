@@ -33,7 +33,7 @@ bool is_incomplete(lua_State* L) {
 
 // ---- Reading
 
-// What was typed: a chunk on the stack, a message there, a line given up, or the end of the input.
+// Typed input: a chunk on the stack, a message there, a line given up, or the end of the input.
 enum class Typed { chunk, mistake, nothing, end };
 
 class Prompt {
@@ -94,7 +94,7 @@ class Prompt {
 
 // ---- Running
 
-// On one line as `print` writes them, or below each other where one takes several.
+// Shows results on one line as `print` writes them, or below each other if one takes several.
 void show_results(lua_State* L) {
     const int count = lua_gettop(L);
     std::string text;
@@ -129,8 +129,8 @@ int evaluate_lines(Program& program, Script& script) {
     Prompt prompt(program, script.lua());
     if (prompt.interactive()) {
         std::cout << "lissom " LISSOM_VERSION ", " LUA_RELEASE
-                     "; help() tells what there is, Ctrl-C gives up a line or stops what runs, "
-                     "Ctrl-D ends\n";
+                     "; help() lists everything, Ctrl-C gives up a line or stops the running "
+                     "call, Ctrl-D ends\n";
     }
     while (true) {
         program.wait_at_prompt(true);
@@ -156,7 +156,7 @@ int evaluate_lines(Program& program, Script& script) {
 int repl(Program& program, const std::vector<std::string>& words) {
     CLI::App app(
         "Reads Lua from the keyboard and runs it line by line. The module is in the global "
-        "variable `lissom`; help() lists what it has.",
+        "variable `lissom`; help() lists its functions.",
         "lissom repl");
     int status = kSuccess;
     if (!program.parse(app, words, status)) return status;

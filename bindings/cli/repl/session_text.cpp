@@ -17,7 +17,7 @@ bool is_name_part(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-// Behind the long bracket that opens at `at`, or `at` where none does.
+// Returns the end of the long bracket that opens at `at`, or `at` if none does.
 std::size_t after_long_bracket(std::string_view text, std::size_t at) {
     if (at >= text.size() || text[at] != '[') return at;
     const std::size_t open = std::min(text.find_first_not_of('=', at + 1), text.size());
@@ -79,7 +79,7 @@ int depth_change(const Token& token, bool& in_head) {
     return is_one({"end", "until", ")", "}", "]"}) ? -1 : 0;
 }
 
-// What replaces a `local` statement up to its `=`, or its whole head.
+// Replacement of a `local` statement up to its `=`, or of its whole head.
 struct Change {
     std::size_t begin, end;
     std::string text;

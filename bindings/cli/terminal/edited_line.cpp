@@ -29,7 +29,7 @@ bool continues(char byte) {
     return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
 }
 
-// Bytes of the character that begins at `at`; 1 where they are no UTF-8.
+// Returns the bytes of the character that begins at `at`; 1 if they are no UTF-8.
 std::size_t length_at(std::string_view text, std::size_t at) {
     const auto first = static_cast<unsigned char>(text[at]);
     const std::size_t length = first < 0xc2 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;

@@ -7,12 +7,13 @@
 
 namespace lissom::cli {
 
-/// Cells that UTF-8 text takes on a terminal: two for wide characters of East Asia and emoji, none
-/// for those that combine with the one before. Bytes that are no UTF-8 take one each.
+/// Returns the cells that UTF-8 text takes on a terminal: two for wide characters of East Asia and
+/// emoji, none for characters that combine with the one before. Bytes that are no UTF-8 take one
+/// each.
 std::size_t cells_of(std::string_view text);
 
-/// Where the character of `text` that ends before byte `at` begins, and where the one that begins
-/// there ends; with what combines with it.
+/// Return the beginning of the character of `text` that ends before byte `at`, and the end of the
+/// one that begins there; with combining characters.
 std::size_t previous_character(std::string_view text, std::size_t at);
 std::size_t next_character(std::string_view text, std::size_t at);
 
@@ -27,7 +28,7 @@ class EditedLine {
     /// Another text, with the cursor at its end.
     void replace(std::string text);
     void insert(std::string_view text);
-    /// Puts `text` in the place of what is between `begin` and the cursor.
+    /// Replaces the text between `begin` and the cursor by `text`.
     void replace_before(std::size_t begin, std::string_view text);
 
     void left();
@@ -43,7 +44,7 @@ class EditedLine {
     /// Exchanges the characters beside the cursor and goes on.
     void transpose();
 
-    /// Cut what is between the cursor and the place named; `paste` puts it back.
+    /// Cut the text between the cursor and the place named; `paste` puts it back.
     void cut_to_begin() { cut(0, cursor_); }
     void cut_to_end() { cut(cursor_, text_.size()); }
     void cut_word_before() { cut(word_begin(), cursor_); }

@@ -9,11 +9,11 @@
 
 namespace lissom::cli {
 
-/// The last thousand lines, the oldest first. The file has a line each; several programs may add
-/// to it, and what cannot be written is kept for this run.
+/// The last thousand lines, the oldest first. The file has a line each; several programs may add to
+/// it, and lines that cannot be written are kept for this run.
 class History {
   public:
-    /// Reads what is there; an empty path is no file.
+    /// Reads the existing lines; an empty path is no file.
     explicit History(std::filesystem::path file);
 
     std::size_t size() const { return lines_.size(); }

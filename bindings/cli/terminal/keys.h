@@ -7,7 +7,7 @@
 
 namespace lissom::cli {
 
-/// What a key asks for. `none` are keys that have no meaning here.
+/// Action of a key. `none` are keys that have no meaning here.
 enum class Key {
     none,
     text,
@@ -37,7 +37,7 @@ enum class Key {
 
 struct KeyPress {
     Key key = Key::none;
-    /// Of Key::text: one character, in UTF-8.
+    /// For Key::text: one character, in UTF-8.
     std::string text = {};
 };
 

@@ -29,7 +29,8 @@ std::string common_beginning(const std::vector<std::string>& words) {
     return common;
 }
 
-// Names of files that begin as what follows the last quotation mark; those of folders end with '/'.
+// Returns names of files that begin with the text after the last quotation mark; those of folders
+// end with '/'.
 Completions file_names(std::string_view line) {
     Completions found;
     const std::size_t quote = line.find_last_of("'\"");
@@ -68,8 +69,8 @@ std::string in_columns(const std::vector<std::string>& words, std::size_t width)
     return text;
 }
 
-// What a terminal shows of the line. It is written with nothing but '\r', blanks and '\b', which
-// all terminals know; of a long line, the part about the cursor.
+// The shown part of the line. It is written with nothing but '\r', blanks and '\b', which all
+// terminals know; of a long line, the part about the cursor.
 class LineView {
   public:
     void show(std::string_view prompt, const EditedLine& line) {
@@ -89,7 +90,7 @@ class LineView {
              cells_of(text.substr(line.cursor(), end - line.cursor())));
     }
 
-    // The cursor has left what was shown.
+    // The cursor has left the shown part.
     void forget() {
         shown_.clear();
         cells_behind_ = 0;
@@ -217,7 +218,7 @@ class Typing {
         }
     }
 
-    // Line `next` of the history; after its last, what was typed.
+    // Shows line `next` of the history; after its last, the typed text.
     void go_to(std::size_t next) {
         if (next > history_.size()) return ring();
         if (at_ == history_.size()) typed_ = line_.text();
@@ -225,8 +226,8 @@ class Typing {
         line_.replace(at_ == history_.size() ? typed_ : history_.line(at_));
     }
 
-    // The last line that holds what is typed; Ctrl-R goes to the one before, Ctrl-G gives up, and
-    // any other key takes the line.
+    // Shows the last line that contains the typed text; Ctrl-R goes to the one before, Ctrl-G gives
+    // up, and any other key takes the line.
     void search() {
         const std::string before = line_.text();
         const std::size_t at_before = at_;
@@ -325,7 +326,7 @@ LineEditor::Read LineEditor::read(const char* prompt) {
 
 void LineEditor::remember(const std::string& chunk) {
     if (!interactive_) return;
-    // One line, as the arrow keys bring it back; but a comment would swallow what follows it.
+    // One line, as the arrow keys bring it back; but a comment would swallow the text after it.
     std::string text = chunk;
     if (chunk.find("--") == std::string::npos) std::replace(text.begin(), text.end(), '\n', ' ');
     std::istringstream lines(text);

@@ -12,13 +12,13 @@
 
 namespace lissom::cli {
 
-/// What a line editor asks its owner; both may be empty.
+/// Functions that a line editor calls; both may be empty.
 struct LineEditorOptions {
     /// How the line up to the cursor may go on.
     std::function<Completions(const std::string& line)> complete = {};
     /// Whether Ctrl-C was pressed since the last line; asked while a line is typed.
     std::function<bool()> interrupted = {};
-    /// Where lines are kept from one run to the next; empty for nowhere.
+    /// File that keeps lines from one run to the next; empty for none.
     std::filesystem::path history = {};
 };
 
@@ -29,7 +29,7 @@ class LineEditor {
     LineEditor(const LineEditor&) = delete;
     LineEditor& operator=(const LineEditor&) = delete;
 
-    /// What was typed, the end of the input, or Ctrl-C, which gives up the line.
+    /// Typed line, the end of the input, or Ctrl-C, which gives up the line.
     enum class Outcome { line, end, interrupted };
     struct Read {
         Outcome outcome = Outcome::end;

@@ -1,4 +1,4 @@
-/// script_place: where a script is, for messages.
+/// script_place: place of a script, for messages.
 #pragma once
 
 struct lua_State;

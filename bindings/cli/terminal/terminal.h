@@ -1,4 +1,4 @@
-/// What the program knows of its terminal.
+/// Properties of the program's terminal.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,8 @@ bool terminal_moves_cursor();
 /// Cells of a row of the terminal; 80 if it does not say.
 std::size_t terminal_columns();
 
-/// As long as it lives, keys are read as they are pressed and are not shown. Ctrl-C stays a signal.
+/// Reads keys as they are pressed and does not show them, as long as it lives. Ctrl-C stays a
+/// signal.
 class RawTerminal {
   public:
     RawTerminal();
@@ -32,7 +33,7 @@ class RawTerminal {
     std::unique_ptr<State> before_;
 };
 
-/// What came from the terminal: a byte, nothing in time, or its end.
+/// Input from the terminal: a byte, nothing in time, or its end.
 struct TypedByte {
     std::optional<char> byte = {};
     bool ended = false;

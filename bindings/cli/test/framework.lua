@@ -1,14 +1,14 @@
--- What `lissom test` gives to the scripts it runs: the globals `test` and `expect`. Each file has a process
--- of its own; what Lua alone cannot do comes from the host that runs it:
+-- Globals of the scripts that `lissom test` runs: `test` and `expect`. Each file has a process of its own;
+-- functions beyond Lua come from the host that runs it:
 --
 --     host.settings            filter, list, seed, timeout, finished (tests that need not run again)
---     host.call(action, limit) calls it; nil, or what went wrong: { message =, file =, line =, code = }
---     host.report(event)       tells what happens
+--     host.call(action, limit) calls it; nil, or the error: { message =, file =, line =, code = }
+--     host.report(event)       reports an event
 --     host.no_picture(exists)  why a picture that exists or not cannot be compared here, or nil
 --     host.folder()            a new folder for the files of the running test
---     host.picture(check)      compares two picture files: nil, or what differs
+--     host.picture(check)      compares two picture files: nil, or the differences
 --
--- It runs under Lua 5.4 and under LuaJIT. Returns what runs the tests that a file declares.
+-- It runs under Lua 5.4 and under LuaJIT. Returns the function that runs the tests of a file.
 local host = ...
 local settings = host.settings
 
@@ -88,7 +88,7 @@ local function path_step(key)
     return is_name(key) and "." .. key or "[" .. show(key) .. "]"
 end
 
--- Whether a table is compared by what is in it.
+-- Whether a table is compared by its contents.
 local function is_plain(value)
     local meta = getmetatable(value)
     return type(value) == "table" and not (type(meta) == "table" and meta.__eq)
@@ -106,8 +106,8 @@ local function all_keys(a, b)
     return keys
 end
 
--- Where two values differ first: { path =, got =, wanted = }, or nil. Tables are compared by their content,
--- all else by `same`.
+-- The first difference of two values: { path =, got =, wanted = }, or nil. Tables are compared by their
+-- content, all else by `same`.
 local function first_difference(got, wanted, same, compared)
     if not (is_plain(got) and is_plain(wanted)) then
         return not same(got, wanted) and { path = "", got = got, wanted = wanted } or nil
@@ -229,7 +229,7 @@ local function misused(message, depth)
     error(message, 3 + (depth or 0))
 end
 
--- A table whose missing names are told, with those that it has.
+-- A table that raises an error for a missing name, with the names it has.
 local function strict(name, functions)
     return setmetatable(functions, { __index = function(_, key)
         local names = {}
@@ -282,7 +282,7 @@ function expect.falsy(value)
     fail("expected false or nil, got " .. show(value) .. variables_text(2))
 end
 
--- What a call returned that was expected to raise an error.
+-- Results of a call that was expected to raise an error.
 local function returned_text(result, message, code)
     if result == nil and type(message) == "string" and type(code) == "string" then
         return "; it returned nil, " .. show(message) .. ", " .. show(code) .. ", which expect.failure checks"
@@ -334,7 +334,7 @@ local function pixel_count(options, name, standard)
     error("expect.picture: " .. name .. " must be a number of pixels, got " .. show(value), 4)
 end
 
--- What the host is to compare, but for the file. Called by the expectation itself, as the functions below.
+-- Data for the host's comparison, without the file. Called by the expectation itself, as the functions below.
 local function read_check(picture, golden, options)
     if type(picture) ~= "string" and type(picture) ~= "table" then
         misused("expect.picture: a file or the options of lissom.render are needed, got " .. show(picture), 1)
@@ -356,7 +356,7 @@ local function read_check(picture, golden, options)
     }
 end
 
--- Draws into a file of the test: the file, or nil and what went wrong, as lissom.render.
+-- Draws into a file of the test: the file, or nil and an error, as lissom.render.
 local function draw(scene, golden)
     local render = rawget(require "lissom", "render")
     if not render then return nil, "this program draws no pictures", "no_display" end
@@ -497,7 +497,7 @@ local function is_chosen(one)
     return is_pattern and found
 end
 
--- What a call that failed means: { status =, message =, ... }.
+-- Meaning of a failed call: { status =, message =, ... }.
 local function verdict(failure)
     if skip_reason and failure.message:find("skipped: " .. skip_reason, 1, true) then
         return { status = "skipped", message = skip_reason }

@@ -1,4 +1,4 @@
-/// What `lissom test` asks of a library that can read pictures.
+/// Functions of a library that can read pictures, for `lissom test`.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@ namespace lissom::cli {
 
 struct PictureCheck {
     std::filesystem::path picture, golden;
-    /// Where the two and their difference are drawn side by side, where they differ.
+    /// File for a picture of the two and their difference side by side, drawn if they differ.
     std::filesystem::path difference;
     /// Greatest difference of a colour, 0 to 1, that counts as none.
     double tolerance = 0.05;
@@ -18,7 +18,8 @@ struct PictureCheck {
     double connected = 8.0;
 };
 
-/// What differs, as a message; empty if nothing does. Throws Error if a file cannot be read.
+/// Returns the differences, as a message; empty if there are none. Throws Error if a file cannot be
+/// read.
 using ComparePictures = std::string (*)(const PictureCheck& check);
 
 }  // namespace lissom::cli

@@ -9,8 +9,8 @@
 
 namespace lissom::cli {
 
-/// A file for people: a line, and below it what failed or was skipped; `verbose` names every test,
-/// and tells what all of them printed.
+/// Returns a file's report for people: a line, and below it the failed and skipped tests; `verbose`
+/// names every test, with the output of all of them.
 std::string file_text(const FileResult& result, bool verbose);
 /// "12 passed, 1 failed, 2 skipped (3 files, 1.24 s)"; the first two are always there.
 std::string counts_text(const TestCounts& counts, double seconds);

@@ -1,4 +1,4 @@
-/// What came of the tests that ran, as plain values for reports.
+/// Results of tests, as plain values for reports.
 #pragma once
 
 #include <string>
@@ -15,21 +15,21 @@ struct TestLine {
 };
 
 struct TestResult {
-    /// With the names of its groups: "bending / far from the origin". Empty for what befell the
-    /// file before or after its tests.
+    /// With the names of its groups: "bending / far from the origin". Empty for results of the file
+    /// before or after its tests.
     std::string name;
-    /// Where it is declared.
+    /// Line of its declaration.
     int line = 0;
     TestStatus status = TestStatus::passed;
     double seconds = 0.0;
-    /// Why it failed or was skipped, and where.
+    /// Reason and place of a failure or of skipping.
     std::string message;
     TestLine place;
     /// Whether an expectation did not hold; otherwise something else went wrong.
     bool is_expectation = false;
     /// The lines that called that place, the nearest first.
     std::vector<TestLine> callers;
-    /// What it printed.
+    /// Its output.
     std::string output;
     /// The folder that keeps its files, or "".
     std::string folder;

@@ -25,7 +25,7 @@ struct Wanted {
     std::string format = "text";
     std::string output;
     bool verbose = false;
-    // Not for people: what a process that was started by another one is to do.
+    // Not for people: the job of a process that was started by another one.
     std::string job;
 };
 
@@ -48,7 +48,7 @@ void declare(CLI::App& app, Wanted& wanted) {
         ->check(CLI::IsMember({"text", "tap", "junit", "json"}));
     app.add_option("--output", wanted.output,
                    "Write the report to this file; the standard output gets the text");
-    app.add_flag("--verbose", wanted.verbose, "Name every test, and show what it printed");
+    app.add_flag("--verbose", wanted.verbose, "Name every test, and show its output");
     app.add_option("--job", wanted.job)->group("");
 }
 
@@ -56,7 +56,7 @@ int core_count() {
     return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-// Of these files, how many at a time, and with how many threads each.
+// Divides the cores: number of files at a time, and threads of each.
 void share_cores(RunnerOptions& options, int files, int threads, bool has_jobs) {
     options.jobs = std::clamp(has_jobs ? options.jobs : core_count(), 1, std::max(1, files));
     options.threads = threads > 0 ? threads : std::max(1, core_count() / options.jobs);
@@ -91,7 +91,7 @@ int list_tests(Program& program, const std::vector<FileResult>& results) {
     return kSuccess;
 }
 
-// Runs the files; tells their results as text on the way where that is wanted.
+// Runs the files; prints their results as text on the way if asked for.
 class TestRun {
   public:
     TestRun(Program& program, Wanted& wanted)
@@ -155,8 +155,7 @@ int run_tests(Program& program, const std::vector<std::string>& words) {
     Wanted wanted;
     CLI::App app(
         "Runs the tests of scripts: test(\"name\", function() expect.equal(1 + 1, 2) end). Each "
-        "file "
-        "has a process of its own. Ends with status 1 where a test failed.",
+        "file has a process of its own. Ends with status 1 if a test failed.",
         "lissom test");
     declare(app, wanted);
     int status = kSuccess;

@@ -147,7 +147,7 @@ class Worker {
 
 // ---- Functions of the host
 
-// A function of the host as Lua calls it. What it throws becomes an error of Lua when no object of
+// A function of the host as Lua calls it. Its exception becomes an error of Lua when no object of
 // C++ is alive any more.
 template <int (Worker::*kMember)(lua_State*)>
 int Worker::host_function(lua_State* L) {
@@ -210,7 +210,7 @@ int Worker::call(lua_State* L) {
     return 1;
 }
 
-// As a table: { message =, file =, line =, code = }.
+// Pushes a table: { message =, file =, line =, code = }.
 void Worker::push_failure(const ScriptResult& result) {
     lua_State* const L = script_.lua();
     lua_createtable(L, 0, 4);
@@ -239,7 +239,7 @@ int Worker::report(lua_State* L) {
     return 0;
 }
 
-// What only this side knows of a test that has ended.
+// Adds the data of a finished test that only this side knows.
 void Worker::complete_end(Json& event) {
     event["seconds"] = seconds_since(began_);
     event["calls"] = calls_json(calls_);
@@ -441,7 +441,7 @@ TestJob job_of(const Json& json) {
 }
 
 int run_test_job(Program& program, const std::string& json) {
-    // What a test that dies has printed shall not die with it.
+    // The output of a test that dies shall not die with it.
     std::setvbuf(stdout, nullptr, _IONBF, 0);
     return Worker(program, job_of(Json::parse(json))).run();
 }

@@ -1,4 +1,4 @@
-/// The process that runs the tests of one file, and what it tells the one that started it.
+/// The process that runs the tests of one file, and its messages to the one that started it.
 ///
 /// Each line is an object of JSON: "event", "output" (the size of the file of its output by then),
 /// and
@@ -8,10 +8,10 @@
 /// - left_out: "text", why a picture was not compared
 /// - updated: "path" of a golden picture that was written
 /// - end: "status" (passed, failed or skipped) and "seconds" of that test; of a failure "message",
-///   "file", "line", "code", "expectation" (whether one did not hold) and "calls"; "folder" where
+///   "file", "line", "code", "expectation" (whether one did not hold) and "calls"; "folder" if
 ///   it keeps files
 /// - test: "name" and "line" of one that is only listed
-/// - file: as end, for what came before the first test
+/// - file: as end, for results before the first test
 /// - done: the file was run to its end
 #pragma once
 
@@ -24,14 +24,14 @@
 
 namespace lissom::cli {
 
-/// What a process is to do.
+/// Job of a process.
 struct TestJob {
     /// The script, and its name in messages.
     std::filesystem::path file;
     std::string shown;
     /// The file that all its output goes to.
     std::filesystem::path output;
-    /// Where tests may write, each in a folder of its own below it.
+    /// Folder for files of tests, each in a folder of its own below it.
     std::filesystem::path folder;
     /// Part of the names of the tests to run, or a Lua pattern of them; all if it is empty.
     std::string filter;
