@@ -21,7 +21,7 @@ void require_faces(const std::vector<DrawnMesh>& meshes) {
 
 // Points of meshes that a window frames in a moment, at most twice as many.
 constexpr std::size_t kFramedPoints = 20000;
-// Points that tell where strands are: of so many at most, evenly chosen.
+// Number of evenly chosen points of strands for framing, at most.
 constexpr Index kFramedStrands = 5000;
 
 void add_framed(const DrawnStrands& drawn, std::vector<Vec3>& points) {
@@ -95,7 +95,7 @@ Snapshot whole(const Picture& picture, const ValueRange& range) {
     return {picture.meshes, strands_of(picture, std::nullopt), std::move(overlays), range};
 }
 
-// What every cell shows; only the first where all is in one space.
+// Returns the contents of every cell; only the first if all is in one space.
 std::vector<Snapshot> cells_of(const Picture& picture, const Snapshot& all) {
     if (picture.columns == 0) return {all};
     std::vector<Snapshot> cells;
@@ -125,7 +125,7 @@ int caption_rows(const Picture& picture, int cell_height) {
     return std::min(index_of(std::lround(2.6 * caption_text(cell_height))), cell_height - 1);
 }
 
-// Centred in the last rows of the cell, smaller where it would not fit.
+// Centred in the last rows of the cell, smaller if it would not fit.
 void draw_caption(Image& image, const std::string& caption, const Cells& cells, int cell,
                   const Color& ink) {
     const double room = 0.94 * cells.width(cell);
@@ -148,7 +148,7 @@ Camera camera_for(const Picture& picture, const Snapshot& framed, double aspect)
 // Distance between the middles of meshes that stand side by side, in their largest extent.
 constexpr double kSpread = 1.25;
 
-// Where the cell of a mesh is when all are in one space.
+// Returns the place of each mesh's cell when all are in one space.
 std::vector<Vec3> spread(const Picture& picture) {
     double extent = 0.0;
     for (const DrawnMesh& drawn : picture.meshes) {

@@ -1,5 +1,5 @@
 /// Picture: a finished image of one or several meshes, framed, in one space or side by side, with a
-/// legend where values are drawn.
+/// legend if values are drawn.
 #pragma once
 
 #include <memory>
@@ -24,14 +24,14 @@ struct Picture {
     std::vector<DrawnMesh> meshes = {};
     /// Drawn with every mesh, in the world of the camera.
     Overlay marks = {};
-    /// Not drawn: what a window adds to the marks where a person asks for fields of hairstyles.
+    /// Not drawn: marks that a window adds when fields of hairstyles are asked for.
     NamedMarks field_marks = {};
-    /// Likewise, not hidden by any surface: what a tool shows.
+    /// Likewise, not hidden by any surface: marks of a tool.
     Overlay tool_marks = {};
-    /// In cells, those that name a mesh are drawn with that mesh, others with every mesh.
+    /// In cells, strands that name a mesh are drawn with that mesh, others with every mesh.
     std::vector<PictureStrands> strands = {};
 
-    /// Where it is seen from; without one, a standard view that frames everything.
+    /// Camera; without one, a standard view that frames everything.
     std::optional<Camera> camera = std::nullopt;
     StandardView view = StandardView::three_quarter;
     /// Up axis, perspective and margin of the standard view; its aspect is that of the picture.
@@ -47,31 +47,32 @@ struct Picture {
 
     /// Ends of the colour scale; without them, the least and greatest value drawn.
     std::optional<ValueRange> range = std::nullopt;
-    /// Draw the colour scale and its numbers at the right, where a mesh has values, or the names
-    /// of the parts.
+    /// Draw the colour scale and its numbers at the right, if a mesh has values, or the names of
+    /// the parts.
     bool legend = true;
     /// Stands above the colour scale or the names.
     std::string legend_label = {};
-    /// Names of the parts that meshes show; where there are any there is no scale.
+    /// Names of the parts that meshes show; if there are any there is no scale.
     std::vector<LegendPart> legend_parts = {};
 
     RenderOptions options = {};
 };
 
-/// All of `picture` in one space, its scale of colours included: with columns, the meshes stand
-/// side by side. Errors: invalid_argument where the range is empty.
+/// Returns all of `picture` in one space, its scale of colours included: with columns, the meshes
+/// stand side by side. Errors: invalid_argument if the range is empty.
 Snapshot snapshot_of(const Picture& picture);
 
-/// The legend that draw_picture draws at the right of `picture`; nothing where it draws none.
-/// Errors: invalid_argument where the range is empty.
+/// Returns the legend that draw_picture draws at the right of `picture`; nothing if it draws none.
+/// Errors: invalid_argument if the range is empty.
 std::optional<Legend> legend_of(const Picture& picture);
 
-/// The camera of `picture`, or the standard view that frames its snapshot, of very many points an
-/// even sample, in a picture whose width is `aspect` times its height. Errors: as frame_points.
+/// Returns the camera of `picture`, or the standard view that frames its snapshot, of very many
+/// points an even sample, in a picture whose width is `aspect` times its height. Errors: as
+/// frame_points.
 Camera quick_camera_of(const Picture& picture, const Snapshot& snapshot, double aspect);
 
-/// Copies of meshes for pictures that stay as they are whatever becomes of those. What did not
-/// change is not copied again: a mesh with other regions only is the copy that was made before.
+/// Copies of meshes for pictures that stay the same when the meshes change. Unchanged meshes are
+/// not copied again: a mesh with other regions only is the copy that was made before.
 class FrozenMeshes {
   public:
     /// `picture` with copies of its meshes and strands.
@@ -84,16 +85,16 @@ class FrozenMeshes {
     };
     void freeze(DrawnMesh& drawn);
 
-    // Of the last picture, and of the one that is made.
+    // Copies of the last picture, and of the one being made.
     std::vector<Kept> kept_, next_;
 };
 
-/// The same without what was copied before.
+/// Returns the same without earlier copies.
 Picture frozen(Picture picture);
 
 /// Draws `picture`. Errors: those of Renderer::render and frame_points; mesh_empty for a mesh
-/// without faces; invalid_argument where the range is empty, or the size leaves no room for cells
-/// or legend.
+/// without faces; invalid_argument if the range is empty, or the size leaves no room for cells or
+/// legend.
 Image draw_picture(Renderer& renderer, const Picture& picture, const Context& context = {});
 
 }  // namespace lissom

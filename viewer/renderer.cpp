@@ -59,7 +59,7 @@ struct Renderer::State {
             const PlatformScope scope(*platform);
             tools.reset();
         } catch (const Error&) {
-            // The context is in use elsewhere; what is in it ends with it.
+            // The context is in use elsewhere; its objects end with it.
         }
     }
 

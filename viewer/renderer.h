@@ -16,26 +16,26 @@ namespace lissom {
 
 class Renderer {
   public:
-    /// Errors: no_display; internal where the driver refuses a shader.
+    /// Errors: no_display; internal if the driver refuses a shader.
     explicit Renderer(std::unique_ptr<Platform> platform = make_egl_platform());
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    /// The picture of `snapshot` as `camera` sees it. The same input gives the same pixels on the
-    /// same driver. May be called on any thread, by one at a time. Errors: invalid_argument and
-    /// out_of_range for options; those of GpuScene::update and view_strands; memory_limit;
-    /// no_display where the context is in use on another thread; cancelled.
+    /// Returns the picture of `snapshot` as `camera` sees it. The same input gives the same pixels
+    /// on the same driver. May be called on any thread, by one at a time. Errors: invalid_argument
+    /// and out_of_range for options; those of GpuScene::update and view_strands; memory_limit;
+    /// no_display if the context is in use on another thread; cancelled.
     Image render(const Snapshot& snapshot, const Camera& camera, const RenderOptions& options = {},
                  const Context& context = {});
 
-    /// Throws where `options` cannot be drawn: invalid_argument, out_of_range.
+    /// Throws if `options` cannot be drawn: invalid_argument, out_of_range.
     void require_valid(const RenderOptions& options) const;
     /// Most pixels along a side of a picture.
     int maximum_size() const;
     /// Most samples a pixel.
     int maximum_samples() const;
-    /// Name of what draws, for instance "llvmpipe (LLVM 15.0.6, 256 bits)".
+    /// Returns the name of the driver, for instance "llvmpipe (LLVM 15.0.6, 256 bits)".
     const std::string& driver() const;
 
   private:

@@ -14,7 +14,7 @@
 
 namespace lissom {
 
-/// What surfaces are drawn with.
+/// Resources for drawing surfaces.
 struct SurfaceParts {
     bool occlusion = false, hair = false, wire = false, values = false;
 };
@@ -28,7 +28,7 @@ class SurfacePrograms {
     mutable std::array<std::optional<gl::Program>, 16> programs_;
 };
 
-/// What is made once for all pictures.
+/// Resources made once for all pictures.
 struct SceneTools {
     SurfacePrograms surface;
     gl::Program line, point, output, strand_output;
@@ -47,7 +47,7 @@ struct SceneTools {
 /// Framebuffers that a part of a picture passes through; the finished pixels are in `output`, rows
 /// from the top.
 struct DrawTarget {
-    /// `samples` where there are several of them, else all is drawn into `picture`.
+    /// `samples` if there are several of them, else all is drawn into `picture`.
     gl::Framebuffer samples, picture, output;
 
     bool has_samples() const { return samples.extent().width > 0; }
@@ -57,7 +57,7 @@ struct DrawTarget {
     DrawTarget(gl::Extent extent, const RenderOptions& options);
 };
 
-/// The pixels of an output.
+/// Returns the pixels of an output.
 Image read_pixels(const gl::Framebuffer& from);
 
 /// Draws the meshes and overlays of a scene as one camera sees them.
@@ -79,7 +79,7 @@ class SceneDrawer {
     Image picture(Progress& progress) const;
 
   private:
-    // Empty where there is none.
+    // Returns an empty framebuffer if there is none.
     gl::Framebuffer compute_occlusion() const;
     void draw_surfaces(const Tile& tile) const;
     SurfaceParts parts() const;
@@ -101,7 +101,7 @@ class SceneDrawer {
     gl::Framebuffer openness_;
 };
 
-/// The picture of a scene with all that it has, strands too. Errors: those of view_strands;
+/// Returns the picture of a scene with all that it has, strands too. Errors: those of view_strands;
 /// memory_limit; cancelled.
 Image draw_scene(const SceneTools& tools, const GpuScene& scene, const Camera& camera,
                  const RenderOptions& options, const Context& context = {});

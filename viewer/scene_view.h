@@ -13,7 +13,7 @@ struct SceneView {
     double occlusion_radius = 0.0;
 };
 
-/// What `camera` sees of `scene` in a picture whose width is `aspect` times its height.
+/// Returns the view of `scene` by `camera` in a picture whose width is `aspect` times its height.
 SceneView see(const GpuScene& scene, const Camera& camera, double aspect);
 
 }  // namespace lissom

@@ -1,4 +1,4 @@
-/// What is drawn, and how it looks. Plain data, without OpenGL and without names of a script.
+/// Objects of a picture, and their looks. Plain data, without OpenGL and without names of a script.
 #pragma once
 
 #include <cstdint>
@@ -33,13 +33,13 @@ struct DrawnRegion {
 /// the attribute "color"; `color`.
 struct MeshStyle {
     Color color = kClayColor;
-    /// Draw the colours of the attribute "color" (read as sRGB) where the mesh has it.
+    /// Draw the colours of the attribute "color" (read as sRGB) if the mesh has it.
     bool vertex_colors = true;
     Shading shading = Shading::smooth;
     /// Angle in radians between the normals of faces above which their edge is sharp.
     double crease = 50.0 * kPi / 180.0;
-    /// 1: hides what is behind it, strands and lines too; below that they are seen through it, its
-    /// own inside is not. Meshes of one picture that are seen through share the least.
+    /// 1: hides everything behind it, strands and lines too; below that these are seen through it,
+    /// but not its own inside. Meshes of one picture that are seen through share the least.
     double opacity = 1.0;
     /// Drawn a little nearer than it is, so that it hides the surface that it lies on.
     bool raised = false;
@@ -62,7 +62,7 @@ struct MeshStyle {
     /// Draw the loops of open boundaries as lines, each in its own colour.
     bool boundaries = false;
     /// Draw normals as lines of half the mean length of an edge: at vertices, and in the middle of
-    /// faces. Of many, evenly chosen ones.
+    /// faces. Evenly chosen ones if there are many.
     bool vertex_normals = false, face_normals = false;
     /// Width of these lines in pixels; points are three times as wide.
     double line_width = 4.0;
@@ -79,15 +79,15 @@ struct DrawnMesh {
     MeshStyle style = {};
     /// From the mesh to the world of the camera.
     Affine transform = {};
-    /// The same from snapshot to snapshot of a scene, so that what did not change stays on the
+    /// Id of an object, constant over the snapshots of a scene, so that unchanged parts stay on the
     /// graphics card. Several with one number are told apart by their order.
     std::uint64_t object = 0;
-    /// Regions by name in place of the mesh's own, where only these have changed since it was
-    /// copied; null: the mesh's.
+    /// Regions by name in place of the mesh's own, if only these have changed since it was copied;
+    /// null: the mesh's.
     std::shared_ptr<const NamedRegions> regions = nullptr;
 };
 
-/// The named regions of a mesh in the picture.
+/// Returns the named regions of a mesh in the picture.
 inline const NamedRegions& regions_of(const DrawnMesh& drawn) {
     return drawn.regions ? *drawn.regions : drawn.mesh->regions();
 }
@@ -138,7 +138,7 @@ struct Overlay {
     bool operator==(const Overlay&) const = default;
 };
 
-/// The smallest range that holds all finite values of `meshes`; nothing if there are none.
+/// Returns the smallest range that holds all finite values of `meshes`; nothing if there are none.
 std::optional<ValueRange> range_of_values(const std::vector<DrawnMesh>& meshes);
 
 }  // namespace lissom

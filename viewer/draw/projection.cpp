@@ -5,9 +5,9 @@
 namespace lissom {
 namespace {
 
-// Of the farthest depth: the least that the near plane is away, so that depths stay apart.
+// Least distance of the near plane, as a fraction of the farthest depth, so that depths stay apart.
 constexpr double kMinimumNearShare = 1e-4;
-// Of the extent in depth: room in front and behind.
+// Room in front and behind, as a fraction of the extent in depth.
 constexpr double kRoom = 0.05;
 
 }  // namespace

@@ -25,8 +25,8 @@ Mat4 projection_matrix(const Camera& camera, double aspect, const DepthRange& ra
 /// Clip space of a whole picture to that of one tile of it.
 Mat4 tile_matrix(const Tile& tile, int picture_width, int picture_height);
 
-/// The range that holds depths from `nearest` to `farthest`, with room for what is drawn a little
-/// nearer. Depths that are not in front of the camera are left out.
+/// Returns the range that holds depths from `nearest` to `farthest`, with room for marks drawn a
+/// little nearer. Depths that are not in front of the camera are left out.
 DepthRange fit_depth_range(double nearest, double farthest);
 
 }  // namespace lissom

@@ -17,7 +17,7 @@
 namespace lissom {
 namespace {
 
-// Of vertices that no face has: so many are drawn, of this radius in pixels.
+// For vertices without faces: number drawn, and radius in pixels.
 constexpr std::size_t kMostPoints = 50000;
 constexpr double kPointRadius = 2.0;
 

@@ -1,4 +1,4 @@
-/// What the visible objects of a scene look like: meshes, strands and lines of a picture.
+/// Looks of the visible objects of a scene: meshes, strands and lines of a picture.
 #pragma once
 
 #include <vector>
@@ -20,9 +20,9 @@ struct SceneDrawing {
     NamedMarks field = {};
 };
 
-/// Draws each visible object where it stands, by its style. A deformation is its mesh with region
-/// and handles, also where the mesh is an object itself; hair takes its unit from the mesh that it
-/// is rooted on. Meshes without faces are their vertices. Shares meshes and strands with the scene,
+/// Draws each visible object at its place, by its style. A deformation is its mesh with region and
+/// handles, also if the mesh is an object itself; hair takes its unit from the mesh that it is
+/// rooted on. Meshes without faces are their vertices. Shares meshes and strands with the scene,
 /// which must not change while they are drawn. Errors: those of style_lines.
 SceneDrawing drawing_of(const ObjectList& objects);
 

@@ -13,7 +13,7 @@ inline constexpr Color kHairColor{0.547, 0.425, 0.304};
 
 /// One of the two reflections of a strand (Kajiya and Kay 1989; Marschner et al. 2003).
 struct HairLobe {
-    /// Part of the light that it reflects where it is brightest; at least 0.
+    /// Part of the light that it reflects at its brightest; at least 0.
     double strength = 0.0;
     /// Sharpness: the power of the cosine; at least 0.
     double exponent = 0.0;
@@ -52,7 +52,7 @@ struct StrandStyle {
     /// How much strands shade each other and the meshes: 0 is not at all, 1 as much as looks like
     /// hair.
     double shadow = 1.0;
-    /// Part of the way that the scalp goes to the colour of the hair where roots are dense; 0 to 1.
+    /// Part of the way that the scalp goes to the colour of the hair at dense roots; 0 to 1.
     double scalp_tint = 0.7;
 
     bool operator==(const StrandStyle&) const = default;

@@ -1,5 +1,5 @@
 /// The lights of all pictures, fixed to the camera: those of the surface shader (shaders.cpp) for
-/// what is shaded without OpenGL. View space: x right, y up, z towards the viewer.
+/// objects shaded without OpenGL. View space: x right, y up, z towards the viewer.
 #pragma once
 
 #include <Eigen/Core>

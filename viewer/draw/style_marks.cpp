@@ -20,9 +20,9 @@ constexpr Color kBlue{0.12, 0.36, 0.86}, kRed{0.86, 0.16, 0.12}, kPurple{0.50, 0
 constexpr std::array<Color, 8> kKindColors = {kBlue,   kRed,  kBlue,  kRed,
                                               kPurple, kBlue, kGreen, kGrey};
 
-// Arrows are this long at full speed, in what is between them.
+// Length of arrows at full speed, as a fraction of their spacing.
 constexpr double kArrowLength = 0.85;
-// Of an arrow's head: its length and half width, as shares of the arrow's full length.
+// An arrow's head: its length and half width, as shares of the arrow's full length.
 constexpr double kHeadLength = 0.32, kHeadWidth = 0.14;
 // A field shorter than this has no direction to show.
 constexpr double kLeastSpeed = 0.02;
@@ -117,7 +117,7 @@ class MarkMaker {
                         "spacing that is at least a five hundredth of its volume");
         }
         const Vec3 normal = slice.normal.normalized(), middle = 0.5 * (box.min + box.max);
-        // Rows are level where that is possible.
+        // Rows are level if possible.
         const Vec3 level = Vec3::UnitY().cross(normal);
         const Vec3 u = level.norm() > 1e-3 ? Vec3(level.normalized()) : across(normal)[0];
         const Vec3 v = normal.cross(u);

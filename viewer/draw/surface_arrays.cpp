@@ -101,7 +101,7 @@ class SurfaceColors {
     const MeshStyle& style_;
     const Attribute* attribute_;
     std::vector<Paint> paint_;
-    // Of faces that a part paints: which.
+    // Numbers of the parts that paint faces.
     std::vector<Index> part_;
 };
 

@@ -1,4 +1,4 @@
-/// What the graphics card is given of a mesh.
+/// Data of a mesh for the graphics card.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace lissom {
 
-/// One corner of a triangle, as it lies in the vertex buffers: what changes when vertices move, and
-/// what does not.
+/// One corner of a triangle, as it lies in the vertex buffers: the part that changes when vertices
+/// move, and the constant one.
 struct SurfaceVertex {
     std::array<float, 3> position;
     std::array<float, 3> normal;
@@ -39,15 +39,15 @@ struct SurfaceTriangles {
     /// outside stays outside.
     bool mirrored = false;
 
-    /// Whether both have the same corners in the same order.
+    /// Returns whether both have the same corners in the same order.
     bool same_as(const SurfaceTriangles& other) const;
 };
 
-/// Vertices where the picture has them.
+/// Returns the vertices at their places in the picture.
 std::vector<Vec3> picture_positions(const Mesh& mesh, const Affine& to_picture);
 
-/// Triangles of `mesh` at `positions`. `known`, of the same topology, is taken over where vertices
-/// that move cannot change it; may be null.
+/// Triangles of `mesh` at `positions`. `known`, of the same topology, provides the parts that
+/// moving vertices cannot change; may be null.
 SurfaceTriangles surface_triangles(const Mesh& mesh, std::span<const Vec3> positions,
                                    const Affine& to_picture, const SurfaceTriangles* known);
 
@@ -57,14 +57,14 @@ std::vector<SurfaceVertex> surface_vertices(const Mesh& mesh, const MeshStyle& s
                                             const SurfaceTriangles& triangles,
                                             const Context& context = {});
 
-/// The same of colours. Errors: topology_mismatch for a region or handle of another mesh;
+/// Returns the same of colours. Errors: topology_mismatch for a region or handle of another mesh;
 /// invalid_argument if the number of values is not that of vertices.
 std::vector<SurfaceColor> surface_colors(const Mesh& mesh, const MeshStyle& style,
                                          const ValueRange& range, const SurfaceTriangles& triangles,
                                          const Context& context = {});
 
-/// Whether surface_vertices gives the same of both; likewise surface_colors, where the triangles
-/// are the same; likewise build_marks.
+/// Return whether the vertices, or colours, or marks of both are the same; surface_colors only for
+/// equal triangles.
 bool same_vertices(const DrawnMesh& a, const DrawnMesh& b);
 bool same_colors(const DrawnMesh& a, const DrawnMesh& b);
 bool same_marks(const DrawnMesh& a, const DrawnMesh& b);

@@ -5,12 +5,12 @@
 
 namespace lissom {
 
-/// What the passes need to know about the camera.
+/// Data of the camera for the passes.
 struct ViewParameters {
     /// Picture space to view space, and that to clip space for the whole picture.
     Mat4 view = Mat4::Identity();
     Mat4 projection = Mat4::Identity();
-    /// Half the width and height of what is seen, in world units; at depth 1 with perspective.
+    /// Half the width and height of the view, in world units; at depth 1 with perspective.
     Vec2 half_extent = Vec2::Ones();
     bool perspective = true;
     double near = 0.1;

@@ -52,12 +52,13 @@ using Texture = Name<destroy_texture>;
 using Renderbuffer = Name<destroy_renderbuffer>;
 using FramebufferName = Name<destroy_framebuffer>;
 
-/// A vertex buffer with `bytes` copied into it, bound to GL_ARRAY_BUFFER.
+/// Returns a vertex buffer with `bytes` copied into it, bound to GL_ARRAY_BUFFER.
 Buffer make_vertex_buffer(std::span<const std::byte> bytes);
 VertexArray make_vertex_array();
-/// A texture without mipmaps that is read clamped, at its texels or (`linear`) between them.
+/// Returns a texture without mipmaps that is read clamped, at its texels or (`linear`) between
+/// them.
 Texture make_texture(int width, int height, GLenum format, bool linear = false);
-/// A volume of four bytes a texel, x fastest, that is read clamped, between its texels.
+/// Returns a volume of four bytes a texel, x fastest, that is read clamped, between its texels.
 Texture make_volume(const std::array<Index, 3>& counts, std::span<const std::uint8_t> texels);
 
 /// A buffer whose entries shaders read by their numbers, with a texture of `format` for that.
@@ -128,7 +129,7 @@ class Program {
     GLint location(const char* uniform) const;
 
     Name<destroy_program> program_;
-    // Of uniforms that were set: drivers look them up by name slowly.
+    // Locations of uniforms that were set: drivers look them up by name slowly.
     mutable std::map<std::string, GLint, std::less<>> locations_;
 };
 

@@ -34,13 +34,13 @@ struct HairRange {
     double begin = 0.0, end = 1.0;
     /// So many stand for all: they are so much wider. A share as well.
     double of = 1.0;
-    /// With the few points of strands that are there for moving pictures, where they suffice.
+    /// Uses the few points kept for moving pictures, if they suffice.
     bool few_points = false;
 };
 
 /// How the strands are seen.
 struct HairView {
-    /// Of the picture; the projection may be that of a part of it.
+    /// Parameters of the picture; the projection may be that of a part of it.
     ViewParameters parameters;
     Mat4 projection = Mat4::Identity();
     /// The point of the world that is at zero in picture space.
@@ -53,30 +53,30 @@ class GpuHair {
   public:
     GpuHair();
 
-    /// Becomes `hair`; sends what is new in it and frees what is not in it any more. Bytes sent.
-    /// Errors: memory_limit.
+    /// Replaces the hair by `hair`; sends its new parts and frees those without a use. Returns the
+    /// bytes sent. Errors: memory_limit.
     std::size_t update(const Hair& hair);
-    /// From now on light comes from where it does for one camera: `light` is HairLight::directed of
-    /// the light that is shown; nothing if there is none. Bytes sent.
+    /// Sets light that is exact for one camera: `light` is HairLight::directed of the shown light;
+    /// nothing if there is none. Returns the bytes sent.
     std::size_t direct(std::span<const std::uint8_t> light);
-    /// From now on light comes from where it does for any camera, by its moments.
+    /// Sets light for any camera, by its moments.
     void undirect() { directed_ = false; }
 
     bool empty() const { return size_ == 0; }
-    /// Strands that are drawn in all, and those that few points are there for.
+    /// Return the number of all drawn strands, and of those that few points are kept for.
     Index size() const { return size_; }
     double few() const { return few_; }
-    /// Whether all strands are there, not few alone.
+    /// Returns whether all strands are there, not few alone.
     bool complete() const { return complete_; }
     /// Metres in the world of the widest strand when a share `of` of them is drawn.
     double width(double of) const;
-    /// Of the space that the light is known in.
+    /// Returns the middle of the space with known light.
     Vec3 middle() const;
     const std::shared_ptr<const HairLight>& light() const { return light_; }
 
-    /// The shade on meshes.
+    /// Returns the shade on meshes.
     GpuHairShade shade(const HairView& view) const;
-    /// Draws into what is bound, against its depths.
+    /// Draws into the bound framebuffer, against its depths.
     void draw(const HairView& view, const HairRange& range) const;
 
   private:

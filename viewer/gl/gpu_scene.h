@@ -43,15 +43,16 @@ struct GpuMarks {
     bool on_top = false;
 };
 
-/// What a surface has at its corners, on the card: in each buffer as many triangles as are sent in
-/// a moment, for a driver takes long to make a large one.
+/// Values at the corners of a surface, on the card: each buffer has as many triangles as are sent
+/// in a moment, for a driver takes long to make a large one.
 using SurfaceBuffers = std::vector<gl::Buffer>;
 inline constexpr std::size_t kTrianglesOfBuffer = 16384;
 
-/// Triangles of one mesh, and its marks. Never changes; what stays is shared with the next one.
+/// Triangles of one mesh, and its marks. Never changes; unchanged parts are shared with the next
+/// one.
 struct GpuSurface {
     DrawnMesh drawn;
-    /// Of the mesh, when it was uploaded.
+    /// Revision of the mesh at its upload.
     std::uint64_t revision = 0;
     SurfaceTriangles triangles;
     std::shared_ptr<const SurfaceBuffers> vertices, colors;
@@ -66,18 +67,18 @@ struct GpuSurface {
     void draw() const;
 };
 
-/// Where the points of a snapshot are and how far they reach.
+/// Position and extent of the points of a snapshot.
 struct ScenePlacement {
     Vec3 center = Vec3::Zero();
     /// RMS distance to the center.
     double size = 0.0;
     /// Corners of boxes around the strands, in the world.
     std::vector<Vec3> strand_corners;
-    /// Of each of the snapshot's strands, in their metres.
+    /// Box of each of the snapshot's strands, in their metres.
     std::map<const Strands*, Box> strand_boxes;
 };
 
-/// What an update has to find out of a mesh; what it can take over is not.
+/// Data that an update has to compute for a mesh, without those that it can take over.
 struct SurfaceNeeds {
     DrawnMesh drawn;
     bool vertices = false, colors = false, marks = false;
@@ -86,7 +87,7 @@ struct SurfaceNeeds {
     /// The point that is at zero on the card, and the scale of values.
     Vec3 origin = Vec3::Zero();
     ValueRange range = {};
-    /// Of vertices that moved and are made fast; null if they are made exactly.
+    /// Groups of vertices that moved and are made fast; null if they are made exactly.
     std::shared_ptr<const NormalGroups> groups = nullptr;
 };
 
@@ -96,20 +97,20 @@ struct PreparedSurface {
     std::uint64_t revision = 0;
     SurfaceTriangles triangles = {};
     std::vector<SurfaceVertex> vertices = {};
-    /// In place of them where they are made fast.
+    /// In place of them if they are made fast.
     std::vector<QuickVertex> quick = {};
     std::vector<SurfaceColor> colors = {};
     Overlay marks = {};
-    /// Of the vertices, so that the mesh can move fast from then on.
+    /// Groups of the vertices, so that the mesh can move fast from then on.
     std::shared_ptr<const NormalGroups> groups = nullptr;
-    /// What a PieceSender has sent of that.
+    /// Parts of that already sent by a PieceSender.
     std::shared_ptr<const SurfaceBuffers> sent_vertices = nullptr, sent_colors = nullptr;
 };
 
 /// Errors: those of surface_colors; cancelled.
 PreparedSurface prepare(SurfaceNeeds needs, const Context& context = {});
 
-/// Sends what was prepared to the graphics card buffer by buffer: a window looks for events between
+/// Sends prepared surfaces to the graphics card buffer by buffer: a window looks for events between
 /// them.
 class PieceSender {
   public:
@@ -118,11 +119,11 @@ class PieceSender {
     /// Makes the next buffer; false if there was none left. Errors: memory_limit.
     bool send();
     const std::vector<PreparedSurface>& surfaces() const { return surfaces_; }
-    /// Gives them away to any thread, without what was sent, which belongs to the context.
+    /// Gives them away to any thread, without the sent parts, which belong to the context.
     std::vector<PreparedSurface> give_away();
 
   private:
-    // What is sent of one surface, a buffer each.
+    // Parts of one surface to send, a buffer each.
     struct Part {
         std::vector<std::span<const std::byte>> pieces;
         std::shared_ptr<const SurfaceBuffers> PreparedSurface::*to;
@@ -140,32 +141,33 @@ enum class MovedVertices { exact, quick };
 
 class GpuScene {
   public:
-    /// Becomes what `snapshot` shows. Uploads what differs from the snapshot before: nothing for
-    /// the same revision or the same contents, positions and normals only where a mesh of the same
-    /// faces moved. What vanished is freed. After an error the scene is as it was.
-    /// Errors: not_finite for a transform, line or point; those of surface_colors; memory_limit;
-    /// cancelled.
+    /// Shows `snapshot` from now on. Uploads the differences from the snapshot before: nothing for
+    /// the same revision or the same contents, only positions and normals if a mesh of the same
+    /// faces moved. Vanished parts are freed. Returns counts of the uploads. After an error the
+    /// scene is as it was. Errors: not_finite for a transform, line or point; those of
+    /// surface_colors; memory_limit; cancelled.
     Uploads update(const Snapshot& snapshot, const Context& context = {},
                    MovedVertices moved = MovedVertices::exact) {
         return update_with({}, snapshot, context, moved);
     }
-    /// The same; what was `prepared` is taken from there.
+    /// Updates likewise, and takes surfaces from `prepared`.
     Uploads update_with(std::span<const PreparedSurface> prepared, const Snapshot& snapshot,
                         const Context& context, MovedVertices moved);
-    /// What `update` has to find out for the meshes of `snapshot`, where vertices that moved are
-    /// made fast. Only of those that need anything.
+    /// Returns the needs of `update` for the meshes of `snapshot`, if vertices that moved are made
+    /// fast. Only for meshes that need anything.
     std::vector<SurfaceNeeds> needs(const Snapshot& snapshot) const;
 
     const Snapshot& snapshot() const { return shown_.snapshot; }
     const ScenePlacement& placement() const { return shown_.placement; }
-    /// The point of the world that is at zero on the card. Stays while what is drawn is about it.
+    /// Returns the point of the world that is at zero on the card. Stays while the drawn objects
+    /// are about it.
     const Vec3& origin() const { return shown_.origin; }
     const std::vector<std::shared_ptr<const GpuSurface>>& surfaces() const {
         return shown_.surfaces;
     }
 
     void draw_surfaces() const;
-    /// Those that no surface hides, or the others.
+    /// Draws the lines that no surface hides, or the others.
     void draw_lines(bool on_top) const;
     void draw_points(bool on_top) const;
 
@@ -182,7 +184,7 @@ class GpuScene {
     bool keeps_origin(const ScenePlacement& placement) const;
 
     Shown shown_;
-    // Of quick updates, so that none allocates.
+    // Buffer of quick updates, so that none allocates.
     std::vector<QuickVertex> scratch_;
 };
 

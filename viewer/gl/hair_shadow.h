@@ -11,15 +11,15 @@
 
 namespace lissom {
 
-/// What strands do to the light on surfaces, and to the colour of a scalp.
+/// Shade of strands on surfaces, and on the colour of a scalp.
 struct GpuHairShade {
     /// Key light and light from all around that is left, and how much hair grows; see
     /// StrandShadow::on_meshes. One texel of no hair if there are no strands.
     std::shared_ptr<const gl::Texture> volume;
     enum class Kind {
-        /// As above.
+        /// The volume as above.
         picture,
-        /// Of HairLight: its moments, and the last byte of the volume.
+        /// The moments of HairLight, and the last byte of the volume.
         moments,
         /// The same with the volume's key light.
         directed,
@@ -40,7 +40,7 @@ struct GpuHairShade {
 /// Sets scale, offset and step: texels are the points of `grid`.
 void place_shade(GpuHairShade& shade, const ViewGrid& grid);
 
-/// The shade of hair; without strands where `shadow` is null.
+/// Returns the shade of hair; without strands if `shadow` is null.
 GpuHairShade upload_shade(const StrandShadow* shadow);
 
 }  // namespace lissom

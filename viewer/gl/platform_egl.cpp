@@ -36,7 +36,7 @@ void require_library(const std::vector<std::string>& names, std::string_view pac
                      "else works without it");
 }
 
-// A display to try, and what to call it.
+// A display to try, and its name.
 struct Candidate {
     EGLDisplay display;
     std::string name;
@@ -76,7 +76,7 @@ std::vector<Candidate> list_displays() {
     return candidates;
 }
 
-// What is current on a thread.
+// Current state of EGL on a thread.
 struct Current {
     EGLenum api = eglQueryAPI();
     EGLDisplay display = eglGetCurrentDisplay();

@@ -172,8 +172,8 @@ void main() {
 }
 )";
 
-// Software drivers do what is behind a condition for every pixel: what a picture does not have is
-// left out of its program.
+// Software drivers run code behind a condition for every pixel: features that a picture does not
+// have are left out of its program.
 const char* const kHasOcclusion = "#define HAS_OCCLUSION\n";
 const char* const kHasHair = "#define HAS_HAIR\n";
 const char* const kHasWire = "#define HAS_WIRE\n";

@@ -125,7 +125,7 @@ void main() {
 }
 )";
 
-// A little more than 1 in alpha tells the output where strands are. Ribbons are much thinner than
+// An alpha of a little more than 1 marks strands for the output. Ribbons are much thinner than
 // pixels: beside them, in the middle of a pixel that they hardly touch, a colour would be anything.
 const char* const kStrandFragment = R"(
 centroid in vec3 v_color;

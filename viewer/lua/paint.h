@@ -1,4 +1,4 @@
-/// What scripts and the command line ask to see on the meshes of a picture: regions, handles and
+/// Requests of scripts and the command line for the meshes of a picture: regions, handles and
 /// values, given by name or by themselves.
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace lissom {
 
 /// Gives a mesh a colour, as parse_color reads it, and with "#rrggbbaa" or "#rgba" an opacity, so
-/// that what is behind it is seen through it. Errors: as parse_color.
+/// that objects behind it are seen through it. Errors: as parse_color.
 void paint_mesh(MeshStyle& style, std::string_view color);
 
 /// Draws a region in blue, or a handle in purple, on every mesh that has it: by name, the meshes

@@ -39,7 +39,7 @@ std::string difference_text(const ImageDifference& found, const PictureCheck& ch
     return text.data() + patch + std::string("most at (") + std::to_string(found.x) + ", " +
            std::to_string(found.y) + "): expected " + color_text(golden, found.x, found.y) +
            ", got " + color_text(picture, found.x, found.y) +
-           "\nthe golden picture, this one and where they differ: " + check.difference.string();
+           "\nthe golden picture, this one and their differences: " + check.difference.string();
 }
 
 }  // namespace

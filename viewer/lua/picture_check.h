@@ -1,4 +1,4 @@
-/// Pictures of tests: what `lissom test` asks of the viewer.
+/// Pictures of tests: functions of the viewer for `lissom test`.
 #pragma once
 
 #include <string>

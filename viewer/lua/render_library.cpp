@@ -273,7 +273,7 @@ void read_scale(const Call& call, Picture& picture) {
     picture.range = ValueRange{ends[0], ends[1]};
 }
 
-// Paths are drawn where their meshes are drawn.
+// Paths are drawn at the place of their meshes.
 Affine place_of(const Picture& picture, const Mesh& mesh) {
     for (const DrawnMesh& drawn : picture.meshes) {
         if (drawn.mesh.get() == &mesh) return drawn.transform;
@@ -320,7 +320,7 @@ StyleMarks read_marks(const Call& call, const Scalp& scalp) {
     return marks;
 }
 
-// A style is drawn where its head is drawn.
+// A style is drawn at the place of its head.
 void add_style(const Call& call, Picture& picture) {
     if (!call.has("style")) return;
     const auto object = call.object<HairstyleObject>("style");
@@ -512,7 +512,7 @@ std::vector<Parameter> hair_options() {
         number("unit", "Length of the mesh's unit; strands are in metres.")
             .above(0.0)
             .in("metres")
-            .optional("what the places of the roots on the mesh tell, else 1")};
+            .optional("that of the places of the roots on the mesh, else 1")};
     append_lobe(result, lobe_options("primary", "Strength of the white reflection."), s.primary);
     append_lobe(result, lobe_options("secondary", "Strength of the coloured reflection."),
                 s.secondary);
@@ -538,19 +538,18 @@ std::vector<Parameter> hair_options() {
     result.push_back(number("shadow", "How much strands shade each other and the meshes; 0: none.")
                          .between(0.0, 100.0)
                          .optional(text_of(s.shadow)));
-    share("scalp_tint", "How far the scalp takes the hair's colour where roots are dense.",
-          s.scalp_tint);
+    share("scalp_tint", "How far the scalp takes the hair's colour at dense roots.", s.scalp_tint);
     return result;
 }
 
 std::vector<Parameter> content_options() {
     const MeshStyle style;
     return {
-        object("mesh", "lissom.Mesh", "The mesh to draw; may be left out where strands are drawn.")
+        object("mesh", "lissom.Mesh", "The mesh to draw; may be left out if strands are drawn.")
             .optional(),
         objects("meshes", "lissom.Mesh", "Several meshes to draw, instead of `mesh`.").optional(),
         object("scene", "lissom.Scene",
-               "A scene to draw instead: its visible objects where they stand, by their styles.")
+               "A scene to draw instead: its visible objects at their places, by their styles.")
             .optional(),
         points("offsets", "Moves each mesh by a vector, in the picture only.").optional(),
         integer("columns",
@@ -566,11 +565,10 @@ std::vector<Parameter> content_options() {
                "Colour of the meshes: \"#rrggbb\" or one of " + std::string(color_names()) +
                    "; with \"#rrggbbaa\" they are seen through, the less so the greater aa is.")
             .optional("clay"),
-        boolean("vertex_colors", "Draws the attribute \"color\" where a mesh has it.")
+        boolean("vertex_colors", "Draws the attribute \"color\" if a mesh has it.")
             .defaults(style.vertex_colors),
         choice("shading", {"smooth", "flat"}, "flat shows the faces.").defaults("smooth"),
-        number("crease",
-               "Smooth shading keeps edges sharp where faces meet at more than this angle.")
+        number("crease", "Smooth shading keeps edges sharp if faces meet at more than this angle.")
             .between(0.0, 180.0)
             .in("degrees")
             .optional("50"),
@@ -587,27 +585,25 @@ std::vector<Parameter> content_options() {
                "A hairstyle whose curves to draw: streams cyan, dividing curves red, ponytails "
                "purple. Without a mesh or strands on its head.")
             .optional(),
-        options(
-            "style_marks",
-            {boolean("curves", "Draws the curves.").defaults(true),
-             boolean("constraints",
-                     "Draws style:constraints() as arrows: along streams, spines and partings "
-                     "blue, where hair ends or parts red, around tails purple, into ties green, "
-                     "those of avoid_scalp grey.")
-                 .defaults(false),
-             boolean("field", "Draws the field as arrows on a plane through the volume.")
-                 .defaults(false),
-             boolean("legend", "Says at the right what the colours of arrows stand for.")
-                 .defaults(false),
-             vector("point", "A point of the plane.")
-                 .in("mesh units")
-                 .optional("the center of the head"),
-             vector("normal", "Of the plane.").optional("the head's left"),
-             number("spacing", "Between neighbouring arrows.")
-                 .in("metres")
-                 .above(0.0)
-                 .optional("a step of the grid")},
-            "What of the style is drawn.")
+        options("style_marks",
+                {boolean("curves", "Draws the curves.").defaults(true),
+                 boolean("constraints",
+                         "Draws style:constraints() as arrows: along streams, spines and partings "
+                         "blue, at ends and partings of hair red, around tails purple, into ties "
+                         "green, those of avoid_scalp grey.")
+                     .defaults(false),
+                 boolean("field", "Draws the field as arrows on a plane through the volume.")
+                     .defaults(false),
+                 boolean("legend", "Explains the colours of arrows at the right.").defaults(false),
+                 vector("point", "A point of the plane.")
+                     .in("mesh units")
+                     .optional("the center of the head"),
+                 vector("normal", "Normal of the plane.").optional("the head's left"),
+                 number("spacing", "Between neighbouring arrows.")
+                     .in("metres")
+                     .above(0.0)
+                     .optional("a step of the grid")},
+                "Drawn parts of the style.")
             .optional(),
         either("region",
                {object("region", "lissom.Region", "A region of a mesh."),
@@ -617,8 +613,8 @@ std::vector<Parameter> content_options() {
         either("regions",
                {boolean("all", "All named regions of the meshes."),
                 strings("names", "Some of them, by their names.")},
-               "Named regions, drawn each in a colour of its own, with a legend; where several "
-               "overlap, the smaller.")
+               "Named regions, drawn each in a colour of its own, with a legend; the smaller of "
+               "overlapping ones.")
             .optional(),
         either("handles",
                {strings("names", "Regions by their names, on every mesh that has them."),
@@ -650,8 +646,7 @@ std::vector<Parameter> picture_options() {
     return {
         string("file", "The picture to write; its name ends with .png."),
         size_argument(),
-        object("camera", "lissom.Camera", "Where the picture is seen from, instead of `view`.")
-            .optional(),
+        object("camera", "lissom.Camera", "Camera of the picture, instead of `view`.").optional(),
         string("background", "A colour as for `color`, or \"transparent\".").defaults("white"),
         integer(
             "samples",
@@ -684,8 +679,8 @@ std::vector<Function> render_functions() {
          .summary = "Draws meshes and hair into a picture file. Needs no window and no display.",
          .options = options,
          .results = {{"string", "file",
-                      "The file that was written; nil, message, code where it could "
-                      "not be, or where nothing can draw here."}},
+                      "The file that was written; nil, message, code if it could not be, or if "
+                      "nothing can draw here."}},
          .errors = {ErrorCode::no_display, ErrorCode::unknown_format, ErrorCode::file_write_failed,
                     ErrorCode::file_is_directory, ErrorCode::mesh_empty,
                     ErrorCode::invalid_argument, ErrorCode::out_of_range,

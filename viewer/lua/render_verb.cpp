@@ -40,7 +40,7 @@ bool read_size(const std::string& text, int& width, int& height) {
     return read && used == count_of(text) && width > 0 && height > 0;
 }
 
-// Checks for the command line: what is wrong with a word, or nothing.
+// Checks for the command line: returns the defect of a word, or nothing.
 std::string check_size(const std::string& text) {
     int width = 0, height = 0;
     return read_size(text, width, height) ? "" : "a size is written as 1280x960";
@@ -81,7 +81,7 @@ void declare_view(CLI::App& app, Request& request) {
         app.add_flag("--parallel", request.picture.framing.ortho, "A view without perspective");
     auto* camera =
         app.add_option("--camera", request.camera,
-                       "X,Y,Z,X,Y,Z: where the camera stands and looks, instead of --view")
+                       "X,Y,Z,X,Y,Z: position and target of the camera, instead of --view")
             ->delimiter(',')
             ->expected(6)
             ->excludes("--view")
@@ -151,7 +151,7 @@ Camera placed_camera(const Request& request) {
     return Camera(options);
 }
 
-// What does not depend on the meshes.
+// Sets the options that do not depend on the meshes.
 void options_of(Request& request) {
     Picture& picture = request.picture;
     read_size(request.size, picture.options.width, picture.options.height);
@@ -235,7 +235,7 @@ int render(Program& program, const std::vector<std::string>& words) {
     CLI::App app("Draws meshes, hair and scenes into a picture.", "lissom render");
     Request request;
     app.add_option("FILE", request.files,
-                   "What to draw: mesh files, hair files (.hair, .data, .usda), scenes (.lissom)")
+                   "Mesh files, hair files (.hair, .data, .usda) and scenes (.lissom) to draw")
         ->required();
     app.add_option("-o,--out", request.out, "The picture to write, a .png file")->required();
     declare_view(app, request);

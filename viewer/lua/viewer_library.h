@@ -1,5 +1,5 @@
-/// What the viewer adds to Lua: pictures, described in the same registration table as
-/// the kernel's own functions (bindings/lua/core/registry.h).
+/// Functions of the viewer for Lua: pictures, described in the same registration table as the
+/// kernel's own functions (bindings/lua/core/registry.h).
 #pragma once
 
 #include <functional>
@@ -11,12 +11,12 @@ namespace lissom::lua {
 
 Library viewer_library();
 
-/// Sees what lissom.render is asked to draw, before it is drawn; on the thread of the script.
+/// Sees the picture of lissom.render before it is drawn; on the thread of the script.
 using PictureListener = std::function<void(const Picture&)>;
 /// `listener` sees the pictures of `L` from now on, and must outlive it; null: nobody does.
 void set_picture_listener(lua_State* L, const PictureListener* listener);
 
-/// Its parts; private to viewer.
+/// Returns its parts; private to viewer.
 std::vector<Function> render_functions();
 
 }  // namespace lissom::lua

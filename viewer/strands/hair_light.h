@@ -1,5 +1,5 @@
 /// The light in hair for any camera. The lights are those of the camera, so that they go around the
-/// hair when it turns: what is kept is how much light reaches each place from all around.
+/// hair when it turns: the kept numbers are the light that reaches each place from all around.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,24 @@ using LightMoments = std::vector<std::uint8_t>;
 
 class HairLight {
   public:
-    /// Of the strands and meshes of `snapshot`, in its world about `origin`. Errors: those of
-    /// view_strands; memory_limit; cancelled.
+    /// Computes the light of the strands and meshes of `snapshot`, in its world about `origin`.
+    /// Errors: those of view_strands; memory_limit; cancelled.
     HairLight(const Snapshot& snapshot, const Vec3& origin, const LightDetail& detail = {},
               const Context& context = {});
 
     /// Along the axes of the world, about `origin`.
     const ViewGrid& grid() const { return grid_; }
     const Vec3& origin() const { return origin_; }
-    /// What strands and meshes let through, for strands; and strands alone, for meshes.
+    /// Return the light through strands and meshes, for strands; and through strands alone, for
+    /// meshes.
     const LightMoments& for_strands() const { return for_strands_; }
     const LightMoments& for_meshes() const { return for_meshes_; }
-    /// Linear colour that scalps take where hair grows.
+    /// Returns the linear colour of scalps under hair.
     const Eigen::Array3f& scalp_color() const { return scalp_color_; }
 
     /// Four bytes a grid point for a camera that turns the world by `to_view`: key and rim light
-    /// for strands, key light for meshes, and how much hair grows there. As StrandShadow has them.
+    /// for strands, key light for meshes, and how much hair grows there. In the form of
+    /// StrandShadow.
     std::vector<std::uint8_t> directed(const Mat3& to_view, const Context& context = {}) const;
     /// The last of these four, the others 0.
     std::vector<std::uint8_t> undirected() const;
@@ -50,9 +52,9 @@ class HairLight {
     MemoryCharge charge_;
 };
 
-/// The part of the light that comes from `direction`, of unit length, by its moments.
+/// Returns the part of the light that comes from `direction`, of unit length, by its moments.
 float light_from(const std::uint8_t* moments, const Eigen::Vector3f& direction);
-/// The part of the light from all around that is left, where `up` is up.
+/// Returns the remaining part of the light from all around, with `up` as up.
 float ambient_light(const std::uint8_t* moments, const Eigen::Vector3f& up);
 /// Weight of the directed part in that: so much brighter than the middle is the sky.
 float ambient_slope();

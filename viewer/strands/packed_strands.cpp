@@ -15,7 +15,7 @@ using Eigen::Vector3f;
 
 // Steps of a root's place along each axis, as bits.
 constexpr int kCurveBits = 10;
-// How often ribbons hide each other, seen from one side, where nothing shines through.
+// Layers of ribbons that hide each other, seen from one side, if nothing shines through.
 constexpr double kOpaqueLayers = 6.0;
 // Few strands may be so many times wider in any case.
 constexpr double kFreelyWidened = 4.0;
@@ -49,7 +49,7 @@ RootBox root_box(const Strands& strands, Index count) {
     return box;
 }
 
-// Of each strand: how far along the curve its root lies. Roots that are not finite come last.
+// Returns the position of each strand's root along the curve. Roots that are not finite come last.
 std::vector<std::uint32_t> root_codes(const Strands& strands, Index count) {
     const RootBox box = root_box(strands, count);
     const float extent = std::max((box.high - box.low).maxCoeff(), 1e-30f);
@@ -148,7 +148,7 @@ void measure(const ViewStrands& given, PackedStrands& packed) {
     }
 }
 
-// The mean of a box's sides, without what strays.
+// The mean of a box's sides, without outliers.
 double outer_area(const PackedRibbons& few) {
     Eigen::Array3d extent = Eigen::Array3d::Zero();
     std::vector<float> places;

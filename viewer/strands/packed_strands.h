@@ -54,19 +54,19 @@ struct PackedStrands {
     double ribbon_area = 0.0, outer_area = 0.0;
 };
 
-/// The first `count` strands in an even random order: near each other along a curve that fills the
-/// space of their roots, they are taken in bit-reversed order. The roots of every beginning are
-/// spread as those of all.
+/// Returns the first `count` strands in an even random order: near each other along a curve that
+/// fills the space of their roots, they are taken in bit-reversed order. The roots of every
+/// beginning are spread as those of all.
 std::vector<Index> even_order(const Strands& strands, Index count);
 
-/// The strands that `drawn.style` asks for. `few_only`: `all` stays empty. Errors: those of
+/// Returns the strands that `drawn.style` asks for. `few_only`: `all` stays empty. Errors: those of
 /// view_strands; memory_limit; cancelled.
 PackedStrands pack_strands(const DrawnStrands& drawn, bool few_only = false,
                            const Context& context = {});
 
-/// Factor of the widths where `count` strands stand for `all`: as much wider as they are fewer.
-/// More than four times only as far as is needed to be opaque: where strands hide each other many
-/// times over, few must not do so too.
+/// Returns the factor of the widths if `count` strands stand for `all`: as much wider as they are
+/// fewer. More than four times only as far as is needed to be opaque: if strands hide each other
+/// many times over, few must not do so too.
 double widening(const PackedStrands& packed, Index count, Index all);
 
 }  // namespace lissom

@@ -1,4 +1,4 @@
-/// What takes light on its way through a drawing with strands, on a grid.
+/// Extinction of light in a drawing with strands, on a grid.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ namespace lissom {
 
 /// How fine the light is.
 struct LightDetail {
-    /// Of the grid.
+    /// Limit of the grid's points.
     double most_points = 2.5e6;
     /// Segments that are looked at; of more, every so many strands stand for all.
     double most_segments = 3e6;
@@ -23,11 +23,12 @@ struct LightDetail {
 /// the air.
 inline constexpr float kTowardsLight = 0.9f;
 
-/// A grid around the strands, and so much of the meshes as they may shade; without hair one point.
+/// Returns a grid around the strands, and so much of the meshes as they may shade; without hair one
+/// point.
 ViewGrid fit_grid(std::span<const ViewStrands> strands, std::span<const ViewTriangle> triangles,
                   const LightDetail& detail = {});
 
-/// The extinction of the strands at each grid point, per unit of length.
+/// Returns the extinction of the strands at each grid point, per unit of length.
 std::vector<float> hair_extinction(const ViewGrid& grid, std::span<const ViewStrands> strands,
                                    const LightDetail& detail = {}, const Context& context = {});
 /// Adds that of meshes: a layer below their surface that lets hardly any light through.
@@ -36,10 +37,10 @@ void add_mesh_extinction(const ViewGrid& grid, std::vector<float>& extinction,
 /// Copies that hair_extinction works with at one time.
 inline constexpr Index kExtinctionParts = 4;
 
-/// How far the scalp takes the colour of hair at each grid point, 0 to 1: where roots are nearly as
-/// dense as they are at most places, and not just few.
+/// Returns the tint of the scalp at each grid point, 0 to 1, towards the colour of hair: high if
+/// roots are nearly as dense as they are at most places, and not just few.
 std::vector<float> scalp_tint(const ViewGrid& grid, std::span<const ViewStrands> strands);
-/// Linear colour that scalps take where hair grows.
+/// Returns the linear colour of scalps under hair.
 Eigen::Array3f mean_root_color(std::span<const ViewStrands> strands);
 
 /// A direction to the surroundings; not of unit length.
@@ -49,7 +50,7 @@ struct AmbientDirection {
     float weight;
 };
 
-/// The corners of an icosahedron, turned a little out of the axes; y is up.
+/// Returns the corners of an icosahedron, turned a little out of the axes; y is up.
 std::vector<AmbientDirection> ambient_directions();
 
 }  // namespace lissom

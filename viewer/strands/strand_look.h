@@ -1,4 +1,4 @@
-/// What tells strands apart: tones at random, and widths.
+/// Differences between strands: tones at random, and widths.
 #pragma once
 
 #include <vector>
@@ -14,13 +14,13 @@ struct StrandLook {
     float shift = 0.0f;
 };
 
-/// Of a strand, at random by its id and its clump: whichever other strands there are.
+/// Returns the look of a strand, at random by its id and its clump: the same for any other strands.
 StrandLook look_of(const ViewStrands& drawn, Index strand);
 
 /// Factor of the colour along a strand, dark at the root and light at the tip; `t` 0 to 1.
 float tone_along(const StrandStyle& style, float t);
 
-/// Widths of a strand's points in view units, as far as they cover: less where they are
+/// Writes the widths of a strand's points in view units, as far as they cover: less if they are
 /// transparent.
 void cover_widths(const ViewStrands& drawn, Index strand, std::vector<float>& widths);
 

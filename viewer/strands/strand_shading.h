@@ -31,13 +31,13 @@ struct StrandPoint {
 /// Kajiya and Kay's diffuse term: the sine of the angle between the strand and the light.
 float strand_diffuse(const Eigen::Vector3f& tangent, const Eigen::Vector3f& to_light);
 
-/// Their reflection: where light comes in at an angle from the plane across the strand it leaves on
+/// Returns their reflection: light coming in at an angle from the plane across the strand leaves on
 /// the cone of the same angle on the other side, turned by the lobe's shift and `shift`. 1 on that
 /// cone, less beside it.
 float strand_reflection(const HairLobe& lobe, float shift, const Eigen::Vector3f& tangent,
                         const Eigen::Vector3f& to_light, const Eigen::Vector3f& to_viewer);
 
-/// The colour that is seen at `point`, linear, of all lights of the studio.
+/// Returns the colour that is seen at `point`, linear, of all lights of the studio.
 Eigen::Array3f shade_strand(const StrandStyle& style, const StrandPoint& point);
 
 }  // namespace lissom

@@ -1,4 +1,4 @@
-/// A grid in space: what is spread over its points, and the light that passes through.
+/// A grid in space: densities over its points, and the light that passes through.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +28,7 @@ struct GridCell {
     Eigen::Vector3f share;
 };
 
-/// The cell at `position`, which is clamped to the grid.
+/// Returns the cell at `position`, which is clamped to the grid.
 GridCell cell_at(const ViewGrid& grid, const Eigen::Vector3f& position);
 
 /// Calls visit(grid point, weight) for the corners of the cell at `position` with a weight.
@@ -51,10 +51,10 @@ void for_each_corner(const ViewGrid& grid, const Eigen::Vector3f& position, cons
 void splat(const ViewGrid& grid, std::vector<float>& values, const Eigen::Vector3f& position,
            float amount);
 
-/// The part of a distant light that reaches each grid point: exp(-the extinction summed up along
-/// the way to it), 1 where nothing is in the way. `extinction` is per unit of length. Goes through
-/// the grid plane by plane away from the light, so that the time is linear in the number of points;
-/// shadows become a little softer with every plane.
+/// Returns the part of a distant light that reaches each grid point: exp(-the extinction summed up
+/// along the way to it), 1 if nothing is in the way. `extinction` is per unit of length. Goes
+/// through the grid plane by plane away from the light, so that the time is linear in the number of
+/// points; shadows become a little softer with every plane.
 std::vector<float> light_through(const ViewGrid& grid, const std::vector<float>& extinction,
                                  const Eigen::Vector3f& to_light);
 

@@ -1,4 +1,4 @@
-/// What a picture with strands is made of, in view space: x right, y up, z towards the viewer.
+/// Strands of a picture in view space: x right, y up, z towards the viewer.
 #pragma once
 
 #include <array>
@@ -36,19 +36,19 @@ struct ViewStrands {
 
 using ViewTriangle = std::array<Eigen::Vector3f, 3>;
 
-/// The strands of `snapshot`; `view` maps its world, moved so that `origin` is at zero, to view
-/// space. Errors: out_of_range for a style; invalid_argument for a unit.
+/// Returns the strands of `snapshot`; `view` maps its world, moved so that `origin` is at zero, to
+/// view space. Errors: out_of_range for a style; invalid_argument for a unit.
 std::vector<ViewStrands> view_strands(const Snapshot& snapshot, const Mat4& view,
                                       const Vec3& origin);
 
-/// The triangles of its meshes.
+/// Returns the triangles of its meshes.
 std::vector<ViewTriangle> view_triangles(const Snapshot& snapshot, const Mat4& view,
                                          const Vec3& origin);
 
 /// Linear colour of a point, without tones.
 Eigen::Array3f strand_color(const ViewStrands& drawn, Index strand, Index point);
 
-/// How many strands a style draws of `size`; at least one where there are any.
+/// Returns how many strands a style draws of `size`; at least one if there are any.
 Index drawn_count(const StrandStyle& style, Index size);
 
 }  // namespace lissom

@@ -17,8 +17,8 @@ struct Color {
     bool operator==(const Color&) const = default;
 };
 
-/// The colour called `text`: "#rrggbb", "#rgb" or one of `color_names()`.
-/// Errors: invalid_argument that says what is accepted.
+/// Returns the colour called `text`: "#rrggbb", "#rgb" or one of `color_names()`. Errors:
+/// invalid_argument with the accepted forms.
 Color parse_color(std::string_view text);
 
 /// Names that `parse_color` accepts, separated by commas.
@@ -27,7 +27,7 @@ std::string_view color_names();
 /// One sRGB part to its linear value and back.
 double srgb_to_linear(double value);
 double linear_to_srgb(double value);
-/// The linear parts of a colour: red, green, blue.
+/// Returns the linear parts of a colour: red, green, blue.
 Vec3 linear(const Color& color);
 
 /// Perceived lightness, 0 (black) to 1 (white).
@@ -36,7 +36,7 @@ double lightness(const Color& color);
 /// `a` for fraction 0, `b` for fraction 1.
 Color mix(const Color& a, const Color& b, double fraction);
 
-/// As four bytes: red, green, blue and an alpha of 255.
+/// Returns four bytes: red, green, blue and an alpha of 255.
 std::array<std::uint8_t, 4> to_bytes(const Color& color);
 
 /// Colours that pictures of this project are drawn in.

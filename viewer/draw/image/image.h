@@ -29,7 +29,7 @@ struct Image {
     Color color(int x, int y) const;
     bool is_opaque() const;
 
-    /// Copies `part` to where its top left pixel is (x, y); it must lie inside.
+    /// Copies `part` with its top left pixel at (x, y); it must lie inside.
     void paste(const Image& part, int x, int y);
 
     bool operator==(const Image&) const = default;
@@ -38,14 +38,14 @@ struct Image {
     std::size_t offset(int x, int y) const { return 4 * (at(y) * width + x); }
 };
 
-/// A share of `b`, the rest `a`, in linear light: two images of one size.
+/// Returns a share of `b`, the rest `a`, in linear light: two images of one size.
 Image mixed(const Image& a, const Image& b, double share);
 
-/// The bytes of a PNG file; without an alpha channel where every pixel is opaque. The same image
-/// gives the same bytes. Errors: invalid_argument for an image without pixels; memory_limit.
+/// Returns the bytes of a PNG file; without an alpha channel if every pixel is opaque. The same
+/// image gives the same bytes. Errors: invalid_argument for an image without pixels; memory_limit.
 std::string encode_png(const Image& image);
 
-/// The image of a PNG file. Errors: file_syntax for bytes that are none; memory_limit.
+/// Returns the image of a PNG file. Errors: file_syntax for bytes that are none; memory_limit.
 Image decode_png(std::string_view bytes);
 
 }  // namespace lissom

@@ -16,11 +16,11 @@ struct ImageDifference {
     /// and the first of them: noise is scattered, another shape is not.
     std::size_t patch = 0;
     int patch_x = 0, patch_y = 0;
-    /// The golden picture, the other one, and where they differ, side by side.
+    /// The golden picture, the other one, and their differences, side by side.
     Image shown;
 };
 
-/// Compares pictures of one size. A pixel differs where its colour lies, by more than `tolerance`,
+/// Compares pictures of one size. A pixel differs if its colour lies, by more than `tolerance`,
 /// outside of the colours that the other picture has within one pixel of it, in either direction:
 /// an edge may lie half a pixel elsewhere, but nothing may be missing. Colours count by their
 /// alpha.

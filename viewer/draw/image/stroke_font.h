@@ -1,5 +1,5 @@
 /// A small typeface of single strokes, so that pictures can carry numbers and names at any size
-/// without a font file. Printable ASCII; what it has no letter for is drawn as a box.
+/// without a font file. Printable ASCII; other characters are drawn as a box.
 #pragma once
 
 #include <string_view>
