@@ -94,13 +94,19 @@ class Deformer {
     /// Errors: handle_removed.
     void remove_handle(HandleId handle);
     /// Adds the mirror image of a handle: a second handle with the same options, whose transform is
-    /// always the mirrored one; moving either moves both. On a symmetric mesh the result is then
-    /// symmetric. Errors: invalid_argument where vertices have no counterpart across the plane,
-    /// naming them, or where the handle has one already; handle_overlap where the handle meets its
-    /// image, or others hold it; handle_removed.
+    /// always the mirrored one; moving either moves both. It holds the vertices nearest to the
+    /// reflected ones and those whose own reflection lies on the handle, so that both sides may be
+    /// tessellated differently; on a symmetric mesh the result is symmetric. Vertices on its rim
+    /// that are no exact counterparts are left to other handles. Errors: invalid_argument if the
+    /// region has no surface within a quarter of its radius of half of the image, naming the
+    /// vertices, or if the handle has an image already; handle_overlap if the handle reaches the
+    /// plane, or others hold the image; handle_removed.
     HandleId mirror_handle(HandleId handle, const MirrorPlane& plane);
     /// The mirror image of a handle, or nothing.
     std::optional<HandleId> mirrored_handle(HandleId handle) const;
+    /// Measures how well both sides of the rest shape match where a handle has a mirror image.
+    /// Errors: handle_removed; invalid_argument for a handle without one.
+    MirrorResidual mirror_residual(HandleId handle) const;
     /// Gives a handle other vertices, and no points; its transform stays, and a mirrored handle
     /// follows. The result stays as it is until the next solve, which refactors.
     /// Errors: as add_handle and mirror_handle; handle_removed.

@@ -5,6 +5,7 @@
 
 #include "kernel/core/memory_error.h"
 #include "kernel/deform/deformer_state.h"
+#include "kernel/deform/holds/mirror_residual.h"
 
 namespace lissom {
 
@@ -28,6 +29,12 @@ Vec3 Deformer::handle_center(HandleId id) const {
 std::optional<HandleId> Deformer::mirrored_handle(HandleId id) const {
     const Index partner = state_->handle(id).partner;
     return partner == kNoIndex ? std::nullopt : std::optional<HandleId>(HandleId{partner});
+}
+
+MirrorResidual Deformer::mirror_residual(HandleId id) const {
+    const Handle& handle = state_->handle(id);
+    require(handle.partner != kNoIndex, "the handle has no mirror image");
+    return with_memory_errors([&] { return residual_of(*state_->rest, handle); });
 }
 
 // ---- Who is held

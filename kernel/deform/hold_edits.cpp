@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/deform/holds/mirror.h"
+#include "kernel/deform/holds/mirror_surface.h"
 
 namespace lissom {
 namespace {
@@ -14,6 +15,10 @@ namespace {
 // Beyond these a bent cactus changes by less than a millionth of its size; from 1e6 its systems
 // lose so many digits that it shows.
 constexpr double kLeastStiffness = 1e-4, kGreatestStiffness = 1e5;
+
+// In radii of the surface: what lies farther from its mirror image has none, and what lies nearer
+// is the same place.
+constexpr double kNoMirrorImage = 0.25, kSameMirrorPlace = 1e-3;
 
 // Throws `code` about those of `vertices` for which `bad` holds, if there are any.
 template <typename Bad>
@@ -189,47 +194,123 @@ void HoldEdit::set_handle_region(HandleId id, const Region& vertices) {
     holds.handles[id.value] = std::make_shared<const Handle>(std::move(changed));
 }
 
-// Errors: invalid_argument where some of the local vertices have no counterpart in the region.
-std::vector<Index> HoldEdit::counterparts_of(const std::vector<Index>& local,
-                                             const MirrorPlane& plane) const {
+// Vertices that the image holds. Errors: invalid_argument if most of it lies beside the region, or
+// the plane leaves no surface near it.
+std::vector<Index> HoldEdit::mirrored_vertices(const MirrorSurface& surface,
+                                               const Handle& handle) const {
+    if (handle.local.empty()) return {};
     const Patch& patch = rest.patch();
-    const Affine mirror = reflection({plane.point - patch.origin, plane.normal, 0.0});
-    const double tolerance = plane.tolerance > 0.0 ? plane.tolerance : 1e-3 * rest.work->radius;
-    std::vector<Index> found = counterparts(patch.rest, local, patch.of_region, mirror, tolerance);
+    MirroredVertices found = surface.mirrored(handle.local);
+    const double farthest = kNoMirrorImage * rest.work->radius;
     std::vector<Index> alone;
-    for (std::size_t i = 0; i < local.size(); ++i) {
-        if (found[i] == kNoIndex) alone.push_back(patch.mesh_vertex[local[i]]);
+    for (std::size_t i = 0; i < handle.local.size(); ++i) {
+        const bool is_outside = std::find(found.outside.begin(), found.outside.end(),
+                                          handle.local[i]) != found.outside.end();
+        if (is_outside || found.distances[i] > farthest) {
+            alone.push_back(patch.mesh_vertex[at(handle.local[i])]);
+        }
     }
-    refuse_vertices(alone, ErrorCode::invalid_argument,
-                    "the mirror plane or its tolerance leave no counterpart to ",
-                    [](Index) { return true; });
-    return found;
+    if (2 * alone.size() < handle.local.size()) return std::move(found.vertices);
+    refuse_vertices(
+        alone, ErrorCode::invalid_argument,
+        "the region has no surface at the mirror image; let the plane go through the "
+        "middle of the shape, and the region reach both sides of it: without image are ",
+        [](Index) { return true; });
+    return {};
+}
+
+// The mirror image of a point in a face: of the same weights if its vertices have counterparts.
+SparseRow HoldEdit::mirrored_point(const MirrorSurface& surface, const SparseRow& row,
+                                   const MirrorPlane& plane) const {
+    const Patch& patch = rest.patch();
+    std::vector<Index> around;
+    for (const auto& [v, c] : row) around.push_back(v);
+    const Affine mirror = reflection({plane.point - patch.origin, plane.normal, 0.0});
+    const std::vector<Index> across = counterparts(patch.rest, around, patch.of_region, mirror,
+                                                   kSameMirrorPlace * rest.work->radius);
+    SparseRow image;
+    if (std::find(across.begin(), across.end(), kNoIndex) == across.end()) {
+        for (std::size_t i = 0; i < row.size(); ++i) image.emplace_back(across[i], row[i].second);
+    } else {
+        const MirrorFoot foot = surface.foot_of(rest.position_of(row));
+        for (int i = 0; i < 3; ++i) {
+            if (foot.barycentric[i] > 0.0) {
+                image.emplace_back(foot.corners[at(i)], foot.barycentric[i]);
+            }
+        }
+    }
+    std::sort(image.begin(), image.end());
+    return image;
+}
+
+// What a handle and its image would both hold goes to the handle, unless it reaches its plane.
+// Errors: handle_overlap then.
+void HoldEdit::part_from_image(const Handle& handle, Handle& image) const {
+    const Patch& patch = rest.patch();
+    const Vec3 normal = image.mirror.normal.normalized();
+    const auto height = [&](const Vec3& p) { return normal.dot(p - image.mirror.point); };
+    const double side = height(handle.center) < 0.0 ? -1.0 : 1.0;
+    std::vector<Index> shared;
+    bool reaches = false;
+    const auto share = [&](Index v) {
+        if (!handle.region.contains(patch.mesh_vertex[at(v)])) return;
+        shared.push_back(patch.mesh_vertex[at(v)]);
+        const double above = side * height(patch.rest[at(v)] + patch.origin);
+        reaches = reaches || above <= kSameMirrorPlace * rest.work->radius;
+    };
+    for (const Index v : image.local) share(v);
+    for (const SparseRow& row : image.points) {
+        for (const auto& [v, c] : row) share(v);
+    }
+    if (reaches || (!shared.empty() && shared.size() == image.local.size())) {
+        refuse_vertices(shared, ErrorCode::handle_overlap,
+                        "the handle meets its mirror image; leave out what is near the plane, as ",
+                        [](Index) { return true; });
+    }
+    std::erase_if(image.local,
+                  [&](Index v) { return handle.region.contains(patch.mesh_vertex[at(v)]); });
+}
+
+// The rim of an image that was found on another tessellation gives way to what others hold, unless
+// that takes most of it; vertices that are exact counterparts do not.
+void HoldEdit::yield_to_others(const Handle& handle, Index number, Handle& image) const {
+    const Patch& patch = rest.patch();
+    const Affine mirror = reflection({image.mirror.point - patch.origin, image.mirror.normal, 0.0});
+    std::vector<char> fixed(patch.rest.size(), 0), held(patch.rest.size(), 0);
+    for (const Index v : counterparts(patch.rest, handle.local, patch.of_region, mirror,
+                                      kSameMirrorPlace * rest.work->radius)) {
+        if (v != kNoIndex) fixed[at(v)] = 1;
+    }
+    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
+        const bool is_own = index_of(h) == number || index_of(h) == handle.partner;
+        if (is_own || !holds.handles[h]) continue;
+        for (const Index v : holds.handles[h]->local) held[at(v)] = 1;
+    }
+    for (const auto& target : holds.targets) {
+        if (target->row.size() == 1) held[at(target->row.front().first)] = 1;
+    }
+    std::vector<Index> left = image.local;
+    std::erase_if(left, [&](Index v) { return held[at(v)] && !fixed[at(v)]; });
+    if (2 * left.size() > image.local.size()) image.local = std::move(left);
 }
 
 // The mirror image of a handle, which keeps clear of that handle and of all others but its present
 // image.
 Handle HoldEdit::mirror_image(Index number, const Handle& handle, const MirrorPlane& plane) const {
     const Patch& patch = rest.patch();
+    const MirrorSurface surface(patch, reflection({plane.point - patch.origin, plane.normal, 0.0}));
     Handle image = handle;
     image.mirror = plane;
-    image.local = counterparts_of(handle.local, plane);
-    std::sort(image.local.begin(), image.local.end());
-    for (SparseRow& row : image.points) {
-        std::vector<Index> around;
-        for (const auto& [v, c] : row) around.push_back(v);
-        const std::vector<Index> across = counterparts_of(around, plane);
-        for (std::size_t i = 0; i < row.size(); ++i) row[i].first = across[i];
-        std::sort(row.begin(), row.end());
-    }
+    image.local = mirrored_vertices(surface, handle);
+    for (SparseRow& row : image.points) row = mirrored_point(surface, row, plane);
+    part_from_image(handle, image);
+    yield_to_others(handle, number, image);
     std::vector<Index> vertices, held;
-    for (const Index v : image.local) held.push_back(patch.mesh_vertex[v]);
+    for (const Index v : image.local) held.push_back(patch.mesh_vertex[at(v)]);
     vertices = held;
     for (const SparseRow& row : image.points) {
-        for (const auto& [v, c] : row) vertices.push_back(patch.mesh_vertex[v]);
+        for (const auto& [v, c] : row) vertices.push_back(patch.mesh_vertex[at(v)]);
     }
-    refuse_vertices(vertices, ErrorCode::handle_overlap,
-                    "the handle meets its mirror image; leave out what is near the plane, as ",
-                    [&](Index v) { return handle.region.contains(v); });
     require_unheld(rest, holds, held,
                    "the mirror image of " + handle_text(at(number), handle.region.size()),
                    std::array{number, handle.partner});

@@ -7,8 +7,10 @@
 
 #include "kernel/core/index.h"
 #include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/mirror_surface.h"
 #include "kernel/deform/mesh_point.h"
 #include "kernel/deform/options.h"
+#include "kernel/deform/patch/sparse_row.h"
 #include "kernel/deform/rest_shape.h"
 #include "kernel/mesh/region.h"
 
@@ -34,8 +36,11 @@ struct HoldEdit {
   private:
     HandleId add(Handle handle, const HandlePose& pose);
     Handle mirror_image(Index number, const Handle& handle, const MirrorPlane& plane) const;
-    std::vector<Index> counterparts_of(const std::vector<Index>& local,
-                                       const MirrorPlane& plane) const;
+    std::vector<Index> mirrored_vertices(const MirrorSurface& surface, const Handle& handle) const;
+    SparseRow mirrored_point(const MirrorSurface& surface, const SparseRow& row,
+                             const MirrorPlane& plane) const;
+    void part_from_image(const Handle& handle, Handle& image) const;
+    void yield_to_others(const Handle& handle, Index number, Handle& image) const;
     void require_handle_region(const Region& vertices, std::span<const Index> except = {}) const;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "kernel/core/geometry.h"
@@ -117,9 +118,16 @@ struct HandleOptions {
 /// A plane in which a handle is mirrored.
 struct MirrorPlane {
     Vec3 point = Vec3::Zero(), normal = Vec3::UnitX();
-    /// How far a vertex may lie from the mirror image of its counterpart; 0 is a thousandth of the
-    /// surface's radius.
+    /// Distance of the mirror image from the surface beyond which a warning is given; 0 is a
+    /// fiftieth of the surface's radius.
     double tolerance = 0.0;
+};
+
+/// How far the mirror image of a handle lies from the surface, in parts of the surface's radius.
+struct MirrorResidual {
+    double max = 0.0, mean = 0.0;
+    /// Says if it is more than the tolerance of the plane, and what helps; else empty.
+    std::string warning = {};
 };
 
 /// Names a handle of one Deformer. Ids are not used again after a removal.

@@ -60,6 +60,14 @@ local function paint(self, ev)
     end
 end
 
+-- What is said of a new handle: how well the side that mirrors it matches.
+local function told_of_mirror(handle)
+    if not handle:mirrored() then return nil end
+    local residual = handle:mirror_residual()
+    return residual.warning or string.format("mirrored; the sides differ by %.2f %% of the size, %.2f %% on "
+        .. "average", 100 * residual.max, 100 * residual.mean)
+end
+
 -- Makes a handle of the selected vertices that no other has.
 local function add_handle(self, scene)
     local one = meshes.subject(scene)
@@ -72,7 +80,7 @@ local function add_handle(self, scene)
     for _, other in ipairs(edit:handles()) do region = region:minus(other:region()) end
     local normal = axes[params.mirror]
     local mirror = normal
-        and { point = one.mesh:bounds().center, normal = normal, tolerance = 0.01 * size } or nil
+        and { point = one.mesh:bounds().center, normal = normal } or nil
     meshes.select(one.mesh, one.mesh:region{ vertices = {} })
     return edit:handle(region, { falloff = params.falloff * size, mirror = mirror,
         weight = params.softness > 0 and 1 / params.softness or nil })
@@ -92,7 +100,10 @@ local function finish(self, one)
 end
 
 local keys = {
-    enter = function(self, scene) self.handle = add_handle(self, scene) end,
+    enter = function(self, scene)
+        self.handle = add_handle(self, scene)
+        self.told = told_of_mirror(self.handle)
+    end,
     p = function(self, scene) handles.pin(add_handle(self, scene)) end,
     tab = function(self, _, one, number, list) self.handle = one and list[number % #list + 1].handle end,
     delete = function(_, scene, one) if one then handles.remove(scene, one) end end,

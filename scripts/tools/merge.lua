@@ -3,9 +3,10 @@
 -- Click the loop of the part that is moved, then the loop that it is joined to: the merged surface appears
 -- there, instead of the second mesh, and a label says how it was placed, how certain that is, and whether
 -- the seam is good. If it is turned wrongly, turn it by the wheel, with ctrl or while the button is down,
--- or click pairs of points that shall meet, the first on the loop of the part, the second on the seam. Enter
--- takes the result, and the part is hidden too. The parameters may be changed until the next merge: the
--- result follows.
+-- or click pairs of points that shall meet, the first on the loop of the part, the second on the seam; or
+-- choose which of the world's axes is up on the part as it lies, and which way it looks: arrows show these
+-- hints on both meshes. Enter takes the result, and the part is hidden too. The parameters may be changed
+-- until the next merge: the result follows.
 local lissom = require "lissom"
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
@@ -13,6 +14,32 @@ local vectors = require "vectors"
 
 local pick = lissom.pick
 local step = 5                      -- of a line of the wheel, in degrees
+local colors = { up = "#30a040", front = "#c03080" }
+
+local axes = { x = { 1, 0, 0 }, ["-x"] = { -1, 0, 0 }, y = { 0, 1, 0 }, ["-y"] = { 0, -1, 0 },
+    z = { 0, 0, 1 }, ["-z"] = { 0, 0, -1 } }
+local of_part = { "none", "x", "-x", "y", "-y", "z", "-z" }
+local of_other = { "the same", "x", "-x", "y", "-y", "z", "-z" }
+
+-- The hint "up" or "front": a direction of the world on the part, and the one on the other mesh that it goes
+-- to; nil if there is none.
+local function hint(params, name)
+    local source = axes[params["part_" .. name]]
+    return source, source and (axes[params[name]] or source)
+end
+
+-- The hints as options of lissom.merge: in the space of the target, in which the part lies as in the scene.
+local function with_hints(options, params, scene, join)
+    local back = matrices.inverse(scene:info(join.target.object).transform)
+    for _, name in ipairs{ "up", "front" } do
+        local source, target = hint(params, name)
+        if source then
+            options["source_" .. name] = matrices.direction(back, source)
+            options["target_" .. name] = matrices.direction(back, target)
+        end
+    end
+    return options
+end
 
 -- The rotation that a matrix of a scene holds, or nil if it holds none.
 local function rotation_of(m)
@@ -109,11 +136,11 @@ local function merged(self, scene, join)
     local radii = self.params.transition
     local function width(loop) return radii * loop:length() / (2 * math.pi) end
     local function merge(keys)
-        return assert(lissom.merge{
+        return assert(lissom.merge(with_hints({
             joins = { { source = source, target = target, keys = #keys > 0 and keys or nil } },
             transition = radii > 0 and { source = width(source), target = width(target) } or nil,
             place = self.params.place ~= "as placed" and self.params.place or nil,
-        })
+        }, self.params, scene, join)))
     end
     local keys = moved_keys(join.keys, turn)
     local mesh, report = merge(keys)
@@ -197,12 +224,41 @@ local function draw_loop(view, loop, keys, which, color)
     end
 end
 
+-- Draws the hints as arrows at the middle of a loop, as long as its radius and a half.
+local function draw_hints(view, params, loop, which)
+    local info = loop and view.scene:info(loop.object)
+    if not info then return end
+    local center, points = { 0, 0, 0 }, loop.boundary:points()
+    for i, point in ipairs(points) do
+        points[i] = matrices.point(info.transform, point)
+        center = vectors.plus(center, points[i], 1 / #points)
+    end
+    local length = 1.5 * vectors.length(vectors.plus(points[1], center, -1))
+    for _, name in ipairs{ "up", "front" } do
+        local direction = select(which, hint(params, name))
+        if direction then
+            local tip, color = vectors.plus(center, direction, length), colors[name]
+            view:line{ points = { center, tip }, color = color, width = 4 }
+            view:handle{ at = tip, color = color }
+            view:label{ at = tip, text = name }
+        end
+    end
+end
+
 return lissom.tool{
     name = "merge",
-    help = "Click two loops; turn the part by the wheel or click points that meet; Enter takes the result.",
+    help = "Click two loops; turn the part by the wheel, by hints, or click points that meet; Enter takes it.",
     params = {
         place = { type = "choice", default = "as placed", choices = { "as placed", "shape" },
             help = "Without keys: turned least from how the part lies, or as the shapes of both suggest." },
+        part_up = { type = "choice", default = "none", choices = of_part, group = "hints",
+            help = "The way that is up on the part as it lies, where it has no keys." },
+        up = { type = "choice", default = "the same", choices = of_other, group = "hints",
+            help = "The way that is up on the mesh that it is joined to." },
+        part_front = { type = "choice", default = "none", choices = of_part, group = "hints",
+            help = "The way that the part looks as it lies, where it has no keys." },
+        front = { type = "choice", default = "the same", choices = of_other, group = "hints",
+            help = "The way that the mesh looks that it is joined to." },
         transition = { type = "number", default = 0, min = 0, max = 2, unit = "radii of the loop",
             help = "Width on either side of the seam in which the details of both fade into each other." },
     },
@@ -249,6 +305,8 @@ return lissom.tool{
         local keys = table.move(join.keys, 1, #join.keys, 1, {})
         table.insert(keys, self.open)
         draw_loop(view, join.source, keys, 1, "#d06020")
+        draw_hints(view, self.params, join.source, 1)
+        draw_hints(view, self.params, join.target, 2)
         draw_loop(view, join.target, keys, 2, "#2070c0")
         local at = join.told and in_scene(view.scene, join.target)
         if not at then return end

@@ -272,6 +272,24 @@ test("mirrored handles move against each other, also in a mesh that is away from
     h:there_and_back()
 end)
 
+test("a mirror image is found on a side with other vertices; the label says how well they match", function()
+    local wide = bar():transform{ rotate = { axis = "z", angle = 90 } }
+    wide = wide:subdivide{ region = wide:region{ box = { min = { -9, -9, -9 }, max = { 0, 9, 9 } } } }
+    h = hand.new("deform", { wide = wide })
+    h.host:set{ mirror = "x" }
+    h:drag{ { 2.4, -0.4, 0.5 }, { 2.4, 0.4, 0.5 } }
+    h:key("enter")
+    expect.equal(#handles("wide"), 2)
+    expect.truthy(h.host:draw().labels[1].text:find("^mirrored; the sides differ by 0%.?%d* %% of the size"))
+    h:key("x")
+    h.host:type("0.5")
+    h:key("enter")
+    local box = wide:bounds()
+    expect.near(box.center[1], 0, 0.01)
+    expect.truthy(box.max[1] - box.min[1] > 5.9)
+    h:there_and_back()
+end)
+
 test("a press on the vertices of a handle chooses it, with shift it paints", function()
     hold()
     local low = handles()[1]:center()

@@ -116,6 +116,40 @@ test("the wheel turns the part, by five degrees a line, and the label says how i
     h:there_and_back()
 end)
 
+test("hints: up and front of the part go to those of the other mesh, arrows show them", function()
+    local a = math.rad(60)
+    local place = { { 1, 0, 0, 0 }, { 0, math.cos(a), -math.sin(a), 0 }, { 0, math.sin(a), math.cos(a), 0 },
+        { 0, 0, 0, 1 } }
+    -- The spike is up in the mesh and leans by 60 degrees in the scene, towards the eye.
+    local small = spiked(1, -2, 1, 16, 90)
+    h = hand.new("merge", { small = small, large = cup(-1, 2, 1.5, 24) },
+        { ortho = 19.2, places = { small = place } })
+    click_loops()
+    local function spike_angle()
+        local mesh, best, most = h.scene:get("merged"), nil, 0
+        for v = 1, #mesh do
+            local x, y, z = mesh:position(v)
+            local r = x < 2 and math.sqrt(y * y + z * z) or 0
+            if r > most then best, most = math.deg(math.atan(y, z)), r end
+        end
+        return best
+    end
+    local leaning = spike_angle()
+    local lines = #h.host:draw().lines
+    h.host:set{ part_up = "z" }
+    expect.near(spike_angle(), leaning, 3)
+    expect.equal(#h.host:draw().lines, lines + 2)
+    expect.truthy(h.host:draw().labels[1].text == "up")
+    h.host:set{ up = "y" }
+    expect.near(spike_angle(), leaning + 90, 3)
+    h.host:set{ part_up = "none", up = "the same", part_front = "y", front = "z" }
+    expect.near(spike_angle(), leaning - 90, 3)
+    h.host:set{ part_front = "none", front = "the same" }
+    expect.near(spike_angle(), leaning, 3)
+    h:key("enter")
+    h:there_and_back()
+end)
+
 test("as placed goes by how the parts lie in the scene", function()
     local a = math.rad(40)
     local turned = { { 1, 0, 0, 0 }, { 0, math.cos(a), -math.sin(a), 0 }, { 0, math.sin(a), math.cos(a), 0 },

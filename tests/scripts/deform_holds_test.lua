@@ -137,6 +137,29 @@ test("mirror images, falloffs and transitions", function()
     expect.truthy(rim(0.8) < 0.6 * rim(0))
 end)
 
+test("a side with other vertices is mirrored by its nearest surface, and the residual is told", function()
+    local bar = lissom.shapes.bar{ width = 1, length = 4, across = 6, along = 24 }
+    local left = bar:region{ box = { min = { -9, -9, -9 }, max = { 1e-3, 9, 9 } } }
+    bar = bar:subdivide{ region = left }
+    local edit = lissom.deform(bar)
+    local side = bar:region{ box = { min = { 0.4, -0.5, -9 }, max = { 9, 0.5, 9 } } }
+    local right = edit:handle(side, { mirror = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } })
+    local box = right:mirrored():region():bounds()
+    expect.near(box.min[2], -0.5, 0.1)
+    expect.near(box.max[2], 0.5, 0.1)
+    expect.truthy(#right:mirrored():region() > 1.5 * #side)
+    local residual = right:mirror_residual()
+    expect.truthy(residual.mean <= residual.max and residual.max < 1e-3)
+    expect.equal(residual.warning, nil)
+    expect.error(function() edit:handle({ bar:nearest(0.5, -1.5, 0) }):mirror_residual() end,
+        "no mirror image")
+    -- Beside the middle.
+    local other = lissom.deform(bar):handle(side,
+        { mirror = { point = { 0.05, 0, 0 }, normal = { 1, 0, 0 } } })
+    residual = other:mirror_residual()
+    expect.truthy(residual.max > 0.02 and residual.warning:find("middle", 1, true))
+end)
+
 test("misuse", function()
     local bar, edit = scene()
     expect.error(function() edit:stiffness(bar:region("top"), 0) end, "from 0.0001 to 100000")

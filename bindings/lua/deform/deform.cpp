@@ -613,15 +613,19 @@ Type deformation_type() {
                   .at_least(0)
                   .in("mesh units")
                   .defaults(0.0),
-              options("mirror",
-                      {vector("point", "A point of the plane."),
-                       vector("normal", "Its normal, of any length."),
-                       number("tolerance",
-                              "How far a vertex may lie from its counterpart's mirror image.")
-                           .above(0)
-                           .in("mesh units")
-                           .optional("a thousandth of the size")},
-                      "Adds a second handle, the mirror image, and moves it along: see mirrored.")
+              options(
+                  "mirror",
+                  {vector("point", "A point of the plane."),
+                   vector("normal", "Its normal, of any length."),
+                   number("tolerance",
+                          "Distance of the mirror image from the surface beyond which "
+                          "mirror_residual warns.")
+                       .above(0)
+                       .in("mesh units")
+                       .optional("a fiftieth of the size")},
+                  "Adds a second handle, the mirror image, and moves it along: see mirrored. It "
+                  "lies where the surface is nearest to the reflected one, so that both sides "
+                  "may have different vertices: see mirror_residual.")
                   .optional("none")},
          .results = {{"lissom.Handle", "handle", "Where it is; move it and solve."}},
          .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,

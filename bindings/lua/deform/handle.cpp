@@ -160,6 +160,25 @@ int mirrored_handle(Call& call) {
     return 1;
 }
 
+int mirror_residual(Call& call) {
+    const auto handle = call.self<HandleObject>();
+    MirrorResidual residual;
+    const bool done =
+        call.attempt([&] { residual = handle->edit->deformer().mirror_residual(handle->id); });
+    if (!done) return call.fail();
+    lua_State* L = call.lua();
+    lua_createtable(L, 0, 3);
+    lua_pushnumber(L, residual.max);
+    lua_setfield(L, -2, "max");
+    lua_pushnumber(L, residual.mean);
+    lua_setfield(L, -2, "mean");
+    if (!residual.warning.empty()) {
+        lua_pushstring(L, residual.warning.c_str());
+        lua_setfield(L, -2, "warning");
+    }
+    return 1;
+}
+
 int remove_handle(Call& call) {
     const auto handle = call.self<HandleObject>();
     const bool done =
@@ -283,6 +302,20 @@ local right = edit:handle(side, { mirror = { point = { 0, 0, 0 }, normal = { 1, 
 right:translate(0.5, 0, 0)
 assert(right:mirrored():matrix()[1][4] == -0.5)
 edit:solve())"},
+        {.name = "mirror_residual",
+         .body = mirror_residual,
+         .summary = "Measures how well both sides of the rest shape match where the handle has a "
+                    "mirror image: the distances of the reflected vertices from the surface, in "
+                    "sizes of what is deformed.",
+         .results = {{"table", "residual",
+                      "{max=, mean=, warning=}; the warning, with what helps, only if the greatest "
+                      "is more than the mirror's tolerance."}},
+         .errors = {ErrorCode::handle_removed, ErrorCode::invalid_argument},
+         .example =
+             kBar +
+             R"(local side = bar:region{ box = { min = { 0.4, -0.5, -1 }, max = { 1, 0.5, 1 } } }
+local right = edit:handle(side, { mirror = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } })
+assert(right:mirror_residual().max < 1e-9))"},
         {.name = "set_region",
          .body = set_handle_region,
          .summary =

@@ -1,0 +1,13 @@
+/// How nearly symmetric a shape is where a handle has a mirror image; private to kernel/deform.
+#pragma once
+
+#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/options.h"
+#include "kernel/deform/rest_shape.h"
+
+namespace lissom {
+
+/// Returns the distances of the reflected vertices and points of a handle from the rest shape.
+MirrorResidual residual_of(const RestShape& rest, const Handle& handle);
+
+}  // namespace lissom
