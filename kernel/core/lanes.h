@@ -37,7 +37,7 @@ inline bool has_avx512() {
 #endif
 }
 
-// Declares NAME: so many numbers, aligned as one. clang forgets the alignment of an alias
+// Declares NAME: an array of numbers, aligned as a whole. clang forgets the alignment of an alias
 // declaration, and gcc that of a const typedef. NOLINTBEGIN(bugprone-macro-parentheses)
 // NOLINTBEGIN(bugprone-macro-parentheses)
 #if defined(__clang__)

@@ -16,8 +16,8 @@ class MemoryHold {
   public:
     /// Counts nowhere.
     MemoryHold() = default;
-    /// Nothing yet, on an account (null: counts nowhere). `purpose`, which lives for ever, is named
-    /// in errors: "a mesh".
+    /// Nothing yet, on an account (null: counts nowhere). `purpose`, a string with static storage,
+    /// is named in errors: "a mesh".
     MemoryHold(std::shared_ptr<MemoryAccount> account, const char* purpose)
         : account_(std::move(account)), purpose_(purpose) {}
     /// Charges the same account once more. Errors: memory_limit.

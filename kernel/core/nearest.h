@@ -7,9 +7,9 @@
 
 namespace lissom {
 
-/// The candidate with the fewest edits (letters changed, added, left out or swapped with their
-/// neighbour) from `name`, the first of equals; at most a third of the letters, and one in short
-/// names. Else the first candidate that begins with `name`. Returns an empty name if neither
+/// Returns the candidate with the fewest edits (letters changed, added, left out or swapped with
+/// their neighbour) from `name`, the first of ties; at most a third of the letters, and one in
+/// short names. Else the first candidate that begins with `name`. Returns an empty name if neither
 /// exists.
 std::string_view nearest_name(std::string_view name,
                               const std::vector<std::string_view>& candidates);

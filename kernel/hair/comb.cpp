@@ -101,7 +101,7 @@ CurveId add_stream(Hairstyle& style, std::span<const Vec3> stroke) {
     StreamCurve stream =
         style.options().fidelity == HairFidelity::thesis ? StreamCurve::thesis() : StreamCurve{};
     stream.points.assign(stroke.begin(), stroke.end());
-    // Hair goes on beyond the comb.
+    // Hair continues beyond the comb.
     stream.options.stop_length = 0.0;
     StyleCurve curve{std::move(stream)};
     curve.name = "comb";

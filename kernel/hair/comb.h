@@ -14,7 +14,7 @@ namespace lissom {
 
 /// Changes that a comb may make to a style.
 enum class CombBy {
-    least,  ///< bend or add, whichever explains the stroke with the least change elsewhere
+    least,  ///< bend or add, by the least change elsewhere
     bend,   ///< bend streams that run beside the stroke
     add,    ///< add a stream along the stroke
 };

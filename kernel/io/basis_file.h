@@ -24,7 +24,7 @@ struct EngineHandle {
 };
 
 /// position(v) = origin + rest(v) + sum over h of (T_h - I) weight(h, v), for handle transforms T_h
-/// relative to the origin. In this form floats are enough however far the mesh lies from its own
+/// relative to the origin. In this form floats suffice at any distance of the mesh from its own
 /// origin, and handles at the identity give the rest shape to the bit.
 struct EngineBasis {
     /// Middle of the region's rest positions, each coordinate a 32-bit number.

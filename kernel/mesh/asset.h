@@ -28,8 +28,8 @@ class Asset {
     virtual std::shared_ptr<const Asset> joined(const Asset& other,
                                                 LabelRenames& renames) const = 0;
     virtual std::size_t memory_bytes() const = 0;
-    /// Counts on `account` from now on, once however many meshes share it; nothing if it counts
-    /// already. Meshes call it with theirs. Errors: memory_limit.
+    /// Charges `account` from now on, once for any number of meshes that share it; nothing if it is
+    /// charged already. Meshes call it with theirs. Errors: memory_limit.
     void count_on(const std::shared_ptr<MemoryAccount>& account) const;
     /// Returns true if it holds only the definitions of the mesh's material libraries.
     virtual bool is_of_libraries() const { return false; }

@@ -43,7 +43,7 @@ class ElementMap {
     std::span<const Source> operator[](Index element) const {
         return {sources_.data() + begin_[at(element)], sources_.data() + begin_[at(element + 1)]};
     }
-    /// Returns the heaviest source of `element`, the first of equals, or kNoIndex.
+    /// Returns the heaviest source of `element`, the first of ties, or kNoIndex.
     Index main_source(Index element) const;
 
   private:

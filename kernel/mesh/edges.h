@@ -8,8 +8,8 @@
 
 namespace lissom {
 
-/// Returns the edge between two vertices, in whichever direction; kNoIndex if there is none. The
-/// time grows as the valence of `a`.
+/// Returns the edge between two vertices, in either direction; kNoIndex if there is none. The time
+/// grows as the valence of `a`.
 Index find_edge(const Topology& topology, Index a, Index b);
 
 /// Returns the faces on both sides of edge `e`: first the one that it is directed along, then the

@@ -174,7 +174,7 @@ Region Region::smoothed(Index iterations) const {
         std::vector<char> next = majority(*topology_, in);
         const bool emptied = std::find(next.begin(), next.end(), 1) == next.end();
         if (next == in || emptied) break;
-        // Votes that have swung back to an outline swing between the two for ever.
+        // Votes that have swung back to an outline alternate endlessly.
         if (next == before && (iterations - i) % 2 == 0) break;
         const bool swings = next == before;
         before = std::exchange(in, std::move(next));

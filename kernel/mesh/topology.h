@@ -44,8 +44,8 @@ class Topology {
     /// Validates `faces` and builds the connectivity. Faces and vertices keep their order. Errors,
     /// each naming all elements concerned: face_index, face_too_small, repeated_vertex,
     /// duplicate_face, nonmanifold_edge, inconsistent_orientation, nonmanifold_vertex; also
-    /// cancelled, memory_limit. Its memory counts on the account of the context, once however many
-    /// meshes share it.
+    /// cancelled, memory_limit. Its memory counts on the account of the context, once for any
+    /// number of meshes that share it.
     static std::shared_ptr<const Topology> create(Index vertex_count, FaceList faces,
                                                   const Context& context = {});
     /// Returns the same for faces that are known to be a manifold. `twin` pairs the corners: for

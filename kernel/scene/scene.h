@@ -6,9 +6,9 @@
 ///     scene.step("bend", [&] { transform(*bar, map); });
 ///     scene.undo();    // `bar` itself is as before
 ///
-/// Objects are live: whoever holds one may change it at any time, and undo puts content back into
-/// the very object. Changes outside a step are found at the next step, undo or hash, and become a
-/// step of their own called "edited".
+/// Objects are live: any holder may change them at any time, and undo restores content in the same
+/// object. Changes outside a step are found at the next step, undo or hash, and become a step of
+/// their own called "edited".
 #pragma once
 
 #include <cstddef>
@@ -100,7 +100,8 @@ class Scene {
     /// Number of open steps.
     std::size_t depth() const { return open_.size(); }
 
-    /// Runs work() as a step. If it throws, the scene is as it was before, and the error goes on.
+    /// Runs work() as a step. If it throws, the scene is as it was before, and the error is
+    /// rethrown.
     template <typename Work>
     void step(std::string name, const Work& work) {
         begin(std::move(name));

@@ -66,13 +66,13 @@ class GizmoDrag {
     GizmoDrag(const Gizmo& gizmo, GizmoPart part, const View& view, const Vec2& cursor,
               const GizmoSteps& steps = {});
 
-    /// Moves the cursor and returns the motion. When `precise` changes, the motion goes on from its
-    /// present value. Errors: not_finite.
+    /// Moves the cursor and returns the motion. When `precise` changes, the motion continues from
+    /// its present value. Errors: not_finite.
     const GizmoMotion& drag(const Vec2& cursor, const GizmoModifiers& modifiers = {});
 
     /// Returns a typed number in place of the cursor: the length of a move along the axis, the
     /// angle in radians, the factor; in a plane the lengths along its two axes (to the right and
-    /// upwards in that of the view). Not snapped. A later `drag` goes on as if it had not been
+    /// upwards in that of the view). Not snapped. A later `drag` continues as if nothing had been
     /// typed. Errors: not_finite; invalid_argument for a factor of 0.
     const GizmoMotion& set_amount(double amount) { return set_amount(Vec2(amount, 0.0)); }
     const GizmoMotion& set_amount(const Vec2& amounts);

@@ -30,7 +30,7 @@ Vec2 nearest_on_segment(const Vec2& a, const Vec2& b, const Vec2& p) {
 
 using Corners = std::array<Vec2, 3>;
 
-// Whether `p` lies in the triangle, whichever way round it is seen.
+// Returns whether `p` lies in the triangle, for either orientation.
 bool is_inside(const Corners& c, const Vec2& p) {
     const Vec3 turn(cross(c[1] - c[0], p - c[0]), cross(c[2] - c[1], p - c[1]),
                     cross(c[0] - c[2], p - c[2]));

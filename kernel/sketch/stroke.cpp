@@ -145,7 +145,7 @@ std::vector<double> turns(std::span<const Vec2> points, Index chord) {
     return result;
 }
 
-// Whether no point within a chord turns more; of equal ones the first counts.
+// Returns whether no point within a chord turns more; the first of ties counts.
 bool is_sharpest(const std::vector<double>& turns, std::size_t i) {
     const std::size_t chord = kCornerChord;
     const auto at = turns.begin();

@@ -23,12 +23,12 @@ double curve_length(std::span<const Vec3> points);
 /// that is not above 0; out_of_range for a curve of more than a million steps.
 std::vector<Vec3> smooth_curve(std::span<const Vec3> points, double step);
 
-/// Returns the same polyline in segments of equal length along it, as near to `step` as whole
-/// numbers of them come, with the same ends (section 4.5). Errors: as smooth_curve.
+/// Returns the same polyline in segments of equal length, closest to `step`, with the same ends
+/// (section 4.5). Errors: as smooth_curve.
 std::vector<Vec3> resampled_curve(std::span<const Vec3> points, double step);
 
-/// Moves points nearer than `clearance` to the surface of the head, or inside, outward to there, as
-/// far as the grid of distances tells.
+/// Moves points inside the head or nearer than `clearance` to its surface outward to that distance,
+/// within the range of the grid of distances.
 void push_out(std::span<Vec3> points, const DistanceGrid& distances, double clearance);
 
 }  // namespace lissom

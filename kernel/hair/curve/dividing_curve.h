@@ -104,10 +104,10 @@ inline constexpr double kPartingGap = 0.0024;
 /// the direction that is turned by the tilt. Above them stand vectors of length `separation` that
 /// point away from the curve, too. Points on the curve's plane belong to no side and take none; nor
 /// do those beyond the curve's ends by more than half a step. Ascending by point. With the fidelity
-/// of the thesis the grid points belong to the local planes that they lie in, of several to the one
-/// whose origin is nearest, and the head has no part in it. Errors: as DividingLine;
-/// invalid_argument for options out of range; out_of_range if the grid has no point near the curve,
-/// or the curve is nowhere near the head.
+/// of the thesis each grid point belongs to the local plane that contains it, the one with the
+/// nearest origin among several; the head is ignored. Errors: as DividingLine; invalid_argument for
+/// options out of range; out_of_range if the grid has no point near the curve, or the curve is
+/// nowhere near the head.
 std::vector<GridConstraint> dividing_constraints(const DistanceGrid& distances,
                                                  std::span<const Vec3> points,
                                                  std::span<const Vec3> normals,

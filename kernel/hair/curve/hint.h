@@ -34,7 +34,7 @@ struct HintReading {
 /// apart, inserts; if these are nearer, it cuts if it crosses the curve or is at most 3 r long,
 /// else it concatenates. One that only starts within r concatenates if that is within r of the tip,
 /// or if it does not cross the curve in its first 1.2 r; else it cuts if it is short, begins well
-/// before the curve and runs across it, and concatenates if it goes on along the curve. Any other
+/// before the curve and runs across it, and concatenates if it continues along the curve. Any other
 /// one cuts if it crosses the curve or passes within r. A crossing is a change of sides within r of
 /// the curve. `near` is about 20 pixels of the picture that the hint was drawn in. Errors: as
 /// require_curve for both; invalid_argument for `near`; out_of_range if the hint is nowhere near
@@ -58,8 +58,8 @@ std::vector<Vec3> cut_curve(std::span<const Vec3> curve, std::span<const Vec3> h
 std::vector<Vec3> concatenated_curve(std::span<const Vec3> curve, std::span<const Vec3> hint,
                                      const HintOptions& options = {});
 
-/// Returns the curve with the hint between the points nearest to the ends of the hint, whichever
-/// way the hint runs. Joins are smooth; the first and last point of the curve stay. Errors: as
+/// Returns the curve with the hint between the points nearest to the ends of the hint, in either
+/// direction of the hint. Joins are smooth; the first and last point of the curve stay. Errors: as
 /// cut_curve; out_of_range if the hint does not start and end near the curve; invalid_argument if
 /// it does so at one place.
 std::vector<Vec3> inserted_curve(std::span<const Vec3> curve, std::span<const Vec3> hint,

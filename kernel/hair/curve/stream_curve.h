@@ -15,8 +15,8 @@ namespace lissom {
 
 /// Lengths are in the unit of the mesh.
 struct StreamOptions {
-    /// Keeps hair from growing on beyond the end of the curve: it goes on straight for this long,
-    /// with vectors that vanish on the way; 0 for not at all.
+    /// Keeps hair from growing on beyond the end of the curve: the curve is extended straight by
+    /// this length, with vectors that fade to 0; 0 for no extension.
     double stop_length = 0.04;
     /// omega of equation (4.2), 1e-6 to 1e9.
     double weight = 100.0;

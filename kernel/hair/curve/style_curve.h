@@ -48,7 +48,7 @@ struct DividingCurve {
     bool operator==(const DividingCurve&) const = default;
 };
 
-/// Hair gathers in a tie and goes on along a spine.
+/// Hair gathers in a tie and continues along a spine.
 struct Ponytail {
     /// From the tie to the tip of the tail; the curve runs smoothly through them.
     std::vector<Vec3> spine;

@@ -1,5 +1,5 @@
 /// A head as a closed surface: heads are often open at the neck, or have holes for the eyes, and
-/// their inside must be known all the same.
+/// their inside must still be known.
 #pragma once
 
 #include <cstddef>

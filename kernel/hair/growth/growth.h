@@ -40,7 +40,7 @@ struct HairTie {
     std::vector<Vec3> spine = {};
     /// Radii of the tail at the points of `spine`, as many or none: hair fills it. Each strand is
     /// drawn to a place of its own in the cross section over the first few steps behind the tie,
-    /// the longest in the middle, so that a tail is round whichever way hair came into its tie.
+    /// the longest in the middle, so that a tail is round for any hair at its tie.
     std::vector<double> radii = {};
 };
 
@@ -103,8 +103,8 @@ struct GrowthOptions {
     Affine placement = {};
     std::uint64_t seed = 1;
 
-    /// Section 4.6 to the letter: strands follow the field alone, l v(p) a segment, whether or not
-    /// into the head, however it turns and however long it is, and do not vary in length.
+    /// Section 4.6 to the letter: strands follow the field alone, l v(p) a segment, even into the
+    /// head, with any turn and any length, and do not vary in length.
     static GrowthOptions thesis();
 };
 
@@ -130,11 +130,11 @@ struct GrowthReport {
     Index ended_by(StrandEnd end) const { return ends[static_cast<std::size_t>(end)]; }
 };
 
-/// Grows strands from the same roots again and again, for instance while a curve is dragged:
-/// results that depend on the roots alone are computed once, and those of the seed or the length
-/// map when they change. Strands grow side by side, neighbours one after the other; the results are
-/// the same to the bit on any number of threads and with any vector instructions. For use by one
-/// thread at a time.
+/// Grows strands from the same roots repeatedly, for instance while a curve is dragged: results
+/// that depend on the roots alone are computed once, and those of the seed or the length map when
+/// they change. Strands grow side by side, neighbours one after the other; the results are the same
+/// to the bit on any number of threads and with any vector instructions. For use by one thread at a
+/// time.
 class StrandGrower {
   public:
     /// Copies its inputs from `head`, which must be the mesh of the roots and in the coordinates of

@@ -22,7 +22,8 @@ class GuideTree {
   public:
     explicit GuideTree(std::vector<GuideKey> keys);
 
-    /// Number of the key nearest to `key`; of equal ones the first. kNoIndex if there are none.
+    /// Returns the number of the key nearest to `key`; the first of ties. kNoIndex if there are
+    /// none.
     Index nearest(const GuideKey& key) const;
 
   private:

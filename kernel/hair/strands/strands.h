@@ -18,7 +18,7 @@
 
 namespace lissom {
 
-/// Diameter of strands that nobody gave one: that of a human hair, 70 to 80 micrometres.
+/// Diameter of strands without a width: that of a human hair, 70 to 80 micrometres.
 inline constexpr float kHairWidth = 75e-6f;
 
 /// Domain of values.

@@ -172,7 +172,7 @@ bool concerns_content(const Error& error) {
     return error.code() != ErrorCode::cancelled && error.code() != ErrorCode::memory_limit;
 }
 
-// Why a first line of so many numbers is no vertex, if it is not.
+// Returns the reason that a first line with this count of numbers is no vertex, if it is not.
 std::optional<Error> first_line_error(OffLayout layout, std::size_t on_first_line, Place place) {
     const std::size_t others = layout.numbers_without_color();
     const bool is_odd = on_first_line == others + 1 || on_first_line == others + 2;

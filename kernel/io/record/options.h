@@ -41,7 +41,7 @@ struct LoadOptions {
 
 /// The inverse of LoadOptions, and how the file is encoded.
 struct SaveOptions {
-    /// The up axis the file shall have.
+    /// The up axis of the file.
     UpAxis up = UpAxis::none;
     /// Length of the file's unit in the mesh's unit: positions are divided by it. Positive, finite.
     double unit = 1.0;
@@ -71,7 +71,7 @@ struct StrandLoadOptions {
 
 /// The inverse of StrandLoadOptions, and the checks.
 struct StrandSaveOptions {
-    /// The up axis the file shall have.
+    /// The up axis of the file.
     UpAxis up = UpAxis::none;
     /// Length of the file's unit in metres: points and widths are divided by it. Positive, finite.
     double unit = 1.0;

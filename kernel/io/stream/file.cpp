@@ -101,8 +101,8 @@ bool is_temporary_name(const std::string& name) {
 
 #ifndef _WIN32
 
-// Marks the file as one that is being written: the lock goes with the process, however it ends.
-// False if the file was taken for a left over one before. Not every file system has locks.
+// Marks the file as one being written: the lock ends with the process. False if the file was taken
+// for a left over one before. Not every file system has locks.
 bool lock_new(std::FILE* file) {
     if (flock(fileno(file), LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
     struct stat status {};
@@ -123,7 +123,8 @@ class HeldLock {
     int descriptor_;
 };
 
-// Whether the file is ours and nobody writes it: a leftover of a killed process.
+// Returns whether the file belongs to this user and no process writes it: a leftover of a killed
+// process.
 bool is_left_over(int descriptor) {
     struct stat status {};
     return fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
@@ -167,7 +168,7 @@ void remove_left_overs(const fs::path& folder) {
     }
 }
 
-// A new file next to the one it shall replace. Unless it has replaced it, it is removed in the end.
+// A new file next to the one it replaces. Unless it has replaced it, it is removed in the end.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const fs::path& target) : target_(target) {

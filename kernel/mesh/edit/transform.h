@@ -8,8 +8,8 @@
 namespace lissom {
 
 /// Moves all vertices by `map`, in place. "normal" attributes turn by the inverse transpose and
-/// stay unit. A mirroring map (negative determinant) also reverses the faces, so that they go on
-/// looking outward; the mesh then has a new topology, to which its named regions move. Errors:
+/// stay unit. A mirroring map (negative determinant) also reverses the faces, so that they still
+/// face outward; the mesh then has a new topology, to which its named regions move. Errors:
 /// singular_transform if the determinant is zero or the map is not finite; not_finite if a result
 /// would overflow.
 void transform(Mesh& mesh, const Affine& map, const Context& context = {});

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kBehindFront = std::numeric_limits<double>::infinity();
 constexpr std::size_t kStepsBetweenChecks = 4096;
-// A smaller gain, relative to the distance, is rounding, which could go round for ever.
+// A smaller gain, relative to the distance, is rounding, which could loop endlessly.
 constexpr double kLeastGain = 1e-10;
 
 // The distance to `corner` of a source that is as far from two points as they say, on the other

@@ -62,7 +62,7 @@ class Path {
     double length(const Mesh& mesh) const;
     double length() const;
 
-    /// Returns the point of the polyline nearest to `p`; of equals the first. Errors: as `points`.
+    /// Returns the point of the polyline nearest to `p`; the first of ties. Errors: as `points`.
     PathPoint nearest(const Mesh& mesh, const Vec3& p) const;
     PathPoint nearest(const Vec3& p) const;
 

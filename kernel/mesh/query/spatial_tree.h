@@ -30,7 +30,7 @@ struct SurfacePoint {
     Vec3 position = Vec3::Zero();
     /// Distance from the query point, or along the ray in units of length.
     double distance = 0.0;
-    /// The vertex of the triangle that is nearest to `position`; of equals the smallest.
+    /// The vertex of the triangle nearest to `position`; the smallest of ties.
     Index vertex = kNoIndex;
     /// Unit normal of the triangle; zero for a triangle without area.
     Vec3 normal = Vec3::Zero();
@@ -86,8 +86,7 @@ class SpatialTree {
                                      const RayOptions& options = {}) const;
 
     /// Returns whether the surface lies between `point` and an eye in the direction `towards`. A
-    /// point of the surface is not hidden by the triangles that it is a point of, however flat the
-    /// view. Errors: as `pick`.
+    /// point of the surface is not hidden by its own triangles, for any view. Errors: as `pick`.
     bool hides(const Vec3& point, const Vec3& towards, const HideOptions& options = {}) const;
 
     /// Returns all hits of a ray in ascending distance; equally far ones in the order of their

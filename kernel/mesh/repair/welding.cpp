@@ -87,7 +87,7 @@ void Welding::weld_edges(Report& report) {
 }
 
 void Welding::weld_around_edge(std::span<const DirectedCorner> corners, const Vec3& axis) {
-    // So many faces at one edge bound no solid; they stay apart.
+    // More faces than this at one edge bound no solid; they stay apart.
     constexpr std::size_t kMost = 64;
     if (corners.size() > kMost) return;
     std::vector<Wing> wings;
@@ -273,7 +273,7 @@ std::vector<Index> Welding::doubled_edges(const FanVertices& vertices) {
 }
 
 FanVertices Welding::number_fans() {
-    // So many rounds are not needed for anything but input made to take long.
+    // Only input made to take long needs more rounds.
     constexpr int kMostRounds = 100;
     FanVertices vertices = fans();
     for (int round = 0; !(regular_ && vertices.unchanged); ++round) {

@@ -25,7 +25,8 @@ void require_pixels(std::span<const Vec2> stroke) {
 
 using Hits = std::vector<SupportSurface::Hit>;
 
-// The hit that goes on from the last one along the curve; without a last one that nearest to it.
+// Returns the hit that continues the last one along the curve; without a last one the nearest to
+// it.
 std::optional<SupportSurface::Hit> continued(const Hits& hits,
                                              const std::optional<SupportSurface::Hit>& last) {
     const auto cost = [&](const SupportSurface::Hit& hit) {
@@ -59,7 +60,7 @@ std::vector<double> lengths_at(std::span<const Vec2> stroke, double pixel) {
     return lengths;
 }
 
-// Goes on with depth from the point `last`, which has one, in steps of `step` (1 or -1).
+// Extrapolates depth from the point `last`, which has one, in steps of `step` (1 or -1).
 void extrapolate(std::vector<double>& depths, std::span<const double> lengths, int last, int step,
                  const SupportStrokeOptions& options) {
     const int count = count_of(depths);

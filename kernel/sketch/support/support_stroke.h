@@ -14,8 +14,8 @@ namespace lissom {
 
 /// Lengths in the world.
 struct SupportStrokeOptions {
-    /// Beside the surface depth goes on with the slope that it had on the last `run` of the stroke
-    /// over it, at most 1, and turns to a constant over about `fade`.
+    /// Beside the surface depth continues with its slope over the last `run` of the stroke, at most
+    /// 1, and turns to a constant over about `fade`.
     double run = 0.008, fade = 0.04;
 };
 

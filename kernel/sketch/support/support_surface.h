@@ -28,7 +28,7 @@ struct SupportOptions {
     /// To each side of the curve. A strip is narrower if the curve bends more tightly, so that it
     /// does not fold.
     double width = 0.03;
-    /// How far it goes on straight beyond the last point.
+    /// Length of its straight extension beyond the last point.
     double extension = 0.035;
     /// Length of the end of the curve, whose mean direction the extension has.
     double end = 0.015;

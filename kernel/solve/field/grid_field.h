@@ -52,8 +52,7 @@ class GridField {
 
     /// Computes the field of the constraints as they are; does nothing if none has changed. After
     /// an error the field is that of the last solve. Errors: not_positive_definite if weights
-    /// differ by so much that double precision does not tell constraints apart; memory_limit;
-    /// cancelled.
+    /// differ too much for double precision; memory_limit; cancelled.
     void solve(const Context& context = {});
     /// Returns whether the field is that of the constraints as they are.
     bool solved() const;

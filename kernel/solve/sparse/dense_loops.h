@@ -1,6 +1,6 @@
 /// The loops behind DenseKernels; private to kernel/solve. They are compiled for each kind of
-/// processor, as kernel/core/lanes.h says. A `Tile` says how many rows are done at a time: so many
-/// `kVectors` of its type `Vector`, four or eight numbers each.
+/// processor, as kernel/core/lanes.h says. A `Tile` sets the number of rows computed together: a
+/// number `kVectors` of its type `Vector`, four or eight numbers each.
 #pragma once
 
 #include <algorithm>

@@ -25,10 +25,10 @@ struct EliminationTree {
 };
 
 /// Returns the tree of `graph` for the order of elimination that `order` and a postorder of its
-/// tree give, which has the same fill. Children of a column come by ascending count of entries, so
-/// that the greatest is next to it, those of equal count as in `order`. Counts are found as
-/// Gilbert, Ng and Peyton do (An efficient algorithm to compute row and column counts for sparse
-/// Cholesky factorization, 1994), in nearly linear time. Errors: cancelled, between the stages.
+/// tree give, which has the same fill. Children of a column ascend by count of entries, so that the
+/// greatest is next to it; ties follow `order`. Counts are found as Gilbert, Ng and Peyton do (An
+/// efficient algorithm to compute row and column counts for sparse Cholesky factorization, 1994),
+/// in nearly linear time. Errors: cancelled, between the stages.
 EliminationTree elimination_tree(const Adjacency& graph, std::vector<Index> order,
                                  const Context& context = {});
 

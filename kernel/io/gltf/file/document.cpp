@@ -168,7 +168,7 @@ class Loader {
         return content;
     }
 
-    // Null, with the reason, for a picture that cannot be had: the surface is read all the same.
+    // Null, with the reason, for a picture that cannot be read: the surface is still read.
     SharedBytes file_of_image(std::string uri, std::string& why) {
         // Programs for Windows write its separators.
         std::replace(uri.begin(), uri.end(), '\\', '/');

@@ -40,9 +40,8 @@ struct MeshExtras {
     std::vector<Index> copies;
 };
 
-/// Returns the extras of `mesh`, in so far as they fit so many vertices and faces as were read;
-/// another program may have changed it. Removes them from `mesh`; `fits` is false if there were
-/// some that do not fit.
+/// Returns the extras of `mesh` that fit these counts of vertices and faces; another program may
+/// have changed it. Removes them from `mesh`; `fits` is false if there were some that do not fit.
 MeshExtras take_extras(Json& mesh, std::size_t vertex_count, std::size_t face_count, bool& fits);
 
 /// Adds extras to `mesh`, unless there are none.

@@ -51,7 +51,7 @@ class MeshWriter {
     /// Returns the mesh of a surface that has only vertices.
     Json write_points(const ObjectPlace& place);
 
-    /// Whether the meshes shall say which of their vertices are one.
+    /// Whether the meshes state their duplicate vertices.
     bool states_copies = false;
     /// Returns the loss by rounding of the faces written so far.
     const FloatLoss& float_loss() const { return float_loss_; }
