@@ -21,7 +21,7 @@ void require_faces(const std::vector<DrawnMesh>& meshes) {
 
 // Points of meshes that a window frames in a moment, at most twice as many.
 constexpr std::size_t kFramedPoints = 20000;
-// Number of evenly chosen points of strands for framing, at most.
+// Points that mark strands: at most so many, evenly chosen.
 constexpr Index kFramedStrands = 5000;
 
 void add_framed(const DrawnStrands& drawn, std::vector<Vec3>& points) {
@@ -95,7 +95,7 @@ Snapshot whole(const Picture& picture, const ValueRange& range) {
     return {picture.meshes, strands_of(picture, std::nullopt), std::move(overlays), range};
 }
 
-// Returns the contents of every cell; only the first if all is in one space.
+// Content of every cell; only the first if all is in one space.
 std::vector<Snapshot> cells_of(const Picture& picture, const Snapshot& all) {
     if (picture.columns == 0) return {all};
     std::vector<Snapshot> cells;
@@ -148,7 +148,7 @@ Camera camera_for(const Picture& picture, const Snapshot& framed, double aspect)
 // Distance between the middles of meshes that stand side by side, in their largest extent.
 constexpr double kSpread = 1.25;
 
-// Returns the place of each mesh's cell when all are in one space.
+// Position of a mesh's cell if all are in one space.
 std::vector<Vec3> spread(const Picture& picture) {
     double extent = 0.0;
     for (const DrawnMesh& drawn : picture.meshes) {

@@ -1,5 +1,5 @@
 /// Picture: a finished image of one or several meshes, framed, in one space or side by side, with a
-/// legend if values are drawn.
+/// legend of values.
 #pragma once
 
 #include <memory>
@@ -24,14 +24,14 @@ struct Picture {
     std::vector<DrawnMesh> meshes = {};
     /// Drawn with every mesh, in the world of the camera.
     Overlay marks = {};
-    /// Not drawn: marks that a window adds when fields of hairstyles are asked for.
+    /// Not drawn: marks that a window adds if the user asks for fields of hairstyles.
     NamedMarks field_marks = {};
     /// Likewise, not hidden by any surface: marks of a tool.
     Overlay tool_marks = {};
     /// In cells, strands that name a mesh are drawn with that mesh, others with every mesh.
     std::vector<PictureStrands> strands = {};
 
-    /// Camera; without one, a standard view that frames everything.
+    /// Camera of the picture; without one, a standard view that frames everything.
     std::optional<Camera> camera = std::nullopt;
     StandardView view = StandardView::three_quarter;
     /// Up axis, perspective and margin of the standard view; its aspect is that of the picture.
@@ -71,8 +71,8 @@ std::optional<Legend> legend_of(const Picture& picture);
 /// frame_points.
 Camera quick_camera_of(const Picture& picture, const Snapshot& snapshot, double aspect);
 
-/// Copies of meshes for pictures that stay the same when the meshes change. Unchanged meshes are
-/// not copied again: a mesh with other regions only is the copy that was made before.
+/// Copies of meshes for pictures, independent of later changes. Unchanged meshes are not copied
+/// again: a mesh with other regions only is the copy that was made before.
 class FrozenMeshes {
   public:
     /// `picture` with copies of its meshes and strands.
@@ -85,11 +85,11 @@ class FrozenMeshes {
     };
     void freeze(DrawnMesh& drawn);
 
-    // Copies of the last picture, and of the one being made.
+    // Copies of the last picture, and of the one that is made.
     std::vector<Kept> kept_, next_;
 };
 
-/// Returns the same without earlier copies.
+/// Makes a snapshot without the earlier copies.
 Picture frozen(Picture picture);
 
 /// Draws `picture`. Errors: those of Renderer::render and frame_points; mesh_empty for a mesh

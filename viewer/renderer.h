@@ -35,7 +35,7 @@ class Renderer {
     int maximum_size() const;
     /// Most samples a pixel.
     int maximum_samples() const;
-    /// Returns the name of the driver, for instance "llvmpipe (LLVM 15.0.6, 256 bits)".
+    /// Returns the name of the OpenGL renderer, for instance "llvmpipe (LLVM 15.0.6, 256 bits)".
     const std::string& driver() const;
 
   private:

@@ -35,8 +35,8 @@ gl::Texture make_colormap() {
     return texture;
 }
 
-// Lets the next objects hide others at the same depth. By as much everywhere: more at slanted
-// surfaces would bring its far side before its outline.
+// Later drawing hides surfaces at the same depth. The offset is the same everywhere: a larger one
+// on slanted surfaces would bring their far side before their outline.
 void raise() {
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(0.0f, -32.0f);
@@ -228,8 +228,8 @@ void SceneDrawer::use_hair(const gl::Program& program) const {
     program.set("u_scalp_color", hair_.scalp_color);
 }
 
-// For a transparent surface only a share of the samples or pixels is drawn, always the same: so
-// objects behind it need no order, and its own inside is not seen.
+// Only a fraction of the samples or pixels of a transparent surface is drawn, always the same: so
+// surfaces behind it need no order, and its own inside is not seen.
 void SceneDrawer::draw_through(const gl::Program& program, const GpuSurface& surface) const {
     const double opacity = surface.drawn.style.opacity;
     const bool has_samples = options_.samples > 1;

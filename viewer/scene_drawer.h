@@ -14,7 +14,7 @@
 
 namespace lissom {
 
-/// Resources for drawing surfaces.
+/// Optional features of the surface shader.
 struct SurfaceParts {
     bool occlusion = false, hair = false, wire = false, values = false;
 };
@@ -28,7 +28,7 @@ class SurfacePrograms {
     mutable std::array<std::optional<gl::Program>, 16> programs_;
 };
 
-/// Resources made once for all pictures.
+/// Objects made once for all pictures.
 struct SceneTools {
     SurfacePrograms surface;
     gl::Program line, point, output, strand_output;
@@ -79,7 +79,7 @@ class SceneDrawer {
     Image picture(Progress& progress) const;
 
   private:
-    // Returns an empty framebuffer if there is none.
+    // Empty if there is none.
     gl::Framebuffer compute_occlusion() const;
     void draw_surfaces(const Tile& tile) const;
     SurfaceParts parts() const;

@@ -32,7 +32,7 @@ static_assert(static_cast<int>(ErrorCode::unknown_format) + 1 == LISSOM_UNKNOWN_
 static_assert(static_cast<int>(ErrorCode::region_empty) + 1 == LISSOM_REGION_EMPTY);
 static_assert(static_cast<int>(ErrorCode::internal) + 1 == LISSOM_INTERNAL);
 
-// Collects the bytes read by the host. Its errors must not pass through the host's function.
+// Sink of the host's reader. Errors must not pass through the host's function.
 struct Taking {
     const std::function<void(std::string_view)>* sink;
     std::exception_ptr failed = nullptr;
@@ -231,12 +231,12 @@ void require_given(const void* pointer, const char* name) {
 void copy_options(const void* given, std::size_t given_size, void* options, std::size_t size) {
     const auto* bytes = static_cast<const unsigned char*>(given);
     bool fits = given_size >= kLeastOptions && given_size <= kGreatestOptions;
-    // A request of a later version must not be ignored silently.
+    // Options of a later version must not be ignored silently.
     for (std::size_t i = size; fits && i < given_size; ++i) fits = bytes[i] == 0;
     if (!fits) {
         throw StatusError(LISSOM_BAD_STRUCT,
-                          "the options do not come from their lissom_default_ function, or ask "
-                          "for features of a later version");
+                          "the options do not come from their lissom_default_ function, or belong "
+                          "to a later version");
     }
     std::memcpy(options, given, std::min(given_size, size));
 }
@@ -318,13 +318,13 @@ using namespace lissom::c;
 
 lissom_context::lissom_context(const lissom_context_options& given)
     : options(given), space(given.space), kernel(kernel_options(given)), objects(next_context()) {
-    // Ids of jobs, as of objects, tell the context.
+    // Ids of jobs name the context, as ids of objects do.
     next_job = objects.first_job();
     connect_scripts(*this);
 }
 
 lissom_context::~lissom_context() {
-    // No job goes on with the memory freed here.
+    // No job may still use the memory freed here.
     for (auto& [id, job] : jobs) job->context.cancel();
     for (auto& [id, job] : jobs) wait_for(*this, *job);
 }
@@ -394,7 +394,7 @@ const lissom_error* lissom_last_error(const lissom_context* context) {
                                              nullptr,
                                              0};
     if (!context) return &kNoContext;
-    // The shown error is made when it is asked for: calls that succeed pay nothing.
+    // The text is made on demand: calls that succeed pay nothing.
     auto& own = *const_cast<lissom_context*>(context);
     const CallError& error = own.error;
     own.shown = {error.status,

@@ -49,13 +49,13 @@ class StatusError : public std::exception {
     std::string message_;
 };
 
-/// Error of a call, as lissom_last_error returns it.
+/// The error of the last call, returned by lissom_last_error.
 struct CallError {
     lissom_status status = LISSOM_OK;
     std::string message = {};
     Elements elements = {};
 
-    /// Runs `work` and keeps its exception.
+    /// Runs `work` and keeps its exceptions.
     void guard(const std::function<void()>& work) noexcept;
 };
 
@@ -118,7 +118,7 @@ struct Job {
 
     Context context;
     std::function<void(const Context&)> work;
-    /// Takes over the result, on the host's thread, and returns the handle of a new object, or 0.
+    /// Takes over the result, on the host's thread. Returns the handle of a new object, or 0.
     std::function<std::uint64_t()> take;
     std::vector<std::pair<std::uint64_t, Kind>> held;
     CallError error;
@@ -158,7 +158,7 @@ struct lissom_context {
     /// Error of the last call; `shown` points into it.
     lissom::c::CallError error;
     lissom_error shown{};
-    /// Storage of lissom_bytes and texts of reports.
+    /// Memory that lissom_bytes and texts of reports point to.
     std::string bytes, text, more_text;
     /// Jobs that were not finished; polled and cancelled from any thread.
     mutable std::mutex jobs_mutex;
@@ -203,8 +203,8 @@ void begin_job(lissom_context& context, std::vector<std::pair<std::uint64_t, Kin
 /// Throws INVALID_ARGUMENT, naming it, if a pointer is NULL.
 void require_given(const void* pointer, const char* name);
 
-/// Returns the options of a host over the defaults, for any version of the header that it was
-/// compiled with. Errors: BAD_STRUCT.
+/// Returns the options of a host over the defaults, for any version of the header. Errors:
+/// BAD_STRUCT.
 template <typename Options>
 Options take_options(const Options* given, Options defaults);
 

@@ -11,11 +11,11 @@
 
 namespace lissom::c {
 
-/// Triples of a host's list in the kernel's space. Errors: INVALID_ARGUMENT, naming the list, if it
-/// is NULL or of integers.
+/// Returns triples of a host's list in the kernel's space. Errors: INVALID_ARGUMENT, naming the
+/// list, if it is NULL or of integers.
 std::vector<Vec3> read_points(const lissom_input* input, const Space& space, const char* name);
 
-/// Integers of a host's list. Errors: as above; OUT_OF_RANGE if one is no id.
+/// Returns integers of a host's list. Errors: as above; OUT_OF_RANGE if one is no id.
 std::vector<Index> read_integers(const lissom_input* input, const char* name);
 
 /// Throws OUT_OF_RANGE if a host's list has no room for `count` elements.
@@ -53,7 +53,7 @@ void write_points(const lissom_output* output, std::size_t count, const char* na
     }
 }
 
-/// Returns a text that the host must give. Errors: INVALID_ARGUMENT, naming it, if it is NULL.
+/// Returns a required text. Errors: INVALID_ARGUMENT, naming it, if it is NULL.
 std::string given_text(const char* text, const char* name);
 
 }  // namespace lissom::c

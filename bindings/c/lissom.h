@@ -1,5 +1,5 @@
-/// lissom.h: Lissom for C, and for every language that calls C. Deformation of meshes by handles,
-/// merging, pasting, hair, scripts.
+/// lissom.h: the C interface of Lissom. Deformation of meshes by handles, merging, pasting, hair,
+/// and scripts.
 ///
 ///     lissom_context_options options = lissom_default_context_options();
 ///     lissom_context* context = NULL;
@@ -12,36 +12,35 @@
 ///     lissom_context_destroy(context);                 // frees all that was made in it
 ///
 /// Calls
-///     A function that can fail returns a lissom_status; results go through the last parameters and
-///     are written only for LISSOM_OK. After any other status everything is as it was, and After
-///     any other status everything is as it was, and lissom_last_error has the text, the code and
-///     the elements concerned, until the next call with this context. Nothing is thrown, printed,
-///     and no function ends the process. Ids count from 0, angles are in radians, texts and paths
-///     are UTF-8.
+///     A function that can fail returns a lissom_status. It writes its results through the last
+///     parameters, only if it returns LISSOM_OK. After any other status nothing has changed, and
+///     lissom_last_error returns the text, the code and the elements concerned, until the next call
+///     with this context. No function throws, prints or ends the process. Ids count from 0, angles
+///     are in radians, texts and paths are UTF-8.
 ///
 /// Options
 ///     Structs of options begin with `struct_size`. Take one from its lissom_default_ function and
-///     change fields; one that is only filled with zeros is refused (LISSOM_BAD_STRUCT).
-///     NULL, if allowed, means the defaults. Later versions add fields at the end: programs
-///     that were compiled before go on working.
+///     change its fields; a struct filled with zeros is refused (LISSOM_BAD_STRUCT). If NULL is
+///     allowed it means the defaults. Later versions add fields at the end, so that programs
+///     compiled before continue to work.
 ///
 /// Objects
 ///     An object is a handle of 8 bytes, passed by value. All bits zero is no object. A handle that
 ///     was released, comes from another context or is of another kind is refused
-///     (LISSOM_INVALID_HANDLE) and never touches memory. Objects are independent: a deformer keeps
-///     its data of the mesh, which may be released. `lissom_X_release` frees one,
+///     (LISSOM_INVALID_HANDLE) and never touches memory. Objects are independent: a mesh may be
+///     released while a deformer of it is in use. `lissom_X_release` frees one,
 ///     `lissom_context_destroy` all.
 ///
 /// Threads
-///     One context and its objects are for one thread at a time; any number of contexts may be used
-///     at once. Functions marked [any thread] may be called from elsewhere at any time. Callbacks
-///     say on which thread they run. The library starts threads only if `threads` asks for them.
+///     Use a context and its objects from one thread at a time; different contexts may be used at
+///     once. Functions marked [any thread] may be called from any thread at any time. Callbacks
+///     document the thread they run on. The library starts threads only if `threads` asks for them.
 ///
 /// Space
 ///     The kernel is right-handed with y up, faces counter-clockwise seen from outside. A host with
-///     other axes says so once, in lissom_space: points, directions, transforms and triangles are
-///     converted in both directions on their way through this interface. Files keep the axes they
-///     are said to have.
+///     other axes declares them once, in lissom_space: points, directions, transforms and triangles
+///     are converted in both directions on their way through this interface. Files keep the axes
+///     given in their options.
 ///
 /// MIT license, as all of Lissom.
 #pragma once
@@ -51,12 +50,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// Prefix of every function; define it before if a shared library is built or used.
+/// Attributes of every function; define it before the include to build or use a shared library.
 #ifndef LISSOM_API
 #define LISSOM_API
 #endif
-/// Stands before functions that may still change or go in the next minor version, without a new
-/// LISSOM_ABI_VERSION. Define it as an attribute that warns to find your uses.
+/// Marks functions that the next minor version may change or remove, without a new
+/// LISSOM_ABI_VERSION. Define it as a warning attribute to find their uses.
 #ifndef LISSOM_EXPERIMENTAL
 #define LISSOM_EXPERIMENTAL
 #endif
@@ -65,9 +64,9 @@
 extern "C" {
 #endif
 
-/// Grows if a function or struct changes so that programs must be compiled again. A program that
-/// was compiled with another header than the library does not link: the number is part of the name
-/// of lissom_context_create.
+/// Incremented if programs must be compiled again after a change of a function or struct. A program
+/// compiled with another version does not link: the number is part of the name of
+/// lissom_context_create.
 #define LISSOM_ABI_VERSION 1
 #define lissom_context_create lissom_context_create_abi1
 
@@ -138,12 +137,12 @@ typedef enum lissom_element {
     LISSOM_STRAND = 8
 } lissom_element;
 
-/// Error of the last call that failed.
+/// Error of the last call.
 typedef struct lissom_error {
     lissom_status status;
     /// The name of the status in scripts and documentation: "file_not_found"; "" for LISSOM_OK.
     const char* code;
-    /// Description and remedy.
+    /// The cause of the error and its remedy.
     const char* message;
     /// Elements concerned: their kind, their true number, and the ids of the first hundred (edges:
     /// two vertices each).
@@ -153,16 +152,16 @@ typedef struct lissom_error {
     size_t id_count;
 } lissom_error;
 
-/// "file_not_found", ...; "unknown" for no status. Lives for ever. [any thread]
+/// Returns "file_not_found", ..., or "unknown" for any other number. Lives for ever. [any thread]
 LISSOM_API const char* lissom_status_name(lissom_status status);
 /// Returns a paragraph on the meaning of a status and its remedy. Lives for ever. [any thread]
 LISSOM_API const char* lissom_status_explanation(lissom_status status);
 
 // ---- Version
 
-/// 10000 * major + 100 * minor + patch of the library. [any thread]
+/// Returns 10000 * major + 100 * minor + patch of the library. [any thread]
 LISSOM_API int32_t lissom_version(void);
-/// "0.1.0". [any thread]
+/// Returns "0.1.0". [any thread]
 LISSOM_API const char* lissom_version_text(void);
 /// Returns whether scripts and lissom_call are part of this library. [any thread]
 LISSOM_API bool lissom_has_scripts(void);
@@ -177,28 +176,28 @@ typedef enum lissom_log_level {
     LISSOM_WARNING = 2
 } lissom_log_level;
 
-/// How a host's space lies to the kernel's; see above. All zero is the kernel's own.
+/// Axes and orientation of the host's space; see above. All zero is the kernel's own.
 typedef struct lissom_space {
-    /// z is up, and y points away from one who looks along it in a right-handed space.
+    /// z is up; in a right-handed space y then points away from the viewer.
     bool z_up;
     bool left_handed;
     /// Faces are clockwise seen from outside.
     bool clockwise;
 } lissom_space;
 
-/// Takes bytes; more than one call may bring a file. [called by the host]
+/// Receives bytes; a file may take several calls. [called by the host]
 typedef void lissom_sink(void* argument, const void* bytes, size_t size);
 
-/// Services of the host for a context. Each function is optional and gets `user`.
+/// Host services of a context. Each function is optional and receives `user`.
 typedef struct lissom_context_options {
     size_t struct_size;
     void* user;
     /// Receives messages, on the thread of the operation. Without it the library is silent.
     void (*log)(void* user, lissom_log_level level, const char* message);
-    /// Receives the name of the step and the fraction done, 0 to 1, on the thread of the operation.
+    /// Receives the current step and the fraction done, 0 to 1, on the thread of the operation.
     void (*progress)(void* user, const char* label, double fraction);
     /// Calls chunk(argument, i) once for each i below `count`, in any order, on any threads, and
-    /// returns when all have returned. Takes the place of threads of the library.
+    /// returns when all have returned. Replaces threads of the library.
     void (*parallel_for)(void* user, size_t count, void (*chunk)(void* argument, size_t i),
                          void* argument);
     /// Runs task(argument) once, on any thread, at once or later, and returns the argument of
@@ -207,38 +206,39 @@ typedef struct lissom_context_options {
     void* (*enqueue)(void* user, void (*task)(void* argument), void* argument);
     /// Returns once that task has returned.
     void (*wait)(void* user, void* task);
-    /// Reads a file: gives its bytes to the sink and returns true, or false if there is none. With
-    /// it the library opens no file for reading: files that a file refers to (.gltf: .bin) are
-    /// asked for likewise, by their path from the folder of that file, and so are those of scripts.
+    /// Reads a file: passes its bytes to the sink and returns true, or returns false if there is
+    /// none. With it the library opens no file for reading: files named by a file (.gltf: .bin) are
+    /// read through it too, by their path from the folder of that file, and so are files of
+    /// scripts.
     bool (*read_file)(void* user, const char* path, lissom_sink* sink, void* argument);
-    /// Writes a file, whole; false if it cannot. With it the library writes no file.
+    /// Writes a whole file; returns false on failure. With it the library writes no file.
     bool (*write_file)(void* user, const char* path, const void* bytes, size_t size);
     /// Bytes that objects and operations may take together; 0 is no limit.
     size_t memory_limit;
-    /// Threads of the library's own loops if there is no parallel_for; 1 starts none.
+    /// Threads of the library's own loops without parallel_for; 1 starts none.
     int32_t threads;
     lissom_space space;
 } lissom_context_options;
 
-/// [any thread]
+/// Returns the defaults. [any thread]
 LISSOM_API lissom_context_options lissom_default_context_options(void);
-/// Makes a context. `options` may be NULL. [any thread] Errors: BAD_STRUCT; INVALID_ARGUMENT for
-/// threads below 1, or `enqueue` without `wait`; MEMORY_LIMIT. The error is told to `log`, as there
-/// is no context to ask.
+/// Makes a context. `options` may be NULL. [any thread]
+/// Errors: BAD_STRUCT; INVALID_ARGUMENT for threads below 1, or `enqueue` without `wait`;
+/// MEMORY_LIMIT. The message of an error goes to `log`, as there is no context yet.
 LISSOM_API lissom_status lissom_context_create(const lissom_context_options* options,
                                                lissom_context** context);
 /// Cancels jobs, waits for them, and frees the context with all its objects. NULL is allowed.
 LISSOM_API void lissom_context_destroy(lissom_context* context);
-/// Never NULL; of status LISSOM_OK if the last call succeeded.
+/// Returns the error of the last call; never NULL, and of status LISSOM_OK if it succeeded.
 LISSOM_API const lissom_error* lissom_last_error(const lissom_context* context);
-/// Asks running operations to stop: they return CANCELLED soon and have changed nothing. Operations
-/// that begin later stop too, until lissom_clear_cancel. [any thread]
+/// Stops running calls: they return CANCELLED soon and change nothing. Later calls stop too, until
+/// lissom_clear_cancel. [any thread]
 LISSOM_API void lissom_cancel(lissom_context* context);
 LISSOM_API void lissom_clear_cancel(lissom_context* context);
-/// Bytes taken now, and at most so far, of objects and operations. [any thread]
+/// Return the bytes in use by objects and operations, and their peak so far. [any thread]
 LISSOM_API size_t lissom_memory_used(const lissom_context* context);
 LISSOM_API size_t lissom_memory_peak(const lissom_context* context);
-/// Number of objects that were not released.
+/// Returns the number of objects that were not released.
 LISSOM_API size_t lissom_object_count(const lissom_context* context);
 
 // ---- Data of the host
@@ -261,8 +261,8 @@ typedef struct lissom_input {
 } lissom_input;
 
 /// A list in the host's memory that is written: mapped vertex buffers too, as nothing is read from
-/// it. `count` is the number of elements there is room for; if it is too small the call is refused
-/// as OUT_OF_RANGE. The functions that tell the number stand beside.
+/// it. `count` is its capacity in elements; if it is too small the call is refused as OUT_OF_RANGE.
+/// The required number is returned by the neighbouring functions.
 typedef struct lissom_output {
     void* data;
     size_t count;
@@ -270,7 +270,7 @@ typedef struct lissom_output {
     lissom_format format;
 } lissom_output;
 
-/// Bytes that the library made; a zero byte follows them, for texts. They live until the next call
+/// Bytes made by the library, followed by a zero byte, for texts. They live until the next call
 /// with the context.
 typedef struct lissom_bytes {
     const void* data;
@@ -282,7 +282,7 @@ typedef struct lissom_transform {
     double m[12];
 } lissom_transform;
 
-/// [any thread]
+/// Returns the identity map. [any thread]
 LISSOM_API lissom_transform lissom_identity(void);
 
 // ---- Kinds of objects
@@ -314,7 +314,7 @@ typedef struct lissom_job {
 typedef struct lissom_script {
     uint64_t id;
 } lissom_script;
-/// An object that only scripts and lissom_call know: a path, a curve, a scene, ...
+/// An object of scripts and lissom_call alone: a path, a curve, a scene, ...
 typedef struct lissom_object {
     uint64_t id;
 } lissom_object;
@@ -344,13 +344,13 @@ LISSOM_API lissom_status lissom_object_release(lissom_context* context, lissom_o
 
 // ---- Jobs
 //
-// Functions with `begin` in their name start long operations and return at once if the host has
-// given `enqueue`. Objects that the job works with are BUSY until it is finished. Progress and log
-// are told on the thread that the host runs the job on.
+// Functions with `begin` in their name start a job and return at once if the host has given
+// `enqueue`. Objects that the job works with are BUSY until it is finished. Progress and log are
+// called on the thread that the host runs the job on.
 
 typedef enum lissom_job_state { LISSOM_JOB_RUNNING = 0, LISSOM_JOB_DONE = 1 } lissom_job_state;
 
-/// Returns whether the job has ended, well or badly. Does not wait. [any thread]
+/// Receives whether the job has ended, successfully or not. Does not wait. [any thread]
 LISSOM_API lissom_status lissom_job_poll(const lissom_context* context, lissom_job job,
                                          lissom_job_state* state);
 /// Asks this job alone to stop; finish it all the same. [any thread]
@@ -374,11 +374,11 @@ typedef enum lissom_weld {
 typedef struct lissom_mesh_load_options {
     size_t struct_size;
     lissom_weld weld;
-    /// false: each repair is an error instead.
+    /// Repairs the mesh; if false, defects are errors.
     bool repair;
     /// The file's z axis is up.
     bool z_up;
-    /// Length of the file's unit in the mesh's; above 0.
+    /// Length of the file's unit in units of the mesh; above 0.
     double unit;
 } lissom_mesh_load_options;
 
@@ -393,26 +393,26 @@ typedef struct lissom_mesh_save_options {
 LISSOM_API lissom_mesh_load_options lissom_default_mesh_load_options(void);
 LISSOM_API lissom_mesh_save_options lissom_default_mesh_save_options(void);
 
-/// A mesh of positions (triples) and faces. `corners` are the vertices of all faces one after the
-/// other (integers); `sizes` how many each face has (integers), or NULL if all are triangles.
-/// Accepts oriented 2-manifolds of polygons, with or without boundary. Errors: NOT_FINITE;
-/// FACE_INDEX, FACE_TOO_SMALL, REPEATED_VERTEX, DUPLICATE_FACE, NONMANIFOLD_EDGE,
+/// Makes a mesh of positions (triples) and faces. `corners` are the vertices of all faces one after
+/// the other (integers); `sizes` are their numbers per face (integers), or NULL if all are
+/// triangles. Accepts oriented 2-manifolds of polygons, with or without boundary. Errors:
+/// NOT_FINITE; FACE_INDEX, FACE_TOO_SMALL, REPEATED_VERTEX, DUPLICATE_FACE, NONMANIFOLD_EDGE,
 /// NONMANIFOLD_VERTEX, INCONSISTENT_ORIENTATION, each naming the elements; INVALID_ARGUMENT if
 /// sizes and corners do not fit; CANCELLED; MEMORY_LIMIT.
 LISSOM_API lissom_status lissom_mesh_create(lissom_context* context, const lissom_input* positions,
                                             const lissom_input* corners, const lissom_input* sizes,
                                             lissom_mesh* mesh);
-/// Loads .obj .ply .off .stl .gltf .glb. `options` may be NULL. Repairs go to the log. Errors:
-/// FILE_NOT_FOUND, UNKNOWN_FORMAT, FILE_SYNTAX, ... as lissom_status lists them.
+/// Loads .obj .ply .off .stl .gltf .glb. `options` may be NULL. Repairs are listed in the log.
+/// Errors: FILE_NOT_FOUND, UNKNOWN_FORMAT, FILE_SYNTAX, ... as lissom_status lists them.
 LISSOM_API lissom_status lissom_mesh_load(lissom_context* context, const char* path,
                                           const lissom_mesh_load_options* options,
                                           lissom_mesh* mesh);
-/// The same from the bytes of a file; `extension` is "obj", "glb", ...
+/// Reads a mesh from the bytes of a file; `extension` is "obj", "glb", ...
 LISSOM_API lissom_status lissom_mesh_decode(lissom_context* context, const void* bytes, size_t size,
                                             const char* extension,
                                             const lissom_mesh_load_options* options,
                                             lissom_mesh* mesh);
-/// Saves by extension, whole or not at all. Losses of the format are named in the log.
+/// Saves by extension, whole or not at all. Data that the format cannot hold is named in the log.
 LISSOM_API lissom_status lissom_mesh_save(lissom_context* context, lissom_mesh mesh,
                                           const char* path,
                                           const lissom_mesh_save_options* options);
@@ -423,29 +423,29 @@ LISSOM_API lissom_status lissom_mesh_encode(lissom_context* context, lissom_mesh
 LISSOM_API lissom_status lissom_mesh_copy(lissom_context* context, lissom_mesh mesh,
                                           lissom_mesh* copy);
 
-/// Return numbers of elements; -1 for an invalid handle. Triangles are those of the split
-/// polygons.
+/// Return numbers of elements, or -1 for an invalid handle. Polygons are counted as their
+/// triangles.
 LISSOM_API int32_t lissom_mesh_vertex_count(lissom_context* context, lissom_mesh mesh);
 LISSOM_API int32_t lissom_mesh_face_count(lissom_context* context, lissom_mesh mesh);
 LISSOM_API int32_t lissom_mesh_corner_count(lissom_context* context, lissom_mesh mesh);
 LISSOM_API int32_t lissom_mesh_triangle_count(lissom_context* context, lissom_mesh mesh);
 LISSOM_API int32_t lissom_mesh_boundary_count(lissom_context* context, lissom_mesh mesh);
 
-/// One triple a vertex. Normals are of unit length, weighted by the angles of faces; zero if no
-/// face has area.
+/// Write one triple a vertex. Normals are of unit length, weighted by the angles of faces; zero if
+/// no face of the vertex has area.
 LISSOM_API lissom_status lissom_mesh_read_positions(lissom_context* context, lissom_mesh mesh,
                                                     const lissom_output* positions);
 LISSOM_API lissom_status lissom_mesh_read_normals(lissom_context* context, lissom_mesh mesh,
                                                   const lissom_output* normals);
-/// Triples of vertices, one a triangle (integers).
+/// Writes triples of vertices, one a triangle (integers).
 LISSOM_API lissom_status lissom_mesh_read_triangles(lissom_context* context, lissom_mesh mesh,
                                                     const lissom_output* triangles);
-/// The vertices of all faces, one integer a corner, and the number of corners of each. Either may
-/// be NULL.
+/// Writes the vertices of all faces, one integer a corner, and the number of corners of each.
+/// Either may be NULL.
 LISSOM_API lissom_status lissom_mesh_read_faces(lissom_context* context, lissom_mesh mesh,
                                                 const lissom_output* corners,
                                                 const lissom_output* sizes);
-/// The vertices of open boundary `number`, in order. `count` receives how many there are;
+/// Writes the vertices of open boundary `number`, in order. `count` receives their number;
 /// `vertices` may be NULL to ask for that alone. Errors: OUT_OF_RANGE.
 LISSOM_API lissom_status lissom_mesh_read_boundary(lissom_context* context, lissom_mesh mesh,
                                                    int32_t number, const lissom_output* vertices,
@@ -457,10 +457,10 @@ LISSOM_API lissom_status lissom_mesh_set_positions(lissom_context* context, liss
 /// NOT_FINITE.
 LISSOM_API lissom_status lissom_mesh_transform(lissom_context* context, lissom_mesh mesh,
                                                const lissom_transform* map);
-/// Least and greatest coordinates. Errors: MESH_EMPTY.
+/// Receives the least and greatest coordinates. Errors: MESH_EMPTY.
 LISSOM_API lissom_status lissom_mesh_bounds(lissom_context* context, lissom_mesh mesh,
                                             double least[3], double greatest[3]);
-/// A hash of all content, the same on every platform; equal meshes have equal hashes.
+/// Receives a hash of all content, the same on every platform; equal meshes have equal hashes.
 LISSOM_API lissom_status lissom_mesh_hash(lissom_context* context, lissom_mesh mesh,
                                           uint64_t* hash);
 
@@ -469,7 +469,7 @@ LISSOM_API lissom_status lissom_mesh_hash(lissom_context* context, lissom_mesh m
 
 LISSOM_API lissom_status lissom_region_all(lissom_context* context, lissom_mesh mesh,
                                            lissom_region* region);
-/// Makes the region of a list of ids (integers), in any order. Errors: OUT_OF_RANGE naming the
+/// Makes a region of a list of ids (integers), in any order. Errors: OUT_OF_RANGE naming the
 /// vertices.
 LISSOM_API lissom_status lissom_region_of_vertices(lissom_context* context, lissom_mesh mesh,
                                                    const lissom_input* vertices,
@@ -480,15 +480,15 @@ LISSOM_API lissom_status lissom_region_sphere(lissom_context* context, lissom_me
 LISSOM_API lissom_status lissom_region_box(lissom_context* context, lissom_mesh mesh,
                                            const double least[3], const double greatest[3],
                                            lissom_region* region);
-/// On the side of a plane that `normal` points to.
+/// Vertices on the side of a plane that `normal` points to.
 LISSOM_API lissom_status lissom_region_plane(lissom_context* context, lissom_mesh mesh,
                                              const double point[3], const double normal[3],
                                              lissom_region* region);
-/// Within `radius` over the surface from the vertex nearest to `point`.
+/// Vertices within `radius` over the surface from the vertex nearest to `point`.
 LISSOM_API lissom_status lissom_region_geodesic(lissom_context* context, lissom_mesh mesh,
                                                 const double point[3], double radius,
                                                 lissom_region* region);
-/// A region that the mesh was saved with, or was given. Errors: OUT_OF_RANGE if there is none.
+/// Finds a region saved with the mesh or set below. Errors: OUT_OF_RANGE if there is none.
 LISSOM_API lissom_status lissom_region_named(lissom_context* context, lissom_mesh mesh,
                                              const char* name, lissom_region* region);
 /// Keeps a region with its mesh under a name; it is saved if the format can.
@@ -510,9 +510,9 @@ LISSOM_API lissom_status lissom_region_invert(lissom_context* context, lissom_re
 /// Adds `rings` one-rings, or removes as many if negative.
 LISSOM_API lissom_status lissom_region_grow(lissom_context* context, lissom_region a, int32_t rings,
                                             lissom_region* region);
-/// -1 for an invalid handle.
+/// Returns the number of vertices, or -1 for an invalid handle.
 LISSOM_API int32_t lissom_region_size(lissom_context* context, lissom_region region);
-/// Ascending ids (integers).
+/// Writes ascending ids (integers).
 LISSOM_API lissom_status lissom_region_read_vertices(lissom_context* context, lissom_region region,
                                                      const lissom_output* vertices);
 
@@ -527,12 +527,12 @@ typedef enum lissom_second_system {
 typedef struct lissom_deformer_options {
     size_t struct_size;
     lissom_second_system second;
-    /// Details scale with the surface around them (Eq 2.11) in place of keeping their size
-    /// (Eq 2.10).
+    /// Scale details with the surface around them (Eq 2.11) in place of keeping their size (Eq
+    /// 2.10).
     bool scale_details;
     /// ARAP iterations, over-relaxed, 0 to 2.
     int32_t refine;
-    /// Within this geodesic distance of the region's outline the deformation fades; in units of
+    /// Geodesic distance from the region's outline within which the deformation fades; in units of
     /// length.
     double transition;
     /// The thesis to the letter, for comparison.
@@ -553,16 +553,16 @@ typedef struct lissom_handle_options {
 LISSOM_API lissom_deformer_options lissom_default_deformer_options(void);
 LISSOM_API lissom_handle_options lissom_default_handle_options(void);
 
-/// Takes the present shape of the mesh as rest shape, of which `region` is deformed; outside it
-/// nothing moves. Errors: REGION_EMPTY; TOPOLOGY_MISMATCH; INVALID_ARGUMENT.
+/// Makes a deformer of `region`, with the present shape of the mesh as rest shape. Vertices outside
+/// of the region do not move. Errors: REGION_EMPTY; TOPOLOGY_MISMATCH; INVALID_ARGUMENT.
 LISSOM_API lissom_status lissom_deformer_create(lissom_context* context, lissom_mesh mesh,
                                                 lissom_region region,
                                                 const lissom_deformer_options* options,
                                                 lissom_deformer* deformer);
-/// Adds a handle: vertices that move as one. It stands still until lissom_deformer_set_transform;
-/// one that is never moved holds its place. `handle` numbers the handles of this deformer from 0;
-/// messages count them from 1. Errors: REGION_EMPTY; HANDLE_OUTSIDE_REGION; HANDLE_OVERLAP, naming
-/// the vertices.
+/// Adds a handle: vertices that move rigidly together. It stays in place until it gets a transform
+/// by lissom_deformer_set_transform. `handle` numbers the handles of this deformer from 0; messages
+/// count them from 1. Errors: REGION_EMPTY; HANDLE_OUTSIDE_REGION; HANDLE_OVERLAP, naming the
+/// vertices.
 LISSOM_API lissom_status lissom_deformer_add_handle(lissom_context* context,
                                                     lissom_deformer deformer,
                                                     lissom_region vertices,
@@ -570,19 +570,19 @@ LISSOM_API lissom_status lissom_deformer_add_handle(lissom_context* context,
                                                     int32_t* handle);
 LISSOM_API lissom_status lissom_deformer_remove_handle(lissom_context* context,
                                                        lissom_deformer deformer, int32_t handle);
-/// Mean of the handle's vertices at rest.
+/// Receives the mean of the handle's vertices at rest.
 LISSOM_API lissom_status lissom_deformer_handle_center(lissom_context* context,
                                                        lissom_deformer deformer, int32_t handle,
                                                        double center[3]);
-/// Sets the target transform of the handle, from the rest shape. A drag through half a turn goes on
-/// turning. Errors: SINGULAR_TRANSFORM; HANDLE_REMOVED.
+/// Sets the transform of a handle from its rest shape. Rotations continue beyond half a turn.
+/// Errors: SINGULAR_TRANSFORM; HANDLE_REMOVED.
 LISSOM_API lissom_status lissom_deformer_set_transform(lissom_context* context,
                                                        lissom_deformer deformer, int32_t handle,
                                                        const lissom_transform* transform);
 LISSOM_API lissom_status lissom_deformer_get_transform(lissom_context* context,
                                                        lissom_deformer deformer, int32_t handle,
                                                        lissom_transform* transform);
-/// Holds one vertex at a point; weight 0 is hard. Errors: OUT_OF_RANGE; HANDLE_OUTSIDE_REGION;
+/// Constrains one vertex to a point; weight 0 is hard. Errors: OUT_OF_RANGE; HANDLE_OUTSIDE_REGION;
 /// HANDLE_OVERLAP.
 LISSOM_API lissom_status lissom_deformer_constrain(lissom_context* context,
                                                    lissom_deformer deformer, int32_t vertex,
@@ -602,26 +602,25 @@ typedef enum lissom_quality {
     LISSOM_FULL = 2      ///< both systems
 } lissom_quality;
 
-/// Finds the surface for the present transforms. Prepares if needed. Errors: as prepare.
+/// Computes the surface for the present transforms. Prepares if needed. Errors: as prepare.
 LISSOM_API lissom_status lissom_deformer_solve(lissom_context* context, lissom_deformer deformer,
                                                lissom_quality quality);
 LISSOM_API lissom_status lissom_deformer_begin_solve(lissom_context* context,
                                                      lissom_deformer deformer,
                                                      lissom_quality quality, lissom_job* job);
-/// Return the vertices of the region, ascending ids (integers), and their number: the rows of the
-/// lists below.
+/// Return the number of vertices of the region, and their ascending ids (integers): the rows below.
 LISSOM_API int32_t lissom_deformer_row_count(lissom_context* context, lissom_deformer deformer);
 LISSOM_API lissom_status lissom_deformer_read_rows(lissom_context* context,
                                                    lissom_deformer deformer,
                                                    const lissom_output* vertices);
-/// Positions of the region after the last solve, one triple a row: the changes of a frame of a
-/// drag.
+/// Writes the positions of the region after the last solve, one triple a row: the update of a frame
+/// of a drag.
 LISSOM_API lissom_status lissom_deformer_read_positions(lissom_context* context,
                                                         lissom_deformer deformer,
                                                         const lissom_output* positions);
-/// Unit normals of the surface at the same rows, weighted by the angles of faces as those of
-/// lissom_mesh_read_normals are: read them beside the positions of a frame. Vertices outside the
-/// region but next to it keep their place; their normals turn only with the faces they share.
+/// Writes unit normals of the surface at the same rows, weighted by the angles of faces as in
+/// lissom_mesh_read_normals: read them beside the positions of a frame. Vertices outside the region
+/// but next to it keep their place; their normals turn only with the faces they share.
 LISSOM_API lissom_status lissom_deformer_read_normals(lissom_context* context,
                                                       lissom_deformer deformer,
                                                       const lissom_output* normals);
@@ -630,11 +629,11 @@ LISSOM_API lissom_status lissom_deformer_read_normals(lissom_context* context,
 /// region.
 LISSOM_API lissom_status lissom_deformer_apply(lissom_context* context, lissom_deformer deformer,
                                                lissom_mesh mesh);
-/// All handles and the surface back to rest.
+/// Returns all handles and the surface to rest.
 LISSOM_API lissom_status lissom_deformer_reset(lissom_context* context, lissom_deformer deformer);
-/// The last result becomes the rest shape, on which handles stay.
+/// Makes the last result the rest shape; handles stay in place on it.
 LISSOM_API lissom_status lissom_deformer_rebase(lissom_context* context, lissom_deformer deformer);
-/// The handle basis as a file has it: lissom_basis.h evaluates it into vertex buffers without the
+/// Encodes the handle basis as a file: lissom_basis.h evaluates it into vertex buffers without the
 /// library, on any thread, and so does a vertex shader. Errors: as prepare.
 LISSOM_API lissom_status lissom_deformer_encode_basis(lissom_context* context,
                                                       lissom_deformer deformer,
@@ -669,7 +668,7 @@ LISSOM_API lissom_status lissom_cut_by_region(lissom_context* context, lissom_me
 /// Two open boundaries that become one, and points that meet: pairs of triples, one pair a key.
 typedef struct lissom_join {
     int32_t source_boundary;
-    /// Which of the targets, and which of its boundaries.
+    /// Number of the target, and of its boundary.
     int32_t target;
     int32_t target_boundary;
     /// `key_count` points on the source's boundary and as many on the target's; may be NULL for
@@ -681,15 +680,15 @@ typedef struct lissom_join {
 
 typedef struct lissom_merge_options {
     size_t struct_size;
-    /// The source keeps its place and bends, in place of moving to the target.
+    /// Bends the source in place; otherwise it is moved to the target first.
     bool fixed_configuration;
     /// Umbrella steps at the seam, at most.
     int32_t smooth;
-    /// Remesh beside a seam if one side is sparser.
+    /// Remeshes beside a seam whose sides differ in density.
     bool collar;
     /// Chooses widths over which the details of both sides fade into each other.
     bool transition;
-    /// Look for faces that newly run through one another.
+    /// Finds new self-intersections.
     bool find_intersections;
     /// The thesis to the letter, for comparison.
     bool thesis;
@@ -700,12 +699,12 @@ typedef struct lissom_merge_report {
     size_t struct_size;
     /// Whether the seams are good.
     bool ok;
-    /// How much the source grew at the first join.
+    /// Scale of the source at the first join.
     double scale;
     /// Steepest dihedral angle at the seams, in radians.
     double greatest_dihedral;
     int32_t intersections;
-    /// Why the seams are not good, in a line; warnings, one a line. They live until the next call.
+    /// The fault of the seams, in a line; warnings, one a line. They live until the next call.
     const char* verdict;
     const char* warnings;
 } lissom_merge_report;
@@ -725,10 +724,11 @@ LISSOM_API lissom_status lissom_merge_create(lissom_context* context, lissom_mes
 LISSOM_API lissom_status lissom_merge_set_keys(lissom_context* context, lissom_merge merge,
                                                int32_t join, const double* source_keys,
                                                const double* target_keys, int32_t key_count);
-/// Makes the merged mesh. `report` may be NULL. Errors: KEY_CONFLICT; BOUNDARY_CONFLICT; CANCELLED.
+/// Computes the merged mesh. `report` may be NULL. Errors: KEY_CONFLICT; BOUNDARY_CONFLICT;
+/// CANCELLED.
 LISSOM_API lissom_status lissom_merge_solve(lissom_context* context, lissom_merge merge,
                                             lissom_mesh* mesh, lissom_merge_report* report);
-/// The same as a job, whose result is a mesh.
+/// Starts the solve as a job, whose result is a mesh.
 LISSOM_API lissom_status lissom_merge_begin_solve(lissom_context* context, lissom_merge merge,
                                                   lissom_job* job);
 
@@ -736,13 +736,13 @@ LISSOM_API lissom_status lissom_merge_begin_solve(lissom_context* context, lisso
 
 typedef struct lissom_placement {
     size_t struct_size;
-    /// The middle of the feature comes to lie on the point of the target nearest to this.
+    /// Position of the middle of the feature, projected to the nearest point of the target.
     double at[3];
-    /// Direction on the target that the source's `up` is to point; all zero: the same as on the
+    /// Direction on the target of the source's `up`; all zero: the same as on the
     /// source.
     double toward[3];
     double up[3];
-    /// Turn about the surface's normal, from `toward`; NAN: the best fit.
+    /// Rotation about the surface's normal, from `toward`; NAN: the best fit.
     double angle;
     double scale;
 } lissom_placement;
@@ -750,21 +750,21 @@ typedef struct lissom_placement {
 LISSOM_API lissom_placement lissom_default_placement(void);
 
 /// Prepares the paste of the feature in `region` of `source` onto `target`. `feature` and `onto`
-/// may be zero: the deep part of the region, and a disk around the placement. Errors:
+/// may be zero: the inner part of the region, and a disk around the placement. Errors:
 /// TOPOLOGY_MISMATCH, REGION_EMPTY, BOUNDARY_CONFLICT, NOT_A_DISK naming elements; CANCELLED.
 LISSOM_EXPERIMENTAL LISSOM_API lissom_status
 lissom_paste_create(lissom_context* context, lissom_mesh source, lissom_mesh target,
                     lissom_region region, lissom_region feature, lissom_region onto,
                     const lissom_placement* placement, lissom_paste* paste);
-/// Seeks the loop that merges with the least distortion.
+/// Optimizes the loop for the least distortion.
 LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_optimize(lissom_context* context,
                                                                    lissom_paste paste,
                                                                    int32_t iterations);
-/// Places the part anew; after an error the last good placement stays.
+/// Replaces the placement; after an error the last good placement stays.
 LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_move(lissom_context* context,
                                                                lissom_paste paste,
                                                                const lissom_placement* placement);
-/// Makes the target with the feature. `report` may be NULL.
+/// Computes the target with the feature. `report` may be NULL.
 LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_merge(lissom_context* context,
                                                                 lissom_paste paste,
                                                                 lissom_mesh* mesh,
@@ -775,13 +775,13 @@ LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_merge(lissom_context* 
 
 typedef struct lissom_hairstyle_options {
     size_t struct_size;
-    /// Points of the grid that the field lives on, at most.
+    /// Maximum number of points of the field's grid.
     int32_t resolution;
-    /// Metres in one unit of the head's mesh; 0: guessed.
+    /// Metres in one unit of the head's mesh; 0: estimated.
     double unit;
-    /// Skin with hair; zero: the mesh's region "scalp", or the skin above the hairline.
+    /// Region of roots; zero: the mesh's region "scalp", or the part above the hairline.
     lissom_region scalp;
-    /// Directions of the head in the mesh; all zero: guessed.
+    /// Directions of the head in the mesh; all zero: estimated.
     double up[3];
     double front[3];
 } lissom_hairstyle_options;
@@ -798,19 +798,20 @@ typedef struct lissom_grow_options {
 LISSOM_API lissom_hairstyle_options lissom_default_hairstyle_options(void);
 LISSOM_API lissom_grow_options lissom_default_grow_options(void);
 
-/// A style without curves on a head. Errors: INVALID_ARGUMENT; MESH_EMPTY; MEMORY_LIMIT; CANCELLED.
+/// Makes a style without curves. Errors: INVALID_ARGUMENT; MESH_EMPTY; MEMORY_LIMIT; CANCELLED.
 LISSOM_API lissom_status lissom_hairstyle_create(lissom_context* context, lissom_mesh head,
                                                  const lissom_hairstyle_options* options,
                                                  lissom_hairstyle* style);
-/// A style of a file's text (JSON), on any head.
+/// Reads a style from a file's text (JSON), onto any head.
 LISSOM_API lissom_status lissom_hairstyle_decode(lissom_context* context, const void* text,
                                                  size_t size, lissom_mesh head,
                                                  const lissom_hairstyle_options* options,
                                                  lissom_hairstyle* style);
 LISSOM_API lissom_status lissom_hairstyle_encode(lissom_context* context, lissom_hairstyle style,
                                                  lissom_bytes* text);
-/// The point of the head in a direction from its middle, `lift` metres of an average head above it:
-/// azimuth 0 in front and pi / 2 at the head's left, elevation pi / 2 up. Errors: OUT_OF_RANGE.
+/// Receives the point of the head in a direction from its middle, `lift` metres of an average head
+/// above it: azimuth 0 in front and pi / 2 at the head's left, elevation pi / 2 up. Errors:
+/// OUT_OF_RANGE.
 LISSOM_API lissom_status lissom_hairstyle_at(lissom_context* context, lissom_hairstyle style,
                                              double azimuth, double elevation, double lift,
                                              double point[3]);
@@ -834,23 +835,23 @@ LISSOM_API lissom_status lissom_curve_enable(lissom_context* context, lissom_hai
                                              int32_t curve, bool on);
 LISSOM_API lissom_status lissom_curve_remove(lissom_context* context, lissom_hairstyle style,
                                              int32_t curve);
-/// Numbers of all curves in order (integers), and how many there are.
+/// Return the number of curves, and the numbers of all curves in order (integers).
 LISSOM_API int32_t lissom_hairstyle_curve_count(lissom_context* context, lissom_hairstyle style);
 LISSOM_API lissom_status lissom_hairstyle_read_curves(lissom_context* context,
                                                       lissom_hairstyle style,
                                                       const lissom_output* curves);
-/// The direction of hair at a point. Errors: INVALID_ARGUMENT before a solve.
+/// Receives the direction of hair at a point. Errors: INVALID_ARGUMENT before a solve.
 LISSOM_API lissom_status lissom_hairstyle_field(lissom_context* context, lissom_hairstyle style,
                                                 const double point[3], double direction[3]);
-/// Brings the field up to date; lissom_hairstyle_grow does so by itself.
+/// Updates the field; lissom_hairstyle_grow does so by itself.
 LISSOM_API lissom_status lissom_hairstyle_solve(lissom_context* context, lissom_hairstyle style);
-/// Grows hair into new strands, or, if `strands` is valid, in place of its strands, whose memory is
-/// used again: set it to zero before the first call. Errors: INVALID_ARGUMENT without a curve;
+/// Grows hair into new strands. If `strands` is valid its content is replaced and its memory
+/// reused: set it to zero before the first call. Errors: INVALID_ARGUMENT without a curve;
 /// CANCELLED.
 LISSOM_API lissom_status lissom_hairstyle_grow(lissom_context* context, lissom_hairstyle style,
                                                const lissom_grow_options* options,
                                                lissom_strands* strands);
-/// The same as a job, whose result is new strands.
+/// Starts the growth as a job, whose result is new strands.
 LISSOM_API lissom_status lissom_hairstyle_begin_grow(lissom_context* context,
                                                      lissom_hairstyle style,
                                                      const lissom_grow_options* options,
@@ -858,16 +859,17 @@ LISSOM_API lissom_status lissom_hairstyle_begin_grow(lissom_context* context,
 
 // ---- Strands
 
-/// Strand s has the points offsets[s] to offsets[s + 1] - 1 (integers, one more than strands).
+/// Makes strands. Strand s has the points offsets[s] to offsets[s + 1] - 1 (integers, one more than
+/// strands).
 LISSOM_API lissom_status lissom_strands_create(lissom_context* context, const lissom_input* points,
                                                const lissom_input* offsets,
                                                lissom_strands* strands);
-/// .hair, .data, .usda; written also .rib, .glb, .obj. In metres.
+/// Load .hair, .data, .usda; save also .rib, .glb, .obj. Files are in metres.
 LISSOM_API lissom_status lissom_strands_load(lissom_context* context, const char* path,
                                              lissom_strands* strands);
 LISSOM_API lissom_status lissom_strands_save(lissom_context* context, lissom_strands strands,
                                              const char* path);
-/// -1 for an invalid handle.
+/// Return the numbers of strands and of points, or -1 for an invalid handle.
 LISSOM_API int32_t lissom_strands_size(lissom_context* context, lissom_strands strands);
 LISSOM_API int32_t lissom_strands_point_count(lissom_context* context, lissom_strands strands);
 LISSOM_API lissom_status lissom_strands_read_points(lissom_context* context, lissom_strands strands,
@@ -876,29 +878,31 @@ LISSOM_API lissom_status lissom_strands_read_offsets(lissom_context* context,
                                                      lissom_strands strands,
                                                      const lissom_output* offsets);
 
-// ---- Scripts, and everything else. If the library was built without Lua these return UNSUPPORTED.
+// ---- Scripts, and everything else. These return UNSUPPORTED if the library was built without
+// Lua.
 //
 // A context runs its scripts in one Lua state of its own, whose memory counts to the context. They
-// have Lua's libraries, except functions that would end the process (os.exit) or write to its
-// output (print goes to the log), and the `lissom` of the reference, in the kernel's space. The
-// library opens files for them as for the host; Lua's own io opens any. They speak Lua's way: ids
-// count from 1, angles are in degrees.
+// have Lua's libraries, except functions that end the process (os.exit) or write to its output
+// (print goes to the log), and the `lissom` of the reference, in the kernel's space. The library
+// opens files for them as for the host; Lua's own io opens any. Their ids count from 1 and their
+// angles are in degrees.
 
-/// Rights of untrusted scripts. Times and instructions are those of one run or call; 0 is no limit.
+/// Limits of untrusted scripts. Times and instructions are for one run or call; 0 is no
+/// limit.
 typedef struct lissom_sandbox_options {
     size_t struct_size;
     /// Wall time.
     double seconds;
     /// Instructions of Lua's virtual machine, counted in hundreds.
     int64_t instructions;
-    /// Bytes that Lua and the library's work for scripts may take together; they count to the
+    /// Bytes for Lua, objects of scripts and their operations, all together; they count to the
     /// context too.
     size_t memory;
-    /// Bytes that are printed and written to files, all together. A file is counted when it is
-    /// there, so that the last one may go beyond.
+    /// Bytes that are printed and written to files, all together. A file is counted after it is
+    /// written, so that the last one may exceed the limit.
     size_t output;
     /// Folders below which files may be read and written, and searched by `require` for NAME.lua.
-    /// Without any, none may, but those of read_file and write_file, which then decide.
+    /// Without folders no file may, except by read_file and write_file, which then decide.
     const char* const* read_folders;
     const char* const* write_folders;
     const char* const* module_folders;
@@ -907,44 +911,44 @@ typedef struct lissom_sandbox_options {
     int32_t module_folder_count;
 } lissom_sandbox_options;
 
-/// 10 seconds, any number of instructions, 256 MiB of memory, 64 MiB of output, no folders.
+/// Returns 10 seconds, any number of instructions, 256 MiB of memory, 64 MiB of output, no folders.
 /// [any thread]
 LISSOM_API lissom_sandbox_options lissom_default_sandbox_options(void);
 /// Runs the scripts and calls of this context in a sandbox from now on: with Lua's language,
 /// strings, tables, numbers and coroutines, and the library, but without the system, without binary
-/// chunks, and within limits that hold for any script. One that reaches the time, the instructions
-/// or the output is CANCELLED, one that needs too much memory gets MEMORY_LIMIT, and the next one
-/// runs. `options` may be NULL. Errors: BAD_STRUCT; INVALID_ARGUMENT after a script or call, or for
-/// limits below 0; MEMORY_LIMIT.
+/// chunks, and within fixed limits. A script that exceeds the time, the instructions or the output
+/// is CANCELLED; one that exceeds the memory gets MEMORY_LIMIT; the next one runs. `options` may be
+/// NULL. Errors: BAD_STRUCT; INVALID_ARGUMENT after a script or call, or for limits below 0;
+/// MEMORY_LIMIT.
 LISSOM_API lissom_status lissom_sandbox_scripts(lissom_context* context,
                                                 const lissom_sandbox_options* options);
 
-/// Loads a script, as `name` in messages, and runs it up to the declaration of its parameters: none
-/// of its work. Errors: SCRIPT_ERROR.
+/// Loads a script, as `name` in messages, and runs it only until it declares its parameters.
+/// Errors: SCRIPT_ERROR.
 LISSOM_API lissom_status lissom_script_load(lissom_context* context, const char* text, size_t size,
                                             const char* name, lissom_script* script);
-/// Returns the parameters that the script declares, as JSON: a list of {"name", "type", "default",
-/// "value", "min", "max", "step", "choices", "unit", "group", "help"}; [] if it declares none.
+/// Receives the parameters of the script as JSON: a list of {"name", "type", "default", "value",
+/// "min", "max", "step", "choices", "unit", "group", "help"}; [] if it has none.
 LISSOM_API lissom_status lissom_script_parameters(lissom_context* context, lissom_script script,
                                                   lissom_bytes* json);
-/// Sets a parameter by its text, as a command line does. Errors: INVALID_ARGUMENT for one that the
-/// script has not, naming the nearest, or for a value that it refuses.
+/// Sets a parameter by its text, as a command line does. Errors: INVALID_ARGUMENT for an unknown
+/// parameter, naming the nearest, or for a value that it refuses.
 LISSOM_API lissom_status lissom_script_set(lissom_context* context, lissom_script script,
                                            const char* parameter, const char* value);
-/// Runs the script. `arguments` is a JSON list of the values of `...`, in the way of lissom_call,
-/// or NULL. `json` receives the list of its results; it may be NULL. Errors: SCRIPT_ERROR with file
-/// and line; CANCELLED; MEMORY_LIMIT; INVALID_ARGUMENT for bad JSON.
+/// Runs the script. `arguments` is a JSON list of its arguments `...`, in the format of
+/// lissom_call, or NULL. `json` receives the list of its results; it may be NULL. Errors:
+/// SCRIPT_ERROR with file and line; CANCELLED; MEMORY_LIMIT; INVALID_ARGUMENT for bad JSON.
 LISSOM_API lissom_status lissom_script_run(lissom_context* context, lissom_script script,
                                            const char* arguments, lissom_bytes* json);
 
-/// Calls anything of the Lua reference. `name` is "shapes.box", or "Mesh.smooth" for a method.
-/// `arguments` is a JSON list: of a method the object first, then the arguments by position and the
-/// table of options, as the reference has them. An object is {"object": ID} with the `id` of a
-/// handle, which is the object itself and no copy. `json` receives the list of results in the same
-/// way, objects with "type": "lissom.Mesh", ...: lissom.Mesh, Region, Deformation, Hairstyle and
-/// Strands are handles of those kinds, all others of lissom_object. Release objects that you no
-/// longer need. Errors: OUT_OF_RANGE for an unknown name, with the nearest; INVALID_ARGUMENT for
-/// bad JSON or arguments; INVALID_HANDLE; those of the function.
+/// Calls any function of the Lua reference. `name` is "shapes.box", or "Mesh.smooth" for a method.
+/// `arguments` is a JSON list: first the object of a method, then the arguments by position and the
+/// table of options, as in the reference. An object is {"object": ID} with the `id` of a handle,
+/// which is the object itself and no copy. `json` receives the list of results in the same format,
+/// objects with "type": "lissom.Mesh", ...: lissom.Mesh, Region, Deformation, Hairstyle and Strands
+/// are handles of those kinds, all others of lissom_object. Release what you no longer need.
+/// Errors: OUT_OF_RANGE for an unknown name, with the nearest; INVALID_ARGUMENT for bad JSON or
+/// arguments; INVALID_HANDLE; those of the function.
 LISSOM_API lissom_status lissom_call(lissom_context* context, const char* name,
                                      const char* arguments, lissom_bytes* json);
 

@@ -11,8 +11,8 @@
 ///     edit.apply(mesh);
 ///
 /// Every object belongs to a context, which must live longer. Objects move and do not copy. A
-/// function that fails throws an Error; see lissom.h for the effects and errors of each. Other
-/// functions are called with `get()` and `handle()` of the objects.
+/// function that fails throws an Error; lissom.h documents each function and its errors. Call its
+/// further functions with `get()` and `handle()` of the objects.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@
 
 namespace lissom::api {
 
-/// Error of lissom_last_error.
+/// Error of a call, copied from lissom_last_error.
 class Error : public std::exception {
   public:
     explicit Error(const lissom_error& error)
@@ -54,7 +54,7 @@ inline void check(lissom_context* context, lissom_status status) {
     if (status != LISSOM_OK) throw Error(*lissom_last_error(context));
 }
 
-/// Lists in the memory of the host: the input and output of lissom.h.
+/// Lists in the memory of the host: lissom_input and lissom_output.
 inline lissom_input input(const float* data, std::size_t count, std::size_t stride = 0) {
     return {data, count, stride, LISSOM_FLOAT32};
 }

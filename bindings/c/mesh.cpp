@@ -35,7 +35,7 @@ SaveOptions save_options(const lissom_mesh_save_options* given) {
     return options;
 }
 
-// Faces of the host run the other way if it says so; the first corner stays the first.
+// Faces run the other way in a clockwise space; the first corner stays the first.
 void reverse_faces(FaceList& faces) {
     for (Index f = 0; f < faces.size(); ++f) {
         std::reverse(faces.vertices.begin() + faces.offsets[at(f)] + 1,

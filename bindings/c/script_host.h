@@ -6,7 +6,7 @@
 
 namespace lissom::c {
 
-/// Gives a context its script host; nothing without Lua.
+/// Gives a context its state for scripts; nothing without Lua.
 void connect_scripts(lissom_context& context);
 
 }  // namespace lissom::c

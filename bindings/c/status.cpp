@@ -15,20 +15,20 @@ struct StatusText {
     const char* explanation;
 };
 
-// Statuses that the kernel does not know.
+// Statuses unknown to the kernel.
 constexpr std::array<StatusText, 5> kOwnStatus{{
     {LISSOM_OK, "ok", "The call succeeded."},
     {LISSOM_INVALID_HANDLE, "invalid_handle",
-     "The handle names no object of this kind in this context: it was released, was never set, or "
-     "comes "
-     "from another context. Keep handles beside the context they were made in, and set them to "
-     "zero once "
-     "they are released."},
+     "The handle names no object of this kind in this context: it was released, was never set, "
+     "or comes from another context. "
+     "Keep handles beside the context they were made in, "
+     "and set them to zero once they are released."},
     {LISSOM_BUSY, "busy",
      "A job works with the object. Finish the job with lissom_job_finish, then use the object."},
     {LISSOM_BAD_STRUCT, "bad_struct",
-     "A struct of options was not taken from its lissom_default_ function, or asks for a feature "
-     "of a later version of the library. Begin with the defaults and change fields."},
+     "A struct of options was not taken from its lissom_default_ function, "
+     "or belongs to a later version of the library. "
+     "Begin with the defaults and change their fields."},
     {LISSOM_SCRIPT_ERROR, "script_error",
      "The script raised an error; the message has its file and line."},
 }};

@@ -1,4 +1,4 @@
-/// The conversion of one mesh file, and its result.
+/// The conversion of one mesh file, and its outcome.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct ConversionOptions {
     bool shows_warnings = true;
 };
 
-/// Result of one file.
+/// Outcome of one file.
 struct Conversion {
     std::filesystem::path in, out;
     Index vertices = 0, faces = 0;
@@ -30,23 +30,23 @@ struct Conversion {
     Report report;
     /// The point of the mesh that is the origin of the output.
     Vec3 origin = Vec3::Zero();
-    /// Losses: parts of the mesh that the output does not hold.
+    /// Notes on parts of the mesh that the output does not hold.
     std::vector<std::string> lost;
-    /// Reason of a failure.
+    /// Error message, if it failed.
     std::optional<Error> error;
 
     /// "converted", "repaired" (the surface is not that of the file, but for welding) or "failed".
     const char* outcome() const;
 };
 
-/// Reads `in` and writes `out`; makes its folder first if it is missing. Errors: those of
-/// `load_mesh` and `save_mesh`; file_write_failed if `out` is `in` and may not be, or if a folder
-/// cannot be created.
+/// Reads `in` and writes `out`; makes its folder if it is missing. Errors: those of `load_mesh` and
+/// `save_mesh`; file_write_failed if `out` is `in` and may not be, or if a folder cannot be
+/// created.
 Conversion convert_file(Program& program, const std::filesystem::path& in,
                         const std::filesystem::path& out, const ConversionOptions& options);
 
-/// Returns {"file", "out", "outcome", "vertices", "faces", "seconds", "origin", "report", "lost"},
-/// or with "error" in place of the fields of a success.
+/// {"file", "out", "outcome", "vertices", "faces", "seconds", "origin", "report", "lost"}, or with
+/// "error" in place of the fields of a success.
 Json conversion_json(const Conversion& conversion);
 
 /// Returns the reason of a failure, or the repairs and losses, in a few words.

@@ -39,7 +39,7 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-// The conversions, in order.
+// The conversions to be done, in order.
 class JobList {
   public:
     JobList(const ManyFiles& files, bool force) : files_(files), force_(force) {

@@ -16,11 +16,11 @@ struct ManyFiles {
     std::string to;
 };
 
-/// Converts all files that the patterns name, one after the other, and prints a table of the
-/// results. A failure does not stop it, Ctrl-C does. Outputs are below the output folder as inputs
-/// are below the folder that a pattern names without wildcards. No output is written twice, none
-/// replaces an input unless the options say so, and files below the output folder are no input if
-/// that folder lies inside the pattern's. Returns the exit status.
+/// Converts all files that the patterns name, one after the other, and prints a table of their
+/// outcomes. A failure does not stop it, Ctrl-C does. Outputs are below the output folder as inputs
+/// are below the part of a pattern without wildcards. No output is written twice, and none replaces
+/// an input unless the options allow it. If the output folder lies inside the pattern's, files
+/// below it are no inputs. Returns the exit status.
 int convert_many(Program& program, const ManyFiles& files, const ConversionOptions& options);
 
 }  // namespace lissom::cli

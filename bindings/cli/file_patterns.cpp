@@ -95,7 +95,7 @@ void sort_and_unite(std::vector<MatchedFile>& files) {
 
 bool matches_wildcards(std::string_view name, std::string_view pattern) {
     std::size_t n = 0, p = 0;
-    // Position of the last star, and the text it stands for up to now.
+    // Position of the last star, and the end of its match so far.
     std::size_t star = std::string_view::npos, star_end = 0;
     while (n < name.size()) {
         if (p < pattern.size() && pattern[p] == '*') {

@@ -18,7 +18,7 @@ struct MatchedFile {
     std::filesystem::path relative;
 };
 
-/// Files that a pattern names, sorted by path.
+/// Returns the files that a pattern names, sorted by path.
 struct PatternMatches {
     std::vector<MatchedFile> files;
     /// Folders that could not be listed.

@@ -1,4 +1,4 @@
-/// Options of the verbs that read meshes: repair of the files.
+/// Options of the verbs that read meshes: the repair of meshes.
 #pragma once
 
 #include <string>

@@ -33,7 +33,7 @@ Program::~Program() {
 bool Program::parse(CLI::App& app, const std::vector<std::string>& words, int& status) {
     bool wants_json = false;
     app.add_flag("--json", wants_json, "Write the answer and errors as JSON");
-    app.add_flag("--debug", debug, "Write all log messages, and the place in a script of an error");
+    app.add_flag("--debug", debug, "Write all log messages, and the traceback of script errors");
     app.add_option("--threads", threads,
                    "Threads of the kernel's loops (default: one for each core)")
         ->check(CLI::Range(1, 1024))
@@ -158,8 +158,9 @@ void print_help(const ProgramParts& parts) {
                   << "\n";
     }
     std::cout
-        << "\nlissom VERB --help lists the options of a verb; lissom --version describes this "
-           "build.\nExit status: 0 done, 1 failed, 2 called wrongly, 130 stopped by Ctrl-C.\n";
+        << "\nlissom VERB --help lists the options of a verb; lissom --version lists the "
+           "parts of this build.\nExit status: 0 done, 1 failed, 2 called wrongly, 130 stopped by "
+           "Ctrl-C.\n";
 }
 
 int print_version(const ProgramParts& parts, bool json) {

@@ -1,5 +1,5 @@
-/// The `lissom` program: verbs, and their common parts. Another library adds its own verbs and Lua
-/// functions by its parts:
+/// The `lissom` program: verbs, and their shared services. Another library adds its own verbs and
+/// Lua functions by its parts:
 ///
 ///     int main(int argc, char** argv) {
 ///         lissom::cli::ProgramParts parts = lissom::cli::kernel_parts();
@@ -28,7 +28,7 @@ namespace lissom::cli {
 
 class Program;
 
-/// Exit statuses; that of Ctrl-C is the one that shells give a program ended by a signal.
+/// Exit statuses; the last as shells report a program ended by a signal.
 inline constexpr int kSuccess = 0, kFailure = 1, kUsage = 2, kInterrupted = 130;
 
 /// One thing that the program can do.
@@ -69,7 +69,7 @@ enum class Output {
     json_errors,
 };
 
-/// Common parts of verbs: options that all have, their context, and their reports.
+/// Services shared by verbs: common options, their context, and reports.
 class Program {
   public:
     explicit Program(const ProgramParts& parts);
@@ -77,17 +77,18 @@ class Program {
 
     const ProgramParts& parts() const { return parts_; }
 
-    /// Parses the words of a verb with the options of `app` and those of all verbs: --json,
-    /// --threads, --debug, --help. Returns true if the verb shall go on; otherwise `status` holds
-    /// the exit status and everything was said.
+    /// Parses the words of a verb with the options of `app` and the common
+    /// ones: --json, --threads, --debug, --help. Returns true if the verb shall
+    /// go on; otherwise `status` holds the exit status and all output was
+    /// printed.
     bool parse(CLI::App& app, const std::vector<std::string>& words, int& status);
 
     Output output = Output::text;
     bool debug = false;
-    /// Sees each message of the log first, if it is set; false keeps the message from the standard
-    /// error.
+    /// Receives each message of the log first, if it is set; false keeps the message from the
+    /// standard error.
     std::function<bool(LogLevel, std::string_view)> log_filter;
-    /// Sees progress instead of the terminal, if it is set.
+    /// Receives progress instead of the terminal, if it is set.
     std::function<void(std::string_view label, double fraction)> progress_listener;
     /// Threads of the kernel's loops; 0 for as many as there are cores.
     int threads = 0;
@@ -107,7 +108,7 @@ class Program {
     void forget_interrupt();
     /// While a line is typed Ctrl-C only gives it up, however often it is pressed.
     static void wait_at_prompt(bool waits);
-    /// Shows the fraction done of the verb's own work on a terminal, 0 to 1.
+    /// Shows on a terminal the fraction done of the verb's own work, 0 to 1.
     void show_progress(std::string_view label, double fraction);
     /// Takes the progress bar away; before anything is written.
     void clear_progress();

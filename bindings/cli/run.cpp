@@ -105,7 +105,7 @@ std::string unclaimed_flag(const std::vector<std::string>& words, const ScriptTr
     return traits.reads_words ? "" : lua::first_flag(words);
 }
 
-// Returns a message about unused words of a script that declares no parameters, or "".
+// Returns a message on the unused words of a script without parameters, or "".
 std::string unclaimed_text(const std::vector<std::string>& words, const ScriptTraits& traits) {
     const std::string flag = unclaimed_flag(words, traits);
     if (!flag.empty()) return lua::unknown_flag_text(flag, {});
@@ -146,7 +146,7 @@ int run_file(Program& program, const lua::ScriptArguments& arguments,
     return kSuccess;
 }
 
-// Returns the defect of a limit, or "".
+// Returns the error in a limit, or "".
 std::string not_below_zero(std::string& text) {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);

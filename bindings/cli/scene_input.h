@@ -20,7 +20,7 @@ bool is_scene_path(const std::filesystem::path& path);
 /// Returns whether the extension of a path is that of a hair file that can be read.
 bool is_hair_path(const std::filesystem::path& path);
 
-/// An object of a scene, moved by its transform.
+/// An object of a scene, placed by its transform.
 struct SceneObject {
     std::string name;
     /// "mesh", "strands", "deformation", "hairstyle", "polyline".

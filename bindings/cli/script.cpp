@@ -27,7 +27,7 @@ bool is_within(const fs::path& path, const fs::path& folder) {
     return !inside.empty() && *inside.begin() != "..";
 }
 
-// Data for opening a state, reachable through a light userdata inside lua_pcall.
+// Arguments of opening a state, reachable through a light userdata inside lua_pcall.
 struct Opening {
     const lua::HostOptions* options;
     std::string path;
@@ -68,7 +68,7 @@ void set_arguments(lua_State* L, const lua::ScriptArguments& arguments) {
 int prepare(lua_State* L) {
     const auto* opening = static_cast<const Opening*>(lua_touserdata(L, 1));
     luaL_openlibs(L);
-    // Generations suit many short-lived tables beside few long-lived native objects.
+    // Many short-lived tables beside few long-lived native objects suit the generational collector.
     lua_gc(L, LUA_GCGEN, 0, 0);
     lua_pushlightuserdata(L, const_cast<lua::HostOptions*>(opening->options));
     lua_pushcclosure(L, open_lissom, 1);
@@ -133,7 +133,7 @@ void push_calls(lua_State* L) {
     }
 }
 
-// Returns the lines left on top of the stack by push_calls.
+// Results of push_calls on top of the stack.
 std::vector<ScriptLine> calls_at_top(lua_State* L) {
     std::vector<ScriptLine> calls;
     const auto count = static_cast<lua_Integer>(lua_rawlen(L, -1));
@@ -218,8 +218,8 @@ std::string Script::shipped_scripts() {
     if (fs::is_regular_file(beside / "hairdo.lua", error)) {
         return fs::weakly_canonical(beside, error).string();
     }
-    // A program in its build folder serves the scripts of the source; one that was installed, or
-    // copied away, never looks at folders of another machine.
+    // A program in its build folder uses the source's modules; an installed or copied one never
+    // looks at folders of another machine.
     if (is_within(folder, LISSOM_BUILD_FOLDER) && fs::is_directory(LISSOM_SCRIPTS_FOLDER, error)) {
         return LISSOM_SCRIPTS_FOLDER;
     }
@@ -268,7 +268,7 @@ Script::~Script() {
     if (!sandbox_) lua_close(L_);
 }
 
-// Calls the function on top of the stack as lua_pcall does.
+// Works as lua_pcall of the function on top of the stack.
 int Script::call_protected(int handler) {
     if (sandbox_) return sandbox_->call(0, LUA_MULTRET, handler);
     return lua_pcall(L_, 0, LUA_MULTRET, handler);
@@ -322,7 +322,7 @@ ScriptResult Script::call_function() {
     return state().dropped_count > dropped_before ? dropped(dropped_before) : ScriptResult{};
 }
 
-// What the script said last when it ended with `return mesh:save(path)`: nobody else looks at it.
+// Checks the result of a script that ended with `return mesh:save(path)`: nobody else looks at it.
 ScriptResult Script::returned_failure(int first) {
     ScriptResult result;
     const lua::State& opened = state();

@@ -14,7 +14,7 @@ namespace lissom::cli {
 
 /// A line of a script that was being run.
 struct ScriptLine {
-    /// Name of the script; as messages show it, shortened if it is long.
+    /// Name of the script; as messages show it, a long one cut short.
     std::string file, shown;
     int line = 0;
 };
@@ -22,22 +22,21 @@ struct ScriptLine {
 /// How a script ended.
 struct ScriptResult {
     int status = kSuccess;
-    /// Message of the failure: "file:line: message", then notes; a traceback below it under
-    /// --debug.
+    /// Error message: "file:line: message", then notes; a traceback below it under --debug.
     std::string message;
     /// Code of the kernel if the error has one in brackets or came as nil, message, code.
     std::string code;
-    /// Its place, if known.
+    /// Place of the error, if known.
     std::string file;
     int line = 0;
-    /// Lines under execution at the failure: the innermost first, then its callers.
+    /// Calls at the failure: the innermost line first, then its callers.
     std::vector<ScriptLine> calls;
 };
 
 class Script {
   public:
     /// `arguments.script` is empty for a state that runs no script. With limits it runs in a
-    /// sandbox, with the modules beside the script and those that ship with the program.
+    /// sandbox, whose modules are those beside the script and those installed with the program.
     Script(Program& program, lua::ScriptArguments arguments,
            const std::optional<lua::SandboxLimits>& limits = {});
     ~Script();
@@ -52,14 +51,14 @@ class Script {
     /// The same for a text that came from the standard input.
     ScriptResult run_text(std::string text);
 
-    /// Calls the function on top of the stack, whose results stay there. It has failed too where it
+    /// Calls the function on top of the stack, whose results stay there. It has failed too if it
     /// dropped failures of lissom (see lua::DroppedFailure).
     ScriptResult call_function();
     /// The same for one that is run as a script: its first results may be nil and the message of a
     /// failure, which then is its own.
     ScriptResult run_function();
 
-    /// Folder of the Lua library that ships with the program; empty if it is not found.
+    /// Returns the folder of the Lua library installed with the program; empty if it is not found.
     static std::string shipped_scripts();
 
   private:

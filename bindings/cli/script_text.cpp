@@ -71,7 +71,7 @@ std::optional<std::string> script_text(const std::string& file) {
         return std::string(without_mark(text));
     };
     if (file == "-") return all_of(std::cin);
-    // A pipe or device could be read only once.
+    // A pipe could be read only once.
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
     std::ifstream stream(file, std::ios::binary);

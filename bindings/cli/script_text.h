@@ -1,4 +1,4 @@
-/// Properties of a script's text before it runs.
+/// Facts from the text of a script before it runs.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct ScriptTraits {
     bool reads_words = false;
 };
 
-/// Looks for words, also in comments and strings: a false is certain.
+/// Looks for words, also in comments and strings: the answer false is certain.
 ScriptTraits script_traits(std::string_view text);
 
 /// Whether it may call `test`: looks for the word, as script_traits does.

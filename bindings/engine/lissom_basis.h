@@ -1,9 +1,9 @@
 /// lissom_basis.h: evaluates the handle basis of a deformation. C99 and C++, this file alone.
 ///
-/// A basis is the file of `edit:save_basis("arm.basis")` (`save_basis` in C++): the shape of a
-/// deformed region as a linear function of the transforms of its handles. A program that has it
+/// A basis is written by `edit:save_basis("arm.basis")` (`save_basis` in C++): the shape of a
+/// deformed region as a linear function of the transforms of its handles. A program with a basis
 /// moves handles and gets the surface without a solver: 4 multiplications and additions a
-/// coordinate, handle and vertex. Nothing is allocated, no library is called, there is no state.
+/// coordinate, handle and vertex. It allocates nothing, calls no library and keeps no state.
 ///
 ///     #include "lissom_basis.h"
 ///
@@ -11,10 +11,9 @@
 ///     if (lissom_basis_open(&basis, bytes, size) != LISSOM_BASIS_OK) ...
 ///     float transforms[2][12];                            // one 3 x 4 matrix a handle
 ///     lissom_basis_identity(transforms[0]);               // the first handle stays
-///     lissom_basis_local(&basis, wanted, transforms[1]);  // the second moves by `wanted`
+///     lissom_basis_local(&basis, wanted, transforms[1]);  // the second is moved by `wanted`
 ///     lissom_basis_evaluate(&basis, transforms[0], 0, basis.vertex_count, out, 3 * sizeof(float));
-///
-/// Exactness
+/// Accuracy
 ///     The result is that of `edit:preview()`, the first system of the method, to the rounding of
 ///     floats: 4e-7 of `size` for handles that move about as far as the surface is large. It
 ///     follows a drag and has some shear if handles turn far; `edit:solve()` takes the shear out
@@ -29,9 +28,9 @@
 ///     A transform is a 3 x 4 matrix, row by row: x' = m[0] x + m[1] y + m[2] z + m[3], and so on.
 ///
 /// The function
-///     position(v) = rest(v) + sum over handles h of (T_h - I) weight(h, v)
-///     with T_h of 3 x 4, I the 3 x 4 identity and weight(h, v) has 4 numbers. Over all handles
-///     the weights of a vertex add up to (rest, 1) if nothing outside the region holds it.
+///     position(v) = rest(v) + sum over handles h of (T_h - I) weight(h, v) with a 3 x 4 matrix
+///     T_h, the 3 x 4 identity I and 4 numbers weight(h, v). Over all handles the weights of a
+///     vertex add up to (rest, 1) if nothing outside the region holds it.
 ///
 /// Threads
 ///     Every function only reads the basis. `lissom_basis_evaluate` takes a range of vertices:
@@ -65,14 +64,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// How the functions are declared; define it before the include to change that.
+/// Declaration of the functions; define it before the include to change that.
 #ifndef LISSOM_BASIS_API
 #define LISSOM_BASIS_API static inline
 #endif
 
 #define LISSOM_BASIS_VERSION 1u
 
-/// Results of `lissom_basis_open`.
+/// Result of `lissom_basis_open`.
 typedef enum lissom_basis_status {
     LISSOM_BASIS_OK = 0,
     /// The memory ends before the basis does.
@@ -174,8 +173,8 @@ LISSOM_BASIS_API void lissom_basis__copy_double(const unsigned char* from, doubl
 // ---- Opening
 
 /// Opens the basis in `size` bytes of memory, which begin at a multiple of 4 bytes, as all memory
-/// of malloc does. Checks everything: for any bytes, the functions below stay inside them. Reads
-/// all numbers once. `basis` is only changed if the result is LISSOM_BASIS_OK. Bytes behind the
+/// of malloc does. Checks everything: the functions below stay inside the memory for any content.
+/// Reads all numbers once. Changes `basis` only if it returns LISSOM_BASIS_OK. Bytes behind the
 /// basis do no harm.
 LISSOM_BASIS_API lissom_basis_status lissom_basis_open(lissom_basis* basis, const void* memory,
                                                        size_t size) {
@@ -237,7 +236,7 @@ LISSOM_BASIS_API lissom_basis_status lissom_basis_open(lissom_basis* basis, cons
     return LISSOM_BASIS_OK;
 }
 
-/// Returns the meaning of a status in a few words.
+/// Returns the meaning of a status, in a few words.
 LISSOM_BASIS_API const char* lissom_basis_status_text(lissom_basis_status status) {
     switch (status) {
         case LISSOM_BASIS_OK:
@@ -260,12 +259,12 @@ LISSOM_BASIS_API const char* lissom_basis_status_text(lissom_basis_status status
 
 // ---- Handles
 
-/// Returns the name of a handle, "" if it has none or there is no such handle.
+/// Returns the name of a handle, or "" if it has none or does not exist.
 LISSOM_BASIS_API const char* lissom_basis_handle_name(const lissom_basis* basis, uint32_t handle) {
     return handle < basis->handle_count ? basis->names + basis->handles[handle].name : "";
 }
 
-/// Returns the first handle called `name`; `handle_count` if there is none.
+/// Returns the first handle called `name`, or `handle_count` if there is none.
 LISSOM_BASIS_API uint32_t lissom_basis_find_handle(const lissom_basis* basis, const char* name) {
     uint32_t h;
     for (h = 0; h < basis->handle_count; ++h) {
@@ -278,7 +277,7 @@ LISSOM_BASIS_API uint32_t lissom_basis_find_handle(const lissom_basis* basis, co
 
 // ---- Transforms
 
-/// Writes the transform of a handle at rest.
+/// Writes the transform of a handle that stays in place.
 LISSOM_BASIS_API void lissom_basis_identity(float transform[12]) {
     int i;
     for (i = 0; i < 12; ++i) transform[i] = i % 5 == 0 ? 1.0f : 0.0f;
@@ -298,7 +297,7 @@ LISSOM_BASIS_API void lissom_basis_local(const lissom_basis* basis, const double
 
 // ---- Evaluation
 
-/// Adds one handle's displacements of the vertices from `first` on to `count` points x.
+/// Adds to `count` points x the displacement by one handle, for the vertices from `first` on.
 LISSOM_BASIS_API void lissom_basis__add(const float* transform, const float* weights,
                                         uint32_t count, float* x) {
     const float a = transform[0] - 1.0f, b = transform[1], c = transform[2], d = transform[3];
@@ -356,7 +355,7 @@ LISSOM_BASIS_API void lissom_basis__run(const lissom_basis* basis, const float* 
 }
 
 /// Writes the positions of the vertices `first` to `first + count - 1` of the region, 3 floats
-/// each, `stride_bytes` apart (a multiple of 4), to `out`, beginning with the first of them.
+/// each, `stride_bytes` apart (a multiple of 4), to `out`, which points to the first of them.
 /// `transforms` has 12 floats a handle. A range beyond the last vertex ends there.
 LISSOM_BASIS_API void lissom_basis_evaluate(const lissom_basis* basis, const float* transforms,
                                             uint32_t first, uint32_t count, float* out,
@@ -364,8 +363,8 @@ LISSOM_BASIS_API void lissom_basis_evaluate(const lissom_basis* basis, const flo
     lissom_basis__run(basis, transforms, first, count, out, stride_bytes, 0);
 }
 
-/// Evaluates as `lissom_basis_evaluate` does, into the positions of the whole mesh: vertex v of the
-/// mesh stands v * stride_bytes behind `mesh_positions`, which has room for `mesh_vertex_count`.
+/// Works as `lissom_basis_evaluate`, into the positions of the whole mesh: vertex v of the mesh
+/// stands v * stride_bytes behind `mesh_positions`, which has room for `mesh_vertex_count`.
 /// Vertices outside the region are left alone.
 LISSOM_BASIS_API void lissom_basis_scatter(const lissom_basis* basis, const float* transforms,
                                            uint32_t first, uint32_t count, float* mesh_positions,
@@ -383,7 +382,7 @@ LISSOM_BASIS_API float lissom_basis__root(float square) {
     return root;
 }
 
-/* Scales to length one and returns the length; leaves zero and values that are not finite. */
+/* Scales to length one and returns the length; leaves zero and numbers that are not finite. */
 LISSOM_BASIS_API float lissom_basis__normalize(float* n) {
     float largest = 0.0f, length;
     int i;
@@ -445,10 +444,10 @@ LISSOM_BASIS_API void lissom_basis__add_normal(const float* p[3], float* n[3]) {
 }
 
 /// Makes unit normals of a triangle mesh from its positions: the normals of the triangles at each
-/// vertex, weighted by their angles there, as Lissom's own and those of its pictures are. Zero if
-/// no triangle at a vertex has an area. For the whole mesh, because vertices at the border of the
+/// vertex, weighted by their angles there, as in Lissom itself and its pictures. Zero if no
+/// triangle at a vertex has an area. For the whole mesh, because vertices at the border of the
 /// region have triangles on both sides. `triangles` has 3 vertices each; triangles with a vertex
-/// that does not exist are passed over. Strides are in bytes, multiples of 4.
+/// that does not exist are skipped. Strides are in bytes, multiples of 4.
 LISSOM_BASIS_API void lissom_basis_normals(const float* positions, size_t position_stride,
                                            uint32_t vertex_count, const uint32_t* triangles,
                                            uint32_t triangle_count, float* normals,

@@ -1,4 +1,4 @@
-/// Objects of a picture, and their looks. Plain data, without OpenGL and without names of a script.
+/// Drawable content and its appearance. Plain data, without OpenGL and without names of a script.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,8 @@ struct MeshStyle {
     Shading shading = Shading::smooth;
     /// Angle in radians between the normals of faces above which their edge is sharp.
     double crease = 50.0 * kPi / 180.0;
-    /// 1: hides everything behind it, strands and lines too; below that these are seen through it,
-    /// but not its own inside. Meshes of one picture that are seen through share the least.
+    /// 1: hides everything behind it, strands and lines too; below 1 those are visible through it,
+    /// its own inside is not. Transparent meshes of one picture use the least opacity.
     double opacity = 1.0;
     /// Drawn a little nearer than it is, so that it hides the surface that it lies on.
     bool raised = false;
@@ -62,7 +62,7 @@ struct MeshStyle {
     /// Draw the loops of open boundaries as lines, each in its own colour.
     bool boundaries = false;
     /// Draw normals as lines of half the mean length of an edge: at vertices, and in the middle of
-    /// faces. Evenly chosen ones if there are many.
+    /// faces. If there are many, an even selection.
     bool vertex_normals = false, face_normals = false;
     /// Width of these lines in pixels; points are three times as wide.
     double line_width = 4.0;
@@ -79,8 +79,8 @@ struct DrawnMesh {
     MeshStyle style = {};
     /// From the mesh to the world of the camera.
     Affine transform = {};
-    /// Id of an object, constant over the snapshots of a scene, so that unchanged parts stay on the
-    /// graphics card. Several with one number are told apart by their order.
+    /// Identity of a mesh in the snapshots of a scene, so that unchanged data stays on the graphics
+    /// card. Several with one number are told apart by their order.
     std::uint64_t object = 0;
     /// Regions by name in place of the mesh's own, if only these have changed since it was copied;
     /// null: the mesh's.

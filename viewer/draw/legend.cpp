@@ -121,7 +121,7 @@ void draw_scale(Image& image, const Legend& legend, const Measures& measures, in
     draw_text(image, legend.label, x, y - 1.4 * text, measures.label_text, ink);
 }
 
-// Draws as many names as there is room for; the last row counts the others.
+// Draws as many names as fit; the last row counts the others.
 void draw_names(Image& image, const Legend& legend, const Measures& measures, int x,
                 const Color& ink) {
     const double text = measures.text, step = kNameStep * text;

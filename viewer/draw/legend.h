@@ -19,9 +19,9 @@ struct LegendPart {
 
 struct Legend {
     ValueRange range = {};
-    /// Text above the scale or the names: the meaning of the numbers.
+    /// Title above the scale or the names: the meaning of the numbers.
     std::string label = {};
-    /// Drawn instead of the scale if there are any; names without room are counted.
+    /// Names drawn instead of the scale, if there are any; names that do not fit are counted.
     std::vector<LegendPart> parts = {};
 
     bool operator==(const Legend&) const = default;
@@ -34,7 +34,7 @@ struct LegendTick {
     std::string text;
 };
 
-/// Returns both ends of the range, and round numbers between them if there is room.
+/// Both ends of the range, and round numbers between them if there is room.
 std::vector<LegendTick> legend_ticks(const ValueRange& range);
 
 /// Columns of pixels that a legend takes in a picture of `picture_height` rows.

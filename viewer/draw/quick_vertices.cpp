@@ -67,7 +67,7 @@ std::uint32_t packed_normal(const Eigen::Vector3f& sum) {
     const float length = sum.norm();
     const Eigen::Vector3f n = length > 0.0f ? Eigen::Vector3f(kOne / length * sum) : sum;
     const auto part = [&](int axis) {
-        // Rounded: the shift keeps the truncated part positive.
+        // Rounded: the shift keeps the removed part positive.
         constexpr float kShift = 1024.5f;
         const int value = static_cast<int>(n[axis] + kShift) - 1024;
         return static_cast<std::uint32_t>(value) & kTenBits;

@@ -1,5 +1,5 @@
 /// Vertices of a surface that moves, made fast: normals are summed over faces, weighted by their
-/// angle, in single precision, and creases stay.
+/// angle, in single precision, and creases stay in place.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ struct NormalGroups {
     Index count = 0;
 };
 
-/// Returns, for flat shading, the entries of each face; else those at one vertex whose normals are
-/// the same in `vertices`, made by surface_vertices of `triangles`.
+/// Returns groups of entries: for flat shading those of each face; else those at one vertex with
+/// equal normals in `vertices`, made by surface_vertices of `triangles`.
 NormalGroups normal_groups(const SurfaceTriangles& triangles,
                            std::span<const SurfaceVertex> vertices, Shading shading);
 

@@ -9,8 +9,8 @@
 
 namespace lissom {
 
-/// Colours the regions of `names`, or all if that is empty. Regions of one name have one colour on
-/// all meshes; small ones lie over large ones. Returns the names that meshes have, with their
+/// Colours the regions of `names`, or all if that is empty. Regions of one name have one colour
+/// on all meshes; small ones lie over large ones. Returns the names that meshes have, with their
 /// colours.
 std::vector<LegendPart> color_regions(std::vector<DrawnMesh>& meshes,
                                       const std::vector<std::string>& names = {});

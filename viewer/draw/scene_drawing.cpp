@@ -17,7 +17,7 @@
 namespace lissom {
 namespace {
 
-// For vertices without faces: number drawn, and radius in pixels.
+// Number of vertices without faces that are drawn, and their radius in pixels.
 constexpr std::size_t kMostPoints = 50000;
 constexpr double kPointRadius = 2.0;
 

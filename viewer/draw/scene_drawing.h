@@ -1,4 +1,4 @@
-/// Looks of the visible objects of a scene: meshes, strands and lines of a picture.
+/// Appearance of the visible objects of a scene: meshes, strands and lines of a picture.
 #pragma once
 
 #include <vector>
@@ -20,7 +20,7 @@ struct SceneDrawing {
     NamedMarks field = {};
 };
 
-/// Draws each visible object at its place, by its style. A deformation is its mesh with region and
+/// Draws each visible object in its place, by its style. A deformation is its mesh with region and
 /// handles, also if the mesh is an object itself; hair takes its unit from the mesh that it is
 /// rooted on. Meshes without faces are their vertices. Shares meshes and strands with the scene,
 /// which must not change while they are drawn. Errors: those of style_lines.

@@ -75,7 +75,7 @@ class CornerNormals {
         return !a.isZero(0.0) && !b.isZero(0.0) && a.dot(b) < crease_cosine_;
     }
 
-    // Returns the start of the walk, so that no group runs over the end.
+    // First corner of the walk, chosen so that no group runs over the end.
     std::size_t first_after_crease(bool boundary) const {
         if (boundary) return 0;
         for (std::size_t i = 0; i < fan_.size(); ++i) {

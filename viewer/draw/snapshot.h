@@ -1,6 +1,6 @@
-/// Snapshot: contents of a scene at one time. Nothing that it refers to may change as long as it is
-/// held, so that one thread can draw a snapshot made by another; a changed part is another object
-/// in the next snapshot.
+/// Snapshot: the drawn state of a scene at one time. Objects that it refers to may not change while
+/// somebody holds it, so that one thread can draw a snapshot made by another; changed content is
+/// another object in the next snapshot.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace lissom {
 struct Snapshot {
     std::vector<DrawnMesh> meshes = {};
     std::vector<DrawnStrands> strands = {};
-    /// Drawn in this order. Unchanged ones are the same objects as before.
+    /// Drawn in this order. Unchanged meshes are the same objects as before.
     std::vector<std::shared_ptr<const Overlay>> overlays = {};
     /// The scale for the values of all meshes.
     ValueRange range = {};

@@ -24,7 +24,7 @@ struct HairLobe {
 };
 
 struct StrandStyle {
-    /// Instead of the strands' own colours; if there are none either, `kHairColor`.
+    /// Replaces the strands' own colours; without either, `kHairColor`.
     std::optional<Color> color = std::nullopt;
     /// Part of the strands that is drawn, the first of them, above 0 and at most 1; the fewer, the
     /// wider each, so that they cover as much.
@@ -52,7 +52,7 @@ struct StrandStyle {
     /// How much strands shade each other and the meshes: 0 is not at all, 1 as much as looks like
     /// hair.
     double shadow = 1.0;
-    /// Part of the way that the scalp goes to the colour of the hair at dense roots; 0 to 1.
+    /// Blend of the scalp with the colour of the hair at dense roots; 0 to 1.
     double scalp_tint = 0.7;
 
     bool operator==(const StrandStyle&) const = default;

@@ -1,5 +1,5 @@
-/// The lights of all pictures, fixed to the camera: those of the surface shader (shaders.cpp) for
-/// objects shaded without OpenGL. View space: x right, y up, z towards the viewer.
+/// The lights of all pictures, fixed to the camera: those of the surface shader (shaders.cpp), for
+/// shading without OpenGL. View space: x right, y up, z towards the viewer.
 #pragma once
 
 #include <Eigen/Core>

@@ -20,9 +20,9 @@ constexpr Color kBlue{0.12, 0.36, 0.86}, kRed{0.86, 0.16, 0.12}, kPurple{0.50, 0
 constexpr std::array<Color, 8> kKindColors = {kBlue,   kRed,  kBlue,  kRed,
                                               kPurple, kBlue, kGreen, kGrey};
 
-// Length of arrows at full speed, as a fraction of their spacing.
+// Length of an arrow at full speed, in spacings.
 constexpr double kArrowLength = 0.85;
-// An arrow's head: its length and half width, as shares of the arrow's full length.
+// Length and half width of an arrow's head, as fractions of the arrow's full length.
 constexpr double kHeadLength = 0.32, kHeadWidth = 0.14;
 // A field shorter than this has no direction to show.
 constexpr double kLeastSpeed = 0.02;

@@ -12,8 +12,8 @@
 
 namespace lissom {
 
-/// Plane that shows the field. Lengths and directions are those of the style: metres of the scalp's
-/// frame.
+/// Plane on which the field is shown. Lengths and directions are those of the style: metres of the
+/// scalp's frame.
 struct FieldSlice {
     Vec3 point = Vec3::Zero();
     /// Normal of any length but 0; by default the plane is the middle of the head across.
@@ -22,10 +22,10 @@ struct FieldSlice {
     std::optional<double> spacing = std::nullopt;
 };
 
-/// Shown parts of a style.
+/// Parts of a style that are shown.
 struct StyleMarks {
     /// Its curves: streams cyan, dividing curves red, spines and cross sections of ponytails
-    /// purple. Disabled ones are grey.
+    /// purple; disabled ones grey.
     bool curves = true;
     /// Arrows at the grid points that curves constrain, in the colours of Figures 4.4 and 4.5 of
     /// the thesis: along streams, spines and partings blue; at ends and partings of hair red; cross
@@ -45,7 +45,7 @@ struct StyleMarks {
 /// arrows.
 std::vector<DrawnLine> style_lines(const Hairstyle& style, const StyleMarks& marks = {});
 
-/// Returns the meaning of the colours of its arrows.
+/// Meaning of the colours of its arrows.
 std::vector<LegendPart> style_legend(const Hairstyle& style, const StyleMarks& marks);
 
 /// Marks that a picture can show, with names for its legend.
@@ -54,9 +54,9 @@ struct NamedMarks {
     std::vector<LegendPart> names = {};
 };
 
-/// Returns Figure 4.2 of the thesis: the constraints of a style and its bounding volume, and if it
-/// was solved its field in the middle of the head, from the front to the back, in a colour that
-/// reads on dark and on light.
+/// Figure 4.2 of the thesis: the constraints of a style and its bounding volume, and if it was
+/// solved its field in the middle of the head, from the front to the back, in a colour that reads
+/// on dark and on light.
 NamedMarks field_marks(const Hairstyle& style);
 
 }  // namespace lissom

@@ -101,7 +101,7 @@ class SurfaceColors {
     const MeshStyle& style_;
     const Attribute* attribute_;
     std::vector<Paint> paint_;
-    // Numbers of the parts that paint faces.
+    // Part that paints each face.
     std::vector<Index> part_;
 };
 

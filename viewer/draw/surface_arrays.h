@@ -1,4 +1,4 @@
-/// Data of a mesh for the graphics card.
+/// Vertex data of a mesh for the graphics card.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace lissom {
 
-/// One corner of a triangle, as it lies in the vertex buffers: the part that changes when vertices
-/// move, and the constant one.
+/// One corner of a triangle, as it lies in the vertex buffers: the moving part and the constant
+/// one.
 struct SurfaceVertex {
     std::array<float, 3> position;
     std::array<float, 3> normal;
@@ -43,11 +43,11 @@ struct SurfaceTriangles {
     bool same_as(const SurfaceTriangles& other) const;
 };
 
-/// Returns the vertices at their places in the picture.
+/// Vertices, if the picture has them.
 std::vector<Vec3> picture_positions(const Mesh& mesh, const Affine& to_picture);
 
-/// Triangles of `mesh` at `positions`. `known`, of the same topology, provides the parts that
-/// moving vertices cannot change; may be null.
+/// Returns the triangles of `mesh` at `positions`. Data of `known`, of the same topology, is reused
+/// if moving vertices cannot change it; may be null.
 SurfaceTriangles surface_triangles(const Mesh& mesh, std::span<const Vec3> positions,
                                    const Affine& to_picture, const SurfaceTriangles* known);
 
@@ -57,14 +57,14 @@ std::vector<SurfaceVertex> surface_vertices(const Mesh& mesh, const MeshStyle& s
                                             const SurfaceTriangles& triangles,
                                             const Context& context = {});
 
-/// Returns the same of colours. Errors: topology_mismatch for a region or handle of another mesh;
-/// invalid_argument if the number of values is not that of vertices.
+/// Returns the colours of the same triangles. Errors: topology_mismatch for a region or handle of
+/// another mesh; invalid_argument if the number of values is not that of vertices.
 std::vector<SurfaceColor> surface_colors(const Mesh& mesh, const MeshStyle& style,
                                          const ValueRange& range, const SurfaceTriangles& triangles,
                                          const Context& context = {});
 
-/// Return whether the vertices, or colours, or marks of both are the same; surface_colors only for
-/// equal triangles.
+/// Return whether surface_vertices gives the same of both; likewise surface_colors, if the
+/// triangles are the same; likewise build_marks.
 bool same_vertices(const DrawnMesh& a, const DrawnMesh& b);
 bool same_colors(const DrawnMesh& a, const DrawnMesh& b);
 bool same_marks(const DrawnMesh& a, const DrawnMesh& b);

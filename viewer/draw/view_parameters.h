@@ -5,7 +5,7 @@
 
 namespace lissom {
 
-/// Data of the camera for the passes.
+/// Camera parameters of the passes.
 struct ViewParameters {
     /// Picture space to view space, and that to clip space for the whole picture.
     Mat4 view = Mat4::Identity();

@@ -1,6 +1,6 @@
 // The functions of OpenGL and EGL that the viewer and its tests call, each looked up in libepoxy
 // when it is first called: a program that draws nothing starts without it. libepoxy's own pointers
-// hold the address of a driver's function from its first call on.
+// lead to a function of the driver from its first call on.
 #define EGL_NO_X11
 #include <dlfcn.h>
 #include <epoxy/egl.h>

@@ -176,7 +176,7 @@ GpuHairShade GpuHair::shade(const HairView& view) const {
     shade.moments = for_meshes_;
     const Mat3 turn = turn_of(view);
     shade.turn = turn.transpose();
-    // Position of the grid's zero in view space: behind the turn and before the scale.
+    // Position of the grid's zero in view space: behind the rotation and before the scale.
     const Vec3 eye = view.parameters.view.topRightCorner<3, 1>();
     const Vec3 moved = view.origin - light_->origin() - turn.transpose() * eye;
     shade.offset += moved.cwiseProduct(shade.scale);

@@ -34,13 +34,13 @@ struct HairRange {
     double begin = 0.0, end = 1.0;
     /// So many stand for all: they are so much wider. A share as well.
     double of = 1.0;
-    /// Uses the few points kept for moving pictures, if they suffice.
+    /// Draw the few points of strands meant for moving pictures, if they suffice.
     bool few_points = false;
 };
 
 /// How the strands are seen.
 struct HairView {
-    /// Parameters of the picture; the projection may be that of a part of it.
+    /// Camera of the picture; the projection may be that of a part of it.
     ViewParameters parameters;
     Mat4 projection = Mat4::Identity();
     /// The point of the world that is at zero in picture space.
@@ -53,24 +53,24 @@ class GpuHair {
   public:
     GpuHair();
 
-    /// Replaces the hair by `hair`; sends its new parts and frees those without a use. Returns the
-    /// bytes sent. Errors: memory_limit.
+    /// Replaces the content by `hair`; sends its new parts and frees unused ones. Returns the bytes
+    /// sent. Errors: memory_limit.
     std::size_t update(const Hair& hair);
-    /// Sets light that is exact for one camera: `light` is HairLight::directed of the shown light;
-    /// nothing if there is none. Returns the bytes sent.
+    /// Uses the light for one camera from now on: `light` is HairLight::directed of the current
+    /// light; nothing if there is none. Returns the bytes sent.
     std::size_t direct(std::span<const std::uint8_t> light);
-    /// Sets light for any camera, by its moments.
+    /// Uses the light for any camera from now on, by its moments.
     void undirect() { directed_ = false; }
 
     bool empty() const { return size_ == 0; }
-    /// Return the number of all drawn strands, and of those that few points are kept for.
+    /// Return the number of strands drawn in all, and of those that have few points.
     Index size() const { return size_; }
     double few() const { return few_; }
     /// Returns whether all strands are there, not few alone.
     bool complete() const { return complete_; }
     /// Metres in the world of the widest strand when a share `of` of them is drawn.
     double width(double of) const;
-    /// Returns the middle of the space with known light.
+    /// Returns the middle of the light's grid.
     Vec3 middle() const;
     const std::shared_ptr<const HairLight>& light() const { return light_; }
 

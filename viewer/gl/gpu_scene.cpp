@@ -77,7 +77,7 @@ std::vector<std::span<const std::byte>> pieces_of(const std::vector<Entry>& entr
     return pieces;
 }
 
-// Makes the buffers of a snapshot from those of the scene before it.
+// Makes the data of a snapshot, reusing that of the scene before.
 class Upload {
   public:
     Upload(const Vec3& origin, const ValueRange& range, const Context& context,
@@ -102,7 +102,7 @@ class Upload {
         ++total_.calls;
         return result;
     }
-    // Uploads the entries at the corners of a surface, or takes `sent` if they were sent before.
+    // Returns entries at the corners of a surface; `sent` if they were sent before.
     template <typename Entry>
     std::shared_ptr<const SurfaceBuffers> buffers(
         const std::vector<Entry>& entries, std::size_t Uploads::*kind,
@@ -130,13 +130,13 @@ class Upload {
     Vec3 origin_;
     ValueRange range_;
     const Context& context_;
-    // Buffer for fast vertices of moving meshes; null if they are made exactly.
+    // Quick vertices of a mesh that moved; null if they are made exactly.
     std::vector<QuickVertex>* quick_;
     std::span<const PreparedSurface> prepared_;
     Uploads total_;
 };
 
-// Common parts of a surface and the one before it.
+// Data that a surface shares with the one before it.
 struct KeptParts {
     bool vertices = false, colors = false, marks = false;
 };
@@ -156,7 +156,7 @@ bool same_faces(const Mesh& a, const Mesh& b) {
            f.vertices == g.vertices;
 }
 
-// Compares the styles in the fields read while a surface is drawn.
+// Returns whether two styles agree in the fields that are read while a surface is drawn.
 bool same_drawing(const MeshStyle& a, const MeshStyle& b) {
     return a.wire == b.wire && a.wire_width == b.wire_width && a.wire_color == b.wire_color &&
            a.opacity == b.opacity;
@@ -185,7 +185,7 @@ bool moves_fast(const DrawnMesh& drawn, const GpuSurface* before) {
            before->triangles.mirrored == (drawn.transform.linear.determinant() < 0.0);
 }
 
-// Returns the surface prepared for it, fast ones with `groups`; null if there is none.
+// Returns the vertices prepared for it, quick ones with `groups`; null if there are none.
 const PreparedSurface* Upload::prepared_vertices(const GpuSurface& surface,
                                                  const NormalGroups* groups) const {
     for (const PreparedSurface& one : prepared_) {
@@ -218,7 +218,7 @@ void Upload::fill_colors(GpuSurface& surface) {
     surface.colors = buffers(colors, &Uploads::colors);
 }
 
-// Fills a surface of a mesh that moved; `before` has its faces with their groups.
+// Updates a mesh that moved; `before` has its faces with their groups.
 void Upload::fill_quickly(GpuSurface& surface, const GpuSurface& before) {
     surface.triangles = before.triangles;
     surface.groups = before.groups;
@@ -233,7 +233,7 @@ void Upload::fill_quickly(GpuSurface& surface, const GpuSurface& before) {
     surface.vertices = buffers(*quick_, &Uploads::vertices);
 }
 
-// Fills the vertices of a mesh that moved; `before` is the one with the same faces; may be null.
+// Updates a mesh that moved; `before` is the one with the same faces; may be null.
 void Upload::fill_vertices(GpuSurface& surface, const GpuSurface* before) {
     const auto& [mesh, style, transform, object, regions] = surface.drawn;
     const Affine to_picture = translation(-origin_) * transform;
@@ -386,7 +386,7 @@ ScenePlacement place(const Snapshot& snapshot, const ScenePlacement& before) {
         for_each_point(snapshot, visit);
         for (const Vec3& p : result.strand_corners) visit(p);
     };
-    // Relative to one of the points, so that no digits are lost if all are far away.
+    // Sums are relative to the first point, so that no digits are lost if all are far away.
     std::optional<Vec3> first;
     double count = 0.0, square = 0.0;
     Vec3 sum = Vec3::Zero();
@@ -448,7 +448,7 @@ PreparedSurface prepare(SurfaceNeeds needs, const Context& context) {
     PreparedSurface result;
     result.revision = mesh->revision();
     const std::vector<Vec3> positions = picture_positions(*mesh, to_picture);
-    // Vertices on the card already stay.
+    // Surfaces already on the card stay unchanged.
     result.triangles = known && (!needs.vertices || needs.groups)
                            ? *known
                            : surface_triangles(*mesh, positions, to_picture, known);

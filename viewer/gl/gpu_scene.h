@@ -43,16 +43,15 @@ struct GpuMarks {
     bool on_top = false;
 };
 
-/// Values at the corners of a surface, on the card: each buffer has as many triangles as are sent
-/// in a moment, for a driver takes long to make a large one.
+/// Data of a surface at its corners, on the card: in each buffer as many triangles as are sent in a
+/// moment, for a driver takes long to make a large one.
 using SurfaceBuffers = std::vector<gl::Buffer>;
 inline constexpr std::size_t kTrianglesOfBuffer = 16384;
 
-/// Triangles of one mesh, and its marks. Never changes; unchanged parts are shared with the next
-/// one.
+/// Triangles of one mesh, and its marks. Never changes; unchanged data is shared with the next one.
 struct GpuSurface {
     DrawnMesh drawn;
-    /// Revision of the mesh at its upload.
+    /// Revision of the mesh, when it was uploaded.
     std::uint64_t revision = 0;
     SurfaceTriangles triangles;
     std::shared_ptr<const SurfaceBuffers> vertices, colors;
@@ -74,56 +73,57 @@ struct ScenePlacement {
     double size = 0.0;
     /// Corners of boxes around the strands, in the world.
     std::vector<Vec3> strand_corners;
-    /// Box of each of the snapshot's strands, in their metres.
+    /// Boxes of the snapshot's strands, in their metres.
     std::map<const Strands*, Box> strand_boxes;
 };
 
-/// Data that an update has to compute for a mesh, without those that it can take over.
+/// Data of a mesh that an update has to compute; data that it can reuse is left out.
 struct SurfaceNeeds {
     DrawnMesh drawn;
     bool vertices = false, colors = false, marks = false;
-    /// Triangles of the same faces that are known; null if none are.
+    /// Known triangles of the same faces; null if none are.
     SurfaceTriangles known = {};
     /// The point that is at zero on the card, and the scale of values.
     Vec3 origin = Vec3::Zero();
     ValueRange range = {};
-    /// Groups of vertices that moved and are made fast; null if they are made exactly.
+    /// Groups of vertices that moved and are made quickly; null if they are made exactly.
     std::shared_ptr<const NormalGroups> groups = nullptr;
 };
 
-/// That, found out by any thread: needs no context.
+/// Computed data of a mesh, made by any thread: needs no context.
 struct PreparedSurface {
     SurfaceNeeds needs;
     std::uint64_t revision = 0;
     SurfaceTriangles triangles = {};
     std::vector<SurfaceVertex> vertices = {};
-    /// In place of them if they are made fast.
+    /// Replace `vertices` if they are made quickly.
     std::vector<QuickVertex> quick = {};
     std::vector<SurfaceColor> colors = {};
     Overlay marks = {};
-    /// Groups of the vertices, so that the mesh can move fast from then on.
+    /// Groups of the vertices, so that the mesh can move quickly from then on.
     std::shared_ptr<const NormalGroups> groups = nullptr;
-    /// Parts of that already sent by a PieceSender.
+    /// Buffers already sent by a PieceSender.
     std::shared_ptr<const SurfaceBuffers> sent_vertices = nullptr, sent_colors = nullptr;
 };
 
 /// Errors: those of surface_colors; cancelled.
 PreparedSurface prepare(SurfaceNeeds needs, const Context& context = {});
 
-/// Sends prepared surfaces to the graphics card buffer by buffer: a window looks for events between
+/// Sends prepared data to the graphics card buffer by buffer: a window looks for events between
 /// them.
 class PieceSender {
   public:
     explicit PieceSender(std::vector<PreparedSurface> surfaces);
 
-    /// Makes the next buffer; false if there was none left. Errors: memory_limit.
+    /// Makes the next buffer; returns false if there was none left. Errors: memory_limit.
     bool send();
     const std::vector<PreparedSurface>& surfaces() const { return surfaces_; }
-    /// Gives them away to any thread, without the sent parts, which belong to the context.
+    /// Returns the prepared data to any thread, without the buffers sent, which belong to the
+    /// context.
     std::vector<PreparedSurface> give_away();
 
   private:
-    // Parts of one surface to send, a buffer each.
+    // Buffers sent of one surface, one each.
     struct Part {
         std::vector<std::span<const std::byte>> pieces;
         std::shared_ptr<const SurfaceBuffers> PreparedSurface::*to;
@@ -141,33 +141,33 @@ enum class MovedVertices { exact, quick };
 
 class GpuScene {
   public:
-    /// Shows `snapshot` from now on. Uploads the differences from the snapshot before: nothing for
-    /// the same revision or the same contents, only positions and normals if a mesh of the same
-    /// faces moved. Vanished parts are freed. Returns counts of the uploads. After an error the
-    /// scene is as it was. Errors: not_finite for a transform, line or point; those of
-    /// surface_colors; memory_limit; cancelled.
+    /// Updates the scene to `snapshot`. Uploads only differences to the snapshot before: nothing
+    /// for the same revision or the same contents, positions and normals only if a mesh of the
+    /// same faces moved. Frees objects that vanished. After an error the scene is as it was.
+    /// Errors: not_finite for a transform, line or point; those of surface_colors; memory_limit;
+    /// cancelled.
     Uploads update(const Snapshot& snapshot, const Context& context = {},
                    MovedVertices moved = MovedVertices::exact) {
         return update_with({}, snapshot, context, moved);
     }
-    /// Updates likewise, and takes surfaces from `prepared`.
+    /// Updates likewise, with the data in `prepared`.
     Uploads update_with(std::span<const PreparedSurface> prepared, const Snapshot& snapshot,
                         const Context& context, MovedVertices moved);
-    /// Returns the needs of `update` for the meshes of `snapshot`, if vertices that moved are made
-    /// fast. Only for meshes that need anything.
+    /// Returns the data that `update` has to compute for the meshes of `snapshot`, if moved
+    /// vertices are made quickly. Meshes without changes are left out.
     std::vector<SurfaceNeeds> needs(const Snapshot& snapshot) const;
 
     const Snapshot& snapshot() const { return shown_.snapshot; }
     const ScenePlacement& placement() const { return shown_.placement; }
-    /// Returns the point of the world that is at zero on the card. Stays while the drawn objects
-    /// are about it.
+    /// Point of the world that is at zero on the card. Constant as long as the content stays near
+    /// it.
     const Vec3& origin() const { return shown_.origin; }
     const std::vector<std::shared_ptr<const GpuSurface>>& surfaces() const {
         return shown_.surfaces;
     }
 
     void draw_surfaces() const;
-    /// Draws the lines that no surface hides, or the others.
+    /// Draw the lines or points that no surface hides, or the others.
     void draw_lines(bool on_top) const;
     void draw_points(bool on_top) const;
 
@@ -184,7 +184,7 @@ class GpuScene {
     bool keeps_origin(const ScenePlacement& placement) const;
 
     Shown shown_;
-    // Buffer of quick updates, so that none allocates.
+    // Memory of quick updates, so that none allocates.
     std::vector<QuickVertex> scratch_;
 };
 

@@ -11,15 +11,15 @@
 
 namespace lissom {
 
-/// Shade of strands on surfaces, and on the colour of a scalp.
+/// Effect of strands on the light on surfaces, and on the colour of a scalp.
 struct GpuHairShade {
-    /// Key light and light from all around that is left, and how much hair grows; see
+    /// Remaining key light and light from all around, and density of hair; see
     /// StrandShadow::on_meshes. One texel of no hair if there are no strands.
     std::shared_ptr<const gl::Texture> volume;
     enum class Kind {
-        /// The volume as above.
+        /// Light of a picture, as described above.
         picture,
-        /// The moments of HairLight, and the last byte of the volume.
+        /// Light of HairLight: its moments, and the last byte of the volume.
         moments,
         /// The same with the volume's key light.
         directed,
@@ -31,7 +31,7 @@ struct GpuHairShade {
     Mat3 turn = Mat3::Identity();
     Vec3 scale = Vec3::Zero();
     Vec3 offset = Vec3::Zero();
-    /// In view units: between grid points; 0 if there are no strands.
+    /// Distance between grid points in view units; 0 if there are no strands.
     double step = 0.0;
     /// Linear.
     Vec3 scalp_color = Vec3::Zero();

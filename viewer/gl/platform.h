@@ -1,4 +1,4 @@
-/// Platform: source of the renderer's OpenGL context. The renderer draws into framebuffers of its
+/// Platform: provider of the renderer's OpenGL context. The renderer draws into framebuffers of its
 /// own, so a platform needs no window.
 #pragma once
 
@@ -16,9 +16,10 @@ class Platform {
     Platform(const Platform&) = delete;
     Platform& operator=(const Platform&) = delete;
 
-    /// Makes the context current on this thread, after noting the current one. Errors: no_display.
+    /// Makes the context current on this thread, after noting the current one. Errors:
+    /// no_display.
     virtual void enter() = 0;
-    /// Makes the context from before `enter` current again.
+    /// Restores the context from before `enter`.
     virtual void leave() noexcept = 0;
 };
 
@@ -34,17 +35,18 @@ class PlatformScope {
     Platform& platform_;
 };
 
-/// Shared libraries that the EGL platform loads when it is first made; for each, the file names it
-/// may have. They are looked for before use, because libepoxy ends the process if one is missing.
+/// Shared libraries that the EGL platform loads when it is first made; for each, the file names
+/// it may have. They are looked for before use, because libepoxy ends the process if one is
+/// missing.
 struct EglLibraries {
     std::vector<std::string> egl{"libEGL.so.1"};
     std::vector<std::string> gl{"libOpenGL.so.0", "libGL.so.1"};
 };
 
-/// Returns a context from EGL that needs no display server: on the surfaceless platform, else on
-/// the first device that works, else on the default display. The connection to the driver stays
-/// open until the process ends, because closing it would end contexts that others hold on it.
-/// Errors: no_display, which names the missing part and its remedy.
+/// A context from EGL that needs no display server: on the surfaceless platform, else on the first
+/// device that works, else on the default display. The connection to the driver stays open until
+/// the process ends, because closing it would end contexts that others hold on it. Errors:
+/// no_display, which names the missing parts and their packages.
 std::unique_ptr<Platform> make_egl_platform(const EglLibraries& libraries = {});
 
 }  // namespace lissom

@@ -76,7 +76,7 @@ std::vector<Candidate> list_displays() {
     return candidates;
 }
 
-// Current state of EGL on a thread.
+// Current context of a thread.
 struct Current {
     EGLenum api = eglQueryAPI();
     EGLDisplay display = eglGetCurrentDisplay();

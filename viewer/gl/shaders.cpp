@@ -172,8 +172,8 @@ void main() {
 }
 )";
 
-// Software drivers run code behind a condition for every pixel: features that a picture does not
-// have are left out of its program.
+// Software drivers run both sides of a condition for every pixel: features absent from a picture
+// are left out of its program.
 const char* const kHasOcclusion = "#define HAS_OCCLUSION\n";
 const char* const kHasHair = "#define HAS_HAIR\n";
 const char* const kHasWire = "#define HAS_WIRE\n";
@@ -218,7 +218,7 @@ const vec3 kSkyLight = vec3(0.32, 0.33, 0.35);
 const vec3 kGroundLight = vec3(0.105, 0.095, 0.09);
 const vec3 kBackTint = vec3(0.50, 0.36, 0.30);
 
-// Of the surface around this fragment, from the four nearest texels at its depth.
+// Openness around this fragment, from the four nearest texels at its depth.
 float openness(float depth) {
 #ifndef HAS_OCCLUSION
     return 1.0;
@@ -294,7 +294,7 @@ vec3 lit(vec3 color, vec3 normal, vec3 to_viewer, float open, float plain, vec3 
     return color * mix(light, vec3(0.92), plain) + shine * (1.0 - plain);
 }
 
-// Share of the fragment that the polygon's edges cover. Where a triangle is hardly wider than lines,
+// Fraction of the fragment that the polygon's edges cover. If a triangle is hardly wider than lines,
 // all its edges fade, so that a fine mesh, or one that is seen from the side, becomes darker but not black.
 float edge_cover() {
     vec3 slope = vec3(length(vec2(dFdx(v_height.x), dFdy(v_height.x))),

@@ -11,7 +11,7 @@ extern const char* const kCommon;
 /// One triangle that covers the target; needs no vertex data.
 extern const char* const kCoverVertex;
 
-/// Surfaces: normal and depth of the nearest surface.
+/// Surfaces: normal and depth of the front ones.
 extern const char* const kGeometryVertex;
 extern const char* const kGeometryFragment;
 /// How open every pixel's surroundings are, and its depth.
@@ -22,8 +22,8 @@ extern const char* const kOcclusionBlurFragment;
 /// Surfaces, lit, with their edges.
 extern const char* const kSurfaceVertex;
 extern const char* const kSurfaceFragment;
-/// Prefixes of it if the picture has occlusion, strands that shade surfaces, edges, colours that
-/// stand for numbers.
+/// Precede it if the picture has occlusion, strands that shade surfaces, edges, colours that stand
+/// for numbers.
 extern const char* const kHasOcclusion;
 extern const char* const kHasHair;
 extern const char* const kHasWire;

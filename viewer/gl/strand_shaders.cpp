@@ -51,7 +51,7 @@ float facing(vec3 tangent, vec3 to_light, vec3 to_viewer) {
 vec3 lit(vec3 color, vec3 tangent, vec3 to_viewer, vec3 to_light, vec3 light, vec2 lean) {
     float light_sine = dot(tangent, to_light), viewer_sine = dot(tangent, to_viewer);
     float light_cosine = cosine_of(light_sine), viewer_cosine = cosine_of(viewer_sine);
-    // Of the sum of both angles from the plane across the strand, turned by the strand's lean.
+    // Sum of both angles from the plane across the strand, turned by the strand's lean.
     vec2 mirror = vec2(light_cosine * viewer_cosine - light_sine * viewer_sine,
                        light_sine * viewer_cosine + light_cosine * viewer_sine);
     mirror = vec2(dot(mirror, lean), mirror.y * lean.x - mirror.x * lean.y);
@@ -62,7 +62,7 @@ vec3 lit(vec3 color, vec3 tangent, vec3 to_viewer, vec3 to_light, vec3 light, ve
     return light * (color * (kDiffuse * light_cosine + secondary) + primary);
 }
 
-// Light that came through strands has their colour: what they absorb most is lost first.
+// Light that passed through strands has their colour: the most absorbed parts are lost first.
 vec3 passed(float light, vec3 color) {
     float mean = max((color.r + color.g + color.b) / 3.0, 1e-4);
     return pow(vec3(max(light, 1e-6)), max(1.0 + kColoring * (mean - color) / mean, 0.3));
@@ -125,7 +125,7 @@ void main() {
 }
 )";
 
-// An alpha of a little more than 1 marks strands for the output. Ribbons are much thinner than
+// A little more than 1 in alpha marks strands in the output. Ribbons are much thinner than
 // pixels: beside them, in the middle of a pixel that they hardly touch, a colour would be anything.
 const char* const kStrandFragment = R"(
 centroid in vec3 v_color;

@@ -71,7 +71,7 @@ void paint_mesh(MeshStyle& style, std::string_view color) {
         style.color = parse_color(color.substr(0, 1 + 3 * digits));
         style.opacity = opacity;
     } catch (const Error&) {
-        parse_color(color);  // names the accepted forms
+        parse_color(color);  // lists the accepted forms
     }
 }
 

@@ -1,5 +1,5 @@
-/// Requests of scripts and the command line for the meshes of a picture: regions, handles and
-/// values, given by name or by themselves.
+/// Regions, handles and values to show on the meshes of a picture, given by scripts and the command
+/// line by name or as objects.
 #pragma once
 
 #include <string_view>
@@ -9,13 +9,13 @@
 
 namespace lissom {
 
-/// Gives a mesh a colour, as parse_color reads it, and with "#rrggbbaa" or "#rgba" an opacity, so
-/// that objects behind it are seen through it. Errors: as parse_color.
+/// Gives a mesh a colour, as parse_color reads it, and with "#rrggbbaa" or "#rgba" an opacity.
+/// Errors: as parse_color.
 void paint_mesh(MeshStyle& style, std::string_view color);
 
 /// Draws a region in blue, or a handle in purple, on every mesh that has it: by name, the meshes
-/// with a region of that name; by itself, the meshes with its topology. Errors: out_of_range if no
-/// mesh has the name; topology_mismatch if no mesh has the topology.
+/// with a region of that name; as an object, the meshes with its topology. Errors: out_of_range if
+/// no mesh has the name; topology_mismatch if no mesh has the topology.
 void paint_region(Picture& picture, std::string_view name);
 void paint_region(Picture& picture, const Region& region);
 /// Errors: out_of_range if no mesh has a region of this name.

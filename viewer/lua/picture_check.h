@@ -1,4 +1,4 @@
-/// Pictures of tests: functions of the viewer for `lissom test`.
+/// Pictures of tests: the viewer's part of `lissom test`.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-/// Functions of the viewer for Lua: pictures, described in the same registration table as the
-/// kernel's own functions (bindings/lua/core/registry.h).
+/// The viewer's part of Lua: pictures, described in the same registration table as the kernel's own
+/// functions (bindings/lua/core/registry.h).
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace lissom::lua {
 
 Library viewer_library();
 
-/// Sees the picture of lissom.render before it is drawn; on the thread of the script.
+/// Receives the picture of each lissom.render before it is drawn; on the thread of the script.
 using PictureListener = std::function<void(const Picture&)>;
 /// `listener` sees the pictures of `L` from now on, and must outlive it; null: nobody does.
 void set_picture_listener(lua_State* L, const PictureListener* listener);

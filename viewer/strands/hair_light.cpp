@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-// Working memory of a grid point while the light is found, and the kept one.
+// Working memory of a grid point while the light is found, and its results.
 constexpr std::size_t kWorkingBytes = (kExtinctionParts + 12) * sizeof(float);
 constexpr std::size_t kKeptBytes = 2 * sizeof(float) + 9;
 

@@ -1,5 +1,5 @@
 /// The light in hair for any camera. The lights are those of the camera, so that they go around the
-/// hair when it turns: the kept numbers are the light that reaches each place from all around.
+/// hair when it turns: stored is the light that reaches each place from all around.
 #pragma once
 
 #include <cstdint>
@@ -26,16 +26,14 @@ class HairLight {
     /// Along the axes of the world, about `origin`.
     const ViewGrid& grid() const { return grid_; }
     const Vec3& origin() const { return origin_; }
-    /// Return the light through strands and meshes, for strands; and through strands alone, for
-    /// meshes.
+    /// Transmittance of strands and meshes, for strands; and of strands alone, for meshes.
     const LightMoments& for_strands() const { return for_strands_; }
     const LightMoments& for_meshes() const { return for_meshes_; }
-    /// Returns the linear colour of scalps under hair.
+    /// Linear colour of scalps with hair.
     const Eigen::Array3f& scalp_color() const { return scalp_color_; }
 
-    /// Four bytes a grid point for a camera that turns the world by `to_view`: key and rim light
-    /// for strands, key light for meshes, and how much hair grows there. In the form of
-    /// StrandShadow.
+    /// Returns four bytes a grid point for a camera that turns the world by `to_view`: key and rim
+    /// light for strands, key light for meshes, and the density of hair, as in StrandShadow.
     std::vector<std::uint8_t> directed(const Mat3& to_view, const Context& context = {}) const;
     /// The last of these four, the others 0.
     std::vector<std::uint8_t> undirected() const;
@@ -54,7 +52,7 @@ class HairLight {
 
 /// Returns the part of the light that comes from `direction`, of unit length, by its moments.
 float light_from(const std::uint8_t* moments, const Eigen::Vector3f& direction);
-/// Returns the remaining part of the light from all around, with `up` as up.
+/// Returns the remaining part of the light from all around; `up` points up.
 float ambient_light(const std::uint8_t* moments, const Eigen::Vector3f& up);
 /// Weight of the directed part in that: so much brighter than the middle is the sky.
 float ambient_slope();

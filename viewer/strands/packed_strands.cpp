@@ -15,7 +15,7 @@ using Eigen::Vector3f;
 
 // Steps of a root's place along each axis, as bits.
 constexpr int kCurveBits = 10;
-// Layers of ribbons that hide each other, seen from one side, if nothing shines through.
+// Number of ribbons that hide each other, seen from one side, in opaque hair.
 constexpr double kOpaqueLayers = 6.0;
 // Few strands may be so many times wider in any case.
 constexpr double kFreelyWidened = 4.0;
@@ -148,7 +148,7 @@ void measure(const ViewStrands& given, PackedStrands& packed) {
     }
 }
 
-// The mean of a box's sides, without outliers.
+// Returns the mean of a box's sides, without outliers.
 double outer_area(const PackedRibbons& few) {
     Eigen::Array3d extent = Eigen::Array3d::Zero();
     std::vector<float> places;

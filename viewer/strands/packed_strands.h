@@ -36,8 +36,8 @@ struct PackedRibbons {
     /// Radians by which reflections lean more: -shift_jitter (0) to shift_jitter (255); one a
     /// point.
     std::vector<std::uint8_t> shifts;
-    /// Strand i, in the order that they are drawn in, has the points offsets[i] to offsets[i + 1] -
-    /// 1; none if it has no two finite points that follow each other.
+    /// Strand i, in drawing order, has the points offsets[i] to offsets[i + 1] - 1; none if it has
+    /// no two finite points that follow each other.
     std::vector<Index> offsets{0};
 
     Index size() const { return count_of(offsets) - 1; }
@@ -65,8 +65,8 @@ PackedStrands pack_strands(const DrawnStrands& drawn, bool few_only = false,
                            const Context& context = {});
 
 /// Returns the factor of the widths if `count` strands stand for `all`: as much wider as they are
-/// fewer. More than four times only as far as is needed to be opaque: if strands hide each other
-/// many times over, few must not do so too.
+/// fewer. Beyond four times only as far as opacity needs: if strands hide each other many times
+/// over, few strands may be thinner.
 double widening(const PackedStrands& packed, Index count, Index all);
 
 }  // namespace lissom

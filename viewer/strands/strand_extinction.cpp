@@ -20,15 +20,15 @@ constexpr float kShadowMargin = 0.14f;
 // Light is scattered on by strands more than they take away: of the area that they cover, the part
 // that counts as lost.
 constexpr float kLostShare = 0.40f;
-// For any density of hair, light fades over steps of the grid by no more than exp(-kMostDepth)
-// each: faster fading shows the grid as bands, as on tied tails.
+// In hair of any density light fades by no more than exp(-kMostDepth) a step of the grid: stronger
+// fading shows the grid as bands, as on tied tails.
 constexpr float kMostDepth = 0.8f;
 // A mesh lets this little through: exp(-kMeshDepth). It counts so many steps below its surface,
 // which so does not shade itself.
 constexpr float kMeshDepth = 5.0f;
 constexpr float kMeshSunk = 1.3f;
-// Roots per square metre from which hair hides the scalp; then the shares of the usual density at
-// which the scalp is bare and is covered.
+// Roots per square metre from which hair hides the scalp; above it, the fractions of the usual
+// density at which the scalp is bare and is covered.
 constexpr float kFullRoots = 20e4f;
 constexpr float kBareShare = 0.06f, kCoveredShare = 0.40f;
 

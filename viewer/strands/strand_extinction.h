@@ -13,7 +13,7 @@ namespace lissom {
 
 /// How fine the light is.
 struct LightDetail {
-    /// Limit of the grid's points.
+    /// Maximum number of points of the grid.
     double most_points = 2.5e6;
     /// Segments that are looked at; of more, every so many strands stand for all.
     double most_segments = 3e6;
@@ -37,10 +37,10 @@ void add_mesh_extinction(const ViewGrid& grid, std::vector<float>& extinction,
 /// Copies that hair_extinction works with at one time.
 inline constexpr Index kExtinctionParts = 4;
 
-/// Returns the tint of the scalp at each grid point, 0 to 1, towards the colour of hair: high if
-/// roots are nearly as dense as they are at most places, and not just few.
+/// Blend of the scalp with the colour of hair at each grid point, 0 to 1: high if roots are nearly
+/// as dense as at most places, and not just few.
 std::vector<float> scalp_tint(const ViewGrid& grid, std::span<const ViewStrands> strands);
-/// Returns the linear colour of scalps under hair.
+/// Linear colour of scalps with hair.
 Eigen::Array3f mean_root_color(std::span<const ViewStrands> strands);
 
 /// A direction to the surroundings; not of unit length.

@@ -44,8 +44,8 @@ class Screen {
                 0.5f + 0.5f * z * inverse, 0.5f * width * scale_ * inverse};
     }
     bool in_front(const Vector3f& p) const { return p.z() <= -near_; }
-    // Returns the crossing of the near plane with the line from a point in front to one that is
-    // not: share of it.
+    // Fraction of a line, from a point in front to one that is not, at which it meets the near
+    // plane.
     float to_near(const Vector3f& front, const Vector3f& behind) const {
         return (-near_ - front.z()) / (behind.z() - front.z());
     }
@@ -110,7 +110,7 @@ class PointNumbers {
 
 // ---- Shading
 
-// Look of a strand at a sample that sees it.
+// Appearance of a strand at a sample.
 class StrandShader {
   public:
     StrandShader(const StrandScene& scene, const StrandShadow& shadow, const Screen& screen,
@@ -290,7 +290,7 @@ void sort_strand(const ViewStrands& drawn, Index strand, std::uint32_t base, con
     }
 }
 
-// Returns the drawn strands, those whose middle is nearest first: early ones hide most.
+// The drawn strands, the nearest middle first: the strands that hide most come early.
 std::vector<Index> nearest_first(const ViewStrands& drawn) {
     std::vector<float> depths;
     for (Index s = 0; s < drawn.count; ++s) {
@@ -331,7 +331,7 @@ void draw_batch(const ViewStrands& drawn, std::span<const Index> batch, std::uin
     });
 }
 
-// Draws all strands, in groups, so that strands hidden by the first ones need not be drawn.
+// Draws all strands, so many at a time that strands hidden by the first ones need not be drawn.
 void draw_all(const ViewStrands& drawn, std::span<const Index> order, std::uint32_t base,
               const Screen& screen, Tiles& tiles, const Context& context) {
     Progress progress(context, "render: hair");
@@ -478,8 +478,8 @@ void write_pixel(std::uint8_t* to, const Light& light) {
     to[3] = static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(light.alpha, 0.0f, 1.0f)));
 }
 
-// A pixel of strands, the pixel under it and the background together. `under` shows meshes and
-// marks beside them, if there is room; strands hide both in the same proportion.
+// A pixel of strands, the pixel under it and the background together. `under` shows meshes and, in
+// the room they leave, marks beside them; strands hide both in the same proportion.
 Light light_of(const StrandPixel& over, const std::uint8_t* under, const Light& background) {
     const float alpha = under[3] / 255.0f;
     float covered = alpha;
@@ -527,7 +527,7 @@ bool near_strands(const StrandLayer& layer, int x, int y) {
     return near;
 }
 
-// Strands are much thinner than pixels: their cover of each is a matter of chance. Seen through a
+// Strands are much thinner than pixels: the sample in each is a matter of chance. Seen through a
 // filter a little wider than a pixel, as of a lens, they are less grainy.
 Light filtered(const std::vector<Light>& lights, int width, int height, int x, int y) {
     Light sum;

@@ -13,7 +13,7 @@
 
 namespace lissom {
 
-/// Contents of one pixel; shares of its area.
+/// Content of one pixel; fractions of its area.
 struct StrandPixel {
     /// Linear colour of the strands, times `strands`.
     Eigen::Array3f color = Eigen::Array3f::Zero();
@@ -43,7 +43,7 @@ StrandLayer draw_strands(const StrandScene& scene, const StrandShadow& shadow,
                          const RenderOptions& options, const Context& context = {});
 
 /// Lays strands over `meshes`, a picture of the meshes on nothing, and both on the background.
-/// Pixels away from strands keep their colours.
+/// Pixels away from strands are unchanged.
 Image lay_over(const Image& meshes, const StrandLayer& layer,
                const std::optional<Color>& background);
 

@@ -1,4 +1,4 @@
-/// Differences between strands: tones at random, and widths.
+/// Variation of strands: tones at random, and widths.
 #pragma once
 
 #include <vector>
@@ -14,13 +14,13 @@ struct StrandLook {
     float shift = 0.0f;
 };
 
-/// Returns the look of a strand, at random by its id and its clump: the same for any other strands.
+/// Returns the look of a strand, at random by its id and its clump, independent of other strands.
 StrandLook look_of(const ViewStrands& drawn, Index strand);
 
 /// Factor of the colour along a strand, dark at the root and light at the tip; `t` 0 to 1.
 float tone_along(const StrandStyle& style, float t);
 
-/// Writes the widths of a strand's points in view units, as far as they cover: less if they are
+/// Returns widths of a strand's points in view units, as far as they cover: less if they are
 /// transparent.
 void cover_widths(const ViewStrands& drawn, Index strand, std::vector<float>& widths);
 

@@ -1,6 +1,6 @@
 /// Strands and triangles as samples of a picture's pixels. A strand is a ribbon that faces the
-/// viewer, as wide as it is: if that is less than a pixel it covers a part of the pixel's samples,
-/// so that thin strands fade instead of breaking into dots.
+/// viewer, as wide as it is: below a pixel it covers a part of the pixel's
+/// samples, so that thin strands fade instead of breaking into dots.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +22,8 @@ struct ScreenPoint {
     float radius = 0.0f;
 };
 
-/// A rectangle of a picture with sixteen samples a pixel. A sample shows the nearest of its
-/// entries, for any order of drawing; of two at the same depth, the lower id.
+/// A rectangle of a picture with sixteen samples a pixel. A sample shows the nearest surface, in
+/// any order of drawing; of two at the same depth, the lower id.
 class SampleTile {
   public:
     static constexpr int kSamples = 16;
@@ -38,23 +38,23 @@ class SampleTile {
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// A piece of a strand, with round ends; `id` is less than kSurface. Nothing if a number is not
-    /// finite or both ends have no width.
+    /// Draws a piece of a strand, with round ends; `id` is less than kSurface. Nothing if a number
+    /// is not finite or both ends have no width.
     void draw_segment(const ScreenPoint& begin, const ScreenPoint& end, std::uint32_t id);
-    /// Hides everything behind it; both of its sides do.
+    /// Draws a triangle that hides everything behind it, on both of its sides.
     void draw_triangle(const std::array<ScreenPoint, 3>& corners);
 
     /// Hierarchical depth: the greatest depth in each block of pixels, for `occludes`.
     void update_depth_blocks();
-    /// Returns whether everything drawn before `update_depth_blocks` hides all at `depth` or beyond
-    /// in a rectangle of the picture; false if that is not certain.
+    /// Returns whether content drawn before `update_depth_blocks` hides everything at `depth` or
+    /// beyond in a rectangle of the picture; false if that is not certain.
     bool occludes(float left, float top, float right, float bottom, float depth) const;
 
     /// Pixels count from the top left of the picture.
     std::uint32_t id(int x, int y, int sample) const {
         return static_cast<std::uint32_t>(keys_[place(x, y) * kSamples + sample]);
     }
-    /// Returns the position of a sample in the picture.
+    /// Position of a sample in the picture.
     Eigen::Vector2f position(int x, int y, int sample) const;
 
   private:
@@ -70,9 +70,10 @@ class SampleTile {
     void put(std::size_t pixel, int sample, float depth, std::uint32_t id);
 
     int left_, top_, width_, height_;
-    /// Keys of the samples: bits of the depth, which grow with it, before those of the id.
+    /// Key of each sample: bits of the depth, which grow with it, before those of the id.
     std::vector<std::uint64_t> keys_;
-    /// For each pixel: an upper bound of the seen depths, and samples put since it was found.
+    /// Greatest depth seen in each pixel, and the number of samples put since it was
+    /// found.
     std::vector<float> pixel_depth_;
     std::vector<std::uint8_t> puts_;
     int block_columns_ = 0;

@@ -47,7 +47,7 @@ Array3f lit(const StrandStyle& style, const StrandPoint& point, const StudioLigh
     return light.color * (point.color * (diffuse + secondary) + primary);
 }
 
-// Light that came through strands has their colour: the most absorbed part is lost first.
+// Light that passed through strands has their colour: the most absorbed parts are lost first.
 Array3f passed(float light, const Array3f& color) {
     const float mean = std::max(color.mean(), 1e-4f);
     const Array3f power = (1.0f + kColoring * (mean - color) / mean).max(0.3f);
@@ -64,7 +64,7 @@ float strand_reflection(const HairLobe& lobe, float shift, const Vector3f& tange
                         const Vector3f& to_light, const Vector3f& to_viewer) {
     const float light_sine = tangent.dot(to_light), viewer_sine = tangent.dot(to_viewer);
     const float light_cosine = cosine_of(light_sine), viewer_cosine = cosine_of(viewer_sine);
-    // Cosine of the sum of both angles from the plane across the strand, which is 0 in a mirror.
+    // Cosine and sine of the sum of both angles from the plane across the strand, 0 in a mirror.
     const float cosine = light_cosine * viewer_cosine - light_sine * viewer_sine;
     const float sine = light_sine * viewer_cosine + light_cosine * viewer_sine;
     const float lean = static_cast<float>(lobe.shift) + shift;

@@ -31,9 +31,9 @@ struct StrandPoint {
 /// Kajiya and Kay's diffuse term: the sine of the angle between the strand and the light.
 float strand_diffuse(const Eigen::Vector3f& tangent, const Eigen::Vector3f& to_light);
 
-/// Returns their reflection: light coming in at an angle from the plane across the strand leaves on
-/// the cone of the same angle on the other side, turned by the lobe's shift and `shift`. 1 on that
-/// cone, less beside it.
+/// Returns their reflection: light that arrives at an angle from the plane across the strand leaves
+/// on the cone of the same angle on the other side, rotated by the lobe's shift and `shift`. 1 on
+/// that cone, less beside it.
 float strand_reflection(const HairLobe& lobe, float shift, const Eigen::Vector3f& tangent,
                         const Eigen::Vector3f& to_light, const Eigen::Vector3f& to_viewer);
 

@@ -29,7 +29,7 @@ class StrandShadow {
     /// light and of the light from all around that the strands let through, and how much hair grows
     /// there, 0 to 255.
     const std::vector<std::uint8_t>& on_meshes() const { return on_meshes_; }
-    /// Returns the linear colour of scalps under hair.
+    /// Linear colour of scalps with hair.
     const Eigen::Array3f& scalp_color() const { return scalp_color_; }
 
   private:

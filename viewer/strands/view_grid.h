@@ -1,4 +1,4 @@
-/// A grid in space: densities over its points, and the light that passes through.
+/// A grid in space: a density spread over its points, and the light that passes through.
 #pragma once
 
 #include <Eigen/Core>

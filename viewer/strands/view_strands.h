@@ -1,4 +1,4 @@
-/// Strands of a picture in view space: x right, y up, z towards the viewer.
+/// Strands and surfaces of a picture, in view space: x right, y up, z towards the viewer.
 #pragma once
 
 #include <array>

@@ -129,7 +129,7 @@ lua_State* ScriptHost::lua() {
 
 namespace {
 
-// Forgets expired entries, before there are many of them.
+// Forgets dead objects, before there are many of them.
 template <typename Map>
 void forget_expired(Map& map, std::size_t alive) {
     if (map.size() < 2 * alive + 64) return;

@@ -29,7 +29,7 @@ struct LuaReference {
 struct Script {
     std::string text, name;
     std::shared_ptr<lua::ParameterSet> parameters;
-    /// Values that were set, as the words of a command line.
+    /// The set parameters, as the words of a command line.
     std::map<std::string, std::string> values;
 };
 
@@ -44,16 +44,16 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     /// Returns the state; opened when it is first asked for. Errors: memory_limit.
     lua_State* lua();
     lua::State& binding() { return *lua::find_state(lua()); }
-    /// Opens the state as a sandbox. Errors: invalid_argument if it is open already, or for limits
-    /// below 0; memory_limit.
+    /// Opens the state as a sandbox. Errors: invalid_argument if it is open already, or for
+    /// limits below 0; memory_limit.
     void open_sandbox(lua::SandboxLimits limits);
-    /// Calls as lua_pcall does without a handler, within the limits of the sandbox.
+    /// Runs lua_pcall without a handler, within the limits of the sandbox.
     int call(int arguments, int results);
 
     /// See Sharing.
     Sharing sharing();
-    /// Returns the object of Lua whose content a handle's object is. For content that Lua has not
-    /// seen a new one is made if that is possible without a copy. Errors: StatusError for invalid
+    /// Returns the Lua object that shares a handle's content. Content new to Lua gets a
+    /// new object if that is possible without a copy. Errors: StatusError for invalid
     /// handles.
     lua::Holder holder_of(std::uint64_t id);
     /// Returns a handle for the object of a userdata at `index`: its own if it has one.
@@ -63,8 +63,8 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     void check_values(const Json& values);
     /// To be called in protected mode, with `values` checked.
     void push_values(const Json& values);
-    /// Returns the value at `index`, objects as handles. Errors: invalid_argument for values that
-    /// JSON cannot hold.
+    /// Returns the value at `index`, objects as handles. Errors: invalid_argument for values
+    /// without JSON.
     Json value_at(int index, int depth = 0);
     /// Returns the values from `first` to the top; at most `kMostValues` with all they hold.
     Json values_from(int first);
@@ -89,7 +89,7 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     lua_State* L_ = nullptr;
     // Null if scripts are trusted.
     std::unique_ptr<lua::Sandbox> sandbox_;
-    // Room for the results that are being converted.
+    // Depth of the results that are being converted.
     std::size_t values_left_ = kMostValues;
     // The Lua object around the content of a handle, by that content.
     std::map<const void*, std::weak_ptr<void>> around_;
@@ -102,7 +102,7 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
 /// Returns the host of a context that can run scripts.
 ScriptHost& scripts_of(lissom_context& context);
 
-/// Throws the error for a Lua error with this message: the code in brackets at its end, else
+/// Throws the error of a Lua message: by the code in brackets at its end, else
 /// `status`.
 [[noreturn]] void throw_lua_error(const std::string& message, lissom_status status);
 

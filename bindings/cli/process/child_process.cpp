@@ -22,7 +22,7 @@ extern char** environ;
 namespace lissom::cli {
 namespace {
 
-// Descriptor of a child's channel to its parent.
+// Environment variable with the child's channel to its parent.
 constexpr int kChannel = 3;
 // Descriptors of the parent stay above those of a child.
 constexpr int kFirstOwn = 10;
@@ -54,7 +54,8 @@ struct Channel {
     }
 };
 
-// Inputs of the child: nothing to read, the file for its outputs, the channel, a group of its own.
+// Sets up the child: no input, the file for its outputs, the channel, its own process
+// group.
 class SpawnSettings {
   public:
     SpawnSettings(const std::filesystem::path& output, int channel) {
@@ -182,7 +183,7 @@ void ChildProcess::wait(const std::vector<const ChildProcess*>& processes, doubl
 }
 
 ParentProcess::ParentProcess() {
-    // Children of this process shall not keep the channel open.
+    // Processes started by this one shall not keep the channel open.
     fcntl(kChannel, F_SETFD, FD_CLOEXEC);
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -1,5 +1,5 @@
-/// Other processes of this program, and their messages to it. All of the platform that `lissom
-/// test` needs is in child_process.cpp, for systems with POSIX.
+/// Other processes of this program, and their messages. All code of the platform that `lissom test`
+/// needs is in child_process.cpp, for systems with POSIX.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace lissom::cli {
 
 /// How a process ended.
 struct ProcessEnd {
-    /// Its exit status; the number of the signal that ended it, if there was one.
+    /// Exit status of the process; the number of the signal that ended it, if there was one.
     int status = 0;
     bool by_signal = false;
 
@@ -19,8 +19,9 @@ struct ProcessEnd {
     std::string text() const;
 };
 
-/// This program, started again. It reads nothing, and writes to a file; its messages come by lines
-/// of their own (see ParentProcess). It is killed with this object, and so are its children.
+/// This program, started again. It reads nothing, and writes to a file; its messages are lines
+/// of a channel of their own (see ParentProcess). Destroying this object kills it and its
+/// children.
 class ChildProcess {
   public:
     /// Starts the program with `words` as its command line. Both its outputs go to the end of the
@@ -36,7 +37,7 @@ class ChildProcess {
     bool has_ended() const;
     /// Only of one that has ended.
     const ProcessEnd& end() const;
-    /// Ends it and its children at once.
+    /// Kills it and its children at once.
     void kill();
 
     /// Waits until one of the processes tells something or ends, or the time is over.
@@ -54,14 +55,14 @@ class ParentProcess {
   public:
     ParentProcess();
 
-    /// Tells it a line; false if nobody listens.
+    /// Sends it a line; returns false if nobody listens.
     bool tell(const std::string& line) const;
 };
 
 /// Interrupts this program as Ctrl-C does.
 void interrupt_program();
 
-/// The file of this program; empty if the system does not tell.
+/// Returns the file of this program; empty if the system does not tell.
 std::filesystem::path program_file();
 
 }  // namespace lissom::cli

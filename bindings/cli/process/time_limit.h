@@ -7,8 +7,8 @@
 
 namespace lissom::cli {
 
-/// Stops the running work as Ctrl-C does (see Interrupt) when it takes longer than `seconds`,
-/// unless the object is gone before; 0: never.
+/// Interrupts running work as Ctrl-C does (see Interrupt) if it takes longer than `seconds`, unless
+/// the object is destroyed before; 0: never.
 class TimeLimit {
   public:
     explicit TimeLimit(double seconds);

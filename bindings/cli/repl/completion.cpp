@@ -57,7 +57,7 @@ Open open_at_end(std::string_view text) {
     return open;
 }
 
-// Returns the opening of the bracket that closes at the end of `text`.
+// Returns the position of the opening bracket of the one that closes at the end of `text`.
 std::optional<std::size_t> opening(std::string_view text) {
     const Open open = open_at_end(text.substr(0, text.size() - 1));
     if (open.in_string || open.brackets.empty()) return std::nullopt;
@@ -69,7 +69,7 @@ class Lookup {
   public:
     explicit Lookup(lua_State* L) : L_(L), state_(*lua::find_state(L)) {}
 
-    // Pushes the value of the path "a.b.c" at the end of `text`; returns false if there is none.
+    // Pushes the value of the path "a.b.c" at the end of `text`; false if it has none.
     bool push_path(std::string_view text) {
         text = trimmed(text);
         const std::size_t begin = word_begin(text);
@@ -138,8 +138,8 @@ class Lookup {
     const lua::State& state_;
 };
 
-// The options that a key may name at the end of `text`, whose last open bracket is a brace: their
-// function, and the prefix of their names ("sphere.").
+// Options that a key may name at the end of `text`, whose last open bracket is a brace: the
+// function they belong to, and the prefix of their names ("sphere.").
 struct OptionPlace {
     const Entry* entry = nullptr;
     std::string prefix;

@@ -11,7 +11,7 @@
 namespace lissom::cli {
 
 struct Completions {
-    /// Beginning of the word that they replace.
+    /// Begin of the completed word.
     std::size_t begin = 0;
     /// Whole words, in order; names of options end with " = ".
     std::vector<std::string> words;
@@ -19,9 +19,9 @@ struct Completions {
     bool in_string = false;
 };
 
-/// How `text`, all that was typed of a chunk up to the cursor, may go on. Runs no code of the
-/// script: reads variables and fields as they are, and takes the type of a function's results from
-/// its description.
+/// Returns the completions of `text`, the typed chunk up to the cursor. Runs no code of the
+/// script: reads variables and fields raw, and takes the types of results from their
+/// descriptions.
 Completions completions(lua_State* L, std::string_view text);
 
 }  // namespace lissom::cli

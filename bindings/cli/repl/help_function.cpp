@@ -12,7 +12,7 @@
 namespace lissom::cli {
 namespace {
 
-// Pushes the help for the argument of `help`, with no C++ object alive afterwards.
+// Pushes the help that was asked for, with no C++ object alive afterwards.
 template <typename Compose>
 int push_help(lua_State* L, const Compose& compose) {
     lua::Failure failure;

@@ -5,7 +5,7 @@
 
 namespace lissom::cli {
 
-/// Sets the global variable `help`: help() lists everything, help(function), help(object) and
+/// Sets the global variable `help`: help() lists the topics, help(function), help(object) and
 /// help(name) describe one. The state has the library open. May raise an error of Lua if there is
 /// no memory.
 void provide_help(lua_State* L);

@@ -17,7 +17,7 @@ bool is_name_part(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-// Returns the end of the long bracket that opens at `at`, or `at` if none does.
+// Returns the position behind the long bracket that opens at `at`, or `at` if none does.
 std::size_t after_long_bracket(std::string_view text, std::size_t at) {
     if (at >= text.size() || text[at] != '[') return at;
     const std::size_t open = std::min(text.find_first_not_of('=', at + 1), text.size());

@@ -7,13 +7,12 @@
 
 namespace lissom::cli {
 
-/// Returns the cells that UTF-8 text takes on a terminal: two for wide characters of East Asia and
-/// emoji, none for characters that combine with the one before. Bytes that are no UTF-8 take one
-/// each.
+/// Returns the cells of UTF-8 text on a terminal: two for wide characters of East Asia and emoji,
+/// none for combining ones. Bytes that are no UTF-8 take one each.
 std::size_t cells_of(std::string_view text);
 
-/// Return the beginning of the character of `text` that ends before byte `at`, and the end of the
-/// one that begins there; with combining characters.
+/// Begin of the character of `text` that ends before byte `at`, and end of the one that begins
+/// there; each with its combining characters.
 std::size_t previous_character(std::string_view text, std::size_t at);
 std::size_t next_character(std::string_view text, std::size_t at);
 
@@ -44,7 +43,7 @@ class EditedLine {
     /// Exchanges the characters beside the cursor and goes on.
     void transpose();
 
-    /// Cut the text between the cursor and the place named; `paste` puts it back.
+    /// Cut the text between the cursor and the named place; `paste` puts it back.
     void cut_to_begin() { cut(0, cursor_); }
     void cut_to_end() { cut(cursor_, text_.size()); }
     void cut_word_before() { cut(word_begin(), cursor_); }

@@ -10,10 +10,10 @@
 namespace lissom::cli {
 
 /// The last thousand lines, the oldest first. The file has a line each; several programs may add to
-/// it, and lines that cannot be written are kept for this run.
+/// it. Lines that cannot be written are kept for this run.
 class History {
   public:
-    /// Reads the existing lines; an empty path is no file.
+    /// Reads the file; an empty path is no file.
     explicit History(std::filesystem::path file);
 
     std::size_t size() const { return lines_.size(); }

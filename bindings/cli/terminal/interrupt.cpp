@@ -10,12 +10,12 @@
 namespace lissom::cli {
 namespace {
 
-// A signal handler takes no argument, so its data are the process's.
+// A signal handler takes no argument, so its data belongs to the process.
 std::atomic<const Context*> listening_context{nullptr};
 std::atomic<lua_State*> running_thread{nullptr};
 volatile std::sig_atomic_t pressed_flag = 0, prompt_flag = 0;
-// Keeps the context of `press` alive until it has finished: a handler of signals needs no lock if
-// the work runs on the thread that it interrupts.
+// Keeps the target of `press` alive until it returns: a signal handler needs no lock if the work
+// runs on the thread that it interrupts.
 std::mutex pressing;
 
 void set_running(lua_State* L) {
@@ -23,7 +23,7 @@ void set_running(lua_State* L) {
     running_thread.store(L);
 }
 
-// Key of Lua's registry: message of an interrupt's first error.
+// Key of Lua's registry: the message of the first error of an interrupt.
 const char kStopped = 0;
 
 // Stays armed until the host's call returns: pcall cannot swallow it for good. All its errors name

@@ -20,7 +20,7 @@ class Interrupt {
     static void watch(lua_State* L);
     /// From now on it is `L`, watched before, whose scripts are stopped.
     static void attend(lua_State* L);
-    /// Acts as Ctrl-C does, but never ends the program; from any thread.
+    /// Acts as if Ctrl-C were pressed, but never ends the program; from any thread.
     static void press();
     /// The Lua state is about to be closed.
     static void forget();

@@ -7,7 +7,7 @@
 
 namespace lissom::cli {
 
-/// Action of a key. `none` are keys that have no meaning here.
+/// Meaning of a key; `none` for keys without one.
 enum class Key {
     none,
     text,
@@ -37,13 +37,13 @@ enum class Key {
 
 struct KeyPress {
     Key key = Key::none;
-    /// For Key::text: one character, in UTF-8.
+    /// Text of Key::text: one character, in UTF-8.
     std::string text = {};
 };
 
-/// Reads one key. `next` gives the next byte, or nothing if none comes soon: an escape that stands
-/// alone is Key::leave. The keys are those of Emacs, as at other prompts, and the arrows, Home, End
-/// and Delete of terminals like VT100 and xterm, with Ctrl for words.
+/// Reads one key. `next` returns the next byte, or nothing if none comes soon: an escape that
+/// stands alone is Key::leave. The keys are those of Emacs, as at other prompts, and the arrows,
+/// Home, End and Delete of terminals like VT100 and xterm, with Ctrl for words.
 KeyPress read_key(char first, const std::function<std::optional<char>()>& next);
 
 }  // namespace lissom::cli

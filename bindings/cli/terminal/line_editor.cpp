@@ -69,8 +69,8 @@ std::string in_columns(const std::vector<std::string>& words, std::size_t width)
     return text;
 }
 
-// The shown part of the line. It is written with nothing but '\r', blanks and '\b', which all
-// terminals know; of a long line, the part about the cursor.
+// The line on the terminal. It is written with nothing but '\r', blanks and '\b', which all
+// terminals know; a long line is shown only near the cursor.
 class LineView {
   public:
     void show(std::string_view prompt, const EditedLine& line) {
@@ -137,7 +137,7 @@ class Typing {
     }
 
   private:
-    // Nothing if the typing has ended.
+    // Returns nothing if the typing has ended.
     std::optional<KeyPress> next_key() {
         constexpr int kMilliseconds = 100;
         for (;;) {
@@ -218,7 +218,7 @@ class Typing {
         }
     }
 
-    // Shows line `next` of the history; after its last, the typed text.
+    // Shows line `next` of the history; after its last, the typed line.
     void go_to(std::size_t next) {
         if (next > history_.size()) return ring();
         if (at_ == history_.size()) typed_ = line_.text();
@@ -226,7 +226,7 @@ class Typing {
         line_.replace(at_ == history_.size() ? typed_ : history_.line(at_));
     }
 
-    // Shows the last line that contains the typed text; Ctrl-R goes to the one before, Ctrl-G gives
+    // Finds the last line that contains the typed text; Ctrl-R goes to the one before, Ctrl-G gives
     // up, and any other key takes the line.
     void search() {
         const std::string before = line_.text();
@@ -326,7 +326,7 @@ LineEditor::Read LineEditor::read(const char* prompt) {
 
 void LineEditor::remember(const std::string& chunk) {
     if (!interactive_) return;
-    // One line, as the arrow keys bring it back; but a comment would swallow the text after it.
+    // Joins the text into one line for the arrow keys; but a comment would swallow the rest.
     std::string text = chunk;
     if (chunk.find("--") == std::string::npos) std::replace(text.begin(), text.end(), '\n', ' ');
     std::istringstream lines(text);

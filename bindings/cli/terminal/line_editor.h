@@ -12,13 +12,13 @@
 
 namespace lissom::cli {
 
-/// Functions that a line editor calls; both may be empty.
+/// Callbacks of a line editor; both may be empty.
 struct LineEditorOptions {
     /// How the line up to the cursor may go on.
     std::function<Completions(const std::string& line)> complete = {};
     /// Whether Ctrl-C was pressed since the last line; asked while a line is typed.
     std::function<bool()> interrupted = {};
-    /// File that keeps lines from one run to the next; empty for none.
+    /// File that keeps lines between runs; empty for none.
     std::filesystem::path history = {};
 };
 
@@ -29,7 +29,7 @@ class LineEditor {
     LineEditor(const LineEditor&) = delete;
     LineEditor& operator=(const LineEditor&) = delete;
 
-    /// Typed line, the end of the input, or Ctrl-C, which gives up the line.
+    /// A typed line, the end of the input, or Ctrl-C, which gives up the line.
     enum class Outcome { line, end, interrupted };
     struct Read {
         Outcome outcome = Outcome::end;
@@ -51,8 +51,8 @@ class LineEditor {
     History history_;
 };
 
-/// The file of the history: $LISSOM_HISTORY, which may be empty for none; else lissom/history in
-/// $XDG_STATE_HOME, by default ~/.local/state; empty if there is no home.
+/// Returns the file of the history: $LISSOM_HISTORY, which may be empty for none; else
+/// lissom/history in $XDG_STATE_HOME, by default ~/.local/state; empty if there is no home.
 std::filesystem::path history_file();
 
 }  // namespace lissom::cli

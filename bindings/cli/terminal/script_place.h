@@ -1,4 +1,4 @@
-/// script_place: place of a script, for messages.
+/// script_place: the position in a script, for messages.
 #pragma once
 
 struct lua_State;

@@ -16,11 +16,10 @@ bool input_is_terminal();
 bool terminal_sends_keys();
 bool terminal_moves_cursor();
 
-/// Cells of a row of the terminal; 80 if it does not say.
+/// Returns the cells of a row of the terminal; 80 if it does not say.
 std::size_t terminal_columns();
 
-/// Reads keys as they are pressed and does not show them, as long as it lives. Ctrl-C stays a
-/// signal.
+/// While it lives, keys are read as they are pressed and are not shown. Ctrl-C stays a signal.
 class RawTerminal {
   public:
     RawTerminal();

@@ -1,14 +1,14 @@
--- Globals of the scripts that `lissom test` runs: `test` and `expect`. Each file has a process of its own;
--- functions beyond Lua come from the host that runs it:
+-- The globals `test` and `expect` of `lissom test`. Each file has a process of its own; functions
+-- that Lua lacks come from the host that runs it:
 --
 --     host.settings            filter, list, seed, timeout, finished (tests that need not run again)
---     host.call(action, limit) calls it; nil, or the error: { message =, file =, line =, code = }
+--     host.call(action, limit) calls it; nil, or its error: { message =, file =, line =, code = }
 --     host.report(event)       reports an event
 --     host.no_picture(exists)  why a picture that exists or not cannot be compared here, or nil
 --     host.folder()            a new folder for the files of the running test
---     host.picture(check)      compares two picture files: nil, or the differences
+--     host.picture(check)      compares two picture files: nil, or their difference
 --
--- It runs under Lua 5.4 and under LuaJIT. Returns the function that runs the tests of a file.
+-- It runs under Lua 5.4 and under LuaJIT. Returns the runner of the tests that a file declares.
 local host = ...
 local settings = host.settings
 
@@ -88,7 +88,7 @@ local function path_step(key)
     return is_name(key) and "." .. key or "[" .. show(key) .. "]"
 end
 
--- Whether a table is compared by its contents.
+-- Returns whether a table is compared by content.
 local function is_plain(value)
     local meta = getmetatable(value)
     return type(value) == "table" and not (type(meta) == "table" and meta.__eq)
@@ -106,8 +106,8 @@ local function all_keys(a, b)
     return keys
 end
 
--- The first difference of two values: { path =, got =, wanted = }, or nil. Tables are compared by their
--- content, all else by `same`.
+-- Returns the first difference of two values: { path =, got =, wanted = }, or nil. Tables are
+-- compared by their content, all else by `same`.
 local function first_difference(got, wanted, same, compared)
     if not (is_plain(got) and is_plain(wanted)) then
         return not same(got, wanted) and { path = "", got = got, wanted = wanted } or nil
@@ -184,7 +184,8 @@ local function variables_at(level)
     return found
 end
 
--- "stats.bad" as its value in `variables`, boxed; nil if there is no such variable, or it says nothing.
+-- Returns "stats.bad" as its value in `variables`, boxed; nil if there is no such variable, or it
+-- adds nothing.
 local function value_of(chain, variables)
     local box
     for name in chain:gmatch("[^.]+") do
@@ -229,7 +230,7 @@ local function misused(message, depth)
     error(message, 3 + (depth or 0))
 end
 
--- A table that raises an error for a missing name, with the names it has.
+-- Makes a table that reports names it lacks, with those that it has.
 local function strict(name, functions)
     return setmetatable(functions, { __index = function(_, key)
         local names = {}
@@ -334,7 +335,8 @@ local function pixel_count(options, name, standard)
     error("expect.picture: " .. name .. " must be a number of pixels, got " .. show(value), 4)
 end
 
--- Data for the host's comparison, without the file. Called by the expectation itself, as the functions below.
+-- The comparison for the host, except the file. Called by the expectation itself, as the functions
+-- below.
 local function read_check(picture, golden, options)
     if type(picture) ~= "string" and type(picture) ~= "table" then
         misused("expect.picture: a file or the options of lissom.render are needed, got " .. show(picture), 1)
@@ -356,7 +358,7 @@ local function read_check(picture, golden, options)
     }
 end
 
--- Draws into a file of the test: the file, or nil and an error, as lissom.render.
+-- Draws into a file of the test. Returns the file, or nil and the error, as lissom.render.
 local function draw(scene, golden)
     local render = rawget(require "lissom", "render")
     if not render then return nil, "this program draws no pictures", "no_display" end
@@ -497,7 +499,7 @@ local function is_chosen(one)
     return is_pattern and found
 end
 
--- Meaning of a failed call: { status =, message =, ... }.
+-- Returns the event of a failed call: { status =, message =, ... }.
 local function verdict(failure)
     if skip_reason and failure.message:find("skipped: " .. skip_reason, 1, true) then
         return { status = "skipped", message = skip_reason }

@@ -1,4 +1,4 @@
-/// Functions of a library that can read pictures, for `lissom test`.
+/// Interface of `lissom test` to a library that can read pictures.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@ namespace lissom::cli {
 
 struct PictureCheck {
     std::filesystem::path picture, golden;
-    /// File for a picture of the two and their difference side by side, drawn if they differ.
+    /// File of both pictures and their difference side by side, drawn if they differ.
     std::filesystem::path difference;
     /// Greatest difference of a colour, 0 to 1, that counts as none.
     double tolerance = 0.05;
@@ -18,7 +18,7 @@ struct PictureCheck {
     double connected = 8.0;
 };
 
-/// Returns the differences, as a message; empty if there are none. Throws Error if a file cannot be
+/// Returns the difference as a message; empty if there is none. Throws Error if a file cannot be
 /// read.
 using ComparePictures = std::string (*)(const PictureCheck& check);
 

@@ -7,7 +7,7 @@
 namespace lissom::cli {
 namespace {
 
-// Returns a duration, to a hundredth.
+// Returns a duration in seconds, to a hundredth.
 std::string duration_text(double seconds) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2f s", seconds);
@@ -22,7 +22,7 @@ std::string place_text(const TestLine& place) {
     return place.file + ":" + std::to_string(place.line);
 }
 
-// Results of a file as a whole have no name of a test.
+// An event of a file has no name of a test.
 std::string shown_name(const TestResult& test) {
     return test.name.empty() ? "the file" : test.name;
 }
@@ -127,7 +127,7 @@ std::string tap_details(const TestResult& test) {
 
 // Characters that XML 1.0 does not have, and bytes that are no UTF-8, become "?".
 std::string xml_text(const std::string& text) {
-    // Converts to a text of JSON, whose writer replaces broken UTF-8 by U+FFFD.
+    // Returns a JSON text; its writer replaces broken UTF-8 by U+FFFD.
     const std::string valid = Json::parse(json_text(text, -1)).get<std::string>();
     std::string result;
     for (const char c : valid) {
@@ -191,7 +191,7 @@ std::string junit_case(const FileResult& file, const TestResult& test) {
     return text + "    </testcase>\n";
 }
 
-// Counts errors among the failures: the attributes that both suites and all of them have.
+// Errors among these failures: the attributes that both suites and all of them have.
 std::string junit_counts(const std::vector<FileResult>& results, double seconds) {
     int errors = 0;
     for (const FileResult& file : results) {

@@ -9,8 +9,8 @@
 
 namespace lissom::cli {
 
-/// Returns a file's report for people: a line, and below it the failed and skipped tests; `verbose`
-/// names every test, with the output of all of them.
+/// Prints a file for people: a line, and below it failed and skipped tests; `verbose` names every
+/// test, with the output of each.
 std::string file_text(const FileResult& result, bool verbose);
 /// "12 passed, 1 failed, 2 skipped (3 files, 1.24 s)"; the first two are always there.
 std::string counts_text(const TestCounts& counts, double seconds);

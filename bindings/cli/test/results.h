@@ -15,21 +15,21 @@ struct TestLine {
 };
 
 struct TestResult {
-    /// With the names of its groups: "bending / far from the origin". Empty for results of the file
+    /// Name with those of its groups: "bending / far from the origin". Empty for events of the file
     /// before or after its tests.
     std::string name;
-    /// Line of its declaration.
+    /// Place of its declaration.
     int line = 0;
     TestStatus status = TestStatus::passed;
     double seconds = 0.0;
-    /// Reason and place of a failure or of skipping.
+    /// Reason and place of a failure or skip.
     std::string message;
     TestLine place;
     /// Whether an expectation did not hold; otherwise something else went wrong.
     bool is_expectation = false;
     /// The lines that called that place, the nearest first.
     std::vector<TestLine> callers;
-    /// Its output.
+    /// Output of the test.
     std::string output;
     /// The folder that keeps its files, or "".
     std::string folder;

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// Time of a process, beyond the limit of a test, to stop it by itself before it is killed.
+// Time of a process beyond the limit of a test, to stop by itself before it is killed.
 constexpr double kGrace = 5.0;
 
 double seconds_between(Clock::time_point start, Clock::time_point end) {
@@ -53,7 +53,7 @@ TestStatus status_of(const std::string& text) {
                                : TestStatus::failed;
 }
 
-// Returns the calls above the failed one, without repetitions of it.
+// Returns the calls above the failing one, without repetitions of it.
 std::vector<TestLine> callers_of(const Json& event, const TestLine& place) {
     std::vector<TestLine> callers;
     for (const Json& call : event.value("calls", Json::array())) {
@@ -108,7 +108,7 @@ class FileRun {
         set_deadline(options_.timeout);
     }
 
-    // Takes the messages of the process, and goes on if it has ended.
+    // Handles the messages of the process, and continues if it has ended.
     void proceed() {
         for (const std::string& line : process_->lines()) take(Json::parse(line));
         if (process_->has_ended()) {
@@ -140,7 +140,7 @@ class FileRun {
     TestJob job_;
     std::unique_ptr<ChildProcess> process_;
     FileResult result_;
-    // The running test, and the beginning of its output.
+    // The running test, and the begin of its output.
     std::optional<TestResult> running_;
     std::uintmax_t output_from_ = 0;
     Clock::time_point began_, test_began_;

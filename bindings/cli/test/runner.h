@@ -27,9 +27,9 @@ struct RunnerOptions {
     std::function<void(const FileResult&)> take;
 };
 
-/// Runs the tests. A process that dies, or does not heed the time limit, fails the test that it
-/// ran; another process runs the rest of the file. If `stopped` ended them, files that had not
-/// ended are not told. Returns the folder that keeps the files of failed tests; empty if there are
+/// Runs the tests. A process that dies, or exceeds the time limit, fails its running test;
+/// another process runs the rest of the file. If `stopped` ended them, unfinished files are
+/// not reported. Returns the folder that keeps the files of failed tests; empty if there are
 /// none.
 std::filesystem::path run_test_files(const std::vector<std::filesystem::path>& files,
                                      const RunnerOptions& options);

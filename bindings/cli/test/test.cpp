@@ -25,7 +25,7 @@ struct Wanted {
     std::string format = "text";
     std::string output;
     bool verbose = false;
-    // Not for people: the job of a process that was started by another one.
+    // Not for users: the task of a process started by another one.
     std::string job;
 };
 
@@ -56,7 +56,7 @@ int core_count() {
     return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-// Divides the cores: number of files at a time, and threads of each.
+// Number of files at a time, and threads of each.
 void share_cores(RunnerOptions& options, int files, int threads, bool has_jobs) {
     options.jobs = std::clamp(has_jobs ? options.jobs : core_count(), 1, std::max(1, files));
     options.threads = threads > 0 ? threads : std::max(1, core_count() / options.jobs);
@@ -91,7 +91,7 @@ int list_tests(Program& program, const std::vector<FileResult>& results) {
     return kSuccess;
 }
 
-// Runs the files; prints their results as text on the way if asked for.
+// Runs the files; prints results as text on the way if that is wanted.
 class TestRun {
   public:
     TestRun(Program& program, Wanted& wanted)
@@ -155,7 +155,8 @@ int run_tests(Program& program, const std::vector<std::string>& words) {
     Wanted wanted;
     CLI::App app(
         "Runs the tests of scripts: test(\"name\", function() expect.equal(1 + 1, 2) end). Each "
-        "file has a process of its own. Ends with status 1 if a test failed.",
+        "file "
+        "has a process of its own. Ends with status 1 if a test failed.",
         "lissom test");
     declare(app, wanted);
     int status = kSuccess;

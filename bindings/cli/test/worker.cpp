@@ -147,8 +147,8 @@ class Worker {
 
 // ---- Functions of the host
 
-// A function of the host as Lua calls it. Its exception becomes an error of Lua when no object of
-// C++ is alive any more.
+// A function of the host as Lua calls it. Its exceptions become errors of Lua when no C++ object is
+// alive any more.
 template <int (Worker::*kMember)(lua_State*)>
 int Worker::host_function(lua_State* L) {
     auto* const worker = static_cast<Worker*>(lua_touserdata(L, lua_upvalueindex(1)));
@@ -239,7 +239,7 @@ int Worker::report(lua_State* L) {
     return 0;
 }
 
-// Adds the data of a finished test that only this side knows.
+// Fields of a finished test known only to this side.
 void Worker::complete_end(Json& event) {
     event["seconds"] = seconds_since(began_);
     event["calls"] = calls_json(calls_);
@@ -441,7 +441,7 @@ TestJob job_of(const Json& json) {
 }
 
 int run_test_job(Program& program, const std::string& json) {
-    // The output of a test that dies shall not die with it.
+    // The output of a test that dies shall not be lost.
     std::setvbuf(stdout, nullptr, _IONBF, 0);
     return Worker(program, job_of(Json::parse(json))).run();
 }

@@ -1,17 +1,17 @@
-/// The process that runs the tests of one file, and its messages to the one that started it.
+/// The process that runs the tests of one file, and its messages to the runner.
 ///
 /// Each line is an object of JSON: "event", "output" (the size of the file of its output by then),
 /// and
 ///
-/// - limit: "seconds", which something that begins now may take
+/// - limit: "seconds", the time limit of the step that begins
 /// - begin: the "name", "line" and "folder" of the test that begins
-/// - left_out: "text", why a picture was not compared
+/// - left_out: "text", the reason a picture was not compared
 /// - updated: "path" of a golden picture that was written
 /// - end: "status" (passed, failed or skipped) and "seconds" of that test; of a failure "message",
 ///   "file", "line", "code", "expectation" (whether one did not hold) and "calls"; "folder" if
 ///   it keeps files
 /// - test: "name" and "line" of one that is only listed
-/// - file: as end, for results before the first test
+/// - file: as end, for events before the first test
 /// - done: the file was run to its end
 #pragma once
 
@@ -24,7 +24,7 @@
 
 namespace lissom::cli {
 
-/// Job of a process.
+/// Task of a process.
 struct TestJob {
     /// The script, and its name in messages.
     std::filesystem::path file;

@@ -18,7 +18,7 @@ struct Color {
 };
 
 /// Returns the colour called `text`: "#rrggbb", "#rgb" or one of `color_names()`. Errors:
-/// invalid_argument with the accepted forms.
+/// invalid_argument that lists the accepted forms.
 Color parse_color(std::string_view text);
 
 /// Names that `parse_color` accepts, separated by commas.

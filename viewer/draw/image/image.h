@@ -29,7 +29,7 @@ struct Image {
     Color color(int x, int y) const;
     bool is_opaque() const;
 
-    /// Copies `part` with its top left pixel at (x, y); it must lie inside.
+    /// Copies `part` to the position (x, y) of its top left pixel; it must lie inside.
     void paste(const Image& part, int x, int y);
 
     bool operator==(const Image&) const = default;

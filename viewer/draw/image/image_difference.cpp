@@ -36,7 +36,7 @@ double outside(const Image& image, const Image& other, int x, int y) {
     return distance / (255.0 * 255.0);
 }
 
-// Returns red for differing pixels, a faint grey of the golden one elsewhere.
+// Returns red for pixels that differ, a faint grey of the golden picture elsewhere.
 Color marked(const Image& golden, int x, int y, bool differs) {
     if (differs) return {0.9, 0.0, 0.1};
     const double gray = 1.0 - 0.3 * (1.0 - lightness(golden.color(x, y)));

@@ -16,7 +16,7 @@ struct ImageDifference {
     /// and the first of them: noise is scattered, another shape is not.
     std::size_t patch = 0;
     int patch_x = 0, patch_y = 0;
-    /// The golden picture, the other one, and their differences, side by side.
+    /// The golden picture, the other one, and their difference, side by side.
     Image shown;
 };
 
