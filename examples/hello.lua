@@ -6,7 +6,7 @@ local lissom = require "lissom"
 local cactus = lissom.shapes.cactus{}
 local edit = lissom.deform(cactus)
 
--- A handle holds its vertices where its transform puts them; one that is not moved holds its place.
+-- A handle holds its vertices at its transform; one that is not moved holds its place.
 edit:handle(cactus:region("base"))
 local tip = edit:handle(cactus:region("tip"))
 

@@ -27,8 +27,8 @@ rest:set_region("movable", rest:region{ plane = { point = { 0, 0.15 * height, 0 
 local mesh = rest:copy()
 local edit = lissom.deform(mesh, { region = mesh:region("movable") })
 
--- A handle takes its vertices along and says how the surface is turned there; what lies between the
--- handles follows. Turned about a point of the trunk, the tip moves along an arc.
+-- A handle takes its vertices along and turns the surface there; the part between the handles follows. Turned
+-- about a point of the trunk, the tip moves along an arc.
 local tip = edit:handle(mesh:region("tip"))
 tip:rotate{ axis = "z", angle = -params.bend, about = { 0, 0.6 * height, 0 } }
 

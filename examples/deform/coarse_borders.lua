@@ -1,4 +1,4 @@
--- Where a few vertices hold a detailed region, the deformation works on a surface that is refined along them
+-- If a few vertices hold a detailed region, the deformation works on a surface that is refined along them
 -- (section 2.5 of the thesis), and the mesh keeps its faces. A tube with bumps is held at its ends, which are
 -- triangles.
 --
@@ -18,7 +18,7 @@ local params = lissom.params{
 
 local corners, sides, rings, height = 3, 48, 60, 6
 
--- Triangles between an end and a ring, the next one where less of its circle is behind it.
+-- Triangles between an end and a ring, the next one on the side with less of its circle behind it.
 local function join(faces, first, ring, flip)
     local function add(a, b, c) table.insert(faces, flip and { b, a, c } or { a, b, c }) end
     local c, k = 0, 0
@@ -77,7 +77,7 @@ local coarse = figures.deformed(rest, { refine_borders = false }, handles)
 local refined, edit = figures.deformed(rest, {}, handles)
 local dense = edit:refined_mesh()
 
--- What both tend to: the refined surface at rest, each of its triangles divided by four.
+-- Limit of both: the refined surface at rest, each of its triangles divided by four.
 local still = select(2, figures.deformed(rest, {}, { low = figures.hold, high = figures.hold }))
 local limit = figures.deformed(still:refined_mesh():subdivide(1), { refine_borders = false }, handles)
 

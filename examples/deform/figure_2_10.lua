@@ -53,8 +53,8 @@ local handles = {
 local keep = figures.deformed(rest, { local_size = "keep" }, handles)
 local scale, edit = figures.deformed(rest, { local_size = "scale" }, handles)
 
--- Of the surface between the handles: its area, how far triangles are from their shape, and how many edges
--- are folded.
+-- Measures the surface between the handles: its area, how far triangles are from their shape, and how many
+-- edges are folded.
 local function measure(mesh)
     local before, after = rest:extract(rest:region("body")), mesh:extract(mesh:region("body"))
     local shape = figures.anisotropy(before, after)
@@ -76,4 +76,4 @@ figures.write{
     panels = { { rest, "at rest" }, { keep, "details keep their size" }, { scale, "details scale" } },
 }
 figures.claim(found[2][1] < found[1][1], "details that scale need less room")
-figures.claim(found[2][3] < found[1][3], "triangles keep their shape better where details scale")
+figures.claim(found[2][3] < found[1][3], "triangles keep their shape better as details scale")

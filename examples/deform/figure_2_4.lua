@@ -1,6 +1,6 @@
 -- A plane, all of whose vertices are degenerate (Figure 2.4): they are displaced to give them a deformation
 -- gradient, the displacement is taken back afterwards, and cotangent weights leave less of a trace of it than
--- uniform ones. The second system spreads what remains.
+-- uniform ones. The second system spreads the rest of it.
 --
 --     lissom run examples/deform/figure_2_4.lua
 --     lissom run examples/deform/figure_2_4.lua --segments 40 --lift 0.5
@@ -101,4 +101,4 @@ figures.write{
 }
 figures.claim(rough[5] < 0.6 * rough[3], "taking the displacement back smooths the surface")
 figures.claim(rough[5] < 0.8 * rough[4], "cotangent weights are better than uniform ones")
-figures.claim(rough[6] < rough[5], "the second system spreads what remains")
+figures.claim(rough[6] < rough[5], "the second system spreads the rest")

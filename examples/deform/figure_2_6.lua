@@ -1,5 +1,5 @@
--- A deformation without and with shear removal (Figure 2.6): the first system alone shears what lies far from
--- the handles; the second reconstructs the shape from the rotations only.
+-- A deformation without and with shear removal (Figure 2.6): the first system alone shears parts far from the
+-- handles; the second reconstructs the shape from the rotations only.
 --
 --     lissom run examples/deform/figure_2_6.lua
 --     lissom run examples/deform/figure_2_6.lua --mesh model.obj --turn 120 --tilt 30

@@ -1,5 +1,5 @@
--- A bar under a large rotation of its upper end (Figure 2.7): it hardly matters how far degenerate vertices
--- are displaced, and what other methods make of the same handles.
+-- A bar under a large rotation of its upper end (Figure 2.7): the displacement of degenerate vertices hardly
+-- matters. Results of other methods for the same handles.
 --
 --     lissom run examples/deform/figure_2_7.lua
 --     lissom run examples/deform/figure_2_7.lua --mesh bar.off --turn 150
@@ -38,8 +38,8 @@ local handles = {
     end,
 }
 
--- The thesis's own settings keep the gradients within two rings similar, which is what makes the
--- displacement matter little; the faster default looks at one ring.
+-- The thesis's own settings keep the gradients within two rings similar, so that the displacement matters
+-- little; the faster default looks at one ring.
 print(string.format("%d vertices", #rest))
 local function between(options)
     local shapes = {}

@@ -1,6 +1,6 @@
 -- When to choose `refine`: it lessens the distortion of parts that bend and twist, as that of the bar. Leave
--- it at 0 where the surface runs through itself or nearly does: refined parts get thinner and cross more, as
--- in the crook of the cactus.
+-- it at 0 if the surface runs through itself or nearly does: refined parts get thinner and cross more, as in
+-- the crook of the cactus.
 --
 --     lissom run examples/deform/refine.lua
 
@@ -55,4 +55,4 @@ figures.write{
     size = { 3 * params.size, params.size }, handles = { "low", "high" }, wire = true, view = "front",
 }
 figures.claim(twisted[2].p99 < twisted[0].p99, "refine lessens the distortion of a twisted bar")
-figures.claim(bent[2].crossing >= bent[0].crossing, "refine does not help where the surface crosses itself")
+figures.claim(bent[2].crossing >= bent[0].crossing, "refine does not help if the surface crosses itself")

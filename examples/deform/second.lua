@@ -53,5 +53,5 @@ figures.write{
     name = "second", out = params.out, panels = panels, size = { 2 * params.size, params.size },
     handles = { "low", "high" }, view = "front", wire = true,
 }
-figures.claim(found.poisson.crease > 1.5 * found.blend.crease, "poisson creases where blend does not")
+figures.claim(found.poisson.crease > 1.5 * found.blend.crease, "poisson creases but blend does not")
 figures.claim(found.laplacian.p99 > found.blend.p99, "laplacian distorts more than blend")

@@ -1,4 +1,4 @@
--- What a deformation leaves for engines: a cactus that sways, as an animation that any viewer of glTF files
+-- Files of a deformation for engines: a cactus that sways, as an animation that any viewer of glTF files
 -- plays, and its handle basis, with which a game moves the handles itself.
 --
 --     lissom run examples/engine/bake.lua
@@ -23,7 +23,7 @@ edit:handle(cactus:region("base"))
 local tip = edit:handle(cactus:region("tip"))
 local arm = edit:handle(cactus:region("left_tip"))
 
--- The function places the handles for one moment. Where they stand in the end is where they stood before.
+-- The function places the handles for one moment. They end in their first places.
 local function pose(time)
     local phase = 2 * math.pi * time / params.duration
     tip:set{ rotate = { axis = "z", angle = params.swing * math.sin(phase), about = { 0, 0.5, 0 } } }
@@ -36,7 +36,7 @@ assert(sway:save(params.out .. "/cactus_sway.glb"))
 -- Handles are called as the regions that they are made of: "base", "tip", "left_tip".
 assert(edit:save_basis(params.out .. "/cactus.basis"))
 
--- Files for engines repeat vertices where texture coordinates meet: each carries its row of the basis.
+-- Files for engines repeat vertices at seams of texture coordinates: each carries its row of the basis.
 local rows = {}
 for i, vertex in ipairs(edit:region():vertices()) do rows[vertex] = i - 1 end -- rows count from 0
 for vertex = 1, #cactus do rows[vertex] = rows[vertex] or -1 end

@@ -1,4 +1,4 @@
-/// What the engine draws: surfaces that stand, surfaces that a basis moves on the graphics card,
+/// Objects drawn by the engine: static surfaces, surfaces that a basis moves on the graphics card,
 /// strands.
 #pragma once
 

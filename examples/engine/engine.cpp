@@ -1,6 +1,6 @@
-// A small engine that has the library in it, and keeps what is an engine's: threads, log, files,
-// frames. It loads a script as a tool, lets the library work as jobs between its frames, drags
-// handles through the basis in a vertex shader, and draws strands.
+// A small engine with the library in it, and its own threads, log, files and frames. It loads a
+// script as a tool, lets the library work as jobs between its frames, drags handles through the
+// basis in a vertex shader, and draws strands.
 //
 // clang-format off
 //     engine examples/engine                         # a window: drag the cactus; Escape ends it
@@ -128,8 +128,8 @@ class Puppet {
         if (surface_) surface_->draw(to_clip, color, transforms_.data());
     }
 
-    // Greatest difference between what the basis gives and what the library's preview does, in
-    // sizes of the surface.
+    // Returns the greatest difference between the results of the basis and of the library's
+    // preview, in sizes of the surface.
     double difference(std::uint32_t handle, const lissom_transform& map) {
         lissom_context* const context = context_.get();
         api::check(context,
@@ -211,14 +211,14 @@ void main() {
 
 // ---- Frames
 
-// What a hand has done to the handles: each goes on from where it was left.
+// Moves of the handles by a hand: each continues from its last place.
 class Drag {
   public:
     std::optional<std::uint32_t> handle;
 
     const lissom_transform& map() const { return maps_[*handle]; }
 
-    // The handle nearest to where the hand pressed goes where it goes.
+    // Moves the handle nearest to the press with the hand.
     void follow(const Hand& hand, const lissom_basis& basis, const Matrix& to_clip) {
         if (!hand.is_down) handle.reset();
         if (!hand.is_down) return;
@@ -252,7 +252,8 @@ class Drag {
     lissom_transform before_ = lissom_identity();
 };
 
-// Where the tip is in a picture without a hand: turned by `angle` about the middle of the trunk.
+// Returns the place of the tip in a picture without a hand: turned by `angle` about the middle of
+// the trunk.
 lissom_transform turned(double angle, double height) {
     const double c = std::cos(angle), s = std::sin(angle);
     lissom_transform map = lissom_identity();
@@ -269,7 +270,7 @@ struct World {
           head(context, objects[2], objects[3]),
           ground(context.load_mesh("ground.obj"), Head::kStanding) {}
 
-    // The part of the frame for the library: what has become ready is taken up.
+    // The part of the frame for the library: finished results are taken up.
     void take_up() {
         cactus.take_up(vertex_shader);
         head.take_up();
@@ -292,7 +293,7 @@ struct World {
     Surface ground;
 };
 
-// Draws until the window is closed; whether the last frame could be saved, where that is asked for.
+// Draws until the window is closed; returns whether the last frame could be saved, if asked for.
 bool play(World& world, Screen& screen, const std::string& last) {
     Drag drag;
     bool was_ready = false;
@@ -310,7 +311,8 @@ bool play(World& world, Screen& screen, const std::string& last) {
     return last.empty() || save_picture(last);
 }
 
-// Sixty frames of a drag once all is there; whether the last one is what the library says.
+// Draws sixty frames of a drag once all is there; returns whether the last one equals the library's
+// result.
 bool draw_picture(World& world, Screen& screen, const std::string& path) {
     int waited = 0;
     for (; !world.is_ready(); ++waited) {

@@ -1,4 +1,4 @@
-/// What the engine lends to the library: its jobs, its log, its table of files.
+/// Services of the engine for the library: its jobs, its log, its table of files.
 #pragma once
 
 #include <lissom/lissom.hpp>

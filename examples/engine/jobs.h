@@ -62,7 +62,7 @@ class Jobs {
     std::size_t count() const { return count_; }
 
   private:
-    // Runs a waiting task, without the lock; false where there is none.
+    // Runs a waiting task, without the lock; returns false if there is none.
     bool run_one(std::unique_lock<std::mutex>& lock) {
         if (waiting_.empty()) return false;
         const std::shared_ptr<Task> task = waiting_.front();

@@ -1,6 +1,5 @@
--- The tool script of the engine in this folder: what it declares as parameters the engine can set, and what
--- it returns the engine draws. A cactus with three handles, a head, and a hairstyle that the engine grows as
--- a job.
+-- The tool script of the engine in this folder: the engine sets its declared parameters, and draws its
+-- results. A cactus with three handles, a head, and a hairstyle that the engine grows as a job.
 local lissom = require "lissom"
 
 local params = lissom.params{

@@ -1,7 +1,7 @@
--- What the scalp step does (section 4.6 of the thesis): hair that follows the field alone grows into the
--- head where the field points there; avoid_scalp turns the field along the head. Both are grown without
--- what keeps strands outside as they grow (`avoid`), so that only the field counts. Pictures show the hair,
--- and the curves with the field on a plane through the head.
+-- Effect of the scalp step (section 4.6 of the thesis): hair that follows the field alone grows into the head
+-- if the field points there; avoid_scalp turns the field along the head. Both are grown without `avoid`,
+-- which would keep strands outside as they grow, so that only the field counts. Pictures show the hair, and
+-- the curves with the field on a plane through the head.
 --
 --     lissom run examples/hair/avoid_scalp.lua
 --     lissom run examples/hair/avoid_scalp.lua --head ict_head.obj --count 50000
@@ -17,7 +17,7 @@ local head = hairdo.head(params)
 local style = hairdo.style(head, params)
 local route = strokes.route(style)
 
--- A few curves that say little of what happens between them.
+-- A few curves that leave much open between them.
 strokes.both_sides({
     { { 20, 46, 14 }, { 52, 34, 18 }, { 78, 8, 18 }, by(4, -50, -4) },
     { { 150, 70, 12 }, { 150, 35, 20 }, { 150, -5, 22 }, by(0, -50, 0) },

@@ -75,7 +75,7 @@ local function corners_of(mesh)
     return data
 end
 
--- What is drawn of a mesh; `update` shows where its vertices are now.
+-- Drawable of a mesh; `update` moves its vertices to their present places.
 local function surface(mesh)
     local data = love.data.newByteData(3 * #mesh * bytes_a_float)
     local drawn = love.graphics.newMesh({ { "VertexPosition", "float", 3 } }, #mesh, "triangles", "dynamic")

@@ -1,5 +1,5 @@
--- A head merged to a body from two configurations (Figure 3.1): wherever the source lies, however it is
--- turned and whatever its size, the result is the same.
+-- A head merged to a body from two configurations (Figure 3.1): for any place, turn and size of the source,
+-- the result is the same.
 --
 --     lissom run examples/merge/figure_3_1.lua
 --     lissom run examples/merge/figure_3_1.lua --models ../shared/data/models --pair mannequin
@@ -24,7 +24,7 @@ figures.claim(report.seam.after.greatest_dihedral < 20, "the seam is hidden")
 figures.claim(#mesh:boundaries() == #parts.source:boundaries() + #parts.targets[1]:boundaries() - 2,
     "the two become one surface")
 
--- The parts as they are cut, the source elsewhere; keys are vertices, so that they stay what they are.
+-- The cut parts, the source elsewhere; keys are vertices, so that they do not change.
 local others, worst = {}, 0
 for number = 1, 5 do
     local options_alone = { seam = options.seam, transition = options.transition }

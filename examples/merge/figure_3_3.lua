@@ -13,7 +13,7 @@ local merging = require "merging"
 local params = merge_script.params{
     mesh = { type = "file", default = "", help = "a model instead of the generated cactus" },
     cut = { type = "string", default = "0, 0.35, 0; 0, 1, 0",
-        help = "\"point; normal\": what lies on the normal's side follows" },
+        help = "\"point; normal\": the side of the normal follows" },
     scale = { type = "number", default = 0.5, min = 0.001, max = 1000, help = "of the handle" },
     turn = { type = "number", default = 70, min = -180, max = 180, unit = "degrees",
         help = "how far the handle turns" },
@@ -25,7 +25,7 @@ local cut = merging.read_cut(params.cut)
 local above, below, lines = assert(cactus:cut{ plane = { point = cut.point, normal = cut.normal } })
 local size = cactus:size()
 
--- The similarity is that of the handle; the source stays where it was.
+-- The similarity is that of the handle; the source kept its place.
 local similarity = {
     scale = params.scale, rotate = { axis = { 0.3, 0.2, 1 }, angle = params.turn },
     translate = { 3 * size, -size, 2 * size },
@@ -33,7 +33,7 @@ local similarity = {
 local handle = below:copy():transform(similarity)
 local wanted = above:copy():transform(similarity)
 
--- What met before meets again. The line of the cut follows the ribs: it turns sharply and is not to be
+-- Pairs that met before meet again. The line of the cut follows the ribs: it turns sharply and is not to be
 -- trimmed.
 local from, first = lines[1], lines.b[1]
 local there = merging.boundary_near(handle, { handle:position(first:vertices()[1]) })
@@ -50,7 +50,7 @@ local mesh, report, parts = assert(merging.merge({ { source = from, target = the
     { smooth = 0, trim = false }))
 merge_script.finish(params, "figure_3_3", mesh, report, parts, { view = "front" })
 
--- Vertices of the source, where they should be.
+-- Expected vertices of the source.
 local worst = 0
 for v = 1, #mesh do
     local origins = report.provenance:vertex(v)

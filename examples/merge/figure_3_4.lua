@@ -36,7 +36,7 @@ local function with_cuts(mesh, cuts)
     return mesh, boundaries
 end
 
--- Both models, a boundary for each ear, and what meets.
+-- Both models, a boundary for each ear, and the joins.
 local function real()
     local skull = assert(lissom.load(params.models .. "/skull_headus_20k.off"))
     local bunny = assert(lissom.load(params.models .. "/stanford_bunny_35k.obj"))

@@ -1,6 +1,6 @@
--- The hind part of a beast on the front of another (Figure 3.6). In the free configuration it takes its
--- size from where they meet, and its legs may be too short. In the fixed one it is put in its place by
--- hand, the feet are held where they stand, and the legs reach the ground.
+-- The hind part of a beast on the front of another (Figure 3.6). In the free configuration its size follows
+-- from their boundaries, and its legs may be too short. In the fixed one it is put in its place by hand, the
+-- feet are held in place, and the legs reach the ground.
 --
 --     lissom run examples/merge/figure_3_6.lua --source_legs 3
 --     lissom run examples/merge/figure_3_6.lua --models ../shared/data/models
@@ -45,7 +45,7 @@ local function feet(mesh)
     return mesh:region{ plane = { point = { 0, 0.8, 0 }, normal = { 0, -1, 0 } } }
 end
 
--- What lies far from the opening of a given model.
+-- Returns the part far from the opening of a given model.
 local function far_half(mesh, boundary)
     local axis, center, most = merging.axis(boundary), merging.center(boundary), 0
     local function height(...) return -vectors.dot(vectors.plus({ ... }, center, -1), axis) end
@@ -90,10 +90,10 @@ local function greatest_move(mesh, report)
     end
     return worst
 end
-print(string.format("what is held moves by %g where it is fixed, by %.3g where all is free",
+print(string.format("the held part moves by %g if it is fixed, by %.3g if all is free",
     greatest_move(fixed, fixed_report), greatest_move(free, free_report)))
 figures.claim(#held > 0, "something is held")
-figures.claim(greatest_move(fixed, fixed_report) == 0, "what is fixed stays to the bit")
+figures.claim(greatest_move(fixed, fixed_report) == 0, "the fixed part stays to the bit")
 figures.claim(given or greatest_move(free, free_report) > 0.5, "the free configuration moves the feet")
 figures.claim(#fixed:boundaries() == #back:boundaries() + #front:boundaries() - 2, "the seam is closed")
 local limit = given and 30 or 20

@@ -46,7 +46,7 @@ figures.claim(report.transition_kept > 0.9, "the transition is made")
 figures.claim(report.seam.after.greatest_dihedral < math.max(20, plain_report.seam.after.greatest_dihedral),
     "the seam is hidden")
 
--- The thesis's. Where the far end of the target's region is too jagged for its band of new faces, the seam is
+-- The thesis's. If the far end of the target's region is too jagged for its band of new faces, the seam is
 -- sewn as by default.
 local letter = {}
 for name, value in pairs(options) do letter[name] = value end

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     lissom_mesh head = {0}, body = {0}, joined = {0};
     lissom_merge merge = {0};
     lissom_merge_report report = lissom_default_merge_report();
-    /* Boundary 0 of each, and no keys: what fits best is taken. */
+    /* Boundary 0 of each, and no keys: the best fit is taken. */
     const lissom_join join = {0, 0, 0, NULL, NULL, 0};
 
     if (argc != 4) {

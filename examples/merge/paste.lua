@@ -6,9 +6,9 @@
 local lissom = require "lissom"
 
 local params = lissom.params{
-    x = { type = "number", default = 0.5, min = -3, max = 3, help = "where the horn goes" },
-    y = { type = "number", default = 1.7, min = -3, max = 3, help = "where the horn goes" },
-    z = { type = "number", default = 0.5, min = -3, max = 3, help = "where the horn goes" },
+    x = { type = "number", default = 0.5, min = -3, max = 3, help = "place of the horn" },
+    y = { type = "number", default = 1.7, min = -3, max = 3, help = "place of the horn" },
+    z = { type = "number", default = 0.5, min = -3, max = 3, help = "place of the horn" },
     scale = { type = "number", default = 0.8, min = 0.1, max = 2, help = "its size" },
     out = { type = "folder", default = "out", help = "folder that the file goes to" },
 }

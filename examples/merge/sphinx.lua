@@ -19,7 +19,7 @@ local head = lissom.shapes.head{ vertices = 10000 }
 local body = blocks.beast{ legs = params.legs }
 
 local mesh, report, parts = assert(transplant_head.make(head, body, {
-    -- The cut keeps what holds the seed. The body has an opening at its neck and needs no cut.
+    -- The cut keeps the side of the seed. The body has an opening at its neck and needs no cut.
     source_cut = { point = { 0, -0.15, 0 }, normal = { 0, 1, -0.25 }, seed = { 0, 0.1, 0 } },
     turn = params.turn,
     seam = params.seam,

@@ -19,7 +19,7 @@ test("a bend of nothing changes nothing", function()
     expect.hash(bent(0), lissom.shapes.cactus{ vertices = 3000 }:hash())
 end)
 
-test("what is saved is loaded", function()
+test("a saved mesh is loaded again", function()
     local mesh = bent(40)
     assert(mesh:save(test.file("bent.ply")))
     expect.near(assert(lissom.load(test.file("bent.ply"))):positions(), mesh:positions(), 1e-6)

@@ -41,9 +41,9 @@ local function complete(values)
     return all
 end
 
--- Over what length a tail bends down: one at the crown stands up before it falls. In a bend narrower than the
--- tie, hair at the tie's lower edge would fall in front of the tail, by itself; at the side of the head most
--- hair comes from above.
+-- Length over which a tail bends down: one at the crown stands up before it falls. In a bend narrower than
+-- the tie, hair at the tie's lower edge would fall in front of the tail, by itself; at the side of the head
+-- most hair comes from above.
 local function droop_at(height, side)
     local knots = { { -90, 0.024, 0.02 }, { -15, 0.024, 0.02 }, { 0, 0.034, 0.02 }, { 30, 0.04, 0.04 },
         { 50, 0.05, 0.05 }, { 90, 0.05, 0.05 } }
@@ -101,7 +101,7 @@ function ponytail.style(head, values, options)
     -- Towards the end of its spine a tail narrows to a wick: hair ends before.
     tie.length = 1.1 * values.length
     local spine = hairdo.tail_spine(all.scalp, tie)
-    -- What leaves the volume is cut off flat at its faces.
+    -- Hair that leaves the volume is cut off flat at its faces.
     local room = 0.02 + 1.2 * tie.radius * (1 + values.fullness)
     all.volume = all.volume or hairdo.volume(all.scalp, room, spine)
     local style = assert(lissom.hairstyle(head, all))
@@ -120,10 +120,10 @@ function ponytail.style(head, values, options)
         radius = tie.radius,
         fullness = values.fullness,
         share = 0.75,
-        -- Where the tie is low, hair that enters at its lower edge is sparse: spread more, it would part from
-        -- the tail.
+        -- At a low tie, hair that enters at its lower edge is sparse: spread more, it would part from the
+        -- tail.
         spread = 0.5 + math.min(math.max((values.height - 12) / 20, 0), 1),
-        -- Where the tail hangs free of the head its end is seen: tips of like lengths would end it bluntly.
+        -- If the tail hangs free of the head its end is seen: tips of like lengths would end it bluntly.
         ragged = 0.45 + 0.25 * math.min(math.max((values.height - 30) / 20, 0), 1),
         tail_length = values.length,
         name = "ponytail",
@@ -131,8 +131,8 @@ function ponytail.style(head, values, options)
     return style, tie
 end
 
--- Where hair that runs along the tail but missed its ring ends: where the tail does. On it would gather
--- on the spine to a thin string.
+-- Ends hair that runs along the tail but missed its ring at the end of the tail. On it would gather on the
+-- spine to a thin string.
 local function loose_ends(scalp, tie)
     local spine = hairdo.tail_spine(scalp, tie)
     local tip = spine[math.max(2, math.floor(#spine / 1.1))]
