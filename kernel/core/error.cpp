@@ -33,19 +33,16 @@ constexpr std::array<CodeEntry, 41> kCodes{{
     {ErrorCode::file_unreadable, "file_unreadable",
      "The file exists but cannot be read. Check its permissions and the disk."},
     {ErrorCode::file_write_failed, "file_write_failed",
-     "The file could not be written; a file that was there before is untouched. Check that the "
-     "folder "
-     "exists, its permissions and the free space."},
+     "The file could not be written; a file that was there before is untouched. Check that "
+     "the folder exists, its permissions and the free space."},
     {ErrorCode::file_syntax, "file_syntax",
-     "The content does not follow the file's format. The message names the line or the element; "
-     "the "
-     "file may be of another format than its extension says."},
+     "The content does not follow the file's format. The message names the line or the "
+     "element; the file may be of another format than its extension says."},
     {ErrorCode::file_truncated, "file_truncated",
      "The file ends before all the elements its header announces. Copy or export it again."},
     {ErrorCode::file_too_large, "file_too_large",
-     "The header announces more elements than the file can hold or this build can number. The file "
-     "is "
-     "damaged, or it must be split."},
+     "The header announces more elements than the file can hold or this build can number. The "
+     "file is damaged, or it must be split."},
     {ErrorCode::unknown_format, "unknown_format",
      "The extension is none that can be read or written. Use one that the message lists."},
     {ErrorCode::unsafe_path, "unsafe_path",
@@ -64,23 +61,19 @@ constexpr std::array<CodeEntry, 41> kCodes{{
     {ErrorCode::duplicate_face, "duplicate_face",
      "Two faces have the same vertices in the same order. Remove one of them."},
     {ErrorCode::nonmanifold_edge, "nonmanifold_edge",
-     "More than two faces meet at an edge, so the surface has no inside and outside there. Split "
-     "or "
-     "remove the extra faces."},
+     "More than two faces meet at an edge, so the surface has no inside and outside there. "
+     "Split or remove the extra faces."},
     {ErrorCode::nonmanifold_vertex, "nonmanifold_vertex",
-     "The faces around a vertex form several separate fans that touch only there. Duplicate the "
-     "vertex, "
-     "one copy for each fan."},
+     "The faces around a vertex form several separate fans that touch only there. Duplicate "
+     "the vertex, one copy for each fan."},
     {ErrorCode::inconsistent_orientation, "inconsistent_orientation",
-     "Two neighbouring faces run along their common edge in the same direction, so one is inside "
-     "out. "
-     "Orient the faces consistently."},
+     "Two neighbouring faces run along their common edge in the same direction, so one is "
+     "inside out. Orient the faces consistently."},
     {ErrorCode::unreferenced_vertex, "unreferenced_vertex",
      "Vertices are used by no face. Load with repair = true to drop them."},
     {ErrorCode::zero_area, "zero_area",
-     "Faces have no area, so no surface operator exists at a vertex that has no others. Collapse "
-     "or "
-     "remove those faces, or keep the vertex out of the region."},
+     "Faces have no area, so no surface operator exists at a vertex that has no others. "
+     "Collapse or remove those faces, or keep the vertex out of the region."},
     {ErrorCode::region_empty, "region_empty",
      "The region has no vertices. Enlarge the sphere, box or radius that selects it."},
     {ErrorCode::topology_mismatch, "topology_mismatch",
@@ -95,13 +88,11 @@ constexpr std::array<CodeEntry, 41> kCodes{{
     {ErrorCode::handle_removed, "handle_removed",
      "The handle was removed from its deformer or the deformer was closed. Make a new handle."},
     {ErrorCode::singular_transform, "singular_transform",
-     "The transform flattens space (its determinant is zero) or is not finite. Scale by factors "
-     "other "
-     "than zero."},
+     "The transform flattens space (its determinant is zero) or is not finite. Scale by "
+     "factors other than zero."},
     {ErrorCode::unconstrained, "unconstrained",
-     "A connected part of the region has too few constraints to have one shape: nothing holds it. "
-     "Add "
-     "a handle there, or leave some of its vertices out of the region."},
+     "A connected part of the region has too few constraints to have one shape: nothing holds "
+     "it. Add a handle there, or leave some of its vertices out of the region."},
     {ErrorCode::not_a_boundary, "not_a_boundary",
      "A path that has to be a whole open boundary of its mesh is not one. Take it from the mesh's "
      "boundaries, or cut the mesh along it first."},
@@ -131,9 +122,8 @@ constexpr std::array<CodeEntry, 41> kCodes{{
      "Pictures need EGL and OpenGL 3.3, and one of them is missing. Install the EGL library and a "
      "driver (on Debian: libegl1 libgl1-mesa-dri)."},
     {ErrorCode::internal, "internal",
-     "An invariant of the kernel does not hold: a defect. Please report it with the input that "
-     "shows "
-     "it."},
+     "An invariant of the kernel does not hold: a defect. Please report it with the input "
+     "that shows it."},
 }};
 
 const CodeEntry& entry(ErrorCode code) {

@@ -154,9 +154,8 @@ class TestRun {
 int run_tests(Program& program, const std::vector<std::string>& words) {
     Wanted wanted;
     CLI::App app(
-        "Runs the tests of scripts: test(\"name\", function() expect.equal(1 + 1, 2) end). Each "
-        "file "
-        "has a process of its own. Ends with status 1 if a test failed.",
+        "Runs the tests of scripts: test(\"name\", function() expect.equal(1 + 1, 2) end). "
+        "Each file has a process of its own. Ends with status 1 if a test failed.",
         "lissom test");
     declare(app, wanted);
     int status = kSuccess;

@@ -34,8 +34,7 @@ constexpr std::array<NamedColor, 14> kNamedColors{{
 
 constexpr std::string_view kNames =
     "white, black, gray, lightgray, darkgray, clay, red, orange, yellow, green, teal, blue, "
-    "purple, "
-    "sand";
+    "purple, sand";
 
 std::optional<int> hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
