@@ -69,11 +69,11 @@ class SceneDrawer {
 
     /// A part of the picture, whose size is that of `target`.
     void draw(const Tile& tile, const DrawTarget& target) const;
-    /// The same in two steps, between which strands are drawn into `target.drawn()`, which is bound
+    /// Draws in two steps, between which strands are drawn into `target.drawn()`, which is bound
     /// meanwhile. Without supersampling.
     void draw_samples(const Tile& tile, const DrawTarget& target) const;
     void finish_with_strands(const DrawTarget& target) const;
-    /// From view space to that part.
+    /// Returns the projection from view space to that part.
     Mat4 projection(const Tile& tile) const;
     /// All of it; large pictures are drawn in parts. Errors: memory_limit; cancelled.
     Image picture(Progress& progress) const;

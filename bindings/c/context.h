@@ -94,7 +94,7 @@ class ObjectTable {
     std::size_t size_ = 0;
 };
 
-/// How the host's space lies to the kernel's.
+/// Conversion between the host's space and the kernel's.
 class Space {
   public:
     explicit Space(const lissom_space& space);
@@ -129,7 +129,7 @@ struct Job {
 /// State of scripts and lissom_call; null if the library was built without Lua.
 class ScriptHost;
 
-/// How objects are made and changed so that scripts can share them.
+/// Hooks that make and change objects so that scripts can share them.
 struct Sharing {
     std::function<std::shared_ptr<Mesh>(Mesh&&)> make_mesh = [](Mesh&& mesh) {
         return std::make_shared<Mesh>(std::move(mesh));
@@ -137,7 +137,7 @@ struct Sharing {
     std::function<std::shared_ptr<Strands>(Strands&&)> make_strands = [](Strands&& strands) {
         return std::make_shared<Strands>(std::move(strands));
     };
-    /// To be called after a change of a mesh.
+    /// Call after a change of a mesh.
     std::function<void(const Mesh&)> changed = [](const Mesh&) {};
     /// Tells which mesh an object was made for.
     std::function<void(const void* object, const Mesh&)> belongs = [](const void*, const Mesh&) {};

@@ -16,9 +16,9 @@ namespace lissom::cli {
 struct ConversionOptions {
     LoadOptions load;
     SaveOptions save;
-    /// Whether the output may replace an input.
+    /// Allow the output to replace an input.
     bool force = false;
-    /// Whether warnings are written to the standard error too.
+    /// Write warnings to the standard error too.
     bool shows_warnings = true;
 };
 
@@ -52,7 +52,7 @@ Json conversion_json(const Conversion& conversion);
 /// Returns the reason of a failure, or the repairs and losses, in a few words.
 std::string conversion_notes(const Conversion& conversion);
 
-/// Whether both name the same existing file.
+/// Returns whether both name the same existing file.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace lissom::cli

@@ -8,7 +8,7 @@
 
 namespace lissom::cli {
 
-/// Whether `name` fits `pattern`, in which `*` stands for any characters and `?` for one.
+/// Returns whether `name` fits `pattern`, in which `*` stands for any characters and `?` for one.
 bool matches_wildcards(std::string_view name, std::string_view pattern);
 
 /// A file that a pattern names.

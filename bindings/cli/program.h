@@ -59,7 +59,7 @@ ProgramParts kernel_parts();
 /// kInterrupted if Ctrl-C stopped it, kFailure if the standard output could not be written.
 int run_program(int argc, char** argv, const ProgramParts& parts);
 
-/// How a verb's answer and its errors are written.
+/// Form of a verb's answer and its errors.
 enum class Output {
     /// For people: the answer to the standard output, errors to the standard error.
     text,
@@ -98,11 +98,11 @@ class Program {
     /// The context of the verb: its threads, a progress bar on a terminal, warnings to the standard
     /// error, cancelled by Ctrl-C.
     const Context& context();
-    /// The same for a Lua state, which has a context of its own.
+    /// Returns the same for a Lua state, which has a context of its own.
     lua::HostOptions host_options();
     /// Ctrl-C cancels this context from now on; it must not move.
     void listen(const Context& context);
-    /// Whether Ctrl-C was pressed since.
+    /// Returns whether Ctrl-C was pressed since.
     bool interrupted() const;
     /// Goes on as if it had not been pressed.
     void forget_interrupt();

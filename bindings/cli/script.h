@@ -19,7 +19,7 @@ struct ScriptLine {
     int line = 0;
 };
 
-/// How a script ended.
+/// Result of a script.
 struct ScriptResult {
     int status = kSuccess;
     /// Error message: "file:line: message", then notes; a traceback below it under --debug.
@@ -48,7 +48,7 @@ class Script {
 
     /// Runs the file `path`; --help and wrong flags of its parameters end it early.
     ScriptResult run_file(const std::string& path);
-    /// The same for a text that came from the standard input.
+    /// Runs a text that came from the standard input.
     ScriptResult run_text(std::string text);
 
     /// Calls the function on top of the stack, whose results stay there. It has failed too if it

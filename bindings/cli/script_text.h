@@ -17,7 +17,7 @@ struct ScriptTraits {
 /// Looks for words, also in comments and strings: the answer false is certain.
 ScriptTraits script_traits(std::string_view text);
 
-/// Whether it may call `test`: looks for the word, as script_traits does.
+/// Returns whether it may call `test`: looks for the word, as script_traits does.
 bool calls_test(std::string_view text);
 
 /// Returns whether it is a recording of tools, as the window writes them.

@@ -35,7 +35,7 @@ struct CombReport {
     std::optional<CurveId> added;
     /// The angle between the field and the stroke, root of the mean square along it, radians.
     double before = 0.0, after = 0.0;
-    /// How much the field has changed beyond the reach of the stroke, root of the mean square;
+    /// Change of the field beyond the reach of the stroke, root of the mean square;
     /// vectors near curves are of length 1.
     double change = 0.0;
 };

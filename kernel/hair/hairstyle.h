@@ -43,8 +43,8 @@ struct HairstyleOptions {
     /// Box that hair may fill; strands end at its faces. Absent: Scalp::default_volume.
     std::optional<Box> volume = std::nullopt;
     GridFieldOptions field = HairField::default_options();
-    /// How curves are made that say nothing else, by scripts and from style files, and how hair
-    /// grows by default (Hairstyle::default_hair).
+    /// Defaults of curves, for scripts and style files, and of hair
+    /// (Hairstyle::default_hair).
     HairFidelity fidelity = HairFidelity::lissom;
 
     /// Chapter 4 to the letter: the Laplacian's weights of section 4.4.1 at the faces of the grid,

@@ -37,7 +37,7 @@ struct EngineBasis {
     std::vector<EngineHandle> handles;
     /// Positions of the vertices while no handle moves, relative to the origin.
     std::vector<Eigen::Vector3f> rest;
-    /// For each handle one 4-vector a row.
+    /// Weights: for each handle one 4-vector a row.
     std::vector<std::vector<Eigen::Vector4f>> weights;
 
     /// Positions for transforms of the mesh's space, one a handle.

@@ -22,7 +22,7 @@ struct Part {
     std::optional<Region> feature;
 };
 
-/// Which ways a part looks, in the space of its mesh.
+/// Directions of a part, in the space of its mesh.
 struct PartFrame {
     Vec3 up = Vec3::UnitY(), front = Vec3::UnitZ();
 };

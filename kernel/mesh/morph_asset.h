@@ -14,7 +14,7 @@ namespace lissom {
 /// A morph target. If a file gives it no name it is called "target N" by its number, from 1.
 struct MorphTarget {
     std::string name;
-    /// How much of it shows at rest.
+    /// Weight of the target at rest.
     double weight = 0.0;
     bool is_named = false;
 };

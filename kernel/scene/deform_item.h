@@ -22,7 +22,7 @@ class DeformContent : public ItemContent {
     DeformContent(DeformSetup setup, const std::shared_ptr<const ShownResult>& shown,
                   ContentStore& store);
 
-    /// To be given to Deformer::restore and Deformer::show.
+    /// Returns the arguments of Deformer::restore and Deformer::show.
     DeformSetup setup() const { return {rest_->value, holds_->value, poses_}; }
     const std::shared_ptr<const ShownResult>& shown() const { return shown_->value; }
 

@@ -23,7 +23,7 @@ class HairstyleContent : public ItemContent {
     /// Makes the content of `style` with other inputs.
     HairstyleContent(const Hairstyle& style, const StyleInputs& inputs, ContentStore& store);
 
-    /// To be given to Hairstyle::restore.
+    /// Returns the argument of Hairstyle::restore.
     const StyleInputs& inputs() const { return *inputs_->value; }
     void list_kept(std::vector<const KeptBytes*>& list) const override;
 

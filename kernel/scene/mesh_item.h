@@ -45,7 +45,7 @@ class MeshContent : public ItemContent {
     using Labels = std::map<std::string, FaceLabels, std::less<>>;
     using Regions = std::map<std::string, Region, std::less<>>;
     struct AttributeContent {
-        // Without values.
+        // Attribute without its values.
         Attribute form;
         SharedBlocks values;
     };

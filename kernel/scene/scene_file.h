@@ -85,7 +85,7 @@ std::vector<std::string> save_scene(Scene& scene, const std::filesystem::path& p
                                     const SceneSaveOptions& options = {},
                                     const Context& context = {});
 
-/// From a file or a folder. Errors: also file_not_found, file_is_directory for a folder without a
+/// Reads a file or a folder. Errors: also file_not_found, file_is_directory for a folder without a
 /// scene, file_empty, file_unreadable, face_index, unsafe_path; they name the file.
 void load_scene(const std::filesystem::path& path, Scene& scene, ItemMaker& maker,
                 const Context& context = {});

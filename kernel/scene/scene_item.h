@@ -26,8 +26,8 @@ class ItemContent {
     ItemContent(const ItemContent&) = delete;
     ItemContent& operator=(const ItemContent&) = delete;
     virtual ~ItemContent();
-    /// The same on every run and platform; equal contents have equal hashes. Computed when first
-    /// asked for.
+    /// Returns a hash, the same on every run and platform; equal contents have equal hashes.
+    /// Computed when first asked for.
     std::uint64_t hash() const;
     /// Adds all that counts bytes.
     virtual void list_kept(std::vector<const KeptBytes*>& list) const = 0;

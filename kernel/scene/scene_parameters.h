@@ -10,7 +10,7 @@ namespace lissom {
 
 using SceneParameter = std::variant<bool, double, std::string>;
 using SceneParameters = std::map<std::string, SceneParameter, std::less<>>;
-/// By the name of the tool or script.
+/// Parameters by the name of the tool or script.
 using ParametersByOwner = std::map<std::string, SceneParameters, std::less<>>;
 
 }  // namespace lissom

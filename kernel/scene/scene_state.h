@@ -21,14 +21,14 @@ struct ObjectStyle {
     std::optional<Vec3> color = std::nullopt;
     /// Draw the colours of the attribute "color" if a mesh has it.
     bool vertex_colors = true;
-    /// One normal a face instead of smooth ones.
+    /// Draw one normal a face instead of smooth ones.
     bool flat = false;
     /// Angle in radians between the normals of faces above which their edge is sharp.
     double crease = 50.0 * kDegree;
     /// Draw the polygons' edges.
     bool wire = false;
     std::optional<Vec3> wire_color = std::nullopt;
-    /// In pixels: of these edges, and of curves and open boundaries.
+    /// Width in pixels of these edges, and of curves and open boundaries.
     double wire_width = 1.0;
     double line_width = 4.0;
     /// Draw the loops of open boundaries.
@@ -49,9 +49,9 @@ struct ObjectId {
     bool operator==(const ObjectId&) const = default;
 };
 
-/// How an object stands and looks in its scene.
+/// Placement and appearance of an object in its scene.
 struct ObjectLook {
-    /// From the object's own space to that of the scene.
+    /// Map from the object's own space to that of the scene.
     Affine transform = {};
     bool visible = true;
     ObjectStyle style = {};

@@ -93,7 +93,7 @@ std::optional<StandardView> find_view(std::string_view name);
 /// The axis of the world that points up in a standard view.
 enum class ViewUp { y, z };
 
-/// How an object fills the picture.
+/// Fit of an object to the picture.
 struct FramingOptions {
     ViewUp up = ViewUp::y;
     /// Width of the picture divided by its height.

@@ -41,8 +41,9 @@ class CursorFrame {
     /// reaches `depth`.
     double nearest_depth(double depth) const { return ortho_ ? 0.0 : 1e-6 * depth; }
 
-    /// From a point to the eye, in the object's frame; its length is that of the way to the eye, or
-    /// for a camera without perspective to the plane that depths are measured from.
+    /// Returns the vector from a point to the eye, in the object's frame; its length is the
+    /// distance to the eye, or for a camera without perspective to the plane that depths are
+    /// measured from.
     Vec3 to_eye(const Vec3& local) const;
 
   private:

@@ -28,7 +28,7 @@ enum class GizmoPart {
     move_yz,
     move_zx,
     move_xy,
-    /// In the plane of the picture.
+    /// Moves in the plane of the picture.
     move_view,
     rotate_x,
     rotate_y,
@@ -38,7 +38,7 @@ enum class GizmoPart {
     scale_x,
     scale_y,
     scale_z,
-    /// In all directions alike.
+    /// Scales in all directions alike.
     scale_all
 };
 

@@ -44,8 +44,8 @@ struct GizmoModifiers {
 
 /// The steps of snapping, counted from the press.
 struct GizmoSteps {
-    /// In the world; by default the power of ten, or twice or five times one, that is seen as at
-    /// least 10 pixels.
+    /// Step in the world; by default the power of ten, or twice or five times one, that is seen as
+    /// at least 10 pixels.
     std::optional<double> length = std::nullopt;
     /// Radians.
     double angle = 15.0 * kDegree;
@@ -84,8 +84,8 @@ class GizmoDrag {
     Gizmo moved() const;
 
   private:
-    /// How the cursor is read. `along` has one or two directions of the world that it moves in; a
-    /// point o + along * m is seen at pixel origin + J m / (1 + recede . m).
+    /// Conversion of cursor positions. `along` has one or two directions of the world; a point o +
+    /// along * m is seen at pixel origin + J m / (1 + recede . m).
     struct Track {
         Eigen::Matrix<double, 3, 2> along = Eigen::Matrix<double, 3, 2>::Zero();
         /// Pixels to the plane or axis at the origin: J inverted, but no faster than is good.
@@ -111,7 +111,7 @@ class GizmoDrag {
     Track track_;
     /// Distance of a scale handle that the cursor holds.
     double reach_ = 1.0;
-    /// For a ring that is seen from the side: radians a pixel.
+    /// Radians a pixel, for a ring seen from the side.
     std::optional<Vec2> tangent_;
     /// The last reading, and its value; the same at the last change of `precise`.
     Vec2 read_ = Vec2::Zero(), value_ = Vec2::Zero();

@@ -57,7 +57,7 @@ class PolylineSet {
 
 /// Placement of an object, and its drawn sides.
 struct Placement {
-    /// From the object's own frame to the world.
+    /// Map from the object's own frame to the world.
     Affine to_world = {};
     /// Drawn over everything, so that no surface hides it.
     bool on_top = false;

@@ -36,8 +36,8 @@ struct PickOptions {
     std::vector<PickKind> kinds{PickKind::face};
     /// Pixels that points and lines may be away from the cursor.
     double radius = 8.0;
-    /// Whether faces count that are seen from behind. If not, they are as if they were not there:
-    /// neither picked nor hiding anything.
+    /// Include faces seen from behind. Otherwise they are as if they were not there: neither picked
+    /// nor hiding anything.
     bool back_faces = true;
     /// Includes elements that surfaces hide.
     bool through = false;
@@ -48,19 +48,19 @@ struct PickHit {
     PickKind kind = PickKind::face;
     /// Number of the object in the scene, and of the point, line, vertex, loop, edge or face in it.
     Index object = kNoIndex, index = kNoIndex;
-    /// For lines, loops and edges: the segment (0 for an edge), and how far along it the point lies
-    /// that is seen nearest to the cursor, 0 to 1; an edge runs as Topology::edge says.
+    /// Segment of lines, loops and edges (0 for an edge), and the fraction along it of the point
+    /// seen nearest to the cursor, 0 to 1; an edge runs as Topology::edge says.
     Index segment = kNoIndex;
     double along = 0.0;
-    /// For a surface: the face at the point, the triangle of that face, the barycentric coordinates
+    /// Face of a surface at the point, the triangle of that face, the barycentric coordinates
     /// of the point in it and the nearest of its vertices. An edge or vertex has a face that is
     /// turned to the camera if there is one.
     Index face = kNoIndex;
     Triangle triangle{kNoIndex, kNoIndex, kNoIndex};
     Vec3 barycentric = Vec3::Zero();
     Index vertex = kNoIndex;
-    /// In the world. The normal has unit length; at vertices and edges it is the mean of the faces
-    /// around, by angle; zero if there is no surface.
+    /// Position and normal in the world. The normal has unit length; at vertices and edges it is
+    /// the mean of the faces around, by angle; zero if there is no surface.
     Vec3 position = Vec3::Zero(), normal = Vec3::Zero();
     /// Depth along the view, and distance from the cursor in pixels.
     double depth = 0.0, pixels = 0.0;

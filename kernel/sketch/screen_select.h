@@ -25,8 +25,8 @@ struct SelectOptions {
     SelectKind kind = SelectKind::vertices;
     /// Includes elements that surfaces hide.
     bool through = false;
-    /// Whether faces count that are seen from behind. If not, they are as if they were not there:
-    /// neither selected, nor their vertices, nor hiding anything.
+    /// Include faces seen from behind. Otherwise they are as if they were not there: neither
+    /// selected, nor their vertices, nor hiding anything.
     bool back_faces = true;
     /// Vertices that are known already and not tested, so that a long stroke costs only as much as
     /// the new elements under it: a region for each object of the scene, or null.
@@ -50,7 +50,7 @@ struct Selected {
 /// front. Errors: not_finite; invalid_argument for a negative radius, a picture without size, or
 /// known vertices if faces are selected; topology_mismatch for those of another surface; cancelled.
 ///
-/// The rectangle with two opposite corners `a` and `b`.
+/// Selects by the rectangle with two opposite corners `a` and `b`.
 std::vector<Selected> select_rectangle(const PickScene& scene, const View& view, const Vec2& a,
                                        const Vec2& b, const SelectOptions& options = {},
                                        const Context& context = {});

@@ -16,8 +16,9 @@ namespace lissom {
 std::vector<Vec3> at_depths(std::span<const Vec2> stroke, std::span<const double> depths,
                             const View& view);
 
-/// On a plane through `point`. Errors: not_finite; invalid_argument for a normal without length,
-/// or naming the place of the first point whose ray does not meet the plane in front of the camera.
+/// Returns the stroke on a plane through `point`. Errors: not_finite; invalid_argument for a normal
+/// without length, or naming the place of the first point whose ray does not meet the plane in
+/// front of the camera.
 std::vector<Vec3> stroke_on_plane(std::span<const Vec2> stroke, const View& view, const Vec3& point,
                                   const Vec3& normal);
 
@@ -41,8 +42,8 @@ std::vector<Vec3> stroke_on_surface(std::span<const Vec2> stroke, const View& vi
 struct EnvelopeOptions {
     /// World units to a metre.
     double metre = 1.0;
-    /// How far in front of the hair's region the curve runs once it has risen, and the way on which
-    /// it rises from the root.
+    /// Distance of the risen curve in front of the hair's region, and the length over which it
+    /// rises from the root.
     double lift = 0.02, rise = 0.03;
     /// No point but those near the root is nearer to the head.
     double clearance = 0.005;

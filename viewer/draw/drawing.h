@@ -28,7 +28,7 @@ struct DrawnRegion {
     bool operator==(const DrawnRegion&) const = default;
 };
 
-/// How a mesh is drawn. A face takes its colour from the first of these that applies: a handle with
+/// Style of a mesh. A face takes its colour from the first of these that applies: a handle with
 /// all of the face's vertices; the values; the region, likewise; the last of the parts that does;
 /// the attribute "color"; `color`.
 struct MeshStyle {
@@ -77,7 +77,7 @@ using NamedRegions = std::map<std::string, Region, std::less<>>;
 struct DrawnMesh {
     std::shared_ptr<const Mesh> mesh;
     MeshStyle style = {};
-    /// From the mesh to the world of the camera.
+    /// Map from the mesh to the world of the camera.
     Affine transform = {};
     /// Identity of a mesh in the snapshots of a scene, so that unchanged data stays on the graphics
     /// card. Several with one number are told apart by their order.
@@ -97,7 +97,7 @@ inline const NamedRegions& regions_of(const DrawnMesh& drawn) {
 struct DrawnStrands {
     std::shared_ptr<const Strands> strands;
     StrandStyle style = {};
-    /// From the mesh that they grow on to the world of the camera.
+    /// Map from the mesh that they grow on to the world of the camera.
     Affine transform = {};
 };
 

@@ -7,7 +7,7 @@
 
 namespace lissom {
 
-/// How a drawing becomes pixels.
+/// Options that turn a drawing into pixels.
 struct RenderOptions {
     /// Size in pixels: at least 1, at most `Renderer::maximum_size`.
     int width = 1280;
@@ -22,7 +22,7 @@ struct RenderOptions {
     /// Pixels of the picture for one that styles count widths of lines and points in: a coarse
     /// picture that is shown enlarged has fewer. Above 0.
     double mark_scale = 1.0;
-    /// How much folds and contacts darken, 0 (not at all; quicker) to 1.
+    /// Darkness of folds and contacts, 0 (none; quicker) to 1.
     double occlusion = 1.0;
 };
 

@@ -40,7 +40,7 @@ struct StrandStyle {
     /// Radians by which both lean more or less, from strand to strand.
     double shift_jitter = 0.05;
 
-    /// How much brighter or darker strands are, and clumps of them, at random; 0 to 1.
+    /// Random variation of brightness of strands, and of clumps of them; 0 to 1.
     double strand_tone = 0.12;
     double clump_tone = 0.18;
     /// Size of a clump on the scalp in metres; positive.
@@ -49,7 +49,7 @@ struct StrandStyle {
     double root_tone = 0.72;
     double tip_tone = 1.18;
 
-    /// How much strands shade each other and the meshes: 0 is not at all, 1 as much as looks like
+    /// Strength of the shadows of strands on each other and the meshes: 0 is none, 1 looks like
     /// hair.
     double shadow = 1.0;
     /// Blend of the scalp with the colour of the hair at dense roots; 0 to 1.

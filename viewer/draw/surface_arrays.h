@@ -19,7 +19,7 @@ struct SurfaceVertex {
     std::array<float, 3> normal;
 };
 struct SurfaceColor {
-    /// In sRGB.
+    /// Color in sRGB.
     std::array<std::uint8_t, 4> color;
     /// Place on the colour scale: 0 is its low end, 1 the high.
     float value;

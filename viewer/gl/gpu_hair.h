@@ -32,13 +32,13 @@ struct Hair {
 /// of each the same share.
 struct HairRange {
     double begin = 0.0, end = 1.0;
-    /// So many stand for all: they are so much wider. A share as well.
+    /// Fraction of strands that stand for all: they are so much wider.
     double of = 1.0;
     /// Draw the few points of strands meant for moving pictures, if they suffice.
     bool few_points = false;
 };
 
-/// How the strands are seen.
+/// View of the strands.
 struct HairView {
     /// Camera of the picture; the projection may be that of a part of it.
     ViewParameters parameters;
@@ -63,7 +63,7 @@ class GpuHair {
     void undirect() { directed_ = false; }
 
     bool empty() const { return size_ == 0; }
-    /// Return the number of strands drawn in all, and of those that have few points.
+    /// Return the number of strands drawn in all, and of strands that have few points.
     Index size() const { return size_; }
     double few() const { return few_; }
     /// Returns whether all strands are there, not few alone.

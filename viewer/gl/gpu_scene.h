@@ -59,7 +59,7 @@ struct GpuSurface {
     bool is_quick = false;
     /// Made when vertices first move.
     std::shared_ptr<const NormalGroups> groups;
-    /// One for each buffer.
+    /// Layouts, one for each buffer.
     std::vector<gl::VertexArray> layouts;
     std::shared_ptr<const GpuMarks> marks;
 
@@ -135,8 +135,8 @@ class PieceSender {
     SurfaceBuffers made_;
 };
 
-/// How the vertices of a mesh that moved are made: as those of a picture, or fast, see
-/// quick_vertices.h; polygons then keep their diagonals.
+/// Vertices of a mesh that moved: made exactly as for a picture, or quickly, see quick_vertices.h;
+/// polygons then keep their diagonals.
 enum class MovedVertices { exact, quick };
 
 class GpuScene {
@@ -177,7 +177,7 @@ class GpuScene {
         ScenePlacement placement;
         Vec3 origin = Vec3::Zero();
         std::vector<std::shared_ptr<const GpuSurface>> surfaces;
-        /// One for each overlay of the snapshot.
+        /// Marks, one for each overlay of the snapshot.
         std::vector<std::shared_ptr<const GpuMarks>> overlays;
     };
     Vec3 next_origin(const ScenePlacement& placement) const;

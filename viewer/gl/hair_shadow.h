@@ -27,7 +27,7 @@ struct GpuHairShade {
     Kind kind = Kind::picture;
     /// HairLight::for_meshes; null for pictures.
     std::shared_ptr<const gl::Texture> moments;
-    /// From view space to the volume's texture coordinates: turned, scale, then offset.
+    /// Map from view space to the volume's texture coordinates: rotated, scaled, then offset.
     Mat3 turn = Mat3::Identity();
     Vec3 scale = Vec3::Zero();
     Vec3 offset = Vec3::Zero();

@@ -14,7 +14,7 @@ extern const char* const kCoverVertex;
 /// Surfaces: normal and depth of the front ones.
 extern const char* const kGeometryVertex;
 extern const char* const kGeometryFragment;
-/// How open every pixel's surroundings are, and its depth.
+/// Openness of every pixel's surroundings, and its depth.
 extern const char* const kOcclusionFragment;
 /// Smooths that along one axis, within surfaces.
 extern const char* const kOcclusionBlurFragment;

@@ -11,7 +11,7 @@
 
 namespace lissom {
 
-/// How fine the light is.
+/// Resolution of the light.
 struct LightDetail {
     /// Maximum number of points of the grid.
     double most_points = 2.5e6;

@@ -12,7 +12,7 @@ namespace lissom {
 struct StrandLight {
     float key = 1.0f;
     float rim = 1.0f;
-    /// From all around.
+    /// Light from all around.
     float ambient = 1.0f;
 };
 

@@ -18,7 +18,7 @@ struct ViewStrands {
     const StrandStyle* style = nullptr;
     /// The first so many are drawn.
     Index count = 0;
-    /// From metres of the strands to view space.
+    /// Map from metres of the strands to view space.
     Eigen::Matrix3f linear = Eigen::Matrix3f::Identity();
     Eigen::Vector3f offset = Eigen::Vector3f::Zero();
     /// View units in a metre.

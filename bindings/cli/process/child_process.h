@@ -9,7 +9,7 @@
 
 namespace lissom::cli {
 
-/// How a process ended.
+/// End of a process.
 struct ProcessEnd {
     /// Exit status of the process; the number of the signal that ended it, if there was one.
     int status = 0;
@@ -33,9 +33,9 @@ class ChildProcess {
 
     /// Returns its messages since the last call, without waiting.
     std::vector<std::string> lines();
-    /// Whether it has ended and all it told was taken.
+    /// Returns whether it has ended and all its messages were taken.
     bool has_ended() const;
-    /// Only of one that has ended.
+    /// Returns the end of a process that has ended.
     const ProcessEnd& end() const;
     /// Kills it and its children at once.
     void kill();

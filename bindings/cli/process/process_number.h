@@ -5,7 +5,7 @@ namespace lissom::cli {
 
 /// Returns the number of this process.
 long process_number();
-/// Whether a process with this number runs.
+/// Returns whether a process with this number runs.
 bool process_runs(long number);
 
 }  // namespace lissom::cli

@@ -18,7 +18,7 @@ class Interrupt {
     /// Lets Ctrl-C stop scripts in `L` too, coroutines included: wraps coroutine.resume and
     /// coroutine.wrap there. May raise a Lua error.
     static void watch(lua_State* L);
-    /// From now on it is `L`, watched before, whose scripts are stopped.
+    /// Stops scripts of `L`, watched before, from now on.
     static void attend(lua_State* L);
     /// Acts as if Ctrl-C were pressed, but never ends the program; from any thread.
     static void press();
@@ -28,7 +28,7 @@ class Interrupt {
     /// While nothing runs a second Ctrl-C does not end the program.
     static void wait_at_prompt(bool waits);
 
-    /// Whether Ctrl-C was pressed.
+    /// Returns whether Ctrl-C was pressed.
     bool pressed() const;
     /// Goes on as if it had not been pressed.
     void clear();

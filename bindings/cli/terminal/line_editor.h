@@ -14,7 +14,7 @@ namespace lissom::cli {
 
 /// Callbacks of a line editor; both may be empty.
 struct LineEditorOptions {
-    /// How the line up to the cursor may go on.
+    /// Returns the completions of the line up to the cursor.
     std::function<Completions(const std::string& line)> complete = {};
     /// Whether Ctrl-C was pressed since the last line; asked while a line is typed.
     std::function<bool()> interrupted = {};

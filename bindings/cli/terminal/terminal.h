@@ -7,12 +7,12 @@
 
 namespace lissom::cli {
 
-/// Whether the standard error, or the standard input, is a terminal.
+/// Returns whether the standard error, or the standard input, is a terminal.
 bool error_is_terminal();
 bool input_is_terminal();
 
-/// Whether keys can be read one by one here (not on Windows), and whether the terminal knows the
-/// escape sequences of a VT100.
+/// Returns whether keys can be read one by one here (not on Windows), and whether the terminal
+/// knows the escape sequences of a VT100.
 bool terminal_sends_keys();
 bool terminal_moves_cursor();
 

@@ -33,7 +33,7 @@ struct TestResult {
     std::string output;
     /// The folder that keeps its files, or "".
     std::string folder;
-    /// Why pictures were not compared, one for each.
+    /// Reasons that pictures were not compared, one for each.
     std::vector<std::string> left_out;
     /// Golden pictures that were written.
     std::vector<std::string> updated;

@@ -15,7 +15,7 @@ struct CurveFoot {
     double t = 0.0;
     Vec3 point = Vec3::Zero();
     double distance = 0.0;
-    /// How far beyond the curve's ends the point lies along its first or last segment: negative
+    /// Distance of the point beyond the curve's ends, along its first or last segment: negative
     /// before the first point, positive after the last one, else 0.
     double beyond = 0.0;
 };

@@ -15,8 +15,8 @@ namespace lissom {
 
 /// Lengths are in the unit of the grid; absent ones follow from its step.
 struct DividingOptions {
-    /// By how much the flow away from the curve is turned towards its last point, in radians from
-    /// -pi / 2 to pi / 2, at its two ends; between them it changes evenly with the arc length.
+    /// Rotation of the flow away from the curve, towards its last point, in radians from -pi / 2 to
+    /// pi / 2, at its two ends; between them it changes evenly with the arc length.
     struct Tilt {
         double start = 0.0, end = 0.0;
 

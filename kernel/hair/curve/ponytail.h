@@ -40,8 +40,8 @@ struct PonytailOptions {
     std::optional<double> ring = std::nullopt, lead = std::nullopt;
     /// Magnitude of the vectors in the ring, 0 to 1; 0 gives none.
     double tightness = 0.6;
-    /// How the tail holds its hair: just outside its outline vectors turn inward by this slope a
-    /// step of the grid. 0 for not, as in the thesis.
+    /// Grip of the tail on its hair: just outside its outline vectors turn inward by this slope a
+    /// step of the grid. 0: none, as in the thesis.
     double grip = 4.0;
     /// Hair flows on towards the spine behind the tie. From there to half the way to C2 its
     /// distances from the spine grow by exp(spread) more than the outline does. 0 for not, as in

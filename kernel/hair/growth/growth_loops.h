@@ -45,7 +45,7 @@ struct TailPlane {
 struct TailGate {
     Eigen::Vector3f center, direction;
     float square_radius;
-    /// How far behind the tie, and the number of the tail's next plane.
+    /// Distance behind the tie, and the number of the tail's next plane.
     float behind = 0.0f;
     std::int32_t plane = 0;
 };

@@ -216,7 +216,7 @@ class LaneGrower {
                 between(low[2], high[2], x)};
     }
 
-    // How far a point at this distance from the head is below the floor of its strand.
+    // Returns the distance of a point at this height over the head below the floor of its strand.
     LISSOM_INLINE Floats missing_height(const Floats& distance, const Floats& grown) const {
         if (!rules_.avoid) return all(-1.0f);
         const Floats share =

@@ -21,10 +21,10 @@ struct HeadFrame {
     Mat3 axes = Mat3::Identity();
     /// Width and length of the slice, in the mesh's unit.
     double width = 0.0, length = 0.0;
-    /// How well the shape is that of a head: the mean distance of the head to its mirror image and
+    /// Deviation of the shape from a head: the mean distance of the head to its mirror image and
     /// of the slice to an ellipse, as fractions of the width. Heads have less than 0.05 of each.
     double asymmetry = 0.0, roughness = 0.0;
-    /// How much farther the face reaches forward than the neck backward, as a fraction of the
+    /// Excess of the face's reach forward over the neck's backward, as a fraction of the
     /// length: positive for heads, about 0 if front and back are alike.
     double forwardness = 0.0;
     /// Share of the directions above the center that the surface lies in: 1 for a whole head.

@@ -67,7 +67,8 @@ class Scalp {
     /// millimetre, decimetre or inch) that makes this the width of a person's head, or, if none
     /// does, 1 / scale(), with which it is an average head.
     double unit() const { return unit_; }
-    /// False if no usual unit makes this a person's head, as for a model scaled to some size.
+    /// Returns false if no usual unit makes this a person's head, as for a model scaled to some
+    /// size.
     bool knows_unit() const { return knows_unit_; }
     /// Returns how sure the frame is, 0 to 1: as HeadFrame::confidence. If it is below 0.5 and
     /// something was guessed, making the scalp logs a warning.

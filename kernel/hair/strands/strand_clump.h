@@ -9,7 +9,7 @@
 
 namespace lissom {
 
-/// Which strands gather around which.
+/// Clusters of strands and their guides.
 struct ClumpOptions {
     /// Number of guides: the strands of the lowest ids. These are spread over the scalp, so any
     /// part of the hair that has them gathers as the whole does. At least 1.

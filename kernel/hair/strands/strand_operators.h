@@ -32,7 +32,7 @@ struct TaperOptions {
 /// move. Errors: invalid_argument for options out of range.
 void taper(Strands& strands, const TaperOptions& options = {});
 
-/// How much smoother strands become.
+/// Amount of smoothing of strands.
 struct StrandSmoothOptions {
     /// Number of passes, 0 or more.
     Index iterations = 3;

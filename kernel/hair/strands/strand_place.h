@@ -14,8 +14,8 @@ namespace lissom {
 /// this mesh.
 std::optional<double> unit_of_roots(const Strands& strands, const Mesh& mesh);
 
-/// Why strands can hardly belong on a mesh whose unit is taken as this many metres: they are twenty
-/// times smaller or larger. Says which unit would fit; empty if they may.
+/// Returns the doubt that strands belong on a mesh whose unit is this many metres: they are twenty
+/// times smaller or larger. Names the unit that would fit; empty if there is no doubt.
 std::string doubt_about_unit(const Strands& strands, const Mesh& mesh, double unit);
 
 }  // namespace lissom

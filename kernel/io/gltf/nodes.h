@@ -36,7 +36,7 @@ struct GltfInstance {
     int mesh = -1;
     /// The node, or -1 for a mesh of a file without nodes.
     int node = -1;
-    /// To the world; the identity for skinned meshes, which their joints place.
+    /// Map to the world; the identity for skinned meshes, which their joints place.
     Affine transform;
     std::string label;
 };

@@ -30,9 +30,9 @@ class RibSceneWriter {
 
     const RibScene& scene_;
     const Context& context_;
-    /// From the head's units to the file, and from metres.
+    /// Maps from the head's units to the file, and from metres.
     Affine of_head_, of_metres_;
-    /// In the file's coordinates.
+    /// Camera in the file's coordinates.
     Camera camera_;
     double near_ = 0.0, far_ = 0.0;
 };

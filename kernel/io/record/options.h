@@ -23,9 +23,9 @@ enum class FileOrigin {
     automatic,  ///< in the middle of a mesh that is farther from its origin than it is large
 };
 
-/// How the coordinates of a file become those of the mesh. Normals are turned but not scaled.
+/// Conversion of the coordinates of a file to those of the mesh. Normals are turned but not scaled.
 struct LoadOptions {
-    /// Which vertices at the same place become one; if absent, Weld::all for STL, which stores each
+    /// Vertices at the same place that become one; if absent, Weld::all for STL, which stores each
     /// triangle by itself, and Weld::seams for all others.
     std::optional<Weld> weld = std::nullopt;
     /// False: each repair (see repair.h) is an error instead.
@@ -59,7 +59,7 @@ struct SaveOptions {
     bool normals = false;
 };
 
-/// How the coordinates of a file become those of the strands.
+/// Conversion of the coordinates of a file to those of the strands.
 struct StrandLoadOptions {
     /// The file's up axis. None: that of the file (.usda), else nothing is turned. The sample files
     /// of .hair are z-up.

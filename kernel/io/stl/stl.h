@@ -18,7 +18,7 @@ namespace lissom {
 /// with a warning of the log. Errors: file_syntax, file_truncated, file_too_large, cancelled.
 MeshData read_stl(std::string_view bytes, const Context& context);
 
-/// True if the size of the data is exactly that of the binary STL which they would be.
+/// Returns true if the size of the data is exactly that of the binary STL which they would be.
 bool is_binary_stl(std::string_view bytes);
 
 /// Writes triangles (polygons are triangulated) with their normals; text has one solid for each run

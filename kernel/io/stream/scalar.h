@@ -33,7 +33,7 @@ double color_divisor(ScalarType type);
 /// Returns the value of an integer type that is nearest to `value`; 0 for NaN.
 double rounded_to(ScalarType integer_type, double value);
 
-/// True if `value` is one of a normal 32-bit number or zero.
+/// Returns true if `value` is one of a normal 32-bit number or zero.
 bool is_float(double value);
 
 /// Returns whether the machine keeps numbers in this order.

@@ -13,7 +13,7 @@
 
 namespace lissom {
 
-/// How values belong to curves.
+/// Assignment of values to curves.
 enum class CurveInterpolation { constant, uniform, varying, vertex };
 
 /// Numbers of an attribute, `width` of them a value.
@@ -21,7 +21,7 @@ struct CurveValues {
     std::vector<float> numbers;
     CurveInterpolation interpolation = CurveInterpolation::vertex;
     bool found = false;
-    /// For each element the number of its value; only if `is_indexed`.
+    /// Number of the value of each element; only if `is_indexed`.
     std::vector<double> indices = {};
     bool is_indexed = false;
 };

@@ -18,7 +18,7 @@ class UsdaText {
     enum class Kind { end, word, number, text, punctuation };
     struct Token {
         Kind kind = Kind::end;
-        /// Without the quotes of a text.
+        /// Text without its quotes.
         std::string_view value;
         std::size_t line = 0;
 

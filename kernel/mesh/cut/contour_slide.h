@@ -14,7 +14,7 @@
 
 namespace lissom {
 
-/// Which vertices have been moved onto the contour.
+/// Vertices moved onto the contour.
 struct Slides {
     /// For each vertex the crossing that it was moved to, or kNoIndex.
     std::vector<Index> crossing_of;

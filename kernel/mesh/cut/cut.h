@@ -23,7 +23,7 @@
 
 namespace lissom {
 
-/// Which of the lines in which a plane crosses a mesh are cut.
+/// Choice of the lines in which a plane crosses a mesh.
 enum class CutLoops {
     /// The one nearest to the picked point; the other lines of the plane leave the mesh whole.
     nearest,

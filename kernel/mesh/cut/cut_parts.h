@@ -31,7 +31,7 @@ signed char side_near(const Mesh& mesh, const std::vector<signed char>& side, co
 
 /// Lines of a cut.
 struct CutLines {
-    /// Those to cut along, and those of the plane that are left.
+    /// Lines to cut along, and the remaining ones of the plane.
     std::vector<ContourLine> lines, others;
     CutReport report;
 };

@@ -10,7 +10,7 @@
 namespace lissom {
 
 struct TrimOptions {
-    /// How smooth: standard deviation of the Gaussian that smooths the loop, as a fraction of its
+    /// Smoothness: standard deviation of the Gaussian that smooths the loop, as a fraction of its
     /// length; above 0, at most 0.1. Halved, up to three times, if a loop with sharp turns has no
     /// smooth line beside it.
     double smoothing = 0.04;

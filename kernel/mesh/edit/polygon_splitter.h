@@ -50,8 +50,8 @@ class PolygonSplitter {
     std::span<const Vec3> positions_;
     std::span<const Index> polygons_;
     std::vector<Split> splits_;
-    // Which polygon has a diagonal, while conflicts are resolved, and diagonals that the present
-    // search has been at.
+    // Polygon of each diagonal, while conflicts are resolved, and the diagonals visited by the
+    // present search.
     std::unordered_map<Key, std::size_t> owner_;
     std::unordered_set<Key> visited_;
 };

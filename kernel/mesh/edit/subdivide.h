@@ -22,7 +22,7 @@ enum class SubdivisionScheme {
 };
 
 struct SubdivideOptions {
-    /// How often each face is split; 0 copies the mesh.
+    /// Number of splits of each face; 0 copies the mesh.
     Index levels = 1;
     SubdivisionScheme scheme = SubdivisionScheme::midpoint;
     /// Splits the faces of this region only; all faces if absent. Triangles beside it are divided

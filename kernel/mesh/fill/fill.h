@@ -11,7 +11,7 @@
 
 namespace lissom {
 
-/// Which triangles close a hole before they are refined.
+/// Triangles that close a hole before refinement.
 enum class FillMethod {
     /// The least largest dihedral angle, then the least area (Liepa 2003): continues the surface.
     angle,
@@ -23,7 +23,7 @@ struct FillOptions {
     FillMethod method = FillMethod::angle;
     /// Inserts vertices until the patch is as dense as the mesh around the hole.
     bool refine = true;
-    /// How dense it becomes, over the mesh around the hole; above 0. More than 1 lets a patch bend
+    /// Density relative to the mesh around the hole; above 0. More than 1 lets a patch bend
     /// whose rim has few vertices.
     double density = 1.0;
     /// Moves the inserted vertices so that the patch continues the surface smoothly (a bi-Laplacian

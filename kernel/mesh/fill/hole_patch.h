@@ -41,7 +41,7 @@ class HolePatch {
     void add_triangle(Index a, Index b, Index c);
     /// A new vertex in the middle of `around`, which may be old and new ones. Returns its id.
     Index add_middle_vertex(std::span<const Index> around);
-    /// True if the mesh or the patch has an edge between `a` and `b`.
+    /// Returns true if the mesh or the patch has an edge between `a` and `b`.
     bool has_edge(Index a, Index b) const;
     Vec3 normal(Index triangle) const;
 

@@ -40,16 +40,16 @@ class Path {
     Index size() const;
     Index segment_count() const { return closed_ ? size() : size() - 1; }
 
-    /// True if the path runs through vertices of a mesh.
+    /// Returns true if the path runs through vertices of a mesh.
     bool on_mesh() const { return topology_ != nullptr; }
     /// Returns the topology whose vertices it runs through; null for free points.
     const std::shared_ptr<const Topology>& topology() const { return topology_; }
     /// Vertices in order; empty for free points.
     const std::vector<Index>& vertices() const { return vertices_; }
-    /// True if every segment is an edge of the mesh.
+    /// Returns true if every segment is an edge of the mesh.
     bool follows_edges() const;
-    /// True if the path is one of the open boundaries of its topology, in either direction and from
-    /// any start.
+    /// Returns true if the path is one of the open boundaries of its topology, in either direction
+    /// and from any start.
     bool is_boundary() const;
 
     /// Returns positions along the path: of its vertices in `mesh`, or its own points for any mesh.

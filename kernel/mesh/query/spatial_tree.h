@@ -36,7 +36,7 @@ struct SurfacePoint {
     Vec3 normal = Vec3::Zero();
 };
 
-/// Which hits of a ray count.
+/// Selection of the hits of a ray.
 struct RayOptions {
     /// Greatest distance, in units of length.
     double limit = std::numeric_limits<double>::infinity();

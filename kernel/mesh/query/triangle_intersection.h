@@ -8,9 +8,9 @@
 
 namespace lissom {
 
-/// True if the triangles `a` and `b` with the given corners have a point in common that is not on a
-/// vertex or edge both have; equal numbers mean one vertex. Points closer than `tolerance` (a
-/// length) touch.
+/// Returns true if the triangles `a` and `b` with the given corners have a point in common that is
+/// not on a vertex or edge both have; equal numbers mean one vertex. Points closer than `tolerance`
+/// (a length) touch.
 bool triangles_intersect(const Triangle& a, const std::array<Vec3, 3>& a_corners, const Triangle& b,
                          const std::array<Vec3, 3>& b_corners, double tolerance);
 

@@ -12,7 +12,7 @@
 
 namespace lissom {
 
-/// Which vertices at the same place (equal coordinates) become one.
+/// Vertices at the same place (equal coordinates) that become one.
 enum class Weld {
     none,
     /// Edges that join two boundary edges at the same place and of opposite direction, as along a
@@ -26,7 +26,7 @@ enum class Weld {
 /// Treatment of vertices that no face uses.
 enum class UnusedVertices {
     drop,
-    /// They stay in their order: programs that match vertices by number, as those of morph targets
+    /// Keeps their order: programs that match vertices by number, as those of morph targets
     /// do, find the count of the file. Without welding and defects all vertices keep their numbers.
     keep,
 };

@@ -79,7 +79,7 @@ class Welding {
     // Corners whose edges were welded as seams.
     std::vector<char> is_seam_;
     bool regular_ = false;
-    // How often an edge of each face was found doubled.
+    // Number of times that an edge of each face was found doubled.
     std::vector<char> attempts_;
 };
 

@@ -32,7 +32,7 @@ struct BarOptions {
 };
 Mesh make_bar(const BarOptions& options = {}, const Context& context = {});
 
-/// How a sphere is divided: a cube's quads projected by equal angles, or the triangles of an
+/// Subdivision of a sphere: a cube's quads projected by equal angles, or the triangles of an
 /// icosahedron.
 enum class SphereKind { quads, triangles };
 

@@ -30,7 +30,7 @@ class FolderSink : public ListSink {
     std::string free_name(std::string_view label, std::string_view end);
 
     std::map<std::string, std::string> files_;
-    // In small letters: not every file system tells "Head" from "head".
+    // Names in small letters: not every file system tells "Head" from "head".
     std::set<std::string> taken_;
 };
 

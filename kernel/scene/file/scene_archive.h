@@ -89,7 +89,7 @@ class SceneWriter {
                                      values.size() * sizeof(T));
         keep(key, lists_.put(place_of(key), bytes, list_form<T>(width)));
     }
-    /// False if the store has no files of models: then they are lists.
+    /// Returns false if the store has no files of models: then they are lists.
     bool surface(std::vector<Vec3>& positions, std::vector<Index>& offsets,
                  std::vector<Index>& corners) {
         return keep("model",
@@ -230,7 +230,7 @@ class SceneReader {
         lists_.get_lines(at("model"), points, offsets);
         return true;
     }
-    /// None if they are missing.
+    /// Reads the parameters, if there are any.
     void parameters(const char* key, ParametersByOwner& all) {
         if (!json_.contains(key)) return;
         for (const auto& [owner, values] : members(at(key), key)) {

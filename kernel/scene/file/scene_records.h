@@ -61,7 +61,7 @@ struct PlacedRecord {
 
 /// Items of a file: their numbers are the places of their identities.
 using ItemTable = std::vector<const void*>;
-/// kNoIndex if the file does not have it.
+/// Returns kNoIndex if the file does not have it.
 Index number_of(const ItemTable& items, const void* identity);
 
 /// Records the contents of one state.
@@ -103,7 +103,7 @@ class LiveItems {
     ItemMaker& maker_;
     const Context& context_;
     std::vector<std::shared_ptr<SceneItem>> items_;
-    // By item, as it is now; null for those of other kinds.
+    // Present mesh of each item; null for other kinds.
     std::vector<std::shared_ptr<const Mesh>> meshes_;
 };
 

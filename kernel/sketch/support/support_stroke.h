@@ -20,16 +20,17 @@ struct SupportStrokeOptions {
 };
 
 struct SupportStroke {
-    /// One for each point of the stroke.
+    /// Points, one for each of the stroke.
     std::vector<Vec3> points;
-    /// How many of them were beside the surface.
+    /// Number of points beside the surface.
     std::size_t beside = 0;
 };
 
-/// On a supporting surface. If the line of sight meets it several times, the stroke continues at
-/// its present place along the curve; it begins at the place that is nearest to the curve. Between
-/// two parts over the surface depth changes evenly. Errors: not_finite; invalid_argument if the
-/// surface is seen edge-on, less squarely than 0.3, or the stroke is nowhere over it.
+/// Returns the stroke on a supporting surface. If the line of sight meets it several times, the
+/// stroke continues at its present place along the curve; it begins at the place that is nearest to
+/// the curve. Between two parts over the surface depth changes evenly. Errors: not_finite;
+/// invalid_argument if the surface is seen edge-on, less squarely than 0.3, or the stroke is
+/// nowhere over it.
 SupportStroke stroke_on_support(std::span<const Vec2> stroke, const View& view,
                                 const SupportSurface& support,
                                 const SupportStrokeOptions& options = {});

@@ -25,8 +25,8 @@ enum class SupportMode {
 /// Lengths in world units.
 struct SupportOptions {
     SupportMode mode = SupportMode::strip;
-    /// To each side of the curve. A strip is narrower if the curve bends more tightly, so that it
-    /// does not fold.
+    /// Width to each side of the curve. A strip is narrower if the curve bends more tightly, so
+    /// that it does not fold.
     double width = 0.03;
     /// Length of its straight extension beyond the last point.
     double extension = 0.035;
@@ -60,19 +60,19 @@ class SupportSurface {
     SupportSurface(std::span<const Vec3> curve, const Camera& camera, const SupportOptions& = {});
 
     SupportMode mode() const { return mode_; }
-    /// Returns one a point of the curve, and those of the extension behind them.
+    /// Returns the rulings, one a point of the curve, then those of the extension.
     std::span<const Ruling> rulings() const { return rulings_; }
     /// Returns the length of the curve.
     double length() const { return length_; }
-    /// Share of the curve's length, 0 to 1, that is less than 15 degrees from the line of sight of
-    /// the viewpoint: there a surface says little of the curve.
+    /// Returns the fraction of the curve's length, 0 to 1, that is less than 15 degrees from the
+    /// line of sight of the viewpoint: there a surface says little of the curve.
     double end_on() const { return end_on_; }
     /// Returns how squarely a camera sees the surface: the mean over the curve of the cosine
     /// between its normal and the line of sight, 0 for edge-on to 1. Strokes need about 0.3.
     double seen_from(const Camera& camera) const;
     /// Returns the hits of a ray, nearest to its origin first.
     std::vector<Hit> hits(const Ray& ray) const;
-    /// Two vertices a ruling, two triangles between rulings.
+    /// Returns a mesh: two vertices a ruling, two triangles between rulings.
     Mesh mesh(const Context& context = {}) const;
 
   private:

@@ -8,7 +8,7 @@
 
 namespace lissom {
 
-/// How the Laplacian of (4.1) is weighted at the faces of the grid.
+/// Weights of the Laplacian of (4.1) at the faces of the grid.
 enum class GridBoundary {
     /// 1/6 for each neighbour everywhere, as if the field went on mirrored behind the faces.
     zero_flux,

@@ -24,7 +24,7 @@ Color parse_color(std::string_view text);
 /// Names that `parse_color` accepts, separated by commas.
 std::string_view color_names();
 
-/// One sRGB part to its linear value and back.
+/// Convert one sRGB part to its linear value and back.
 double srgb_to_linear(double value);
 double linear_to_srgb(double value);
 /// Returns the linear parts of a colour: red, green, blue.

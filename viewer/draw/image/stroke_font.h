@@ -14,7 +14,7 @@ using Stroke = std::vector<Vec2>;
 
 struct TextStrokes {
     std::vector<Stroke> strokes;
-    /// From the left of the first letter to the right of the last.
+    /// Distance from the left of the first letter to the right of the last.
     double width = 0.0;
 };
 

@@ -25,7 +25,8 @@ class FanWriter {
 
     /// Three vertices a triangle.
     const std::vector<Index>& corners() const { return corners_; }
-    /// True if a polygon has more than three corners, so that the encoding has to be declared.
+    /// Returns true if a polygon has more than three corners, so that the encoding has to be
+    /// declared.
     bool has_polygons() const { return has_polygons_; }
     /// Tells that polygons will come, before the first is added: triangles too then need different
     /// first vertices.

@@ -22,7 +22,7 @@ namespace lissom {
 
 /// Place of an object in the document, for its mesh.
 struct ObjectPlace {
-    /// From the mesh to the object's node.
+    /// Map from the mesh to the object's node.
     NodeTransform to_node{Affine()};
     /// Joints of the node's skin, 0 if it has none.
     std::size_t joint_count = 0;

@@ -44,8 +44,8 @@ class VertexPools {
     std::vector<Index> vertex_of_corner_;
 };
 
-/// True if vertices that are open or stand for several lie at one place, so that places do not tell
-/// which vertices of a pool are one.
+/// Returns true if vertices that are open or stand for several lie at one place, so that places do
+/// not tell which vertices of a pool are one.
 bool seams_are_ambiguous(const Mesh& mesh, const VertexPools& pools, Index pool_count);
 
 /// Returns all vertices of a mesh without faces.

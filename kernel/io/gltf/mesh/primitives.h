@@ -15,9 +15,9 @@ enum class PrimitiveShape { points, lines, faces };
 /// Returns the shape of a mode of glTF, 0 to 6. Errors: file_syntax for others.
 PrimitiveShape shape_of_mode(int mode);
 
-/// How the vertices of a primitive are joined.
+/// Joining of the vertices of a primitive.
 struct PrimitiveJoin {
-    /// One of the modes with faces.
+    /// Mode of the primitive: one of those with faces.
     int mode = 4;
     /// Triangles in a row that share their first vertex are a polygon (FB_ngon_encoding).
     bool has_polygons = false;

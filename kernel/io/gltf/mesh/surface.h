@@ -36,7 +36,7 @@ struct WrittenAttributes {
     const Attribute* joints = nullptr;
     const Attribute* weights = nullptr;
 
-    /// Those of corners.
+    /// Returns the attributes of corners.
     std::vector<const Attribute*> of_corners() const;
 };
 
@@ -44,7 +44,7 @@ WrittenAttributes take_attributes(SavedParts& parts);
 
 /// Faces of one material, in order.
 struct SurfacePrimitive {
-    /// In the labels "material", or kNoIndex.
+    /// Number in the labels "material", or kNoIndex.
     Index material = kNoIndex;
     std::vector<Index> faces;
 };

@@ -20,7 +20,7 @@ class NodeTransform {
     NodeTransform moved(const Vec3& offset) const;
 
     bool is_identity() const { return transform_.is_identity(); }
-    /// True if faces have to be turned over to keep their outside.
+    /// Returns true if faces have to be turned over to keep their outside.
     bool mirrors() const { return mirrors_; }
     Vec3 position(const Vec3& p) const { return transform_(p); }
     /// Unit again, or NaN if there is no direction.
