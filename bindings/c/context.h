@@ -104,7 +104,7 @@ class Space {
     Affine to_kernel(const lissom_transform& transform) const;
     lissom_transform to_host(const Affine& map) const;
     Vec3 to_kernel(const double p[3]) const { return axes_ * Vec3(p[0], p[1], p[2]); }
-    /// Faces run the other way.
+    /// Returns whether faces run the other way.
     bool reverses() const { return reverses_; }
 
   private:

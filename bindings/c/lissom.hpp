@@ -38,7 +38,7 @@ class Error : public std::exception {
     const char* what() const noexcept override { return message_.c_str(); }
     lissom_status status() const { return status_; }
     const std::string& code() const { return code_; }
-    /// Ids of the elements concerned, at most a hundred, and their kind.
+    /// Returns the ids of the elements concerned, at most a hundred, and their kind.
     const std::vector<std::int32_t>& ids() const { return ids_; }
     lissom_element element() const { return element_; }
 
@@ -94,7 +94,7 @@ class Object {
     }
 
     Handle handle() const { return handle_; }
-    /// The handle, which is then the caller's to release.
+    /// Returns the handle, which is then the caller's to release.
     Handle take() { return std::exchange(handle_, Handle{0}); }
     lissom_context* get() const { return context_; }
     explicit operator bool() const { return handle_.id != 0; }
@@ -192,7 +192,7 @@ class Mesh : public Object<lissom_mesh, lissom_mesh_release> {
         check(lissom_region_plane(context_, handle_, point, normal, &made));
         return {context_, made};
     }
-    /// The part on the side of the plane that the normal points to, and the rest.
+    /// Returns the part on the side of the plane that the normal points to, and the rest.
     std::pair<Mesh, Mesh> cut(const double (&point)[3], const double (&normal)[3]) const {
         lissom_mesh kept{}, rest{};
         check(lissom_cut_by_plane(context_, handle_, point, normal, nullptr, &kept, &rest));

@@ -35,7 +35,8 @@ struct Conversion {
     /// Error message, if it failed.
     std::optional<Error> error;
 
-    /// "converted", "repaired" (the surface is not that of the file, but for welding) or "failed".
+    /// Returns "converted", "repaired" (the surface differs from the file's, by more than welding)
+    /// or "failed".
     const char* outcome() const;
 };
 
@@ -45,8 +46,8 @@ struct Conversion {
 Conversion convert_file(Program& program, const std::filesystem::path& in,
                         const std::filesystem::path& out, const ConversionOptions& options);
 
-/// {"file", "out", "outcome", "vertices", "faces", "seconds", "origin", "report", "lost"}, or with
-/// "error" in place of the fields of a success.
+/// Returns {"file", "out", "outcome", "vertices", "faces", "seconds", "origin", "report", "lost"},
+/// or with "error" in place of the fields of a success.
 Json conversion_json(const Conversion& conversion);
 
 /// Returns the reason of a failure, or the repairs and losses, in a few words.

@@ -13,8 +13,8 @@ namespace lissom::cli {
 /// Keeps the order in which keys were added.
 using Json = nlohmann::ordered_json;
 
-/// {"message": ..., "code": ..., "elements": {"kind": ..., "count": ..., "ids": [...]}}; ids from
-/// 1, pairs of vertices for edges.
+/// Returns {"message": ..., "code": ..., "elements": {"kind": ..., "count": ..., "ids": [...]}};
+/// ids from 1, pairs of vertices for edges.
 Json error_json(const Error& error);
 
 /// Returns a list of {"kind": "faces_flipped", "count", "element": "face" or null, "of": "file" or
@@ -22,10 +22,10 @@ Json error_json(const Error& error);
 /// of vertices for edges.
 Json report_json(const Report& report);
 
-/// {"min": [x, y, z], "max": ..., "center": ..., "diagonal": ...}; null for an empty box.
+/// Returns {"min": [x, y, z], "max": ..., "center": ..., "diagonal": ...}; null for an empty box.
 Json bounds_json(const Box& box);
 
-/// The text of a value; bytes that are no UTF-8 (in names of files) are replaced.
+/// Returns the text of a value; bytes that are no UTF-8 (in names of files) are replaced.
 std::string json_text(const Json& value, int indent = 2);
 
 }  // namespace lissom::cli

@@ -52,7 +52,7 @@ struct ProgramParts {
     ComparePictures compare_pictures = nullptr;
 };
 
-/// The verbs run, test, inspect, convert, repl and explain, and the kernel's library.
+/// Returns the verbs run, test, inspect, convert, repl and explain, and the kernel's library.
 ProgramParts kernel_parts();
 
 /// Runs the verb that the command line names. Returns the exit status: that of the verb,
@@ -95,8 +95,8 @@ class Program {
 
     bool json() const { return output != Output::text; }
 
-    /// The context of the verb: its threads, a progress bar on a terminal, warnings to the standard
-    /// error, cancelled by Ctrl-C.
+    /// Returns the context of the verb: its threads, a progress bar on a terminal, warnings to the
+    /// standard error, cancelled by Ctrl-C.
     const Context& context();
     /// Returns the same for a Lua state, which has a context of its own.
     lua::HostOptions host_options();

@@ -34,16 +34,16 @@ struct LegendTick {
     std::string text;
 };
 
-/// Both ends of the range, and round numbers between them if there is room.
+/// Returns both ends of the range, and round numbers between them if there is room.
 std::vector<LegendTick> legend_ticks(const ValueRange& range);
 
-/// Columns of pixels that a legend takes in a picture of `picture_height` rows.
+/// Returns the columns of pixels that a legend takes in a picture of `picture_height` rows.
 int legend_width(const Legend& legend, int picture_height);
 
 /// Draws a legend into the last `legend_width` columns of `image`, in `ink`.
 void draw_legend(Image& image, const Legend& legend, const Color& ink);
 
-/// Ink that reads on a background; on none, that of a white one.
+/// Returns ink that reads on a background; on none, that of a white one.
 Color ink_on(const std::optional<Color>& background);
 
 }  // namespace lissom

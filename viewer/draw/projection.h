@@ -16,7 +16,8 @@ struct Tile {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// World points minus `origin` to view space: x right, y up, z towards the viewer.
+/// Returns the map of world points minus `origin` to view space: x right, y up, z towards the
+/// viewer.
 Mat4 view_matrix(const Camera& camera, const Vec3& origin);
 
 /// View space to clip space for a whole picture.

@@ -7,7 +7,7 @@ namespace lissom {
 
 /// Camera parameters of the passes.
 struct ViewParameters {
-    /// Picture space to view space, and that to clip space for the whole picture.
+    /// Maps of picture space to view space, and of that to clip space for the whole picture.
     Mat4 view = Mat4::Identity();
     Mat4 projection = Mat4::Identity();
     /// Half the width and height of the view, in world units; at depth 1 with perspective.

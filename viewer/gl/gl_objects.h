@@ -85,7 +85,7 @@ class Framebuffer {
     static Framebuffer multisampled(Extent extent, GLenum color_format, int samples);
 
     const Extent& extent() const { return extent_; }
-    /// Colour texture of a framebuffer made by `texture`.
+    /// Returns the colour texture of a framebuffer made by `texture`.
     GLuint color() const { return color_texture_.id(); }
     /// Directs drawing here, onto all of it.
     void bind() const;

@@ -68,7 +68,7 @@ class GpuHair {
     double few() const { return few_; }
     /// Returns whether all strands are there, not few alone.
     bool complete() const { return complete_; }
-    /// Metres in the world of the widest strand when a share `of` of them is drawn.
+    /// Returns metres in the world of the widest strand when a share `of` of them is drawn.
     double width(double of) const;
     /// Returns the middle of the light's grid.
     Vec3 middle() const;

@@ -159,8 +159,8 @@ class GpuScene {
 
     const Snapshot& snapshot() const { return shown_.snapshot; }
     const ScenePlacement& placement() const { return shown_.placement; }
-    /// Point of the world that is at zero on the card. Constant as long as the content stays near
-    /// it.
+    /// Returns the point of the world that is at zero on the card. Constant as long as the content
+    /// stays near it.
     const Vec3& origin() const { return shown_.origin; }
     const std::vector<std::shared_ptr<const GpuSurface>>& surfaces() const {
         return shown_.surfaces;

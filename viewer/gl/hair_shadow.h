@@ -33,7 +33,7 @@ struct GpuHairShade {
     Vec3 offset = Vec3::Zero();
     /// Distance between grid points in view units; 0 if there are no strands.
     double step = 0.0;
-    /// Linear.
+    /// Linear colour of the scalp.
     Vec3 scalp_color = Vec3::Zero();
 };
 

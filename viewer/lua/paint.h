@@ -18,7 +18,7 @@ void paint_mesh(MeshStyle& style, std::string_view color);
 /// no mesh has the name; topology_mismatch if no mesh has the topology.
 void paint_region(Picture& picture, std::string_view name);
 void paint_region(Picture& picture, const Region& region);
-/// Errors: out_of_range if no mesh has a region of this name.
+/// Throws out_of_range if no mesh has a region of this name.
 void require_region(const Picture& picture, std::string_view name);
 void paint_handle(Picture& picture, std::string_view name);
 void paint_handle(Picture& picture, const Region& handle);

@@ -23,19 +23,20 @@ class HairLight {
     HairLight(const Snapshot& snapshot, const Vec3& origin, const LightDetail& detail = {},
               const Context& context = {});
 
-    /// Along the axes of the world, about `origin`.
+    /// Returns the grid, along the axes of the world, about `origin`.
     const ViewGrid& grid() const { return grid_; }
     const Vec3& origin() const { return origin_; }
-    /// Transmittance of strands and meshes, for strands; and of strands alone, for meshes.
+    /// Return the transmittance of strands and meshes, for strands; and of strands alone, for
+    /// meshes.
     const LightMoments& for_strands() const { return for_strands_; }
     const LightMoments& for_meshes() const { return for_meshes_; }
-    /// Linear colour of scalps with hair.
+    /// Returns the linear colour of scalps with hair.
     const Eigen::Array3f& scalp_color() const { return scalp_color_; }
 
     /// Returns four bytes a grid point for a camera that turns the world by `to_view`: key and rim
     /// light for strands, key light for meshes, and the density of hair, as in StrandShadow.
     std::vector<std::uint8_t> directed(const Mat3& to_view, const Context& context = {}) const;
-    /// The last of these four, the others 0.
+    /// Returns the last of these four bytes, the others 0.
     std::vector<std::uint8_t> undirected() const;
 
   private:
@@ -54,7 +55,7 @@ class HairLight {
 float light_from(const std::uint8_t* moments, const Eigen::Vector3f& direction);
 /// Returns the remaining part of the light from all around; `up` points up.
 float ambient_light(const std::uint8_t* moments, const Eigen::Vector3f& up);
-/// Weight of the directed part in that: so much brighter than the middle is the sky.
+/// Returns the weight of the directed part in that: the sky is so much brighter than the middle.
 float ambient_slope();
 
 }  // namespace lissom

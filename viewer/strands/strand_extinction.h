@@ -40,7 +40,7 @@ inline constexpr Index kExtinctionParts = 4;
 /// Blend of the scalp with the colour of hair at each grid point, 0 to 1: high if roots are nearly
 /// as dense as at most places, and not just few.
 std::vector<float> scalp_tint(const ViewGrid& grid, std::span<const ViewStrands> strands);
-/// Linear colour of scalps with hair.
+/// Returns the linear colour of scalps with hair.
 Eigen::Array3f mean_root_color(std::span<const ViewStrands> strands);
 
 /// A direction to the surroundings; not of unit length.

@@ -17,7 +17,8 @@ struct StrandLook {
 /// Returns the look of a strand, at random by its id and its clump, independent of other strands.
 StrandLook look_of(const ViewStrands& drawn, Index strand);
 
-/// Factor of the colour along a strand, dark at the root and light at the tip; `t` 0 to 1.
+/// Returns the factor of the colour along a strand, dark at the root and light at the tip; `t` 0 to
+/// 1.
 float tone_along(const StrandStyle& style, float t);
 
 /// Returns widths of a strand's points in view units, as far as they cover: less if they are

@@ -30,7 +30,7 @@ class SampleTile {
     /// Ids of samples that no strand is seen at.
     static constexpr std::uint32_t kNothing = 0xffffffff, kSurface = 0xfffffffe;
 
-    /// The pixels (left, top) to (left + width - 1, top + height - 1).
+    /// Covers the pixels (left, top) to (left + width - 1, top + height - 1).
     SampleTile(int left, int top, int width, int height);
 
     int left() const { return left_; }
@@ -44,17 +44,17 @@ class SampleTile {
     /// Draws a triangle that hides everything behind it, on both of its sides.
     void draw_triangle(const std::array<ScreenPoint, 3>& corners);
 
-    /// Hierarchical depth: the greatest depth in each block of pixels, for `occludes`.
+    /// Updates the hierarchical depth: the greatest depth in each block of pixels, for `occludes`.
     void update_depth_blocks();
     /// Returns whether content drawn before `update_depth_blocks` hides everything at `depth` or
     /// beyond in a rectangle of the picture; false if that is not certain.
     bool occludes(float left, float top, float right, float bottom, float depth) const;
 
-    /// Pixels count from the top left of the picture.
+    /// Returns the id at a sample. Pixels count from the top left of the picture.
     std::uint32_t id(int x, int y, int sample) const {
         return static_cast<std::uint32_t>(keys_[place(x, y) * kSamples + sample]);
     }
-    /// Position of a sample in the picture.
+    /// Returns the position of a sample in the picture.
     Eigen::Vector2f position(int x, int y, int sample) const;
 
   private:

@@ -18,10 +18,10 @@ struct StrandLight {
 
 /// A point of a strand. Directions have unit length; a tangent without length is not lit.
 struct StrandPoint {
-    /// Towards the tip.
+    /// Unit tangent towards the tip.
     Eigen::Vector3f tangent = Eigen::Vector3f::Zero();
     Eigen::Vector3f to_viewer = Eigen::Vector3f::UnitZ();
-    /// Linear.
+    /// Linear colour.
     Eigen::Array3f color = Eigen::Array3f::Zero();
     /// Added to the shift of both lobes, radians.
     float shift = 0.0f;

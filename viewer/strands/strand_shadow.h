@@ -21,7 +21,7 @@ class StrandShadow {
     StrandShadow(std::span<const ViewStrands> strands, std::span<const ViewTriangle> triangles,
                  const Context& context = {});
 
-    /// Light at a place among the strands, which they and the meshes shade.
+    /// Returns the light at a place among the strands, which they and the meshes shade.
     StrandLight light(const Eigen::Vector3f& position) const;
 
     const ViewGrid& grid() const { return grid_; }
@@ -29,7 +29,7 @@ class StrandShadow {
     /// light and of the light from all around that the strands let through, and how much hair grows
     /// there, 0 to 255.
     const std::vector<std::uint8_t>& on_meshes() const { return on_meshes_; }
-    /// Linear colour of scalps with hair.
+    /// Returns the linear colour of scalps with hair.
     const Eigen::Array3f& scalp_color() const { return scalp_color_; }
 
   private:

@@ -16,7 +16,7 @@ struct ViewGrid {
     std::array<Index, 3> counts{1, 1, 1};
 
     std::size_t size() const { return at(counts[0]) * counts[1] * counts[2]; }
-    /// x runs fastest.
+    /// Returns the index of a point; x runs fastest.
     std::size_t index(Index i, Index j, Index k) const {
         return i + counts[0] * (j + at(counts[1]) * k);
     }

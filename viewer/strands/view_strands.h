@@ -30,7 +30,7 @@ struct ViewStrands {
         const float* const p = strands->points().data() + 3 * at(point);
         return linear * Eigen::Map<const Eigen::Vector3f>(p) + offset;
     }
-    /// Points of the strands that are drawn.
+    /// Returns the points of the strands that are drawn.
     Index point_count() const { return count == 0 ? 0 : strands->offsets()[count]; }
 };
 

@@ -50,7 +50,7 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     /// Runs lua_pcall without a handler, within the limits of the sandbox.
     int call(int arguments, int results);
 
-    /// See Sharing.
+    /// Returns the hooks of scripts; see Sharing.
     Sharing sharing();
     /// Returns the Lua object that shares a handle's content. Content new to Lua gets a
     /// new object if that is possible without a copy. Errors: StatusError for invalid
@@ -59,9 +59,9 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     /// Returns a handle for the object of a userdata at `index`: its own if it has one.
     std::uint64_t handle_of(int index);
 
-    /// Pushes values by JSON; at most `kDepth` deep. Errors: invalid_argument.
+    /// Checks values of JSON to be pushed; at most `kDepth` deep. Errors: invalid_argument.
     void check_values(const Json& values);
-    /// To be called in protected mode, with `values` checked.
+    /// Pushes values by JSON, in protected mode, with `values` checked.
     void push_values(const Json& values);
     /// Returns the value at `index`, objects as handles. Errors: invalid_argument for values
     /// without JSON.

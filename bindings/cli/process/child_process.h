@@ -15,7 +15,7 @@ struct ProcessEnd {
     int status = 0;
     bool by_signal = false;
 
-    /// "status 3", "signal 11 (Segmentation fault)".
+    /// Returns "status 3", "signal 11 (Segmentation fault)".
     std::string text() const;
 };
 

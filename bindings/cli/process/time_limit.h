@@ -16,7 +16,7 @@ class TimeLimit {
     TimeLimit(const TimeLimit&) = delete;
     TimeLimit& operator=(const TimeLimit&) = delete;
 
-    /// Ends the watch; whether the time was over before.
+    /// Ends the watch. Returns whether the time was over before.
     bool stop();
 
   private:

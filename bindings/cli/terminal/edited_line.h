@@ -24,7 +24,7 @@ class EditedLine {
     std::size_t cursor() const { return cursor_; }
     std::string_view before() const { return std::string_view(text_).substr(0, cursor_); }
 
-    /// Another text, with the cursor at its end.
+    /// Replaces the text, with the cursor at its end.
     void replace(std::string text);
     void insert(std::string_view text);
     /// Replaces the text between `begin` and the cursor by `text`.

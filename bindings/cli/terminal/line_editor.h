@@ -36,7 +36,7 @@ class LineEditor {
         std::string line = {};
     };
 
-    /// The next line. The prompt is shown on a terminal only.
+    /// Reads the next line. The prompt is shown on a terminal only.
     Read read(const char* prompt);
     /// Keeps a chunk for the arrow keys and for the next run.
     void remember(const std::string& chunk);

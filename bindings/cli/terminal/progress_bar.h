@@ -20,7 +20,7 @@ class ProgressBar {
 
     /// Shows that `fraction` (0 to 1) of the work called `label` is done.
     void show(std::string_view label, double fraction);
-    /// The work has ended: takes the line away.
+    /// Takes the line away: the work has ended.
     void clear();
 
   private:

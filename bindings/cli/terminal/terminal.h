@@ -7,7 +7,7 @@
 
 namespace lissom::cli {
 
-/// Returns whether the standard error, or the standard input, is a terminal.
+/// Return whether the standard error, or the standard input, is a terminal.
 bool error_is_terminal();
 bool input_is_terminal();
 
@@ -38,7 +38,7 @@ struct TypedByte {
     bool ended = false;
 };
 
-/// The next byte, waiting for it at most so long.
+/// Returns the next byte, waiting for it at most so long.
 TypedByte read_terminal(int milliseconds);
 
 }  // namespace lissom::cli

@@ -12,17 +12,17 @@ namespace lissom::cli {
 /// Prints a file for people: a line, and below it failed and skipped tests; `verbose` names every
 /// test, with the output of each.
 std::string file_text(const FileResult& result, bool verbose);
-/// "12 passed, 1 failed, 2 skipped (3 files, 1.24 s)"; the first two are always there.
+/// Returns "12 passed, 1 failed, 2 skipped (3 files, 1.24 s)"; the first two are always there.
 std::string counts_text(const TestCounts& counts, double seconds);
 
-/// The Test Anything Protocol, version 13.
+/// Returns a report of the Test Anything Protocol, version 13.
 std::string tap_text(const std::vector<FileResult>& results);
 /// The XML that JUnit's readers take: a suite a file.
 std::string junit_text(const std::vector<FileResult>& results, double seconds);
 /// {"passed", "failed", "skipped", "seconds", "tests": [{"file", "name", "line", "status", ...}]}
 Json results_json(const std::vector<FileResult>& results, double seconds);
 
-/// A line a test: "file:line: name".
+/// Returns a line a test: "file:line: name".
 std::string list_text(const std::vector<FileResult>& results);
 Json list_json(const std::vector<FileResult>& results);
 

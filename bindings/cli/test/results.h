@@ -45,7 +45,7 @@ struct FileResult {
     double seconds = 0.0;
 };
 
-/// "0.5 s", "60 s"
+/// Returns "0.5 s", "60 s".
 std::string seconds_text(double seconds);
 
 struct TestCounts {

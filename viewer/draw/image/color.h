@@ -21,7 +21,7 @@ struct Color {
 /// invalid_argument that lists the accepted forms.
 Color parse_color(std::string_view text);
 
-/// Names that `parse_color` accepts, separated by commas.
+/// Returns the names that `parse_color` accepts, separated by commas.
 std::string_view color_names();
 
 /// Convert one sRGB part to its linear value and back.
@@ -30,10 +30,10 @@ double linear_to_srgb(double value);
 /// Returns the linear parts of a colour: red, green, blue.
 Vec3 linear(const Color& color);
 
-/// Perceived lightness, 0 (black) to 1 (white).
+/// Returns the perceived lightness, 0 (black) to 1 (white).
 double lightness(const Color& color);
 
-/// `a` for fraction 0, `b` for fraction 1.
+/// Returns `a` for fraction 0, `b` for fraction 1.
 Color mix(const Color& a, const Color& b, double fraction);
 
 /// Returns four bytes: red, green, blue and an alpha of 255.
@@ -48,7 +48,7 @@ inline constexpr Color kVertexNormalColor{0.20, 0.50, 0.85};
 inline constexpr Color kFaceNormalColor{0.15, 0.62, 0.62};
 inline constexpr Color kWhite{1.0, 1.0, 1.0};
 
-/// Colours of things that are told apart by number; they repeat after eight.
+/// Returns colours of things that are told apart by number; they repeat after eight.
 Color category_color(std::size_t number);
 
 }  // namespace lissom

@@ -6,7 +6,8 @@
 
 namespace lissom {
 
-/// Colour of `t`, from 0 (dark violet) over green to 1 (yellow); values outside are clamped.
+/// Returns the colour of `t`, from 0 (dark violet) over green to 1 (yellow); values outside are
+/// clamped.
 Color colormap(double t);
 
 /// Colour of surface without a number.

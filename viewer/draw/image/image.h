@@ -21,7 +21,7 @@ struct Image {
     std::vector<std::uint8_t> rgba;
 
     Image() = default;
-    /// Transparent black.
+    /// Makes a transparent black image.
     Image(int image_width, int image_height);
 
     std::uint8_t* pixel(int x, int y) { return rgba.data() + offset(x, y); }

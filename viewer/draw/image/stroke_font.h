@@ -18,7 +18,7 @@ struct TextStrokes {
     double width = 0.0;
 };
 
-/// `text` (UTF-8) in one line that starts at x = 0, with capitals of `height`.
+/// Lays out `text` (UTF-8) in one line that starts at x = 0, with capitals of `height`.
 TextStrokes lay_out_text(std::string_view text, double height);
 
 }  // namespace lissom
