@@ -26,9 +26,9 @@ end
 
 --- Writes OUT/NAME.obj and OUT/NAME.ply of `after`, and OUT/NAME.png with both meshes side by side.
 -- Options: name; before and after, two meshes; out, the folder (default "out"); region and handles, names of
--- regions of both meshes, drawn blue and purple; view or camera; size, the picture's in
--- pixels (default 1200 x 640); wire, to draw the edges.
--- Returns the path of the first file; raises an error where a file cannot be written.
+-- regions of both meshes, drawn blue and purple; view or camera; size, the picture's in pixels (default 1200
+-- x 640); wire, to draw the edges. Returns the path of the first file; raises an error if a file cannot be
+-- written.
 function before_after.write(options)
     check(options)
     local path = (options.out or "out") .. "/" .. options.name

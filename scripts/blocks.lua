@@ -1,5 +1,5 @@
---- Smooth models from unit cubes: a few cells say what is where, subdivision rounds them. Faces may be left
--- out, where the model is to be open.
+--- Smooth models from unit cubes: a few cells set the form, subdivision rounds it. Faces may be left
+-- out, if the model is to be open.
 --
 --     local blocks = require "blocks"
 --     local cells = blocks.cells{ { 0, 0, 0, 3, 1, 1 }, { 1, 2, 0 } }     -- a beam, a cell on it

@@ -148,7 +148,7 @@ local function top_eigenvector(m)
     return x
 end
 
--- The quaternion {w, x, y, z} of the rotation nearest to what took the vertices from p to q (Horn 1987).
+-- The quaternion {w, x, y, z} of the rotation nearest to the motion of the vertices from p to q (Horn 1987).
 local function fit(p, q, vertices)
     local from, to = mean(p, vertices), mean(q, vertices)
     local s = { { 0, 0, 0 }, { 0, 0, 0 }, { 0, 0, 0 } }
@@ -231,7 +231,7 @@ function figures.deformed(rest, options, handles, preview)
     return mesh, edit
 end
 
---- For handles that stay where they are.
+--- For handles that keep their place.
 function figures.hold() end
 
 -- ---- Pictures and claims
@@ -257,7 +257,7 @@ function figures.row(name, format, ...)
     print(string.format("%-24s " .. format, name, ...))
 end
 
---- Raises an error that names the claim where it does not hold.
+--- Raises an error that names the claim if it does not hold.
 function figures.claim(holds, text)
     if not holds then error("the figure does not show that " .. text, 2) end
 end

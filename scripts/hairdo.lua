@@ -1,4 +1,4 @@
---- What scripts of hairstyles share: their parameters, heads, the finish of hair, and pictures of it.
+--- Common parts of scripts of hairstyles: their parameters, heads, the finish of hair, and pictures of it.
 local lissom = require "lissom"
 
 local hairdo = {}
@@ -126,7 +126,8 @@ end
 
 local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
 
--- Where a tie is: its center in metres, the direction to it, and its distance from the center of the head.
+-- Returns the place of a tie: its center in metres, the direction to it, and its distance from the center of
+-- the head.
 local function tie_of(scalp, tail)
     local center = scalp:to_metres((scalp:at{ azimuth = tail.azimuth, elevation = tail.elevation,
         lift = tail.lift }))
@@ -150,8 +151,8 @@ local function ring_is_free(scalp, tail, distance)
     return true
 end
 
--- Moves a tie that would lie on an ear back along its height, by at most 30 degrees, to where its ring is
--- free: no hair gets into a ring that an ear fills.
+-- Moves a tie that would lie on an ear back along its height, by at most 30 degrees, until its ring is free:
+-- no hair gets into a ring that an ear fills.
 function hairdo.keep_off_ears(scalp, tail)
     local azimuth = (tail.azimuth + 180) % 360 - 180
     local sign = azimuth < 0 and -1 or 1
@@ -166,8 +167,8 @@ function hairdo.keep_off_ears(scalp, tail)
     end
 end
 
--- A stream through directions over the head, {azimuth, elevation, lift}, and on into the rim of a tie, where
--- it comes from.
+-- A stream through directions over the head, {azimuth, elevation, lift}, and on into the rim of a tie, from
+-- its own side.
 local function lead_into(style, tail, tie, places, name)
     local scalp, points = style:scalp(), {}
     for i, place in ipairs(places) do
@@ -185,7 +186,7 @@ end
 
 -- Streams from all around a tie into it, close over the head: `count` of them. `low` is their height over the
 -- head, `reach` how far from the tie they begin; in metres. A function `skip(azimuth, elevation)` leaves out
--- those that begin where it is true.
+-- streams that begin at directions for which it is true.
 function hairdo.gather(style, tail, options)
     local tie, a = tie_of(style:scalp(), tail), math.rad(tail.azimuth)
     local out, side = tie.out, { math.cos(a), 0, -math.sin(a) }

@@ -27,13 +27,13 @@ function matrices.product(a, b, ...)
     return m
 end
 
---- Where a point goes.
+--- Returns the image of a point.
 function matrices.point(m, p)
     local function row(i) return m[i][1] * p[1] + m[i][2] * p[2] + m[i][3] * p[3] + m[i][4] end
     return { row(1), row(2), row(3) }
 end
 
---- Where a direction goes: what the matrix adds to points does not count.
+--- Returns the image of a direction, without the translation of the matrix.
 function matrices.direction(m, d)
     local function row(i) return m[i][1] * d[1] + m[i][2] * d[2] + m[i][3] * d[3] end
     return { row(1), row(2), row(3) }

@@ -1,4 +1,5 @@
---- Pairs of well known models that go together: which part of each is kept, and what meets what. The models
+--- Pairs of well known models that go together: the kept part of each, and the matching directions. The
+--- models
 -- are not part of this library: give the folder that holds them.
 --
 --     local merge_pairs = require "merge_pairs"

@@ -1,4 +1,4 @@
---- What a merge looks like: its report in words, and pictures of before, after and the seam.
+--- Looks of a merge: its report in words, and pictures of before, after and the seam.
 --
 --     local merge_pictures = require "merge_pictures"
 --     merge_pictures.print("mermaid", mesh, report, parts)
@@ -9,7 +9,7 @@ local vectors = require "vectors"
 
 local merge_pictures = {}
 
---- Prints what a merge found and how well the seam is hidden.
+--- Prints the findings of a merge and how well the seam is hidden.
 function merge_pictures.print(name, mesh, report, parts)
     print(string.format("%s: %d vertices, %d of them free, genus %d, prepared in %.3f s, "
         .. "solved in %.3f s", name, #mesh, report.free_vertices, mesh:genus(), report.prepare_seconds,
@@ -29,10 +29,10 @@ function merge_pictures.print(name, mesh, report, parts)
     for _, warning in ipairs(report.warnings) do print("  " .. warning) end
 end
 
---- Colours, as of the attribute "color", of what comes from targets and from sources.
+--- Colours, as of the attribute "color", of the parts from targets and from sources.
 merge_pictures.blue, merge_pictures.sand = { 0.42, 0.58, 0.80, 1 }, { 0.86, 0.70, 0.46, 1 }
 
---- A copy of a merged mesh in two colours: blue what comes from the targets, sand what comes from the source.
+--- A copy of a merged mesh in two colours: blue for the targets, sand for the source.
 function merge_pictures.colored(mesh, report)
     local copy = mesh:copy()
     for _, name in ipairs{ "color", "normal" } do copy:remove_attribute(name) end

@@ -1,4 +1,4 @@
---- What the scripts of merging have in common: their parameters, the models they are run on, and their files.
+--- Common parts of the scripts of merging: their parameters, the models they are run on, and their files.
 --
 --     local params = merge_script.params(add_tail.schema)
 --     local source, target, options = merge_script.models(params, { "keys" }, generate)
@@ -27,7 +27,7 @@ local script_schema = {
     size = { type = "integer", default = 640, min = 64, max = 4096, unit = "pixels", help = "of a picture" },
 }
 
---- The parameters of a script: those of `schema`, models, and where its files go.
+--- The parameters of a script: those of `schema`, models, and the folder of its files.
 function merge_script.params(schema)
     local all = {}
     for _, list in ipairs{ script_schema, schema or {} } do

@@ -17,7 +17,7 @@ local function smoothstep(a, b, x)
 end
 
 -- A plate with a bump: profile(t) gives radius and height for t from 0, the rim of the bump, to 1, its tip;
--- shape(x, y, z, t) bends what that makes. The plate has radius 1, the bump's foot the radius `foot`.
+-- shape(x, y, z, t) bends the result. The plate has radius 1, the bump's foot the radius `foot`.
 local function raised(options)
     local segments, foot = options.segments or 36, options.foot
     local positions, faces, rings = {}, {}, {}

@@ -1,4 +1,4 @@
---- A tail, or whatever else ends in one opening, in the place of what a body is cut off at: a mermaid.
+--- A tail, or any other part with one opening, in the place of the cut part of a body: a mermaid.
 --
 --     lissom run scripts/recipes/add_tail.lua --twist 20
 --     lissom run scripts/recipes/add_tail.lua --models ../shared/data/models --pair mermaid
@@ -13,12 +13,12 @@ local add_tail = {}
 --- Parameters, as lissom.params takes them.
 add_tail.schema = {
     source_cut = { type = "string", default = "",
-        help = "where the tail is cut: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
-    target_cut = { type = "string", default = "", help = "where the body is cut" },
+        help = "cut of the tail: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
+    target_cut = { type = "string", default = "", help = "cut of the body" },
     tail_up = { type = "string", default = "y", help = "the side of the tail that meets `body_up`" },
     body_up = { type = "string", default = "-z", help = "the side of the body that meets `tail_up`" },
     twist = { type = "number", default = 0, min = -180, max = 180, unit = "degrees",
-        help = "turns the tail about where it is joined" },
+        help = "turns the tail about its joint" },
 }
 
 --- Merges a tail onto a body. `options` are values of the schema and options of lissom.merge. Returns what

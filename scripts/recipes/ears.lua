@@ -13,8 +13,8 @@ local ears = {}
 --- Parameters, as lissom.params takes them.
 ears.schema = {
     source_cut = { type = "string", default = "",
-        help = "where the left ear is cut: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
-    left = { type = "string", default = "", help = "x, y, z: where on the head the left ear goes" },
+        help = "cut of the left ear: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
+    left = { type = "string", default = "", help = "x, y, z: place of the left ear on the head" },
     right = { type = "string", default = "", help = "and the right one; else its mirror image" },
     radius = { type = "number", default = 0, min = 0,
         help = "of the openings, along the surface; 0: a sixth of the head's size" },
@@ -37,7 +37,7 @@ local function both(ear, boundary, axis)
     local scale, point = { 1, 1, 1 }, boundary:points()[1]
     scale[axis_number[axis]] = -1
     local second = ear:copy():transform{ scale = scale }
-    -- Side by side, so that the two don't touch; a merge does not care where its source lies.
+    -- Side by side, so that the two don't touch; a merge does not depend on the place of its source.
     local apart = { 0, 0, 0 }
     apart[axis_number[axis]] = -(2 * math.abs(point[axis_number[axis]]) + 4 * ear:bounds().diagonal)
     second:transform{ translate = apart }

@@ -1,4 +1,4 @@
---- A feature on another model: a nose, an ear, a horn, a handle, or what a part file or another model has.
+--- A feature on another model: a nose, an ear, a horn, a handle, or a part of a file or of another model.
 --
 --     lissom run scripts/recipes/put_feature.lua --part horn --mirror x
 --     lissom run scripts/recipes/put_feature.lua --source head.obj --region "0, 0, .1; .05" --target cow.obj
@@ -15,12 +15,12 @@ local put_feature = {}
 
 --- Parameters, as lissom.params takes them.
 put_feature.schema = {
-    at = { type = "string", default = "", help = "x, y, z: where on the target the middle of the part goes" },
+    at = { type = "string", default = "", help = "x, y, z: place of the middle of the part on the target" },
     toward = { type = "string", default = "y", help = "the way on the target that is up for the part" },
     turn = { type = "number", default = 0, min = -360, max = 360, unit = "degrees",
         help = "turns the part on the surface, counter-clockwise seen from outside" },
     scale = { type = "number", default = 1, min = 1e-6, help = "size of the part on the target" },
-    clear = { type = "boolean", default = false, help = "removes what stands out of the target there" },
+    clear = { type = "boolean", default = false, help = "removes the old feature of the target there" },
     mirror = { type = "choice", default = "none", choices = { "none", "x", "y", "z" },
         help = "puts a mirror image on the other side as well, across this axis of the target's model" },
     normals = { type = "number", default = 0, min = 0, max = 1,
@@ -94,7 +94,7 @@ function put_feature.make(part, target, options)
     return mesh, reports
 end
 
--- Where the generated parts go on the generated head, and how.
+-- Places of the generated parts on the generated head.
 local examples = {
     nose = { at = { 0, 0.02, 0.2 }, scale = 0.04, clear = true },
     ear = { at = { 0.08, 0.02, 0 }, scale = 0.035, mirror = "x" },
@@ -112,7 +112,7 @@ function put_feature.example(name)
     return parts.make(name), lissom.shapes.head{ vertices = 8000 }, options
 end
 
--- What the command line asks for: a part and the model that it goes onto.
+-- Returns the requested part and the model that it goes onto.
 local function given(params)
     local part, target, options
     if params.source ~= "" then

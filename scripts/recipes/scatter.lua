@@ -7,7 +7,7 @@
 --     local mesh, report = scatter.make(parts.make("leaf"), model, { count = 100, seed = 1 })
 --
 -- Places are spread evenly: each is the one of many random points that is farthest from those before it. So
--- the first hundred are the same for any count, and so are their angles and sizes where `size` is given.
+-- the first hundred are the same for any count, and so are their angles and sizes if `size` is given.
 local lissom = require "lissom"
 local merging = require "merging"
 local parts = require "parts"
@@ -145,7 +145,7 @@ local function varied(count, values)
     return angles, sizes
 end
 
--- What is far enough from open boundaries; nil where there are none.
+-- Returns the region far enough from open boundaries; nil if there are none.
 local function inner(mesh, margin)
     local edges = {}
     for _, boundary in ipairs(mesh:boundaries()) do

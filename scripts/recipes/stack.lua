@@ -14,7 +14,7 @@ stack.schema = {
     axis = { type = "string", default = "y", help = "upwards, in all parts" },
     front = { type = "string", default = "z", help = "the sides that come to lie above each other" },
     low = { type = "number", default = 0.1, min = 0, max = 0.45,
-        help = "share of a part's height that is cut off below, where it is closed there" },
+        help = "share of a part's height that is cut off below, if it is closed there" },
     high = { type = "number", default = 0.1, min = 0, max = 0.45, help = "the same above" },
     turn = { type = "number", default = 0, min = -180, max = 180, unit = "degrees",
         help = "how far each part is turned on the one below" },

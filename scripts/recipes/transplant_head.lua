@@ -15,10 +15,10 @@ local transplant_head = {}
 --- Parameters, as lissom.params takes them.
 transplant_head.schema = {
     source_cut = { type = "string", default = "",
-        help = "where the head is cut: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
-    target_cut = { type = "string", default = "", help = "where the body is cut" },
+        help = "cut of the head: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
+    target_cut = { type = "string", default = "", help = "cut of the body" },
     head_up = { type = "string", default = "y", help = "upwards in the head's model" },
-    head_front = { type = "string", default = "z", help = "where its face looks" },
+    head_front = { type = "string", default = "z", help = "direction of its face" },
     body_up = { type = "string", default = "y", help = "along the body's neck, away from the body" },
     body_front = { type = "string", default = "z", help = "the side of the body's neck under the chin" },
     turn = { type = "number", default = 0, min = -180, max = 180, unit = "degrees",
