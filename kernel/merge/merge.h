@@ -188,6 +188,10 @@ enum class MergeFault {
     place,
     /// Triangles at the seam are so thin that they have no reliable normals.
     slivers,
+    /// A paste bit into sharp edges of its target, or rounded them.
+    bite,
+    /// Places of a scatter have no part.
+    left_out,
 };
 
 /// The name of a fault, as scripts see it: "crossings", "folds" and so on.
@@ -200,10 +204,17 @@ struct MergeReason {
     Index join = kNoIndex;
     /// What was measured and the limit that it passes: radians for angles, radii of the seam for
     /// the length of folds, a count of pairs of faces, the part of the volume that was kept, the
-    /// certainty of a guess.
+    /// certainty of a guess; for bites the depth or the length in radii of the seam.
     double value = 0.0, limit = 0.0;
     /// What is wrong, in plain words with both figures, and what may help.
     std::string text, remedy;
+};
+
+/// Bites of a paste into the sharp edges of its target (edges that turn by more than 35 degrees):
+/// they stand out of the result, or lie below the surface that is still the target's.
+struct TargetBite {
+    /// Their length, and how far they are from the result at most, in radii of the seam.
+    double length = 0.0, depth = 0.0;
 };
 
 /// What a merge found and did.
@@ -218,6 +229,8 @@ struct MergeReport {
     SeamQuality source_rim, target_rim;
     /// Angle, in radians, at which the options let the parts meet (PasteOptions::crease).
     double crease = 0.0;
+    /// Of a paste; not measured of drafts.
+    TargetBite bite;
     /// Parts of the source without a boundary that is joined: in the free configuration each moves
     /// along with what is nearest to it.
     Index loose_parts = 0;

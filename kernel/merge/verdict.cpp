@@ -24,6 +24,9 @@ constexpr double kRougher = 1.4, kSmooth = 8.0 / kRadian;
 constexpr double kFold = 0.02;
 // A part that keeps less of its volume has visibly caved in.
 constexpr double kVolumeKept = 0.75;
+// Length of sharp edges that a paste may take, and how deep it may bite at one place, in radii of
+// the seam: smoothing takes less where a seam crosses an edge.
+constexpr double kBitten = 0.3, kBittenDepth = 0.15;
 // What planes on either side of a seam may differ by on surfaces that were flat, and times as much
 // as they did before on others: in the mean, and at one place.
 constexpr double kBent = 25.0 / kRadian, kBentMost = 50.0 / kRadian, kMoreBent = 1.3;
@@ -206,6 +209,19 @@ void judge_slivers(const MergeReport& report, Reasons& reasons) {
          "leave the collar on, or subdivide the coarser side"});
 }
 
+void judge_bite(const MergeReport& report, Reasons& reasons) {
+    const TargetBite& bite = report.bite;
+    const bool deep = bite.depth > kBittenDepth;
+    if (!deep && !(bite.length > kBitten)) return;
+    reasons.push_back({MergeFault::bite, kNoIndex, deep ? bite.depth : bite.length,
+                       deep ? kBittenDepth : kBitten,
+                       text_of("the part bites into sharp edges of the target, along %.2f of its "
+                               "radius and %.2f deep",
+                               bite.length, bite.depth),
+                       "move the part off the edge, make it smaller, or mark a region that reaches "
+                       "less far around the feature"});
+}
+
 Reasons reasons_of(const MergeReport& report) {
     Reasons reasons;
     judge_crossings(report, reasons);
@@ -213,6 +229,7 @@ Reasons reasons_of(const MergeReport& report) {
     for (const auto& judge_join : {judge_folds, judge_roughness, judge_volume, judge_bend}) {
         for (Index j = 0; j < count_of(report.joins); ++j) judge_join(report, j, reasons);
     }
+    judge_bite(report, reasons);
     judge_seam(report, reasons);
     judge_places(report, reasons);
     judge_slivers(report, reasons);
@@ -240,9 +257,13 @@ const char* fault_name(MergeFault fault) {
         case MergeFault::place:
             return "place";
         case MergeFault::slivers:
+            return "slivers";
+        case MergeFault::bite:
+            return "bite";
+        case MergeFault::left_out:
             break;
     }
-    return "slivers";
+    return "left out";
 }
 
 Verdict verdict_of(const MergeReport& report, bool sought) {

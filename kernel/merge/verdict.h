@@ -26,6 +26,8 @@ struct Verdict {
 ///   place, and by the crease of a paste, or 1.3 times as much as they did beside the boundaries;
 /// - the surface turns by no more than 30 degrees at an edge of the seam and 20 in the mean (two
 ///   thirds of the crease of a paste), or by no more than at edges beside the boundaries;
+/// - a paste takes no sharp edge of its target along more than .3 of its radius, or deeper than
+///   .15;
 /// - its place is not a toss;
 /// - no triangle at the seam has an angle under 2 degrees, or under the smallest that was there.
 /// Angles of parts that fit (JoinReport::fits) are theirs. The text says what holds, or all that

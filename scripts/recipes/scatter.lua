@@ -236,6 +236,7 @@ local function run()
     print(string.format("%d parts of %d places in %.1f s, %d rounds: %d vertices, %d faces",
         #report.places - #report.refused, #report.places, os.clock() - start, report.rounds, #mesh,
         mesh:face_count()))
+    print(report)
     print_refused(report.refused)
     print(assert(mesh:save(params.out .. "/scatter.obj")))
     local colored = mesh:copy()

@@ -154,6 +154,51 @@ test("places are spread evenly, and the first ones stay when there are more", fu
     expect.truthy(most < 1.3 * spacing)
 end)
 
+test("sharp edges of a box stay under scattered parts, and the report says what was moved", function()
+    local box = lissom.shapes.box{ size = { 2, 2, 2 } }
+    local part = parts.make("spike", { segments = 14 })
+    local mesh, report = scatter.make(part, box, { count = 40, size = 0.2 })
+    expect_whole(mesh)
+    expect.equal(report.placed + #report.refused, 40)
+    expect.truthy(report.placed >= 30 and #report.moved > 0)
+    for _, one in ipairs(report.moved) do expect.truthy(one.place >= 1 and #one.at == 3) end
+    -- Each corner is still there, and points of the edges between them are.
+    local gone = 0
+    for x = -1, 1, 2 do
+        for y = -1, 1, 2 do
+            for k = 0, 40 do
+                local z = -1 + k / 20
+                for _, p in ipairs{ { x, y, z }, { y, z, x }, { z, x, y } } do
+                    local found = mesh:nearest(table.unpack(p))
+                    if found.distance > 0.01 then gone = gone + 1 end
+                end
+            end
+        end
+    end
+    expect.truthy(gone <= 4)
+end)
+
+test("a part over a sharp edge is told", function()
+    local box = lissom.shapes.box{ size = { 2, 2, 2 } }
+    local horn = parts.make("horn")
+    local function pasted(at)
+        local paste = assert(lissom.paste{ source = horn.mesh, region = horn.region, feature = horn.feature,
+            target = box, placement = { at = at, up = horn.up, scale = 0.3 } })
+        paste:optimize()
+        local _, report = paste:merge()
+        return report
+    end
+    local bad = pasted{ 1, 1, 0 }
+    expect.falsy(bad.ok)
+    expect.truthy(bad.bite.length > 0.3)
+    local found
+    for _, reason in ipairs(bad.reasons) do found = found or reason.fault == "bite" and reason end
+    expect.truthy(found and found.value > found.limit and #found.remedy > 10)
+    local good = pasted{ 1, 0, 0 }
+    expect.truthy(good.ok)
+    expect.equal(good.bite.length, 0)
+end)
+
 test("parts are scattered: sizes and angles vary, more change no others, refused places are told", function()
     local part, ball, options = scatter.example("spike")
     options.count, options.size = 40, 0.12
@@ -177,6 +222,13 @@ test("parts are scattered: sizes and angles vary, more change no others, refused
     options.size = 0.7
     local crowded, told = scatter.make(part, ball, options)
     expect.truthy(#told.refused > 10)
+    expect.falsy(told.ok)
+    expect.equal(told.placed, 60 - #told.refused)
+    local reason = told.reasons[#told.reasons]
+    expect.equal(reason.fault, "left out")
+    expect.near(reason.value, #told.refused / 60, 1e-12)
+    expect.truthy(reason.limit < reason.value and #reason.remedy > 10)
+    expect.truthy(told.verdict:find("not good", 1, true) and tostring(told):find(reason.remedy, 1, true))
     expect_whole(crowded)
     -- Open targets keep their border.
     local grid = lissom.shapes.grid{ size = { 4, 4 }, segments = { 40, 40 } }
@@ -402,7 +454,10 @@ test("a part finds room on a cube of twelve triangles, and its edges are not bit
             local paste = paste_nose{ target = cube, placement = { at = at, scale = 0.2 } }
             local mesh, report = paste:merge()
             expect_whole(mesh)
-            expect.truthy(report.ok)
+            -- What the part takes of an edge that it stands on is told, and nothing else is wrong.
+            local on_edge = at[1] == 0.5 and at[3] == 0.5
+            expect.equal(report.ok, not on_edge)
+            for _, reason in ipairs(report.reasons) do expect.equal(reason.fault, "bite") end
             local _, image = paste:loop()
             -- Away from the part the cube's edges are where they were.
             for _, axis in ipairs{ 1, 2, 3 } do

@@ -67,6 +67,15 @@ std::span<const JoinSpec> read_joins(const Call& call, const char* path);
 /// Reads a list of key pairs.
 JoinSpec read_keys(const Call& call, const char* path);
 
+/// Pushes {x, y, z}.
+void push_point(const Call& call, const Vec3& point);
+/// Pushes the list of reasons of a verdict.
+void push_reasons(const Call& call, const std::vector<MergeReason>& reasons);
+/// Sets the fields ok, verdict and reasons of the report on top of the stack, and what tostring
+/// gives of it.
+void set_verdict(const Call& call, bool ok, const std::string& verdict,
+                 const std::vector<MergeReason>& reasons);
+
 /// Pushes the merged mesh and the report of `result`, which is moved from.
 int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs);
 

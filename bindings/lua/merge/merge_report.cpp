@@ -44,14 +44,6 @@ void push_seam(const Call& call, const SewReport& seam) {
 
 constexpr const char* kPlacings[] = {"keys", "as placed", "directions", "shape"};
 
-void push_point(const Call& call, const Vec3& point) {
-    lua_createtable(call.lua(), 3, 0);
-    for (int k = 0; k < 3; ++k) {
-        call.push(point[k]);
-        lua_rawseti(call.lua(), -2, k + 1);
-    }
-}
-
 // A key whose ends are points, as those of the report are.
 void push_key(const Call& call, const KeyPair& key) {
     lua_createtable(call.lua(), 2, 0);
@@ -124,14 +116,6 @@ void push_reason(const Call& call, const MergeReason& reason) {
     lua_pushcfunction(L, reason_text);
     lua_setfield(L, -2, "__tostring");
     lua_setmetatable(L, -2);
-}
-
-void push_reasons(const Call& call, const std::vector<MergeReason>& reasons) {
-    lua_createtable(call.lua(), count_of(reasons), 0);
-    for (std::size_t i = 0; i < reasons.size(); ++i) {
-        push_reason(call, reasons[i]);
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
 }
 
 // The verdict and below it what may help for each reason, for tostring.
@@ -314,7 +298,41 @@ local mesh, report = lissom.merge{
 }
 )";
 
+void push_bite(const Call& call, const TargetBite& bite) {
+    lua_createtable(call.lua(), 0, 2);
+    call.set_field("length", call.push(bite.length));
+    call.set_field("depth", call.push(bite.depth));
+}
+
 }  // namespace
+
+void push_point(const Call& call, const Vec3& point) {
+    lua_createtable(call.lua(), 3, 0);
+    for (int k = 0; k < 3; ++k) {
+        call.push(point[k]);
+        lua_rawseti(call.lua(), -2, k + 1);
+    }
+}
+
+void push_reasons(const Call& call, const std::vector<MergeReason>& reasons) {
+    lua_createtable(call.lua(), count_of(reasons), 0);
+    for (std::size_t i = 0; i < reasons.size(); ++i) {
+        push_reason(call, reasons[i]);
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+    }
+}
+
+void set_verdict(const Call& call, bool ok, const std::string& verdict,
+                 const std::vector<MergeReason>& reasons) {
+    call.set_field("ok", call.push(ok));
+    call.set_field("verdict", call.push(verdict));
+    push_reasons(call, reasons);
+    call.set_field("reasons");
+    lua_createtable(call.lua(), 0, 1);
+    lua_pushcfunction(call.lua(), report_text);
+    lua_setfield(call.lua(), -2, "__tostring");
+    lua_setmetatable(call.lua(), -2);
+}
 
 int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs) {
     const auto mesh = call.create<MeshObject>();
@@ -355,10 +373,9 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     lua_createtable(call.lua(), 0, 24);
     push_joins(call, result.report.joins);
     call.set_field("joins");
-    call.set_field("ok", call.push(result.report.ok));
-    call.set_field("verdict", call.push(result.report.verdict));
-    push_reasons(call, result.report.reasons);
-    call.set_field("reasons");
+    set_verdict(call, result.report.ok, result.report.verdict, result.report.reasons);
+    push_bite(call, result.report.bite);
+    call.set_field("bite");
     call.set_field("loose_parts", call.push(result.report.loose_parts));
     push_texts(call, result.report.warnings);
     call.set_field("warnings");
@@ -390,10 +407,6 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     call.set_field("source");
     lua_pushvalue(call.lua(), first + 3);
     call.set_field("target");
-    lua_createtable(call.lua(), 0, 1);
-    lua_pushcfunction(call.lua(), report_text);
-    lua_setfield(call.lua(), -2, "__tostring");
-    lua_setmetatable(call.lua(), -2);
     return 2;
 }
 
@@ -519,23 +532,33 @@ std::vector<Record> merge_records() {
         {"lissom.MergeReason",
          "Why a merge is not good. tostring gives text and remedy.",
          {{"string", "fault",
-           "crossings, side, folds, roughness, volume, bend, seam, place or slivers."},
+           "crossings, side, folds, roughness, volume, bend, bite, seam, place or slivers; of a "
+           "scatter "
+           "\"left out\" as well."},
           {"integer|nil", "join", "The join that it is of; nil of all of them."},
           {"number", "value",
            "What was measured: degrees for roughness, bend, seam and slivers; radii of the seam "
-           "for folds; pairs of faces for crossings; the part that was kept for volume; the "
+           "for folds and bites; pairs of faces for crossings; the part that was kept for volume; "
+           "the "
            "certainty for place."},
           {"number", "limit", "The limit that it passes."},
           {"string", "text", "What is wrong, in plain words."},
           {"string", "remedy", "What may help."}}},
+        {"lissom.TargetBite",
+         "What a paste took of the edges of its target that turn by more than 35 degrees: they "
+         "stand out of the result, or lie below what is still the target's surface.",
+         {{"number", "length", "Their length, in radii of the seam."},
+          {"number", "depth", "How far they are from the result, at most, in these radii."}}},
         {"lissom.MergeReport",
          "What a merge found and did.",
-         {{"boolean", "ok",
+         {{"lissom.TargetBite", "bite", "What a paste took of the sharp edges of its target."},
+          {"boolean", "ok",
            "Whether the result is good: no faces run through one another that did not before; the "
            "surface around the seam does not fold back, is at most 1.4 times as rough as the parts "
            "were there (or turns by less than 8 degrees an edge), and bends by no more than 25 "
            "degrees from one side to the other and 50 at one place, or 1.3 times what it did "
-           "before (and by the crease of a paste); each part keeps "
+           "before (and by the crease of a paste); a paste takes no sharp edge of its target along "
+           "more than .3 of its radius or deeper than .15; each part keeps "
            "three quarters of its volume; the seam turns by no more than 30 degrees and 20 in "
            "the mean, or than the surfaces did beside the boundaries; no place is a toss; no "
            "triangle at the seam has less than 2 degrees, or than there were."},

@@ -59,6 +59,28 @@ void push_shrunk(const Call& call, const std::vector<ShrunkPlace>& shrunk) {
     }
 }
 
+void push_moved(const Call& call, const std::vector<MovedPlace>& moved) {
+    lua_createtable(call.lua(), count_of(moved), 0);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        lua_createtable(call.lua(), 0, 2);
+        call.set_field("place", call.push(moved[i].place + 1));
+        push_point(call, moved[i].at);
+        call.set_field("at");
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+    }
+}
+
+void push_faulty(const Call& call, const std::vector<FaultyPlace>& faulty) {
+    lua_createtable(call.lua(), count_of(faulty), 0);
+    for (std::size_t i = 0; i < faulty.size(); ++i) {
+        lua_createtable(call.lua(), 0, 2);
+        call.set_field("place", call.push(faulty[i].place + 1));
+        push_reasons(call, faulty[i].reasons);
+        call.set_field("reasons");
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+    }
+}
+
 void push_refused(const Call& call, const std::vector<RefusedPlace>& refused) {
     lua_createtable(call.lua(), count_of(refused), 0);
     for (std::size_t i = 0; i < refused.size(); ++i) {
@@ -108,7 +130,13 @@ int scatter_part(Call& call) {
     if (!done) return call.fail();
     call.remember(made.get());
     call.charge(mesh);
-    lua_createtable(call.lua(), 0, 6);
+    lua_createtable(call.lua(), 0, 12);
+    set_verdict(call, found->ok, found->verdict, found->reasons);
+    call.set_field("placed", call.push(found->placed));
+    push_moved(call, found->moved);
+    call.set_field("moved");
+    push_faulty(call, found->faulty);
+    call.set_field("faulty");
     push_refused(call, found->refused);
     call.set_field("refused");
     push_shrunk(call, found->shrunk);
@@ -164,9 +192,10 @@ std::vector<Parameter> scatter_parameters() {
             .defaults("boundary"),
         choice("crossings", {"shrink", "leave out", "keep"},
                "What becomes of a part that would run through itself, the target or a part before "
-               "it. shrink: it is made smaller, by a fifth at a time and by a half at most, and "
-               "left out if it crosses even then. keep: it stays, and the report counts what "
-               "crosses.")
+               "it, bite into a sharp edge of the target or fold. shrink: one that bites "
+               "moves away from the edge; it is made smaller, by a fifth at a time and by a half "
+               "at most, and left out if that does not help. keep: it stays, and the report tells "
+               "it.")
             .defaults("shrink")};
 }
 
@@ -212,9 +241,24 @@ std::vector<Record> scatter_records() {
         {"lissom.ShrunkPlace",
          "A place whose part was made smaller so that it crosses nothing.",
          {{"integer", "place", "Its number."}, {"number", "scale", "The scale it has."}}},
+        {"lissom.MovedPlace",
+         "A place whose part was moved away from a sharp edge of the target.",
+         {{"integer", "place", "Its number."}, {"number[]", "at", "{x, y, z}: where it is."}}},
+        {"lissom.FaultyPlace",
+         "A part of a scatter that stands though it is not good.",
+         {{"integer", "place", "The number of its place."},
+          {"lissom.MergeReason[]", "reasons", "Why, as of a merge."}}},
         {"lissom.ScatterReport",
-         "What lissom.scatter did.",
-         {{"lissom.RefusedPlace[]", "refused", "Places that were left out, by number."},
+         "What lissom.scatter did. tostring gives the verdict and what may help.",
+         {{"boolean", "ok",
+           "All parts that stand are good, nothing crosses, and nine of ten places have a part."},
+          {"string", "verdict", "The same in one line, with the numbers of parts."},
+          {"lissom.MergeReason[]", "reasons",
+           "Each kind of fault: how many parts have it, or the part of the places left out."},
+          {"integer", "placed", "Parts that stand."},
+          {"lissom.MovedPlace[]", "moved", "Places whose parts were moved, by number."},
+          {"lissom.FaultyPlace[]", "faulty", "Parts that stand but are not good, by number."},
+          {"lissom.RefusedPlace[]", "refused", "Places that were left out, by number."},
           {"lissom.ShrunkPlace[]", "shrunk", "Places whose parts were made smaller, by number."},
           {"integer", "crossings",
            "Pairs of faces that cross, of parts that were kept nevertheless."},

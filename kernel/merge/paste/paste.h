@@ -66,7 +66,7 @@ struct PasteMergeOptions {
     /// Tries what may distort the surface near the boundary less, and takes it where it does: ARAP
     /// iterations of the part; the part inside the outline that was marked; and, once `optimize`
     /// was called and by nearest points, a boundary that slides over the target to where the part
-    /// draws it.
+    /// draws it. If the target was cleared under the boundary, that is kept.
     bool compare = true;
     /// What is shown while a part is dragged, many times a second: placement and boundary are those
     /// of a merge that is no draft, and the result is watertight, but the part is not refined, nor

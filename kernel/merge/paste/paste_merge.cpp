@@ -1,12 +1,16 @@
 // The last steps of a paste: the part is deformed, the target opened, and both are sewn.
+#include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "kernel/core/clock.h"
 #include "kernel/core/memory_error.h"
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/paste/laid_part.h"
 #include "kernel/merge/paste/part/paste_part.h"
+#include "kernel/merge/paste/part/source_rest.h"
+#include "kernel/merge/paste/part/target_bite.h"
 #include "kernel/merge/paste/part/target_piece.h"
 #include "kernel/merge/paste/part_trial.h"
 #include "kernel/merge/paste/paste_state.h"
@@ -58,21 +62,50 @@ bool folds(const Sewn& sewn) {
 struct SewnPart {
     LaidPart laid;
     Sewn sewn;
+    TargetBite bite;
 };
+
+TargetBite bite_of(const Mesh& target, const LaidPart& laid, const Sewn& sewn,
+                   const Context& context) {
+    std::vector<Vec3> seam;
+    for (const Index v : sewn.seams[0]) seam.push_back(sewn.mesh.position(v));
+    const PastePart& part = laid.trial.part();
+    return target_bite(
+        sharp_edges(target, context), seam,
+        {sewn.mesh, sewn.side_of_face, volume_over(laid.trial.moved.mesh, part.loop) < 0.0},
+        context);
+}
 
 SewnPart sewn_along(const PartTrials& trials, const TargetPiece& target, PartTrial trial,
                     const PasteMergeOptions& options, const Context& context) {
     SewnPart result{
-        laid_part(trials, target.mesh(), target.chart_vertices(), std::move(trial), context), {}};
+        laid_part(trials, target.mesh(), target.chart_vertices(), std::move(trial), context),
+        {},
+        {}};
     result.sewn = sewn_well(result.laid, options, context);
+    if (!options.draft) result.bite = bite_of(target.mesh(), result.laid, result.sewn, context);
     return result;
 }
 
+// What was steep or rough along the boundary on the source may be so on the target.
+void note_source(const SourceRest& rest, MergeReport& report) {
+    BandQuality& band = report.joins[0].band;
+    report.source_rim.greatest_near = std::max(report.source_rim.greatest_near, rest.steepest);
+    band.rest_roughness = std::max(band.rest_roughness, rest.roughness);
+    band.rest_bend = std::max(band.rest_bend, rest.bend);
+    band.rest_greatest_bend = std::max(band.rest_greatest_bend, rest.greatest_bend);
+    band.source_volume =
+        std::max(band.source_volume, std::min(1.0, band.source_volume + rest.dome));
+}
+
 // `sewn` is that of the whole target.
-MergeReport merge_report(const Mesh& target, const LaidPart& laid, const Sewn& sewn, double crease,
-                         const PasteMergeOptions& options, const Context& context) {
+MergeReport merge_report(const Mesh& target, const Mesh& source, const SewnPart& pasted,
+                         const Sewn& sewn, double crease, const PasteMergeOptions& options,
+                         const Context& context) {
+    const LaidPart& laid = pasted.laid;
     MergeReport report;
     report.crease = crease;
+    report.bite = pasted.bite;
     const PastePart& part = laid.trial.part();
     const std::vector<Index> loops[] = {part.loop, laid.opened.loop};
     report.source_rim = seam_quality(part.mesh, {&loops[0], 1});
@@ -96,6 +129,7 @@ MergeReport merge_report(const Mesh& target, const LaidPart& laid, const Sewn& s
             {&sewn.mesh, of_target, sewn.seams[0]}, {&sewn.mesh, of_source, sewn.seams[0]},
             {&laid.opened.mesh, {}, laid.opened.loop, true}, {&part.mesh, {}, part.loop},
             join.scale, false, context);
+        note_source(source_rest(source, part, context), report);
     }
     judge(report, sought);
     return report;
@@ -116,9 +150,9 @@ void unfold(const PartTrials& trials, const TargetPiece& target,
 }
 
 // The part on a piece of the target, along the boundary that folds least.
-SewnPart sewn_onto(const PartTrials& trials, const TargetPiece& target, bool covered,
+SewnPart sewn_onto(const PartTrials& trials, const TargetPiece& target, bool other_allowed,
                    PasteReport& report, const PasteMergeOptions& options, const Context& context) {
-    BestTrial best = best_trial(trials, options.compare && covered, context);
+    BestTrial best = best_trial(trials, options.compare && other_allowed, context);
     report.outline_near = best.outline_near;
     SewnPart result = sewn_along(trials, target, std::move(best.trial), options, context);
     if (!options.draft) {
@@ -136,8 +170,8 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     const PlacedFeature& placed = state.placed;
     const RingSurface surface(*state.used->map, *state.triangles, placed.images);
     const bool refines = options.compare && !state.options.thesis && !options.draft;
-    const bool settles =
-        refines && state.optimized && state.options.correspondence == PasteCorrespondence::closest;
+    const bool settles = refines && state.optimized && !state.bound_to_boundary() &&
+                         state.options.correspondence == PasteCorrespondence::closest;
     const PartTrials trials{state.options, state.regions,      surface, *state.ring, placed,
                             state.parts,   options.lock_scale, refines, settles};
     PasteReport report;
@@ -149,10 +183,11 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.upright = placed.upright;
     report.draft = options.draft;
     report.clearing = state.clearing;
-    const bool covered = state.covers(placed);
+    // Along another boundary more of the target would go than was told.
+    const bool other_allowed = state.covers(placed) && !state.bound_to_boundary();
     progress.step(0.6);
     const TargetPiece& piece = state.target_piece(context);
-    SewnPart pasted = sewn_onto(trials, piece, covered, report, options, context);
+    SewnPart pasted = sewn_onto(trials, piece, other_allowed, report, options, context);
     progress.step(0.4);
     const PasteOrigins origins{state.altered ? &*state.altered : nullptr,
                                state.as_given().topology(), !options.draft,
@@ -164,7 +199,7 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     std::optional<PastedOn> made = put_back(piece);
     const TargetPiece whole = TargetPiece::whole(state.target, state.used->map->target());
     if (!made) {
-        pasted = sewn_onto(trials, whole, covered, report, options, context);
+        pasted = sewn_onto(trials, whole, other_allowed, report, options, context);
         made = put_back(whole);
     }
     const PartTrial& trial = pasted.laid.trial;
@@ -177,8 +212,8 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.feature =
         feature_distortion(trial.part(), trial.moved.mesh, report.scale, state.regions.feature);
     PasteResult result{{}, std::move(report)};
-    result.merged.report =
-        merge_report(state.target, pasted.laid, sewn, state.options.crease, options, context);
+    result.merged.report = merge_report(state.target, state.source, pasted, sewn,
+                                        state.options.crease, options, context);
     result.merged.report.solve_seconds = seconds_since(start);
     result.merged.provenance = std::move(made->provenance);
     result.report.euler_characteristic = euler_characteristic(sewn.mesh.topology());
@@ -198,7 +233,8 @@ PasteDraft Paste::draft(const PasteDraftOptions& options, const Context& context
     const RingSurface surface(*state.used->map, *state.triangles, placed.images);
     const PartTrials trials{state.options, state.regions, surface,           *state.ring,
                             placed,        state.parts,   options.lock_scale};
-    BestTrial best = best_trial(trials, options.compare && state.covers(placed), context);
+    BestTrial best = best_trial(
+        trials, options.compare && state.covers(placed) && !state.bound_to_boundary(), context);
     const PasteGround& ground = state.ground(context);
     const LaidPart laid =
         laid_part(trials, ground.mesh, ground.vertices, std::move(best.trial), context);

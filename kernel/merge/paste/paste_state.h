@@ -151,6 +151,8 @@ struct Paste::State {
     void note_line(PlacedFeature& place) const;
     /// Whether the map has an image of all of the outline.
     bool covers(const PlacedFeature& place) const;
+    /// Whether the target was cleared under the boundary, so that no other one may be taken.
+    bool bound_to_boundary() const { return options.clear && !options.cleared && gone; }
 };
 
 /// How the energy of a paste is sought.

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
 #include "kernel/core/memory_error.h"
 #include "kernel/merge/loop/face_angles.h"
+#include "kernel/merge/paste/part/target_bite.h"
+#include "kernel/merge/paste/scatter_verdict.h"
 #include "kernel/merge/piece/face_set.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/edit/append.h"
@@ -34,6 +38,9 @@ constexpr double kFineRoom = 2.0, kCoarseEdge = 0.6, kFineEdge = 0.3;
 // A part that crosses something is made smaller by this, as often as that.
 constexpr double kShrink = 0.8;
 constexpr int kShrinks = 3;
+// A place on a sharp edge itself, in reaches of its part, does not tell to which side it may go;
+// one that moves goes this far away from the edge.
+constexpr double kOnEdge = 0.02, kClearOfEdge = 1.15;
 
 // A mesh while it is put together: for each vertex the one of the mesh before that it is, where
 // others may be the same, and for each face the place it belongs to.
@@ -102,6 +109,8 @@ struct PlaceWork {
     Index place = kNoIndex;
     MeshPart disk;
     Piece result;
+    // Why the part is not good.
+    std::vector<MergeReason> reasons = {};
 };
 
 [[noreturn]] void refuse_room() {
@@ -153,13 +162,13 @@ std::vector<Index> kept_of_disk(const ElementMap& map, Index count) {
     return kept;
 }
 
-Piece pasted_disk(const PasteSource& feature, const PlaceWork& work,
-                  const PastePlacement& placement, const ScatterOptions& options,
-                  const Context& context) {
+Piece pasted_disk(const PasteSource& feature, PlaceWork& work, const PastePlacement& placement,
+                  const ScatterOptions& options, const Context& context) {
     const Mesh& disk = work.disk.mesh;
     Paste paste = feature.on(disk, Region::all(disk.shared_topology()), placement, context);
     if (options.iterations > 0) paste.optimize(options.iterations, context);
     MergeResult merged = paste.merge(options.merge, context).merged;
+    work.reasons = std::move(merged.report.reasons);
     const std::vector<Index> kept = kept_of_disk(merged.provenance.vertices, disk.vertex_count());
     require_rim(disk.topology(), merged.mesh, kept);
     Piece piece{std::move(merged.mesh), {}, {}};
@@ -250,6 +259,31 @@ Piece put_together(const Piece& current, std::vector<PlaceWork> works, const Con
     return welded(joined_pieces(std::move(pieces), context), context);
 }
 
+// What nobody wants to see of many parts.
+bool is_grave(MergeFault fault) {
+    return fault == MergeFault::bite || fault == MergeFault::folds;
+}
+
+std::string refusal_for(const MergeReason& reason) {
+    return reason.fault == MergeFault::bite ? "its part would bite into a sharp edge of the target"
+                                            : "its part would fold beside the seam";
+}
+
+// The point of sharp edges nearest to a point. Lines of edges shorter than half a reach are grain.
+Vec3 nearest_edge_point(std::span<const SharpEdge> edges, const Vec3& point, double reach) {
+    Vec3 nearest = point;
+    double least = std::numeric_limits<double>::infinity();
+    for (const SharpEdge& edge : edges) {
+        if (edge.line < 0.5 * reach) continue;
+        const Vec3 found = nearest_point_of(edge, point);
+        const double square = (found - point).squaredNorm();
+        if (!(square < least)) continue;
+        least = square;
+        nearest = found;
+    }
+    return nearest;
+}
+
 class Scatterer {
   public:
     /// `crosses` tells whether the feature crosses itself on its source.
@@ -260,10 +294,14 @@ class Scatterer {
           places_(places.begin(), places.end()),
           options_(options),
           crosses_itself_(crosses),
-          shrinks_(places.size(), 0) {
+          shrinks_(places.size(), 0),
+          moved_(places.size(), 0),
+          faults_(places.size()),
+          edges_(sharp_edges(target, context)) {
         current_.mesh = with_room(target, context);
         current_.same.assign(at(current_.mesh.vertex_count()), kNoIndex);
         current_.place.assign(at(current_.mesh.face_count()), kNoIndex);
+        base_.emplace(target, context);
         for (Index i = 0; i < count_of(places); ++i) waiting_.push_back(i);
     }
 
@@ -278,11 +316,12 @@ class Scatterer {
             current_ = without_crossings(std::move(works), context);
             ++result_.rounds;
         }
-        note_shrunk();
+        note_altered();
         std::sort(result_.refused.begin(), result_.refused.end(),
                   [](const auto& a, const auto& b) { return a.place < b.place; });
         result_.mesh = std::move(current_.mesh);
         result_.place_of_face = std::move(current_.place);
+        judge_scatter(result_, count_of(places_));
         return std::move(result_);
     }
 
@@ -352,6 +391,13 @@ class Scatterer {
                                        [&](const PlaceWork& w) { return w.place == place; });
         if (work == works.end()) return;
         works.erase(work);
+        const std::string what = other == kNoIndex ? "the target"
+                                 : other == place  ? "itself"
+                                                   : "that of place " + std::to_string(other + 1);
+        shrink_or_refuse(place, "its part would run through " + what);
+    }
+
+    void shrink_or_refuse(Index place, const std::string& reason) {
         const bool smaller = options_.crossings == ScatterCrossings::shrink;
         if (smaller && shrinks_[at(place)] < kShrinks) {
             ++shrinks_[at(place)];
@@ -359,21 +405,53 @@ class Scatterer {
             waiting_.push_back(place);
             return;
         }
-        shrinks_[at(place)] = 0;
-        const std::string what = other == kNoIndex ? "the target"
-                                 : other == place  ? "itself"
-                                                   : "that of place " + std::to_string(other + 1);
-        refuse(place, ErrorCode::boundary_conflict, "its part would run through " + what);
+        refuse(place, ErrorCode::boundary_conflict, reason);
     }
 
-    void note_shrunk() {
-        for (std::size_t i = 0; i < shrinks_.size(); ++i) {
-            const bool refused =
-                std::any_of(result_.refused.begin(), result_.refused.end(),
-                            [&](const RefusedPlace& r) { return r.place == index_of(i); });
-            if (shrinks_[i] > 0 && !refused) {
-                result_.shrunk.push_back({index_of(i), places_[i].scale});
-            }
+    // Whether a part may stand: it waits for another try, or is refused, if it may not.
+    bool stands(const PlaceWork& work) {
+        faults_[at(work.place)] = work.reasons;
+        if (options_.crossings == ScatterCrossings::keep) return true;
+        const auto grave =
+            std::find_if(work.reasons.begin(), work.reasons.end(),
+                         [](const MergeReason& reason) { return is_grave(reason.fault); });
+        if (grave == work.reasons.end()) return true;
+        if (grave->fault == MergeFault::bite && move_off_edge(work.place)) return false;
+        shrink_or_refuse(work.place, refusal_for(*grave));
+        return false;
+    }
+
+    // Moves a place once, away from the nearest sharp edge until its part does not reach that.
+    bool move_off_edge(Index place) {
+        if (options_.crossings != ScatterCrossings::shrink || moved_[at(place)]) return false;
+        moved_[at(place)] = 1;
+        PastePlacement& placement = places_[at(place)];
+        const std::optional<Vec3> away = away_from_edges(placement);
+        if (!away) return false;
+        placement.at = *away;
+        waiting_.push_back(place);
+        return true;
+    }
+
+    std::optional<Vec3> away_from_edges(const PastePlacement& placement) const {
+        const double reach = feature_.reach(placement.scale);
+        const Vec3 from = base_->nearest(placement.at).position;
+        const Vec3 edge = nearest_edge_point(edges_, from, reach);
+        const Vec3 way = from - edge;
+        if (!(way.norm() > kOnEdge * reach) || way.norm() > kClearOfEdge * reach) return {};
+        return base_->nearest(edge + kClearOfEdge * reach * way.normalized()).position;
+    }
+
+    void note_altered() {
+        std::vector<char> refused(places_.size(), 0);
+        for (const RefusedPlace& one : result_.refused) refused[at(one.place)] = 1;
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            if (refused[i]) continue;
+            ++result_.placed;
+            const Index place = index_of(i);
+            if (shrinks_[i] > 0) result_.shrunk.push_back({place, places_[i].scale});
+            if (moved_[i]) result_.moved.push_back({place, places_[i].at});
+            if (!faults_[i].empty()) result_.faulty.push_back({place, std::move(faults_[i])});
         }
     }
 
@@ -428,7 +506,7 @@ class Scatterer {
             try {
                 work.result =
                     pasted_disk(feature_, work, places_[at(work.place)], options_, context);
-                done.push_back(std::move(work));
+                if (stands(work)) done.push_back(std::move(work));
             } catch (const Error& error) {
                 if (error.code() == ErrorCode::cancelled ||
                     error.code() == ErrorCode::memory_limit) {
@@ -438,6 +516,7 @@ class Scatterer {
             }
         }
         works = std::move(done);
+        std::sort(waiting_.begin(), waiting_.end());
     }
 
     const PasteSource& feature_;
@@ -446,6 +525,12 @@ class Scatterer {
     bool crosses_itself_;
     // How often each place was made smaller.
     std::vector<int> shrinks_;
+    // Whether each was moved, or may not be any more.
+    std::vector<char> moved_;
+    std::vector<std::vector<MergeReason>> faults_;
+    // Of the target as given, and its surface.
+    std::vector<SharpEdge> edges_;
+    std::optional<SpatialTree> base_;
     Piece current_;
     std::vector<Index> waiting_;
     ScatterResult result_;

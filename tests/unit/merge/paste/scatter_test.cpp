@@ -1,10 +1,13 @@
 // One feature at many places of generated shapes.
 #include "kernel/merge/paste/scatter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/query/spatial_tree.h"
 #include "tests/unit/deform/interrupter.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"
@@ -31,7 +34,97 @@ Index parts_in(const ScatterResult& result) {
     return index_of(faces.size()) - (faces.contains(kNoIndex) ? 1 : 0);
 }
 
+bool has_fault(const ScatterResult& result, MergeFault fault) {
+    return std::any_of(result.reasons.begin(), result.reasons.end(),
+                       [&](const MergeReason& reason) { return reason.fault == fault; });
+}
+
+// The part of the sharp edges of a cube from -1 to 1 that a mesh has not any more.
+double cube_edges_gone(const Mesh& mesh) {
+    const SpatialTree tree(mesh);
+    constexpr int kSteps = 200;
+    double gone = 0.0, all = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int side = 0; side < 4; ++side) {
+            for (int k = 0; k < kSteps; ++k) {
+                Vec3 point;
+                point[axis] = -1.0 + 2.0 * (k + 0.5) / kSteps;
+                point[(axis + 1) % 3] = side % 2 == 0 ? -1.0 : 1.0;
+                point[(axis + 2) % 3] = side / 2 == 0 ? -1.0 : 1.0;
+                all += 1.0;
+                gone += tree.nearest(point).distance > 0.01 ? 1.0 : 0.0;
+            }
+        }
+    }
+    return gone / all;
+}
+
+// Places on the sides of that cube, some of them beside its edges.
+std::vector<PastePlacement> on_cube(double scale) {
+    std::vector<PastePlacement> places;
+    for (int side = 0; side < 6; ++side) {
+        for (const double x : {0.93, -0.3}) {
+            Vec3 point;
+            point[side % 3] = side < 3 ? 1.0 : -1.0;
+            point[(side + 1) % 3] = x;
+            point[(side + 2) % 3] = -0.2 + 0.1 * side;
+            places.push_back({.at = point, .scale = scale});
+        }
+    }
+    return places;
+}
+
 }  // namespace
+
+TEST_CASE("scatter: sharp edges of the target stay, and parts beside them move or are left out") {
+    const Mesh horn = horned_ball(12);
+    for (const Index segments : {1, 12}) {
+        CAPTURE(segments);
+        const Mesh cube = make_box({{2, 2, 2}, {segments, segments, segments}});
+        REQUIRE(cube_edges_gone(cube) == 0.0);
+        const auto places = on_cube(0.3);
+        const ScatterResult result = scatter(horn, cube, around_horn(horn), std::nullopt, places);
+        MESSAGE(result.verdict);
+        CHECK(result.mesh.topology().is_closed());
+        CHECK(cube_edges_gone(result.mesh) < 0.01);
+        CHECK(result.placed >= 9);
+        CHECK(result.placed + count_of(result.refused) == count_of(places));
+        CHECK(result.placed == parts_in(result));
+        CHECK(!result.moved.empty());
+        // Nothing of that is done for those who want parts where they put them, but it is told.
+        ScatterOptions keep;
+        keep.crossings = ScatterCrossings::keep;
+        const ScatterResult kept =
+            scatter(horn, cube, around_horn(horn), std::nullopt, places, keep);
+        CHECK(kept.moved.empty());
+        CHECK(kept.shrunk.empty());
+        if (cube_edges_gone(kept.mesh) > 0.03) {
+            CHECK_FALSE(kept.ok);
+            CHECK(has_fault(kept, MergeFault::bite));
+        }
+    }
+}
+
+TEST_CASE("scatter: a verdict says what stands and what was left out, and why") {
+    const Mesh horn = horned_ball(12), target = make_sphere({1.0, 40, SphereKind::triangles});
+    const Region region = around_horn(horn);
+    const ScatterResult good = scatter(horn, target, region, std::nullopt, spiral(6, 0.15));
+    CHECK(good.ok);
+    CHECK(good.reasons.empty());
+    CHECK(good.placed == 6);
+    CHECK(good.verdict.find("6 parts stand") != std::string::npos);
+    auto places = spiral(6, 0.15);
+    places[5] = places[4];
+    const ScatterResult patchy = scatter(horn, target, region, std::nullopt, places);
+    CHECK_FALSE(patchy.ok);
+    REQUIRE(patchy.reasons.size() == 1);
+    const MergeReason& reason = patchy.reasons.front();
+    CHECK(reason.fault == MergeFault::left_out);
+    CHECK(reason.value == doctest::Approx(1.0 / 6.0));
+    CHECK(reason.limit == doctest::Approx(0.1));
+    CHECK(!reason.remedy.empty());
+    CHECK(patchy.verdict.find("is there already") != std::string::npos);
+}
 
 TEST_CASE("scatter: parts stand at all places, and the surface is closed") {
     const Mesh horn = horned_ball(12), target = make_sphere({1.0, 40, SphereKind::triangles});

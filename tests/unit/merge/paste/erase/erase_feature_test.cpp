@@ -1,7 +1,11 @@
 // Features that are removed from generated shapes.
 #include "kernel/merge/paste/erase/erase_feature.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include "kernel/mesh/measure/measures.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
@@ -289,4 +293,59 @@ TEST_CASE("paste: features of the target are removed first where that is asked f
     error_of([&] { under.move({.at = {0, 2, 0}, .scale = 50.0}); });
     CHECK(under.loop().vertices() == loop);
     CHECK(under.merge().merged.mesh.topology().is_closed());
+}
+
+namespace {
+
+double distance_to_line(const Vec3& point, std::span<const Vec3> line) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        const Vec3 from = line[k], along = line[(k + 1) % line.size()] - from;
+        const double square = along.squaredNorm();
+        const double part =
+            square > 0.0 ? std::clamp((point - from).dot(along) / square, 0.0, 1.0) : 0.0;
+        least = std::min(least, (from + part * along - point).norm());
+    }
+    return least;
+}
+
+// How far the seam of a paste runs from the boundary that was told before, at most.
+double seam_off_boundary(const Paste& paste, const MergeResult& merged) {
+    const std::vector<Vec3> line = paste.image().points();
+    double greatest = 0.0;
+    for (const Index v : merged.seams[0]) {
+        greatest = std::max(greatest, distance_to_line(merged.mesh.position(v), line));
+    }
+    return greatest;
+}
+
+}  // namespace
+
+TEST_CASE("paste: a cleared target is opened along the boundary that was told, at random places") {
+    const Mesh horn = horned_ball(16);
+    Mesh target = egg(24);
+    for (Vec3& p : target.edit_positions()) {
+        p += 0.25 * std::sin(6.0 * p.x()) * std::sin(5.0 * p.y()) * std::sin(7.0 * p.z()) *
+             p.normalized();
+    }
+    PasteOptions options;
+    options.clear = true;
+    Index cleared = 0;
+    for (int place = 0; place < 10; ++place) {
+        const double angle = 0.7 * place, height = 1.6 - 0.32 * place;
+        const PastePlacement placement{.at = {1.5 * std::cos(angle), height, 1.5 * std::sin(angle)},
+                                       .scale = 0.5 + 0.05 * (place % 4)};
+        CAPTURE(place);
+        Paste paste(horn, target, around_horn(horn), std::nullopt, std::nullopt, placement,
+                    options);
+        paste.optimize(5);
+        if (!paste.clearing()) continue;
+        ++cleared;
+        const PasteResult result = paste.merge();
+        CHECK_FALSE(result.report.kept_outline);
+        REQUIRE(result.report.clearing);
+        CHECK(result.report.clearing->faces == paste.clearing()->faces);
+        CHECK(seam_off_boundary(paste, result.merged) < 0.12 * placement.scale);
+    }
+    CHECK(cleared > 5);
 }
