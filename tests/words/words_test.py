@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """What words.py counts and finds."""
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -61,7 +60,6 @@ class FindingsTest(unittest.TestCase):
             for name, text in {**files, "tests/words/clean.txt": "# Words.\n" + clean}.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text(text)
-            subprocess.run(["git", "init", "-q", root], check=True)
             return action(root)
 
     def findings(self, files, clean):
@@ -81,17 +79,17 @@ class FindingsTest(unittest.TestCase):
         self.assertEqual(self.findings(files, "kernel\n"), [])
 
     def test_a_limit_is_rounded_up(self):
-        self.assertEqual(self.findings({"a/a.cpp": "// what\n" + "// word\n" * 99}, "a\n"), [])
-        found = self.findings({"a/a.cpp": "// what\n" * 2 + "// word\n" * 98}, "a\n")
-        self.assertEqual(found, ["a: what 20.0 per 1,000 words, at most 1.0 (--show a)"])
+        self.assertEqual(self.findings({"kernel/a.cpp": "// what\n" + "// word\n" * 99}, "kernel\n"), [])
+        found = self.findings({"kernel/a.cpp": "// what\n" * 2 + "// word\n" * 98}, "kernel\n")
+        self.assertEqual(found, ["kernel: what 20.0 per 1,000 words, at most 1.0 (--show kernel)"])
 
     def test_a_listed_folder_that_is_not_there(self):
-        self.assertEqual(self.findings({"a/a.cpp": "// words\n"}, "b\n"), ["b: no prose is there"])
+        self.assertEqual(self.findings({"kernel/a.cpp": "// words\n"}, "b\n"), ["b: no prose is there"])
 
     def test_the_lines_shown(self):
-        files = {"a/a.cpp": "// One.\n// Then what\n// is where?\n", "b/b.cpp": "// what\n"}
-        shown = self.run_on(files, "", lambda root: words.show(root, "a"))
-        self.assertEqual(shown, "a/a.cpp:2: Then what\na/a.cpp:3: is where?")
+        files = {"kernel/a.cpp": "// One.\n// Then what\n// is where?\n", "viewer/b.cpp": "// what\n"}
+        shown = self.run_on(files, "", lambda root: words.show(root, "kernel"))
+        self.assertEqual(shown, "kernel/a.cpp:2: Then what\nkernel/a.cpp:3: is where?")
 
 
 if __name__ == "__main__":
