@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -68,6 +69,7 @@ class ViewApp {
 
   private:
     void drop(const std::vector<std::string>& files);
+    void take_tools();
     void add_buttons(const std::vector<std::string>& words);
     double wait_time() const;
     void turn(Clock::time_point heard);
@@ -155,11 +157,20 @@ void ViewApp::add_buttons(const std::vector<std::string>& words) {
 }
 
 void ViewApp::drop(const std::vector<std::string>& files) {
-    const auto scripts = std::count_if(files.begin(), files.end(), is_script);
-    if (scripts == 0 || files.size() == 1) return session_.open(files);
-    const char* const text = "drop either meshes or one script";
-    state_.add_line(LineKind::error, text);
-    state_.tell(std::string("error ") + text);
+    if (files.size() == 1) return session_.open(files);
+    std::vector<std::string> meshes = files, scripts;
+    std::erase_if(meshes, is_script);
+    std::copy_if(files.begin(), files.end(), std::back_inserter(scripts), is_script);
+    if (!meshes.empty()) session_.open(meshes);
+    if (!scripts.empty()) session_.find_tools(scripts);
+}
+
+void ViewApp::take_tools() {
+    for (const auto& [word, name] : session_.take_tools()) {
+        keep_button(state_.content.tools, word, name);
+        state_.tell("button " + name);
+        state_.changes.owe_frames();
+    }
 }
 
 // It has taken the place of what was open.
@@ -168,6 +179,7 @@ void ViewApp::take_opened(const std::vector<std::string>& words) {
     keeping_.begin(words.front());
     scripts_.begin(words.front());
     state_.camera_is_placed = false;
+    state_.up.reset();
     window_.set_title(std::filesystem::path(words.front()).filename().string() + " - lissom");
     state_.tell("opened " + words.front());
 }
@@ -279,8 +291,10 @@ bool ViewApp::press_anywhere(const Input& input) {
     const bool saves = is_control && input.character == U'S' && !replay_.plays();
     closes_ = closes_ || ends;
     if (saves) keeping_.save();
+    const bool exports = is_control && input.character == U'E' && !replay_.plays();
+    if (exports) session_.export_mesh(state_.content.export_name);
     if (input.key == Key::f12) finishing_.want_file();
-    return ends || saves || input.key == Key::f12;
+    return ends || saves || exports || input.key == Key::f12;
 }
 
 void ViewApp::press_key(const Input& input) {
@@ -307,6 +321,7 @@ void ViewApp::press_letter(char32_t letter) {
     DisplaySettings& settings = state_.settings;
     if (letter >= U'1' && letter <= U'7') look_from(state_, kSides[letter - U'1']);
     if (letter == U'O') toggle_perspective(state_);
+    if (letter == U'U') toggle_up(state_);
     if (letter == U'W') settings.wire = !settings.wire;
     if (letter == U'B') settings.boundaries = !settings.boundaries;
 }
@@ -315,6 +330,7 @@ void ViewApp::answer(const PanelAnswers& answers) {
     if (answers.view) look_from(state_, *answers.view);
     if (answers.frame_all) frame_all(state_);
     if (answers.toggle_ortho) toggle_perspective(state_);
+    if (answers.toggle_up) toggle_up(state_);
     if (answers.coloring) colorer_.choose(*answers.coloring);
     if (answers.compare_with_this) colorer_.compare_with_this();
     state_.content.coloring = colorer_.coloring();
@@ -322,6 +338,7 @@ void ViewApp::answer(const PanelAnswers& answers) {
     if (answers.cancel) session_.cancel();
     answer_tool(answers.tool);
     if (answers.save) keeping_.save();
+    if (answers.export_mesh) session_.export_mesh(state_.content.export_name);
     if (answers.line) session_.evaluate(*answers.line);
     if (answers.complete) session_.complete(*answers.complete);
     scripts_.answer(answers);
@@ -372,6 +389,7 @@ void ViewApp::take_news() {
         state_.content.parameters = std::move(*declared);
         state_.changes.owe_frames();
     }
+    take_tools();
     if (auto state = session_.take_tool_state()) take_tool_state(std::move(*state));
 }
 
@@ -396,6 +414,7 @@ void ViewApp::take_tool_state(ToolState state) {
     if (known.hand) return see_played(*known.hand);
     if (!known.camera) return;
     state_.camera = *known.camera;
+    if (known.up) state_.up = known.up;
     state_.camera_is_placed = true;
     state_.changes.add();
 }

@@ -38,9 +38,9 @@ name_members(Event, "lissom.ToolEvent", set_of{ "kind", "camera", "scene", "size
     "button", "shift", "ctrl", "alt", "late", "key", "lines", "parameter" })
 name_members(View, "lissom.ToolView", set_of{ "camera", "scene", "size", "cursor" }, set_of{ "list" })
 name_members(Host, "lissom.ToolHost", set_of{ "scene", "camera", "size", "tool" }, set_of{ "asked", "base",
-    "begun", "depth", "drawn", "draws", "guarded", "held", "hover", "is_made", "journal", "kept",
-    "known_hash", "log", "looked", "numbers", "opened", "prompted", "request", "thread", "typed", "word",
-    "working", "x", "y" })
+    "begun", "brings_up", "depth", "drawn", "draws", "exported", "guarded", "held", "hover", "is_made",
+    "journal", "kept", "known_hash", "log", "looked", "numbers", "opened", "prompted", "request", "thread",
+    "typed", "word", "working", "x", "y", "z_up" })
 
 local function misuse(text, ...) error(string.format(text, ...), 3) end
 

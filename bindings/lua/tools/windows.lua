@@ -87,8 +87,11 @@ end
 -- The first look at a scene that was saved in a window is the one that it was saved with.
 local function look_in_window(host, numbers)
     local view = saved_views[host.scene]
+    host.z_up = numbers.z_up
     if not view then return look(host, numbers) end
     saved_views[host.scene] = nil
+    host.z_up = view.z_up
+    host.brings_up = true
     local saved = { size = numbers.size, fov = view.ortho == nil and view.fov or nil, ortho = view.ortho }
     for _, name in ipairs{ "eye", "target", "up" } do
         saved[name] = { view[name .. 1], view[name .. 2], view[name .. 3] }
@@ -100,7 +103,9 @@ end
 
 -- Sentences about what had no place in the file.
 local function save(host, path)
-    host.scene:set_parameters(view_owner, view_of(host.camera))
+    local view = view_of(host.camera)
+    view.z_up = host.z_up
+    host.scene:set_parameters(view_owner, view)
     local done, left_out, code = host.scene:save(path)
     if not done then error(left_out .. " [" .. code .. "]", 0) end
     return table.concat(left_out, "; ")
@@ -112,11 +117,69 @@ local function draw(host)
     host.drawn = host:draw()
 end
 
--- The camera that the tool has set since the last call, else nil.
+-- The camera that the tool or a saved scene has set since the last call, else nil; and of a saved scene,
+-- whether z is up in it.
 local function looked(host)
-    local camera = host.looked and host.camera or nil
-    host.looked = nil
-    return camera
+    local camera, z_up = host.looked and host.camera or nil, nil
+    if camera and host.brings_up then z_up = host.z_up == true end
+    host.looked, host.brings_up = nil, nil
+    return camera, z_up
+end
+
+-- The visible mesh of which something is selected, else the only one; and the name and place of its object.
+local function mesh_in_hand(scene)
+    local found, count, seen = nil, 0, {}
+    for _, name in ipairs(scene:names()) do
+        local info, object = scene:info(name), scene:get(name)
+        local mesh = info.kind == "mesh" and object or info.kind == "deformation" and object:mesh() or nil
+        if mesh and info.visible and not seen[mesh] then
+            local selected = mesh:region("selected")
+            if selected and #selected > 0 then return mesh, name, info.transform end
+            seen[mesh], count, found = true, count + 1, found or { mesh, name, info.transform }
+        end
+    end
+    if count == 1 then return found[1], found[2], found[3] end
+    error(count == 0 and "no mesh is to be seen: there is nothing to export"
+        or count .. " meshes are to be seen: select vertices of the one to export, or hide the others", 0)
+end
+
+local function exists(path)
+    local file = io.open(path, "rb")
+    if file then file:close() end
+    return file ~= nil
+end
+
+-- A name that no file has: that of the object, with a number if needed.
+local function free_name(name)
+    local base, number = name:gsub("%.%w+$", ""):gsub("[^%w%-_. ]", "_"), 1
+    while true do
+        local path = base .. (number > 1 and "-" .. number or "") .. ".obj"
+        if not exists(path) then return path end
+        number = number + 1
+    end
+end
+
+-- A copy of the mesh in hand for a file, where that is to go, and { name =, transform = } of its object. A
+-- file that this window has not written stays as it is.
+local function export(host, path)
+    local mesh, name, place = mesh_in_hand(host.scene)
+    host.exported = host.exported or {}
+    if path == "" then path = free_name(name) end
+    if exists(path) and not host.exported[path] then
+        error(path .. " is there already, and was not written by this window: give another name", 0)
+    end
+    local copy = mesh:copy()
+    if copy:region("selected") then copy:remove_region("selected") end
+    return copy, path, { name = name, transform = place }
+end
+
+-- Writes such a copy, and says so.
+local function write_export(host, copy, path, object)
+    local done, message, code = copy:save(path)
+    if not done then error(message .. " [" .. code .. "]", 0) end
+    host.exported[path] = true
+    local counts = string.format("%d vertices, %d faces", #copy, copy:face_count())
+    return "exported " .. object.name .. " to " .. path .. ": " .. counts
 end
 
 -- Whether one of the values is an object of the scene, or the scene itself.
@@ -184,6 +247,7 @@ local function method(host, name, ...) return host[name](host, ...) end
 
 return { tool = make_tool, is_tool = is_tool, host = make_host, replay = replay, open = open_for_window,
     load_tool = load_tool, host_of = host_of, look = look_in_window, use = use, tool_files = tool_files,
-    draw = draw, holds = holds, save = save, method = method, sketch = sketch,
+    draw = draw, holds = holds, save = save, export = export, write_export = write_export, method = method,
+    sketch = sketch,
     open_recording = open_recording, play = play, event_kind = event_kind, looked = looked, keep = keep,
     restore = restore }

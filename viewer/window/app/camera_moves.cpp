@@ -37,6 +37,7 @@ void frame_selection(ViewState& state) {
 void look_from(ViewState& state, StandardView side) {
     if (!state.shown || state.shown->bounds.empty()) return;
     FramingOptions framing = state.shown->picture->framing;
+    framing.up = state.up_axis();
     framing.aspect = state.view().size.aspect();
     framing.ortho = state.camera.is_ortho();
     state.set_camera(frame_box(side, state.shown->bounds, framing));
@@ -51,6 +52,20 @@ void place_camera(ViewState& state) {
                          ? *picture.camera
                          : quick_camera_of(picture, state.shown->snapshot, aspect));
     state.camera_is_placed = true;
+}
+
+void toggle_up(ViewState& state) {
+    const bool to_z = state.up_axis() == ViewUp::y;
+    state.up = to_z ? ViewUp::z : ViewUp::y;
+    if (!state.shown || state.shown->bounds.empty()) return;
+    const double sign = to_z ? 1.0 : -1.0;
+    const auto turned = [&](const Vec3& d) { return Vec3(d.x(), -sign * d.z(), sign * d.y()); };
+    const Vec3 middle = state.shown->bounds.center();
+    CameraOptions camera = state.camera.options();
+    camera.eye = middle + turned(camera.eye - middle);
+    camera.target = middle + turned(camera.target - middle);
+    camera.up = turned(camera.up);
+    state.set_camera(Camera(camera));
 }
 
 void toggle_perspective(ViewState& state) {

@@ -14,5 +14,8 @@ void look_from(ViewState& state, StandardView side);
 /// all of it.
 void place_camera(ViewState& state);
 void toggle_perspective(ViewState& state);
+/// Turns the camera about the middle of what is shown so that z points up instead of y, or y again.
+/// Nothing that is shown changes.
+void toggle_up(ViewState& state);
 
 }  // namespace lissom::window

@@ -100,6 +100,7 @@ PanelAnswers Frames::draw() {
     }
     PanelContent& content = state_.content;
     content.is_ortho = state_.camera.is_ortho();
+    content.is_z_up = state_.up_axis() == ViewUp::z;
     content.camera = state_.camera;
     content.picture_size = state_.view().size;
     PanelAnswers answers = state_.panel.make(content, state_.settings, state_.window.size(),

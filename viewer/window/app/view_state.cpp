@@ -16,6 +16,10 @@ View ViewState::view() const {
     return {camera, {1.0 * free.width, 1.0 * free.height}};
 }
 
+ViewUp ViewState::up_axis() const {
+    return up.value_or(shown ? shown->picture->framing.up : ViewUp::y);
+}
+
 bool ViewState::is_icon() const {
     return window.size().width == 0 || window.size().height == 0;
 }
@@ -41,6 +45,7 @@ void ViewState::tell_camera() {
     ToolInput event;
     event.kind = ToolInput::Kind::look;
     event.camera = camera;
+    event.up = up_axis();
     event.size = pixels.size(view().size);
     session.post(event);
 }

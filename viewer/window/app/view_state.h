@@ -60,6 +60,9 @@ struct ViewState {
     DisplaySettings settings = {};
     std::optional<Shown> shown = {};
     Camera camera = {};
+    /// The axis that points up in views, where a person or a saved scene has chosen it; what is
+    /// open says it otherwise.
+    std::optional<ViewUp> up = {};
     /// Whether the camera was chosen for what is open.
     bool camera_is_placed = false;
     /// A recording is played: the hand waits.
@@ -70,6 +73,8 @@ struct ViewState {
     /// What the panel leaves free of the window.
     Canvas canvas() const { return panel.canvas(window.size()); }
     View view() const;
+    /// Returns the axis that points up in views.
+    ViewUp up_axis() const;
     bool has_tool() const { return !content.tool.tool.empty(); }
     /// Whether there is nothing to draw on.
     bool is_icon() const;

@@ -167,9 +167,9 @@ constexpr const char* kKeys =
     "wheel: nearer, towards the cursor; with ctrl or in a tool's drag: the tool's\n"
     "Home: what is selected, else all; with shift: all\n"
     "without a tool: 1 to 7: sides   O: perspective   F: as Home\n"
-    "    W: wire   B: boundaries\n"
+    "    W: wire   B: boundaries   U: z up or y up\n"
     "Ctrl-Z, Ctrl-Shift-Z: undo, redo\n"
-    "Ctrl-S: save the scene   F12: picture\n"
+    "Ctrl-S: save the scene   Ctrl-E: export a mesh   F12: picture\n"
     "F5: run again   Esc: stop, or take back\n"
     "Ctrl-Q: end\n"
     "Files can be dropped on the window.";
@@ -265,6 +265,7 @@ struct Panel::State {
                       PanelAnswers& answers);
     void side(PanelContent& content, DisplaySettings& settings, PanelAnswers& answers,
               gl::Extent window);
+    static void export_row(PanelContent& content, PanelAnswers& answers);
     void preset_row(const std::vector<std::string>& presets, PanelAnswers& answers);
     void console(PanelContent& content, PanelAnswers& answers, gl::Extent window);
     void console_line(const ConsoleLine& line, const std::optional<SourcePlace>& place,
@@ -415,6 +416,12 @@ void Panel::State::view_section(const PanelContent& content, DisplaySettings& se
     ImGui::SameLine(0.5f * ImGui::GetWindowWidth());
     ImGui::Checkbox("face normals", &settings.face_normals);
     ImGui::Checkbox("see through", &settings.see_through);
+    ImGui::SameLine(0.5f * ImGui::GetWindowWidth());
+    bool is_z_up = content.is_z_up;
+    if (ImGui::Checkbox("z up", &is_z_up)) answers.toggle_up = true;
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("The view turns; meshes keep their coordinates, in files too.");
+    }
     draw_colors(content, answers);
 }
 
@@ -464,6 +471,23 @@ void Panel::State::preset_row(const std::vector<std::string>& presets, PanelAnsw
     if (ImGui::Button("delete")) answers.remove_preset = std::exchange(preset, {});
     ImGui::EndDisabled();
     ImGui::PopID();
+}
+
+// A name for the file, and the button that writes it.
+void Panel::State::export_row(PanelContent& content, PanelAnswers& answers) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float button = ImGui::CalcTextSize("export").x + 2.0f * style.FramePadding.x;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - style.ItemSpacing.x);
+    std::array<char, kLongestText> name{};
+    content.export_name.copy(name.data(), name.size() - 1);
+    forget_unfit_history("##export", name.data());
+    ImGui::InputTextWithHint("##export", "file: .obj .glb .ply .stl", name.data(), name.size());
+    content.export_name = name.data();
+    ImGui::SameLine();
+    if (ImGui::Button("export")) answers.export_mesh = true;
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("Ctrl-E: writes the mesh with a selection, else the only one to be seen");
+    }
 }
 
 void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelAnswers& answers,
@@ -525,6 +549,7 @@ void Panel::State::side(PanelContent& content, DisplaySettings& settings, PanelA
     // Last, as it grows: no button moves then.
     if (ImGui::CollapsingHeader("Objects", ImGuiTreeNodeFlags_DefaultOpen)) {
         if (content.tool.has_scene) {
+            export_row(content, answers);
             answers.tool.object = draw_scene_objects(content.tool).object;
         } else {
             draw_objects(content.objects, settings.hidden);

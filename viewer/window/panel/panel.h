@@ -46,7 +46,9 @@ struct PanelContent {
     bool busy = false;
     std::string stage;
     double fraction = 0.0;
-    bool is_ortho = false;
+    bool is_ortho = false, is_z_up = false;
+    /// The file that a mesh is exported to; empty: a free name. A person writes it.
+    std::string export_name;
     /// Tools that have a button, and what there is to say of the one in hand.
     std::vector<ToolButton> tools;
     ToolState tool;
@@ -66,7 +68,8 @@ struct PanelContent {
 /// What a person has asked for in one frame.
 struct PanelAnswers {
     bool frame_all = false, toggle_ortho = false, screenshot = false, save = false,
-         run_again = false, cancel = false, compare_with_this = false;
+         export_mesh = false, toggle_up = false, run_again = false, cancel = false,
+         compare_with_this = false;
     /// What to do with the newest scene that was left.
     bool open_left = false, forget_left = false;
     std::optional<StandardView> view = std::nullopt;

@@ -76,15 +76,19 @@ ToolButton button_of(const std::string& word) {
     return {word, std::filesystem::path(word).stem().string()};
 }
 
-void keep_button(std::vector<ToolButton>& buttons, const ToolState& state) {
-    if (state.word.empty()) return;
+void keep_button(std::vector<ToolButton>& buttons, const std::string& word,
+                 const std::string& name) {
     const auto found = std::find_if(buttons.begin(), buttons.end(),
-                                    [&](const ToolButton& one) { return one.word == state.word; });
+                                    [&](const ToolButton& one) { return one.word == word; });
     if (found != buttons.end()) {
-        found->label = state.tool;
+        found->label = name;
     } else {
-        buttons.push_back({state.word, state.tool});
+        buttons.push_back({word, name});
     }
+}
+
+void keep_button(std::vector<ToolButton>& buttons, const ToolState& state) {
+    if (!state.word.empty()) keep_button(buttons, state.word, state.tool);
 }
 
 ToolAnswers draw_tools(const std::vector<ToolButton>& buttons, ToolState& state) {

@@ -24,6 +24,9 @@ struct ToolButton {
 
 /// Returns the button of a tool that was never in hand.
 ToolButton button_of(const std::string& word);
+/// The tool that a word takes in hand has a button with a name from now on.
+void keep_button(std::vector<ToolButton>& buttons, const std::string& word,
+                 const std::string& name);
 /// The tool in hand has a button from now on, with its name.
 void keep_button(std::vector<ToolButton>& buttons, const ToolState& state);
 

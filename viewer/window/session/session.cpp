@@ -335,6 +335,25 @@ void Session::save_scene(const std::string& path, std::uint64_t scene, std::uint
     worker_.post(save, true);
 }
 
+void Session::export_mesh(const std::string& path) {
+    const auto write = [this, path] {
+        if (!bench_ || !bench_->has_scene()) {
+            return tell(LineKind::warning, "there is no scene: nothing was exported");
+        }
+        if (bench_->is_held()) return;
+        begin_work();
+        std::string told;
+        set_saving(true);
+        const cli::ScriptResult result = bench_->export_mesh(path, told);
+        set_saving(false);
+        if (succeeds(result)) tell(LineKind::result, told);
+    };
+    const std::lock_guard lock(mutex_);
+    news_.takes_inputs_last = false;
+    news_.last_setting.reset();
+    worker_.post(write, true);
+}
+
 void Session::show_object(const std::string& name, bool visible) {
     post_job([this, name, visible] {
         if (!bench_ || !bench_->has_scene()) return;
@@ -414,6 +433,11 @@ std::optional<std::vector<std::string>> Session::take_opened() {
 std::optional<std::uint64_t> Session::take_saved() {
     const std::lock_guard lock(mutex_);
     return std::exchange(news_.saved, std::nullopt);
+}
+
+std::vector<std::pair<std::string, std::string>> Session::take_tools() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(news_.tools, {});
 }
 
 std::optional<Shown> Session::take_shown() {
@@ -599,6 +623,47 @@ void Session::take_own_tool(const std::string& path) {
     }
     options_.tool = path;
     tell(LineKind::message, path + " is a tool: open what it is to work on");
+}
+
+void Session::find_tools(const std::vector<std::string>& scripts) {
+    post_job([this, scripts] { look_for_tools(scripts); });
+}
+
+// Each runs in a state of its own, as if it was opened.
+void Session::look_for_tools(const std::vector<std::string>& scripts) {
+    begin_work();
+    std::string names;
+    std::vector<std::pair<std::string, std::string>> found;
+    for (const std::string& script : scripts) {
+        Document before = put_aside();
+        const std::optional<Shown> seen = last_shown_;
+        const std::optional<std::string> name = name_of_tool(script);
+        put_back(std::move(before));
+        show_again(seen);
+        if (!name) continue;
+        names += (names.empty() ? "" : ", ") + *name;
+        found.emplace_back(script, *name);
+    }
+    if (!found.empty()) tell(LineKind::result, "tools that have a button now: " + names);
+    {
+        const std::lock_guard lock(mutex_);
+        news_.tools.insert(news_.tools.end(), found.begin(), found.end());
+    }
+    wake_();
+}
+
+// Nothing where the script fails or is no tool, which is told.
+std::optional<std::string> Session::name_of_tool(const std::string& script) {
+    open_script({script, {}});
+    const cli::ScriptResult result = script_->run_file(script);
+    if (result.status != cli::kSuccess) {
+        tell(LineKind::error, result.message);
+        return std::nullopt;
+    }
+    const int count = lua_gettop(script_->lua());
+    if (bench_->is_tool(1, count)) return bench_->tool_name(1);
+    tell(LineKind::warning, script + " is no tool: drop it alone to run it");
+    return std::nullopt;
 }
 
 // Red lines stay: a file that works again is told below them.
@@ -851,8 +916,11 @@ void Session::show_scene(bool always) {
     try {
         ToolState state = bench_->state();
         state.scene = scene_number_;
-        state.camera = bench_->looked();
+        const ToolBench::Looked looked = bench_->looked();
+        state.camera = looked.camera;
+        state.up = looked.up;
         if (state.camera) look_.camera = *state.camera;
+        if (state.up) look_.up = *state.up;
         if (shows_hand_) state.hand = bench_->hand();
         // The last event shows it as well.
         shows_hand_ = plays_;
@@ -864,7 +932,10 @@ void Session::show_scene(bool always) {
         last_state_ = state;
         const std::lock_guard lock(mutex_);
         // One that the window has not seen yet.
-        if (news_.tool_state && !state.camera) state.camera = news_.tool_state->camera;
+        if (news_.tool_state && !state.camera) {
+            state.camera = news_.tool_state->camera;
+            state.up = news_.tool_state->up;
+        }
         news_.tool_state = std::move(state);
     } catch (const Error& error) {
         tell(LineKind::error, error.message());

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bindings/cli/repl/completion.h"
@@ -88,6 +89,9 @@ class Session {
     /// the scene of a recording, whose events are then to be posted. A script that returns a tool
     /// puts that in hand instead. If it fails, all that was open before stays as it was.
     void open(const std::vector<std::string>& words);
+    /// Finds out which of these scripts are tools, for `take_tools`, and tells it; none is taken in
+    /// hand, and what is open stays.
+    void find_tools(const std::vector<std::string>& scripts);
     /// Runs the script again, or reads the files again, with `words` as the command line of the
     /// script. What runs is given up; while something else is being opened nothing is done.
     void run_again(const std::vector<std::string>& words);
@@ -109,6 +113,9 @@ class Session {
     /// Writes the scene to a file, and tells that it did, if it is still the scene with the number
     /// `scene`; `take_saved` then returns `change`.
     void save_scene(const std::string& path, std::uint64_t scene = 0, std::uint64_t change = 0);
+    /// Writes the mesh in hand to a file whose ending names the format, a free name if `path` is
+    /// empty, and tells it. After an error all is as before.
+    void export_mesh(const std::string& path);
     /// Writes the scene and, where no other was asked for, its journal to files, silently.
     void copy_scene(const std::string& path, const std::string& journal);
     /// A parameter of the tool has this value.
@@ -136,6 +143,8 @@ class Session {
     std::optional<std::vector<std::string>> take_opened();
     /// The number that the last scene saved since the last call was saved with.
     std::optional<std::uint64_t> take_saved();
+    /// The tools that were found since the last call: file and name of each.
+    std::vector<std::pair<std::string, std::string>> take_tools();
     /// What was finished since the last call.
     std::optional<Shown> take_shown();
     /// Lines of the console since the last call.
@@ -179,6 +188,8 @@ class Session {
     void settle_script(const std::vector<std::string>& words, bool is_same);
     void settle_failed(Document before, bool is_same);
     void take_own_tool(const std::string& path);
+    void look_for_tools(const std::vector<std::string>& scripts);
+    std::optional<std::string> name_of_tool(const std::string& script);
     bool show_values();
     bool load_files(const std::vector<std::string>& paths, bool is_new);
     void tell_sizes();
@@ -225,6 +236,7 @@ class Session {
         std::vector<std::string> words, asked;
         std::optional<std::vector<std::string>> opened;
         std::optional<std::uint64_t> saved;
+        std::vector<std::pair<std::string, std::string>> tools;
         std::optional<Shown> shown;
         std::vector<ConsoleLine> lines;
         std::optional<std::vector<lua::ScriptParameter>> parameters;

@@ -12,6 +12,7 @@
 #include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tools.h"
+#include "kernel/mesh/edit/transform.h"
 #include "viewer/lua/shown_values.h"
 
 namespace lissom::window {
@@ -233,6 +234,9 @@ void push_look(lua_State* L, const ToolInput& input) {
     lua_pushinteger(L, input.size.height);
     lua_rawseti(L, -2, 2);
     lua_setfield(L, -2, "size");
+    if (input.up != ViewUp::z) return;
+    lua_pushboolean(L, 1);
+    lua_setfield(L, -2, "z_up");
 }
 
 void push_event(lua_State* L, const ToolInput& input, bool is_late) {
@@ -387,6 +391,10 @@ bool ToolBench::is_tool(int first, int last) {
     return is;
 }
 
+std::string ToolBench::tool_name(int index) {
+    return raw_text(script_.lua(), index, "name");
+}
+
 bool ToolBench::has_scene_among(int first, int last) const {
     for (int i = first; i <= last; ++i) {
         if (lua::find_holder(script_.lua(), i, lua::SceneObject::kTypeName)) return true;
@@ -409,6 +417,39 @@ cli::ScriptResult ToolBench::save(const std::string& path, std::string& left_out
     lua_pushstring(L, path.c_str());
     cli::ScriptResult result = call("save", 2);
     if (result.status == cli::kSuccess) left_out = lua_tostring(L, -1);
+    lua_settop(L, top);
+    return result;
+}
+
+// A copy of a mesh, its file and its object are at `first`: writes it as it stands in the scene.
+cli::ScriptResult ToolBench::write_export(int first, std::string& told) {
+    lua_State* L = script_.lua();
+    auto* holder = lua::find_holder(L, first, lua::MeshObject::kTypeName);
+    auto* copy = static_cast<lua::MeshObject*>(holder->object.get());
+    try {
+        const Affine place = raw_transform(L, first + 2, "transform");
+        if (!place.is_identity()) transform(copy->mesh, place);
+        copy->changed();
+    } catch (const Error& error) {
+        cli::ScriptResult failed;
+        failed.status = cli::kFailure;
+        failed.message = error.message();
+        return failed;
+    }
+    push_host();
+    for (int i = 0; i < 3; ++i) lua_pushvalue(L, first + i);
+    cli::ScriptResult result = call("write_export", 4);
+    if (result.status == cli::kSuccess) told = lua_tostring(L, -1);
+    return result;
+}
+
+cli::ScriptResult ToolBench::export_mesh(const std::string& path, std::string& told) {
+    lua_State* L = script_.lua();
+    const int top = lua_gettop(L);
+    push_host();
+    lua_pushstring(L, path.c_str());
+    cli::ScriptResult result = call("export", 2);
+    if (result.status == cli::kSuccess) result = write_export(top + 1, told);
     lua_settop(L, top);
     return result;
 }
@@ -805,17 +846,18 @@ ToolState ToolBench::state() {
     return state;
 }
 
-std::optional<Camera> ToolBench::looked() {
+ToolBench::Looked ToolBench::looked() {
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     push_host();
-    std::optional<Camera> camera;
+    Looked seen;
     if (call("looked", 1).status == cli::kSuccess) {
-        lua::Holder* holder = lua::find_holder(L, -1, lua::CameraObject::kTypeName);
-        if (holder) camera = static_cast<lua::CameraObject*>(holder->object.get())->camera;
+        lua::Holder* holder = lua::find_holder(L, -2, lua::CameraObject::kTypeName);
+        if (holder) seen.camera = static_cast<lua::CameraObject*>(holder->object.get())->camera;
+        if (lua_isboolean(L, -1)) seen.up = lua_toboolean(L, -1) ? ViewUp::z : ViewUp::y;
     }
     lua_settop(L, top);
-    return camera;
+    return seen;
 }
 
 // ---- Files

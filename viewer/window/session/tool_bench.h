@@ -81,6 +81,8 @@ struct ToolState {
     std::uint64_t scene = 0;
     /// Where the tool has set it since the last state: what the scene is to be seen by.
     std::optional<Camera> camera;
+    /// Likewise of a scene that was saved: the axis that points up in it.
+    std::optional<ViewUp> up = std::nullopt;
     /// What can be shown by itself, in the order of the scene.
     std::vector<ToolObject> objects;
     /// Name of the tool in hand, and the word that it was taken by; empty for none.
@@ -124,12 +126,17 @@ class ToolBench {
     bool has_scene() const { return has_scene_; }
     /// Whether what is between two stack indices is one tool.
     bool is_tool(int first, int last);
+    /// The name of the tool at a stack index.
+    std::string tool_name(int index);
     /// Whether one of the values between two stack indices is a scene.
     bool has_scene_among(int first, int last) const;
     /// Whether there is no scene, or one without objects.
     bool is_empty();
     /// Writes the scene to a file; `left_out` says what had no place there.
     cli::ScriptResult save(const std::string& path, std::string& left_out);
+    /// Writes the mesh in hand to a file whose ending names the format, or to a free name if `path`
+    /// is empty; `told` says which. The scene stays as it is.
+    cli::ScriptResult export_mesh(const std::string& path, std::string& told);
     /// Sets the global variable `scene`, for lines of a console.
     void publish_scene();
 
@@ -194,11 +201,17 @@ class ToolBench {
     /// A name for each mesh of the picture.
     std::vector<std::string> names_of(const Picture& picture);
     ToolState state();
-    /// The camera that the tool has set since the last call.
-    std::optional<Camera> looked();
+    /// The camera that the tool or a saved scene has set since the last call.
+    struct Looked {
+        std::optional<Camera> camera;
+        /// Of a saved scene.
+        std::optional<ViewUp> up;
+    };
+    Looked looked();
 
   private:
     cli::ScriptResult call(const char* method, int count);
+    cli::ScriptResult write_export(int first, std::string& told);
     void push_host() const;
     void push_tool() const;
     void paint_regions(Picture& picture);

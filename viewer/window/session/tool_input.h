@@ -27,6 +27,8 @@ struct ToolInput {
     /// Of look: from where the picture is seen now, and its size.
     Camera camera = {};
     gl::Extent size = {};
+    /// Of look: the axis of the world that points up in the window's views.
+    ViewUp up = ViewUp::y;
     /// Of play: the place of the event in the recording, from 0.
     std::size_t event = 0;
 };

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "kernel/io/mesh_file.h"
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/viewer/window/session/session_host.h"
 #include "viewer/window/panel/tool_panel.h"
@@ -142,6 +143,94 @@ std::string content_of(const std::string& path) {
 }
 
 }  // namespace
+
+TEST_CASE(
+    "export: the mesh in hand is written by its ending, as it stands; what fails changes nothing") {
+    ToolHost host;
+    host.open("navigate");
+    const std::string path = host.folder.path("out.glb");
+    host.session.evaluate(
+        "scene:set('ball', { transform = { { 1, 0, 0, 3 }, { 0, 0, -1, 0 }, "
+        "{ 0, 1, 0, 0 }, { 0, 0, 0, 1 } } })");
+    host.session.evaluate("before = scene:hash()");
+    host.session.export_mesh(path);
+    host.session.evaluate("print('same', before == scene:hash())");
+    host.wait();
+    CHECK(host.says(LineKind::message, "same\ttrue"));
+    CHECK(host.says(LineKind::result, "exported ball to " + path + ": "));
+    const Mesh written = load_mesh(path);
+    CHECK(written.vertex_count() == make_sphere().vertex_count());
+    CHECK(bounds(written).center().x() == doctest::Approx(3.0).epsilon(1e-6));
+    // Again over what was written here, but not over other files, nor with an unknown ending.
+    host.session.export_mesh(path);
+    host.session.export_mesh(host.ball);
+    host.session.export_mesh(host.folder.path("out.xyzzy"));
+    host.wait();
+    CHECK(std::count_if(host.lines.begin(), host.lines.end(), [](const ConsoleLine& line) {
+              return line.text.starts_with("exported ball to ");
+          }) == 2);
+    CHECK(host.says(LineKind::error, "was not written by this window"));
+    CHECK(host.says(LineKind::error, "xyzzy"));
+    CHECK(load_mesh(host.ball).vertex_count() == make_sphere().vertex_count());
+    CHECK(!std::filesystem::exists(host.folder.path("out.xyzzy")));
+}
+
+TEST_CASE("several tools: each is found, none is taken in hand, and what fails is told") {
+    ToolHost host;
+    host.open("navigate");
+    const std::string pull = host.folder.path("pull.lua"), push = host.folder.path("push.lua"),
+                      bad = host.folder.path("bad.lua"), plain = host.folder.path("plain.lua");
+    std::ofstream(pull) << kPull;
+    std::ofstream(push)
+        << "return require('lissom').tool{ name = 'pusher', press = function() end }";
+    std::ofstream(bad) << "error('broken')";
+    std::ofstream(plain) << "return 7";
+    host.session.take_tool_state();
+    host.session.find_tools({pull, bad, plain, push});
+    host.wait();
+    const auto tools = host.session.take_tools();
+    REQUIRE(tools.size() == 2);
+    CHECK(tools[0] == std::pair<std::string, std::string>{pull, "pull"});
+    CHECK(tools[1] == std::pair<std::string, std::string>{push, "pusher"});
+    CHECK(host.session.take_tools().empty());
+    CHECK(host.says(LineKind::result, "pull, pusher"));
+    CHECK(host.says(LineKind::error, "broken"));
+    CHECK(host.says(LineKind::warning, "plain.lua is no tool"));
+    host.session.evaluate("print('still', scene:get('ball'):face_count() > 0)");
+    host.wait();
+    CHECK(host.says(LineKind::message, "still\ttrue"));
+    std::vector<ToolButton> buttons{{"navigate", "navigate"}};
+    for (const auto& [word, name] : tools) keep_button(buttons, word, name);
+    CHECK(buttons.size() == 3);
+    CHECK(buttons.back() == ToolButton{push, "pusher"});
+}
+
+TEST_CASE("z up: a saved scene opens with it, and the mesh keeps its coordinates") {
+    ToolHost host;
+    host.open("navigate");
+    ToolInput look = input(Kind::look);
+    look.camera = Camera({.eye = {0.0, -5.0, 0.0}, .up = {0.0, 0.0, 1.0}});
+    look.size = {640, 480};
+    look.up = ViewUp::z;
+    host.session.post(look);
+    const std::string path = host.folder.path("turned.lissom"), mesh = host.folder.path("same.obj");
+    host.session.save_scene(path);
+    host.session.export_mesh(mesh);
+    host.wait();
+    CHECK(load_mesh(mesh).positions()[5] == load_mesh(host.ball).positions()[5]);
+    host.session.take_tool_state();
+    host.session.open({path});
+    host.wait();
+    const std::optional<ToolState> state = host.session.take_tool_state();
+    REQUIRE(state);
+    REQUIRE(state->camera);
+    CHECK(state->camera->up().z() == doctest::Approx(1.0));
+    CHECK(state->up == ViewUp::z);
+    // Another scene says nothing of it.
+    host.session.open({host.ball});
+    host.wait();
+    CHECK(!host.session.take_tool_state()->up);
+}
 
 TEST_CASE("tool input: looks and turns of the wheel do not pile up, and no move is lost") {
     std::vector<ToolInput> inputs;
