@@ -25,6 +25,7 @@ struct PanelFrames {
         changes += answers.parameters_changed;
         pressed += answers.run_again;
         saved += answers.save;
+        exports += answers.export_mesh ? 1 : 0;
         if (answers.save_preset) saved_presets.push_back(*answers.save_preset);
         if (answers.line) entered.push_back(*answers.line);
     }
@@ -55,9 +56,8 @@ struct PanelFrames {
         make();
     }
     // Clicks at this distance from the left, from below upwards as what is closed moves what is
-    // below it, until a field has the keys; how low.
-    double click_a_field(double x, bool with_control = false) {
-        double y = kWindow.height;
+    // below it, until a field has the keys; how low. Begins at `y`.
+    double click_a_field(double x, bool with_control = false, double y = kWindow.height) {
         while (y > 60.0 && !panel.wants_keys()) click({x, y -= 6.0}, with_control);
         return y;
     }
@@ -89,6 +89,7 @@ struct PanelFrames {
     DisplaySettings settings;
     int changes = 0, pressed = 0, saved = 0;
     std::vector<std::string> saved_presets, entered;
+    int exports = 0;
 };
 
 // One number of 0 to 100, in whose field the hand types from now on.
@@ -278,7 +279,11 @@ TEST_CASE("panel: a preset is saved beside the scene's own button, under a name 
     tall.type = lua::ParameterType::boolean;
     tall.default_value = false;
     frames.content.parameters = {tall};
-    const double y = frames.click_a_field(40.0);
+    // The lowest is that of the export.
+    const double lowest = frames.click_a_field(40.0);
+    frames.press(Key::escape);
+    REQUIRE(!frames.panel.wants_keys());
+    const double y = frames.click_a_field(40.0, false, lowest - 14.0);
     REQUIRE(frames.panel.wants_keys());
     const auto click_along = [&] {
         const double right = frames.panel.canvas(kWindow).x;
@@ -294,5 +299,21 @@ TEST_CASE("panel: a preset is saved beside the scene's own button, under a name 
     click_along();
     REQUIRE(frames.saved_presets.size() == 1);
     CHECK(frames.saved_presets[0].ends_with("tall##x"));
+    CHECK(frames.saved == 0);
+}
+
+TEST_CASE("panel: the name of an export is written beside the button that asks for it") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    PanelFrames frames;
+    frames.content.tool.has_scene = true;
+    const double y = frames.click_a_field(40.0);
+    REQUIRE(frames.panel.wants_keys());
+    frames.type("cup.glb");
+    CHECK(frames.content.export_name == "cup.glb");
+    CHECK(frames.exports == 0);
+    frames.click({frames.panel.canvas(kWindow).x - 30.0, y});
+    CHECK(frames.exports == 1);
     CHECK(frames.saved == 0);
 }
