@@ -1,4 +1,8 @@
 // Deformation by handles.
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
 #include "bindings/c/data.h"
 #include "kernel/deform/deformer.h"
 #include "kernel/io/basis_file.h"
@@ -54,6 +58,23 @@ VertexConstraint constraint_of(const lissom_context& context, Index vertex, cons
     if (position) constraint.position = context.space.to_kernel(position);
     if (weight != 0.0) constraint.weight = weight;
     return constraint;
+}
+
+lissom_deform_report told_report(lissom_context& context, const DeformReport& found) {
+    lissom_deform_report told = lissom_default_deform_report();
+    told.stretch = found.stretch;
+    std::copy(found.stretched.begin(), found.stretched.end(), told.stretched);
+    told.flipped = count_of(found.flipped);
+    if (found.crossings) told.crossings = count_of(*found.crossings);
+    told.tears = count_of(found.tears);
+    if (found.volume_change) told.volume_change = *found.volume_change;
+    context.text.clear();
+    for (const DeformWarning& warning : found.warnings) {
+        told.harms |= 1U << static_cast<unsigned>(warning.harm);
+        context.text += warning.message + '\n';
+    }
+    told.warnings = context.text.c_str();
+    return told;
 }
 
 }  // namespace
@@ -220,6 +241,31 @@ lissom_status lissom_deformer_apply(lissom_context* context, lissom_deformer def
         Mesh& own = mesh_of(*context, mesh);
         deformer_of(*context, deformer).apply_to(own);
         context->sharing.changed(own);
+    });
+}
+
+lissom_deform_report lissom_default_deform_report(void) {
+    lissom_deform_report report{};
+    report.struct_size = sizeof report;
+    report.stretch = 1.0;
+    report.stretched[0] = report.stretched[1] = -1;
+    report.crossings = -1;
+    report.volume_change = std::numeric_limits<double>::quiet_NaN();
+    report.warnings = "";
+    return report;
+}
+
+lissom_status lissom_deformer_report(lissom_context* context, lissom_deformer deformer,
+                                     lissom_mesh mesh, bool crossings,
+                                     lissom_deform_report* report) {
+    return run(context, [&] {
+        require_given(report, "report");
+        take_options(report, lissom_default_deform_report());
+        lissom_deform_report told = told_report(
+            *context, deformer_of(*context, deformer)
+                          .report(mesh_of(*context, mesh), {crossings}, context->kernel));
+        told.struct_size = report->struct_size;
+        std::memcpy(report, &told, std::min(report->struct_size, sizeof told));
     });
 }
 

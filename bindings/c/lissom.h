@@ -629,6 +629,44 @@ LISSOM_API lissom_status lissom_deformer_read_normals(lissom_context* context,
 /// region.
 LISSOM_API lissom_status lissom_deformer_apply(lissom_context* context, lissom_deformer deformer,
                                                lissom_mesh mesh);
+
+/// Kinds of harm that a deformation does to a surface, as bits.
+typedef enum lissom_deform_harm {
+    LISSOM_HARM_TORN = 1,       ///< handles that nearly touch go different ways
+    LISSOM_HARM_STRETCHED = 2,  ///< edges change their length far more than the handles ask for
+    LISSOM_HARM_FOLDED = 4,     ///< faces look against their neighbours
+    LISSOM_HARM_CROSSING = 8,   ///< faces run through one another, if they were counted
+    LISSOM_HARM_VOLUME = 16     ///< the volume changes far more than the handles ask for
+} lissom_deform_harm;
+
+/// The last result of a deformation beside its rest shape.
+typedef struct lissom_deform_report {
+    size_t struct_size;
+    /// Bits of lissom_deform_harm that a user would see; 0 for a good result.
+    uint32_t harms;
+    /// The greatest factor by which an edge is longer or shorter than at rest, at least 1, and the
+    /// vertices of that edge; -1 without one.
+    double stretch;
+    int32_t stretched[2];
+    /// Faces that look against their neighbours and did not at rest.
+    int32_t flipped;
+    /// Pairs of faces that run through one another and did not at rest; -1: not counted.
+    int32_t crossings;
+    /// Pairs of vertices at which handles tear the surface.
+    int32_t tears;
+    /// Volume over that at rest, less 1; NAN for a mesh without a volume.
+    double volume_change;
+    /// A line for each harm with its measure and a remedy. It lives until the next call.
+    const char* warnings;
+} lissom_deform_report;
+
+LISSOM_API lissom_deform_report lissom_default_deform_report(void);
+/// Measures the last result as it lies in the mesh that the deformer was made for, or a copy of
+/// it; the mesh stays as it is. Counting `crossings` takes longer than a frame. Errors:
+/// TOPOLOGY_MISMATCH; CANCELLED.
+LISSOM_API lissom_status lissom_deformer_report(lissom_context* context, lissom_deformer deformer,
+                                                lissom_mesh mesh, bool crossings,
+                                                lissom_deform_report* report);
 /// Returns all handles and the surface to rest.
 LISSOM_API lissom_status lissom_deformer_reset(lissom_context* context, lissom_deformer deformer);
 /// Makes the last result the rest shape; handles stay in place on it.

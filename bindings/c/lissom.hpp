@@ -229,6 +229,11 @@ class Deformer : public Object<lissom_deformer, lissom_deformer_release> {
         check(lissom_deformer_read_normals(context_, handle_, &out));
     }
     void apply(Mesh& mesh) const { check(lissom_deformer_apply(context_, handle_, mesh.handle())); }
+    lissom_deform_report report(const Mesh& mesh, bool crossings = false) const {
+        lissom_deform_report found = lissom_default_deform_report();
+        check(lissom_deformer_report(context_, handle_, mesh.handle(), crossings, &found));
+        return found;
+    }
     void reset() { check(lissom_deformer_reset(context_, handle_)); }
 };
 

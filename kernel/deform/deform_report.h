@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/core/error.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/query/self_intersections.h"
 
@@ -24,6 +25,27 @@ struct Tear {
     double slip = 0.0;
 };
 
+/// The kinds of harm that a deformation does to a surface.
+enum class DeformHarm {
+    torn,       ///< handles that nearly touch go different ways
+    stretched,  ///< edges change their length far more than the handles ask for
+    folded,     ///< faces look against the faces around them
+    crossing,   ///< faces run through one another
+    volume      ///< the volume changes far more than the handles ask for
+};
+
+/// The name of a harm in scripts, for instance "stretched".
+const char* harm_name(DeformHarm harm);
+
+/// A reason why a result may not be the one that was wanted.
+struct DeformWarning {
+    DeformHarm harm = DeformHarm::torn;
+    /// Its measure and a remedy.
+    std::string message;
+    /// The vertices, edges or faces concerned, of the mesh; kind `none` for a volume.
+    Elements elements;
+};
+
 /// The result that a Deformer shows beside its rest shape.
 struct DeformReport {
     /// The greatest factor by which an edge of the region, or next to it, is longer or shorter than
@@ -38,8 +60,9 @@ struct DeformReport {
     std::optional<double> volume_change;
     /// Where handles nearly touch and tear the surface between them, the worst first.
     std::vector<Tear> tears;
-    /// In words, each with what helps.
-    std::vector<std::string> warnings;
+    /// The harms that a user would see, by the limits in deform_warnings.cpp; of crossings only if
+    /// they were asked for.
+    std::vector<DeformWarning> warnings;
 };
 
 }  // namespace lissom

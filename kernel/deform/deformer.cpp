@@ -167,7 +167,7 @@ const std::vector<Vec3>& Deformer::solve(const Context& context) {
         s.show(solve_frame(s.prepare(context), s.poses, s.scratch, FrameQuality::full, context));
         const std::vector<Tear> tears = tears_of(*s.preparation, s.poses);
         if (!tears.empty())
-            context.log(LogLevel::warning, tear_warning(*s.preparation, tears.front()));
+            context.log(LogLevel::warning, tear_warning(*s.preparation, tears).message);
     });
     return positions();
 }

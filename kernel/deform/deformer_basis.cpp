@@ -58,16 +58,6 @@ std::vector<Vec3> solved_directly(const Motion& motion) {
     return pulled_back(motion, x);
 }
 
-// Rigid pieces that follow a surface are no linear function of the handles.
-void require_linear(const Preparation& prepared) {
-    for (const FollowingPart& part : prepared.following) {
-        if (part.owner != kFree) continue;
-        throw Error(ErrorCode::unsupported,
-                    "the handle basis has no parts that follow the surface near them; use loose = "
-                    "'stay', or let a handle hold a vertex of each");
-    }
-}
-
 std::vector<Vec4>& weights_of(HandleBasis& basis, Index handle) {
     const auto place = std::find(basis.handles.begin(), basis.handles.end(), HandleId{handle});
     return basis.weights[place - basis.handles.begin()];
@@ -101,6 +91,89 @@ void add_loose(const Motion& motion, HandleBasis& basis) {
             basis.fixed[row].setZero();
             weights_of(basis, part.owner)[row] = homogeneous(rest.positions[row]);
         }
+    }
+}
+
+// The affine map of the patch by which a part follows its guides: their mean, and the mean of their
+// gradients. Unlike the nearest rotation it is linear in the handles' transforms.
+Affine affine_follow(const Motion& motion, const FollowingPart& part,
+                     std::span<const Vec4> deviation) {
+    const double share = 1.0 / static_cast<double>(part.guides.size());
+    Vec3 before = Vec3::Zero(), after = Vec3::Zero();
+    Affine map;
+    map.linear.setZero();
+    for (const Index v : part.guides) {
+        const Vec3& rest = motion.patch().rest[at(v)];
+        before += share * rest;
+        after +=
+            share * ((motion.base() * homogeneous(rest)).head<3>() + deviation[at(v)].head<3>());
+        map.linear += share * gradient_of(motion, deviation, v);
+    }
+    map.translation = after - map.linear * before;
+    return map;
+}
+
+// The maps of the parts that follow a surface if the handles stand at `transforms`, in the space of
+// the mesh.
+std::vector<Affine> affine_follows(const Motion& given, const std::vector<Affine>& transforms,
+                                   const Context& context) {
+    const Preparation& prepared = given.prepared();
+    const Vec3& o = prepared.patch().origin;
+    Poses poses = given.poses();
+    for (std::size_t h = 0; h < poses.handles.size(); ++h) {
+        const Affine& t = transforms[h];
+        poses.handles[h] = {t, {t.linear, t.translation + t.linear * o - o}, Vec3::Zero()};
+    }
+    const Motion motion(prepared, poses, given.asked());
+    Deviation deviation;
+    solve_first(motion, context, deviation);
+    std::vector<Affine> maps;
+    for (const FollowingPart& part : prepared.following) {
+        if (part.owner == kFree) {
+            const Affine map = affine_follow(motion, part, deviation);
+            maps.push_back({map.linear, map.translation + o - map.linear * o});
+        }
+    }
+    return maps;
+}
+
+template <typename Use>
+void for_each_follower_row(const Preparation& prepared, const Use& use) {
+    std::size_t n = 0;
+    for (const FollowingPart& part : prepared.following) {
+        if (part.owner != kFree) continue;
+        for (const Index v : part.members) {
+            const Index row = prepared.rest->frame_row(prepared.patch(), v);
+            if (row != kNoIndex && row < prepared.rest->region().size()) use(n, row);
+        }
+        ++n;
+    }
+}
+
+// The maps of parts that follow a surface are linear in each transform, so that unit transforms
+// tell their weights.
+void add_followers(const Motion& motion, const Context& context, HandleBasis& basis) {
+    const Preparation& prepared = motion.prepared();
+    const std::vector<Vec3>& rest = prepared.rest->positions;
+    const Affine zero{Mat3::Zero(), Vec3::Zero()};
+    std::vector<Affine> transforms(motion.poses().handles.size(), zero);
+    const std::vector<Affine> fixed = affine_follows(motion, transforms, context);
+    if (fixed.empty()) return;
+    for_each_follower_row(prepared, [&](std::size_t n, Index row) {
+        basis.fixed[at(row)] = fixed[n](rest[at(row)]);
+    });
+    for (const HandleId handle : basis.handles) {
+        Affine& unit = transforms[at(handle.value)];
+        for (Index column = 0; column < 4; ++column) {
+            unit = zero;
+            (column < 3 ? unit.linear(0, column) : unit.translation[0]) = 1.0;
+            const std::vector<Affine> moved = affine_follows(motion, transforms, context);
+            for_each_follower_row(prepared, [&](std::size_t n, Index row) {
+                const Vec3& p = rest[at(row)];
+                weights_of(basis, handle.value)[at(row)][column] = (moved[n](p) - fixed[n](p))[0];
+            });
+        }
+        unit = zero;
     }
 }
 
@@ -147,7 +220,6 @@ HandleBasis Deformer::basis(const Context& context) {
     require_implicit(s.options(), "the handle basis");
     return with_memory_errors([&] {
         const auto& prepared = s.prepare(context);
-        require_linear(*prepared);
         const AskedPart& asked = asked_part(prepared, s.poses.targets, s.scratch.state().asked);
         const Motion motion(*prepared, s.poses, asked);
         HandleBasis basis;
@@ -158,7 +230,10 @@ HandleBasis Deformer::basis(const Context& context) {
         basis.weights.assign(basis.handles.size(), std::vector<Vec4>(rows, Vec4::Zero()));
         add_known(motion, basis);
         add_loose(motion, basis);
-        if (motion.method().solution) add_free(motion, basis);
+        if (motion.method().solution) {
+            add_free(motion, basis);
+            add_followers(motion, context, basis);
+        }
         return basis;
     });
 }

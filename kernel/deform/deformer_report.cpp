@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kernel/core/memory_error.h"
+#include "kernel/deform/deform_warnings.h"
 #include "kernel/deform/deformer_state.h"
 #include "kernel/deform/tears.h"
 #include "kernel/mesh/measure/distortion.h"
@@ -33,7 +34,9 @@ class Comparison {
     Comparison(const Mesh& now, const Mesh& rest, const Region& region, const Context& context)
         : now_(now), rest_(rest), region_(region), context_(context) {}
 
-    void measure_edges(DeformReport& report) const {
+    // Returns the edges beyond `limit`.
+    std::vector<StretchedEdge> measure_edges(double limit, DeformReport& report) const {
+        std::vector<StretchedEdge> beyond;
         const Topology& topology = now_.topology();
         for (Index e = 0; e < topology.edge_count(); ++e) {
             const auto [a, b] = topology.edge(e);
@@ -42,10 +45,12 @@ class Comparison {
             const double after = (now_.position(a) - now_.position(b)).norm();
             if (!(before > 0.0)) continue;
             const double factor = std::max(after / before, before / after);
+            if (factor > limit) beyond.push_back({a, b, factor});
             if (!(factor > report.stretch)) continue;
             report.stretch = factor;
             report.stretched = {a, b};
         }
+        return beyond;
     }
 
     void measure_volume(DeformReport& report) const {
@@ -53,6 +58,8 @@ class Comparison {
         if (!(std::abs(before) > kNoVolume * size * size * size)) return;
         report.volume_change = volume(now_) / before - 1.0;
     }
+
+    std::vector<Index> flipped() const { return flipped_faces(now_, rest_, faces_around(region_)); }
 
     std::vector<FacePair> new_crossings() const {
         SelfIntersectionOptions options;
@@ -81,17 +88,20 @@ DeformReport Deformer::report(const Mesh& mesh, const DeformReportOptions& optio
         apply_rest_to(rest);
         const Comparison comparison(now, rest, region(), context);
         DeformReport report;
-        comparison.measure_edges(report);
+        const AskedSize asked = asked_size(state_->shown->poses);
+        const auto stretched = comparison.measure_edges(stretch_limit(asked), report);
         comparison.measure_volume(report);
-        report.flipped = distortion(now, rest, context).flipped;
+        report.flipped = comparison.flipped();
         if (options.crossings) report.crossings = comparison.new_crossings();
         const auto& preparation = state_->preparation;
         if (preparation && preparation->rest == state_->rest &&
             preparation->holds == state_->holds) {
             report.tears = tears_of(*preparation, state_->poses);
         }
+        report.warnings = warnings_of(report, asked, stretched, state_->options());
         if (!report.tears.empty()) {
-            report.warnings.push_back(tear_warning(*preparation, report.tears.front()));
+            report.warnings.insert(report.warnings.begin(),
+                                   tear_warning(*preparation, report.tears));
         }
         return report;
     });

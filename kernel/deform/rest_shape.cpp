@@ -72,6 +72,10 @@ std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region&
         const Index v = patch.mesh_vertex[i];
         if (!patch.in_region[i]) rest->surroundings.emplace_back(v, mesh.position(v));
     }
+    if (options.refine > 0 && region.size() < mesh.vertex_count()) {
+        rest->beyond.assign(mesh.positions().begin(), mesh.positions().end());
+        hold.resize(at(region.size()) * kBytesPerVertex + rest->beyond.size() * sizeof(Vec3));
+    }
     measure(*rest);
     rest->hold = std::move(hold);
     return rest;
@@ -85,6 +89,7 @@ std::shared_ptr<const RestShape> rebased(const RestShape& rest, const DeformFram
     MemoryHold hold = rest.hold;
     auto next = std::make_shared<RestShape>(RestShape{
         rest.scope, nullptr, {}, frame.positions, 0.0, false, rest.directions, rest.surroundings});
+    next->beyond = rest.beyond;
     next->directions.rebase(region, frame.positions, frame.turns_without_faces);
     std::vector<Vec3> at(region.topology()->vertex_count(), Vec3::Zero());
     for (Index i = 0; i < before.real_count; ++i) {

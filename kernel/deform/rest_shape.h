@@ -41,6 +41,8 @@ struct RestShape {
     RestDirections directions;
     /// Vertices around the region and where they lie.
     std::vector<std::pair<Index, Vec3>> surroundings;
+    /// Positions of all vertices of the mesh, for refinements of a part of it; else empty.
+    std::vector<Vec3> beyond = {};
     /// What all of it takes.
     MemoryHold hold = {};
 

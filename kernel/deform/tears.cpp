@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace lissom {
 namespace {
@@ -50,7 +51,8 @@ std::vector<Tear> tears_of(const Preparation& preparation, const Poses& poses) {
     return tears;
 }
 
-std::string tear_warning(const Preparation& preparation, const Tear& worst) {
+DeformWarning tear_warning(const Preparation& preparation, const std::vector<Tear>& tears) {
+    const Tear& worst = tears.front();
     // Each ring makes the gap longer by about two edges.
     const int needed = static_cast<int>(std::ceil(0.5 * (worst.slip / kBridged - 1.0)));
     const int rings = preparation.rest->options().free_rings + std::max(needed, 1);
@@ -61,7 +63,11 @@ std::string tear_warning(const Preparation& preparation, const Tear& worst) {
         "surface there is torn; leave more of it free between them, or make the "
         "deformation with free_rings = %d",
         worst.slip, std::min(rings, kMostRings));
-    return text;
+    Elements vertices{ElementKind::vertex, 0, {}};
+    for (const Tear& tear : tears) {
+        for (const Index v : tear.vertices) vertices.add(v);
+    }
+    return {DeformHarm::torn, text, std::move(vertices)};
 }
 
 }  // namespace lissom

@@ -1,7 +1,6 @@
 /// Handles that nearly touch and go different ways; private to kernel/deform.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "kernel/deform/deform_report.h"
@@ -14,7 +13,7 @@ namespace lissom {
 /// more than one and a half times the length between them.
 std::vector<Tear> tears_of(const Preparation& preparation, const Poses& poses);
 
-/// Says how bad the worst tear is, and what helps.
-std::string tear_warning(const Preparation& preparation, const Tear& worst);
+/// Returns a warning with the measure of the worst tear and a remedy; there is one at least.
+DeformWarning tear_warning(const Preparation& preparation, const std::vector<Tear>& tears);
 
 }  // namespace lissom

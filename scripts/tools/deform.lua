@@ -94,8 +94,7 @@ local function finish(self, one)
     if report.volume_change then
         table.insert(words, string.format("volume %+.0f %%", 100 * report.volume_change))
     end
-    if #report.flipped > 0 then table.insert(words, #report.flipped .. " faces folded over") end
-    for _, warning in ipairs(report.warnings) do table.insert(words, warning) end
+    for _, warning in ipairs(report.warnings) do table.insert(words, warning.message) end
     self.told = table.concat(words, "; ")
 end
 

@@ -220,7 +220,18 @@ std::vector<Record> kernel_records() {
            "Where handles nearly touch and tear the surface, the worst first: `vertices`, a pair "
            "that different handles hold, and `slip`, how far they part in lengths of the edges "
            "between."},
-          {"string[]", "warnings", "What to look at, and what helps, in plain words."}}},
+          {"lissom.DeformWarning[]", "warnings", "The harms that a user would see."}}},
+        {"lissom.DeformWarning",
+         "A harm that a deformation did to the surface.",
+         {{"string", "kind",
+           "torn: handles that nearly touch go different ways; stretched: edges become more than "
+           "3 times as long or short as the handles ask for; folded: faces look against their "
+           "neighbours; crossing: the surface runs through itself, if that was asked for; "
+           "volume: it is a quarter smaller than the handles ask for, or three quarters larger."},
+          {"string", "message", "Its measure and a remedy."},
+          {"integer[]|nil", "vertices", "Where handles tear the surface: pairs, at most 50."},
+          {"integer[]|nil", "edges", "Edges, as pairs of vertices, at most 50."},
+          {"integer[]|nil", "faces", "Faces, at most 100."}}},
         {"lissom.DeformStats",
          "Sizes and times of the last preparation of a deformation.",
          {{"integer", "region_vertices", "Vertices of the region."},

@@ -252,10 +252,20 @@ void push_tears(Call& call, const std::vector<Tear>& tears) {
     }
 }
 
-void push_warnings(Call& call, const std::vector<std::string>& warnings) {
+const char* list_of(ElementKind kind) {
+    return kind == ElementKind::edge ? "edges" : kind == ElementKind::face ? "faces" : "vertices";
+}
+
+void push_warnings(Call& call, const std::vector<DeformWarning>& warnings) {
     lua_createtable(call.lua(), count_of(warnings), 0);
     for (std::size_t i = 0; i < warnings.size(); ++i) {
-        call.push(warnings[i]);
+        const DeformWarning& warning = warnings[i];
+        lua_createtable(call.lua(), 0, 3);
+        call.set_field("kind", call.push(std::string_view(harm_name(warning.harm))));
+        call.set_field("message", call.push(std::string_view(warning.message)));
+        if (warning.elements.kind != ElementKind::none) {
+            call.set_field(list_of(warning.elements.kind), call.push_ids(warning.elements.ids));
+        }
         lua_rawseti(call.lua(), -2, index_of(i) + 1);
     }
 }
@@ -463,18 +473,20 @@ edit:solve())"},
         {.name = "report",
          .body = report,
          .summary =
-             "How good the last result is beside the rest shape: what is stretched, folded over, "
-             "torn between handles that nearly touch, or runs through itself.",
+             "Measures the last result beside the rest shape: stretched edges, folded faces, tears "
+             "between handles that nearly touch and, on request, crossings, with a warning of each "
+             "harm that a user would see.",
          .options = {boolean("crossings",
                              "Counts faces that run through one another, which takes longer than "
                              "to solve.")
                          .defaults(false)},
-         .results = {{"lissom.DeformReport", "report", "Measures, and warnings in words."}},
+         .results = {{"lissom.DeformReport", "report", "Measures, and warnings with remedies."}},
          .errors = kEditErrors,
          .example = kBar + R"(top:rotate{ axis = "z", angle = 60 }
 edit:solve()
 local report = edit:report{ crossings = true }
-assert(report.stretch < 2 and #report.flipped == 0 and report.crossings == 0))"},
+assert(report.stretch < 2 and #report.flipped == 0 and report.crossings == 0)
+assert(#report.warnings == 0))"},
         {.name = "basis",
          .body = basis,
          .summary =
@@ -523,19 +535,20 @@ std::vector<Parameter> deform_parameters() {
             .thesis("2.4.2", "2"),
         choice("weights", {"cotangent", "uniform"}, "Weights of the Laplacian coordinates.")
             .optional("\"cotangent\""),
-        integer("refine",
-                "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
-                "less distortion for half a frame each. For bars and limbs that bend and twist. "
-                "Refined parts get thinner: a result that would run through itself, and without "
-                "does not, is taken back as far as that, but a draft does not look. Beside handles "
-                "that change their size it fades to nothing. Compared in "
-                "examples/deform/refine.png.")
+        integer(
+            "refine",
+            "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
+            "less distortion for half a frame each. For bars and limbs that bend and twist. "
+            "Where it would fold, cross or stretch the surface more than without, it is taken back "
+            "as far as that, but a draft does not look. Beside handles "
+            "that change their size it fades to nothing. Compared in "
+            "examples/deform/refine.png.")
             .at_least(0)
             .optional(std::to_string(defaults.refine)),
         choice("loose", {"error", "stay", "follow"},
                "What becomes of separate parts that no handle holds, as buttons and eyes: an error "
                "that names them; they stay; or each follows the surface nearest to it, as a rigid "
-               "piece. A basis has no parts that follow a surface which bends.")
+               "piece; in a basis as an affine one.")
             .defaults("error"),
         integer("free_rings",
                 "Rings of vertices that handles give up where they nearly touch another, at most "

@@ -25,21 +25,18 @@ void solve_stretched(const SecondInput& input, std::span<const TakenStretch> tak
     for (std::size_t n = taken.size(); n-- > 0;) scratch.rotations[at(taken[n].vertex)] = before[n];
 }
 
-// Drafts are not chosen among: counting crossings takes longer than a frame.
+// Drafts are not limited: counting crossings takes longer than a frame.
 void refine_result(const SecondInput& input, std::span<const TakenStretch> taken,
                    FrameScratch::State& scratch, const Context& context) {
-    Deviation& deviation = scratch.deviation;
-    std::optional<RefinementChoice> choice;
-    if (!input.draft) choice.emplace(input, scratch, context);
-    if (choice) choice->offer(deviation);
+    const Deviation plain = input.draft ? Deviation() : scratch.deviation;
     const int steps = input.motion.options().refine;
     for (int step = 1; step <= steps; ++step) {
         const double further = over_relaxation(input.greatest_turn, step == steps);
-        refine_rotations(input, deviation, further, scratch.absolute, context, scratch.rotations);
+        refine_rotations(input, scratch.deviation, further, scratch.absolute, context,
+                         scratch.rotations);
         solve_stretched(input, taken, scratch, context);
-        if (choice) choice->offer(deviation);
     }
-    if (choice) choice->choose(deviation);
+    if (!input.draft) limit_refinement(input, plain, scratch, context);
 }
 
 // Solves for deviations from the similarity nearest to the base transform, so that similarities of

@@ -17,13 +17,12 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/frame/motion.h"
+#include "kernel/deform/frame/moving_surface.h"
 #include "kernel/deform/holds/holds.h"
-#include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/pipeline.h"
 #include "kernel/deform/preparation.h"
 #include "kernel/deform/system/frame_loops.h"
 #include "kernel/deform/system/rotation_system.h"
-#include "kernel/mesh/topology.h"
 
 namespace lissom {
 
@@ -56,9 +55,9 @@ struct FrameScratch::State {
     Rotations rotations;
     std::weak_ptr<const Preparation> sized_for;
     std::vector<Vec4> absolute;
-    /// Triangles of the patch `surface_of`, for crossings.
-    std::shared_ptr<const Topology> surface;
-    std::weak_ptr<const WorkingPatch> surface_of;
+    /// For refinements, of the preparation `surface_of`.
+    std::optional<MovingSurface> surface;
+    std::weak_ptr<const Preparation> surface_of;
     std::vector<Vec3> positions;
     RotationSystem::Scratch second;
 };
@@ -158,27 +157,11 @@ double over_relaxation(double greatest_turn, bool last);
 void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,
                       std::vector<Vec4>& absolute, const Context& context, Rotations& rotations);
 
-/// Takes the last of several results back towards the first as far as it runs the surface through
-/// itself, if the first does not.
-class RefinementChoice {
-  public:
-    RefinementChoice(const SecondInput& input, FrameScratch::State& scratch,
-                     const Context& context);
-
-    /// A result of the second system: the one without refinement first.
-    void offer(const Deviation& result);
-    /// Gives the chosen one. Errors: cancelled.
-    void choose(Deviation& result);
-
-  private:
-    Index crossings(const Deviation& result) const;
-
-    const SecondInput& input_;
-    const Context& context_;
-    std::shared_ptr<const Topology> surface_;
-    std::vector<Index> moving_;
-    std::vector<Deviation> results_;
-};
+/// Takes the refined deviation in `scratch` back towards `plain`, the one without refinement, by
+/// the least share after which no more faces cross or fold than in `plain`, and no edge is
+/// stretched further than one is there, or than half its length. Errors: cancelled; memory_limit.
+void limit_refinement(const SecondInput& input, const Deviation& plain,
+                      FrameScratch::State& scratch, const Context& context);
 
 /// A frame of a comparison method.
 DeformFrame solve_compared(const std::shared_ptr<const Preparation>& preparation,

@@ -35,6 +35,7 @@ class Motion {
     const DeformOptions& options() const { return prepared_.rest->options(); }
     bool scales() const { return options().local_size == LocalSize::scale; }
     const Patch& patch() const { return prepared_.patch(); }
+    const Poses& poses() const { return poses_; }
     const HandlePose& pose(Index handle) const { return poses_.handles[at(handle)]; }
     const AskedPart& asked() const { return asked_; }
 

@@ -47,16 +47,31 @@ std::vector<Index> parts_of(const WorkingPatch& work) {
     return part;
 }
 
-// The surface that is held, with the numbers of the patch. Of a quad the triangles of one diagonal.
-Mesh held_surface(const Patch& patch, const Holding& holding) {
+// The surface that is held as triangles apart from each other: a patch need not be a
+// manifold, as two quads may have the same diagonal. Of a quad the triangles of one diagonal.
+struct HeldSurface {
+    Mesh triangles;
+    /// The vertex of the patch that each vertex stands for.
+    std::vector<Index> stands_for;
+};
+
+HeldSurface held_surface(const Patch& patch, const Holding& holding) {
+    HeldSurface result;
+    std::vector<Vec3> positions;
     FaceList faces;
     for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
         const Triangle& corners = patch.triangles.triangle[t];
         if (holding.owner[at(corners[0])] == kLoose) continue;
         if (patch.triangles.weight[t] != 1.0 && t % 2 != 0) continue;
-        faces.add(corners);
+        const Index first = count_of(positions);
+        for (const Index v : corners) {
+            positions.push_back(patch.rest[at(v)]);
+            result.stands_for.push_back(v);
+        }
+        faces.add({first, first + 1, first + 2});
     }
-    return {{patch.rest.begin(), patch.rest.begin() + patch.real_count}, std::move(faces)};
+    result.triangles = Mesh(std::move(positions), std::move(faces));
+    return result;
 }
 
 class Binder {
@@ -66,7 +81,7 @@ class Binder {
           holding_(holding),
           part_(parts_of(work)),
           surface_(held_surface(work.patch, holding)) {
-        if (surface_.face_count() > 0) tree_.emplace(surface_, context);
+        if (surface_.triangles.face_count() > 0) tree_.emplace(surface_.triangles, context);
     }
 
     // Without a surface to follow it stays.
@@ -80,10 +95,10 @@ class Binder {
         const auto first = std::min_element(
             nearest.begin(), nearest.end(),
             [](const SurfacePoint& a, const SurfacePoint& b) { return a.distance < b.distance; });
-        const Index followed = part_[at(first->vertex)];
+        const Index followed = part_[at(vertex(first->vertex))];
         for (const SurfacePoint& point : nearest) {
-            if (part_[at(point.vertex)] != followed) continue;
-            result.guides.insert(result.guides.end(), point.triangle.begin(), point.triangle.end());
+            if (part_[at(vertex(point.vertex))] != followed) continue;
+            for (const Index v : point.triangle) result.guides.push_back(vertex(v));
         }
         std::sort(result.guides.begin(), result.guides.end());
         result.guides.erase(std::unique(result.guides.begin(), result.guides.end()),
@@ -93,6 +108,8 @@ class Binder {
     }
 
   private:
+    Index vertex(Index of_triangles) const { return surface_.stands_for[at(of_triangles)]; }
+
     Index owner_of(const std::vector<Index>& guides) const {
         const Index owner = holding_.owner[at(guides.front())];
         const bool common = std::all_of(guides.begin(), guides.end(), [&](Index v) {
@@ -105,7 +122,7 @@ class Binder {
     const Patch& patch_;
     const Holding& holding_;
     std::vector<Index> part_;
-    Mesh surface_;
+    HeldSurface surface_;
     std::optional<SpatialTree> tree_;
 };
 

@@ -1,7 +1,11 @@
 #include "kernel/mesh/measure/distortion.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 
 #include "kernel/core/geometry.h"
 #include "kernel/mesh/measure/measures.h"
@@ -70,20 +74,24 @@ std::vector<double> angle_change(const Mesh& mesh, const Mesh& rest, std::span<c
     return change;
 }
 
-// Whether a face looks against the faces that it shares vertices with, each counting by its area.
+// A face that stood steeply beside its neighbours at rest has flipped only if it turned against
+// them by this angle as well.
+constexpr double kFlipped = 30.0 * kPi / 180.0;
+
+// The angle between a face and the faces that it shares vertices with, each counting by its area.
 class Neighborhood {
   public:
     Neighborhood(const Mesh& mesh, std::span<const Vec3> normals)
         : topology_(mesh.topology()), normals_(normals), area_(face_areas(mesh)) {}
 
-    bool opposes(Index f) const {
+    double angle(Index f) const {
         Vec3 sum = Vec3::Zero();
         for (const Index v : topology_.face(f)) {
             for (const Index g : topology_.faces_around(v)) {
                 if (g != f) sum += area_[g] * normals_[g];
             }
         }
-        return sum.dot(normals_[f]) < 0.0;
+        return std::atan2(sum.cross(normals_[f]).norm(), sum.dot(normals_[f]));
     }
 
   private:
@@ -91,6 +99,10 @@ class Neighborhood {
     std::span<const Vec3> normals_;
     std::vector<double> area_;
 };
+
+bool has_flipped(double angle, double before) {
+    return angle > 0.5 * kPi && before <= 0.5 * kPi && angle - before > kFlipped;
+}
 
 }  // namespace
 
@@ -101,14 +113,24 @@ Distortion distortion(const Mesh& mesh, const Mesh& rest, const Context& context
     Distortion result{edge_stretch(mesh, rest), area_ratio(mesh, rest), {}, {}, {}};
     progress.step(0.5);
     result.angle = angle_change(mesh, rest, now, before);
+    std::vector<Index> all(at(mesh.face_count()));
+    std::iota(all.begin(), all.end(), 0);
+    result.flipped = flipped_faces(mesh, rest, all);
     result.flips.assign(mesh.vertex_count(), 0.0);
-    const Neighborhood around(mesh, now), around_before(rest, before);
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        if (!around.opposes(f) || around_before.opposes(f)) continue;
-        result.flipped.push_back(f);
+    for (const Index f : result.flipped) {
         for (const Index v : mesh.topology().face(f)) result.flips[v] += 1.0;
     }
     return result;
+}
+
+std::vector<Index> flipped_faces(const Mesh& mesh, const Mesh& rest, std::span<const Index> faces) {
+    require_same_faces(mesh, rest);
+    const std::vector<Vec3> now = face_normals(mesh), before = face_normals(rest);
+    const Neighborhood around(mesh, now), around_before(rest, before);
+    std::vector<Index> flipped;
+    std::copy_if(faces.begin(), faces.end(), std::back_inserter(flipped),
+                 [&](Index f) { return has_flipped(around.angle(f), around_before.angle(f)); });
+    return flipped;
 }
 
 }  // namespace lissom

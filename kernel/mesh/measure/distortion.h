@@ -1,6 +1,7 @@
 /// How far the surface of a mesh is stretched, sheared and folded beside another shape of it.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -27,5 +28,9 @@ struct Distortion {
 /// Compares the shape of `mesh` with that of `rest`, which has the same faces.
 /// Errors: topology_mismatch; cancelled.
 Distortion distortion(const Mesh& mesh, const Mesh& rest, const Context& context = {});
+
+/// Returns the faces among `faces`, in their order, that look against the faces around them and did
+/// not at rest. Errors: topology_mismatch.
+std::vector<Index> flipped_faces(const Mesh& mesh, const Mesh& rest, std::span<const Index> faces);
 
 }  // namespace lissom

@@ -1,3 +1,9 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
 #include "kernel/deform/deformer.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -120,6 +126,52 @@ TEST_CASE("the mesh of a deformer may be released") {
     lissom_bytes basis{};
     REQUIRE(lissom_deformer_encode_basis(host, bend.deformer, &basis) == LISSOM_OK);
     CHECK(std::string(static_cast<const char*>(basis.data), 8) == "LSMBASIS");
+}
+
+TEST_CASE("a report names the harm that a deformation did, and keeps to the host's struct") {
+    const Mesh bar = make_bar({});
+    const Host host;
+    const Bend bend(host, bar);
+    double center[3];
+    REQUIRE(lissom_deformer_handle_center(host, bend.deformer, bend.top, center) == LISSOM_OK);
+    const auto reported = [&](double angle, bool crossings) {
+        const lissom_transform transform =
+            transform_of(rotation(Vec3::UnitZ(), angle, Vec3(center[0], center[1], center[2])) *
+                         translation(Vec3(angle > 2.0 ? -6.0 : 0.0, 0.0, 0.0)));
+        REQUIRE(lissom_deformer_set_transform(host, bend.deformer, bend.top, &transform) ==
+                LISSOM_OK);
+        REQUIRE(lissom_deformer_solve(host, bend.deformer, LISSOM_FULL) == LISSOM_OK);
+        lissom_deform_report report = lissom_default_deform_report();
+        REQUIRE(lissom_deformer_report(host, bend.deformer, bend.mesh, crossings, &report) ==
+                LISSOM_OK);
+        return report;
+    };
+    const lissom_deform_report good = reported(0.5, true);
+    CHECK(good.harms == 0);
+    CHECK(good.warnings == std::string());
+    CHECK(good.stretch > 1.0);
+    CHECK(good.stretched[0] >= 0);
+    CHECK(good.crossings == 0);
+    CHECK(std::abs(good.volume_change) < 0.2);
+    CHECK(reported(0.5, false).crossings == -1);
+
+    const lissom_deform_report bad = reported(3.1, true);
+    CHECK(bad.harms != 0);
+    CHECK(((bad.harms & LISSOM_HARM_CROSSING) != 0) == (bad.crossings > 0));
+    CHECK(((bad.harms & LISSOM_HARM_FOLDED) != 0) == (bad.flipped > 0));
+    const std::string warnings = bad.warnings;
+    CHECK(std::count(warnings.begin(), warnings.end(), '\n') == std::popcount(bad.harms));
+
+    lissom_deform_report small = lissom_default_deform_report();
+    small.struct_size = offsetof(lissom_deform_report, flipped);
+    small.flipped = 77;
+    REQUIRE(lissom_deformer_report(host, bend.deformer, bend.mesh, false, &small) == LISSOM_OK);
+    CHECK(small.stretch == bad.stretch);
+    CHECK(small.flipped == 77);
+    CHECK(lissom_deformer_report(host, bend.deformer, host.add(make_bar({1.0, 2.0, 3, 4})), false,
+                                 &small) == LISSOM_TOPOLOGY_MISMATCH);
+    CHECK(lissom_deformer_report(host, bend.deformer, bend.mesh, false, nullptr) ==
+          LISSOM_INVALID_ARGUMENT);
 }
 
 }  // namespace lissom::test

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/deform/deformer.h"
@@ -173,11 +174,91 @@ TEST_CASE("loose parts: a similarity of all handles takes them along, and rest i
     CHECK(greatest_distance(deformer.solve(), mapped(deformer.rest_positions(), map)) < 1e-8);
 }
 
-TEST_CASE("loose parts: the basis has what stays, and refuses what follows a surface that bends") {
+TEST_CASE("loose parts: they follow quads that share opposite corners") {
+    // A strip of quads, the middle one parted in two from corner to corner, and a ball above it.
+    std::vector<Vec3> positions;
+    FaceList faces;
+    constexpr Index kLong = 10, kWide = 3, kRow = kWide + 1, kMiddle = 4;
+    for (Index i = 0; i <= kLong; ++i) {
+        for (Index j = 0; j <= kWide; ++j) positions.emplace_back(i, 0.1 * (i % 2), j);
+    }
+    const auto middle = count_of(positions);
+    positions.emplace_back(kMiddle + 0.5, 0.05, 1.5);
+    for (Index i = 0; i < kLong; ++i) {
+        for (Index j = 0; j < kWide; ++j) {
+            const Index a = i * kRow + j, b = a + 1, c = a + kRow + 1, d = a + kRow;
+            if (i == kMiddle && j == 1) {
+                faces.add({a, b, c, middle});
+                faces.add({a, middle, c, d});
+            } else {
+                faces.add({a, b, c, d});
+            }
+        }
+    }
+    const Mesh ball = button_at({kMiddle + 0.5, 0.3, 1.5});
+    const auto first = count_of(positions);
+    positions.insert(positions.end(), ball.positions().begin(), ball.positions().end());
+    for (Index f = 0; f < ball.face_count(); ++f) {
+        std::vector<Index> corners;
+        for (const Index v : ball.topology().face(f)) corners.push_back(first + v);
+        faces.add(corners);
+    }
+    const Mesh mesh(std::move(positions), std::move(faces));
+    for (const int refine : {0, 2}) {
+        DeformOptions options = loose(UnheldParts::follow);
+        options.refine = refine;
+        Deformer deformer(mesh, Region::all(mesh.shared_topology()), options);
+        deformer.add_handle(Region(mesh.shared_topology(), {0, 1, 2, 3, 4, 5, 6, 7}));
+        std::vector<Index> end;
+        for (Index v = (kLong - 1) * kRow; v < middle; ++v) end.push_back(v);
+        const HandleId high = deformer.add_handle(Region(mesh.shared_topology(), end));
+        deformer.set_transform(high, rotation(Vec3::UnitZ(), 0.8, deformer.handle_center(high)));
+        const std::vector<Vec3>& x = deformer.solve();
+        const double rest = (mesh.position(first) - mesh.position(middle)).norm();
+        CHECK((x[first] - mesh.position(first)).norm() > 0.05);
+        CHECK((x[first] - x[middle]).norm() == doctest::Approx(rest).epsilon(0.2));
+    }
+}
+
+namespace {
+
+std::vector<Vec3> of_basis(const HandleBasis& basis, const Deformer& deformer) {
+    std::vector<Vec3> x = basis.fixed;
+    for (std::size_t h = 0; h < basis.handles.size(); ++h) {
+        const Affine& t = deformer.transform(basis.handles[h]);
+        for (std::size_t row = 0; row < x.size(); ++row) {
+            const Vec4& w = basis.weights[h][row];
+            x[row] += t.linear * w.head<3>() + w[3] * t.translation;
+        }
+    }
+    return x;
+}
+
+}  // namespace
+
+TEST_CASE("loose parts: in a basis they stay, or follow by an affine map") {
     const Dressed d = dressed();
     Edit still = make_edit(d.scene, loose(UnheldParts::stay));
     const HandleBasis basis = still.deformer.basis();
     for (const Index v : d.middle) CHECK(basis.fixed[v] == d.scene.mesh.position(v));
-    Edit following = make_edit(d.scene, loose(UnheldParts::follow));
-    CHECK_THROWS_AS(following.deformer.basis(), Error);
+
+    Edit edit = make_edit(d.scene, loose(UnheldParts::follow));
+    Deformer& deformer = edit.deformer;
+    const HandleBasis follows = deformer.basis();
+    CHECK(greatest_distance(of_basis(follows, deformer), deformer.rest_positions()) < 1e-9);
+    const Affine map = rotation({1, 2, 0}, 1.0, {0, 0, 1}) * scaling({2, 1, 3}, Vec3::Zero());
+    deformer.set_transform(edit.low, map);
+    deformer.set_transform(edit.high, map);
+    CHECK(greatest_distance(of_basis(follows, deformer), mapped(deformer.rest_positions(), map)) <
+          1e-9);
+    deformer.set_transform(edit.low, {});
+    deformer.set_transform(edit.high,
+                           rotation(d.scene.across, 0.3, deformer.handle_center(edit.high)));
+    const std::vector<Vec3> x = of_basis(follows, deformer), shown = deformer.preview();
+    for (const std::vector<Index>* part : {&d.middle, &d.top}) {
+        CHECK(greatest_distance(picked(x, *part), picked(shown, *part)) < 0.05 * d.scene.size);
+    }
+    const std::vector<Vec3> body(x.begin(), x.begin() + d.middle.front());
+    const std::vector<Vec3> body_shown(shown.begin(), shown.begin() + d.middle.front());
+    CHECK(greatest_distance(body, body_shown) < 1e-9);
 }
