@@ -64,7 +64,9 @@ end
 local function told_of_mirror(handle)
     if not handle:mirrored() then return nil end
     local residual = handle:mirror_residual()
-    return residual.warning or string.format("mirrored; the sides differ by %.2f %% of the size, %.2f %% on "
+    -- In lines of their own: a label is no wider than it must be.
+    if residual.warning then return (residual.warning:gsub("; ", ";\n"):gsub(", or", ",\nor")) end
+    return string.format("mirrored; the sides differ by %.2f %% of the size, %.2f %% on "
         .. "average", 100 * residual.max, 100 * residual.mean)
 end
 
