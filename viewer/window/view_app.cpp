@@ -75,7 +75,7 @@ class ViewApp {
     void turn(Clock::time_point heard);
     int end();
 
-    // ---- What a hand does
+    // ---- Inputs
     void take_inputs(Clock::time_point heard);
     void take(const Input& input);
     void take_while_playing(const Input& input);
@@ -86,7 +86,7 @@ class ViewApp {
     void answer(const PanelAnswers& answers);
     void answer_tool(const ToolAnswers& answers);
 
-    // ---- What others have made
+    // ---- Results of others
     void take_results();
     void take_opened(const std::vector<std::string>& words);
     void take_news();
@@ -173,7 +173,7 @@ void ViewApp::take_tools() {
     }
 }
 
-// It has taken the place of what was open.
+// It has replaced the open document.
 void ViewApp::take_opened(const std::vector<std::string>& words) {
     replay_.forget();
     keeping_.begin(words.front());
@@ -217,7 +217,7 @@ void ViewApp::turn(Clock::time_point heard) {
     finishing_.draw(at_rest(), hair_.is_filled());
     const bool busy = !hair_.is_filled() || session_.busy() || colorer_.busy();
     finishing_.tell_rest(at_rest(), busy);
-    // What was done until now has changed nothing that is to be seen.
+    // The work until now has changed nothing visible.
     if (state_.changes.is_drawn() && stage_.is_sent() && !session_.busy()) frames_.end_event();
 }
 
@@ -226,7 +226,7 @@ int ViewApp::end() {
     finishing_.stop();
     keeping_.keep_unsaved();
     if (session_.finish(1.0)) return cli::kSuccess;
-    std::cerr << "lissom: what was running did not stop within a second, and was ended"
+    std::cerr << "lissom: the running work did not stop within a second, and was ended"
               << std::endl;
     std::_Exit(cli::kFailure);
 }
@@ -240,7 +240,7 @@ double ViewApp::wait_time() const {
     return scripts_.waits() ? 0.02 : 0.25;
 }
 
-// ---- What a hand does
+// ---- Inputs
 
 void ViewApp::take_inputs(Clock::time_point heard) {
     for (const Input& input : window_.inputs().take()) {
@@ -357,7 +357,7 @@ void ViewApp::answer_tool(const ToolAnswers& answers) {
     if (answers.undo || answers.redo) session_.post(event);
 }
 
-// ---- What others have made
+// ---- Results of others
 
 void ViewApp::take_results() {
     take_news();
@@ -406,7 +406,7 @@ void ViewApp::take_tool_state(ToolState state) {
         state_.tell("history " + std::to_string(state.place) + " of " +
                     std::to_string(state.steps.size()));
     }
-    // What a person has set since then stays in the panel.
+    // Newer settings of the person stay in the panel.
     if (state.tool == known.tool && session_.has_setting()) state.parameters = known.parameters;
     known = std::move(state);
     keep_button(state_.content.tools, known);
@@ -419,7 +419,7 @@ void ViewApp::take_tool_state(ToolState state) {
     state_.changes.add();
 }
 
-// What the recorded hand saw; the last of it may come after the end.
+// Shows the view of the recorded hand; the last of it may come after the end.
 void ViewApp::see_played(const PlayedHand& hand) {
     const PictureSize seen{1.0 * hand.size.width, 1.0 * hand.size.height};
     state_.camera_is_placed = true;

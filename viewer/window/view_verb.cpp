@@ -29,10 +29,10 @@ int view(Program& program, const std::vector<std::string>& words) {
     window::ViewOptions options;
     options.words = split.scripts;
     CLI::App app(
-        "Shows meshes, or what a script draws or returns, in a window. Words after a script are "
-        "the script's, but for --tool, --record and --journal before a \"--\"; its parameters "
-        "become sliders, and it runs again when its file changes. A file written by --record is "
-        "played.",
+        "Shows meshes, or the drawn or returned objects of a script, in a window. Words after a "
+        "script are the script's, but for --tool, --record and --journal before a \"--\"; its "
+        "parameters become sliders, and it runs again when its file changes. A file written by "
+        "--record is played.",
         "lissom view");
     std::vector<std::string> files;
     std::string size = "1280x800";
@@ -47,7 +47,7 @@ int view(Program& program, const std::vector<std::string>& words) {
         ->allow_extra_args(false)
         ->type_name("TEXT");
     app.add_option("--record", options.session.record,
-                   "Write what is done with tools to this file, a script that does it again");
+                   "Record the work of tools in this file, a script that repeats it");
     app.add_option("--journal", options.session.journal,
                    "Write the calls that tools make to this file, a script to read and change");
     CLI::Option* speed =
@@ -62,7 +62,7 @@ int view(Program& program, const std::vector<std::string>& words) {
         ->check(CLI::PositiveNumber);
     LoadFlags flags;
     flags.declare(app);
-    app.add_flag("--tell", options.tells, "Write what the window does, for tests");
+    app.add_flag("--tell", options.tells, "Report events of the window, for tests");
     int status = kSuccess;
     if (!program.parse(app, split.own, status)) return status;
     std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height);

@@ -11,9 +11,9 @@ struct ViewWords {
     std::vector<std::string> own, scripts;
 };
 
-/// Words behind a script are the script's, but for --tool, --record and --journal with what they
-/// are given, as two words or as one with "="; behind a "--", which is left out, those too. Where
-/// no script is named all words are the window's.
+/// Words behind a script are the script's, but for --tool, --record and --journal with their
+/// values, as two words or as one with "="; behind a "--", which is left out, those too. If no
+/// script is named all words are the window's.
 ViewWords split_words(const std::vector<std::string>& words);
 
 }  // namespace lissom::window

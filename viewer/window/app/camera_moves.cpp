@@ -6,7 +6,7 @@
 namespace lissom::window {
 namespace {
 
-// Of the selected vertices of all meshes, in the world.
+// Returns the bounds of the selected vertices of all meshes, in the world.
 Box selected_bounds(const Picture& picture) {
     Box box;
     for (const DrawnMesh& drawn : picture.meshes) {
@@ -45,7 +45,7 @@ void look_from(ViewState& state, StandardView side) {
 
 void place_camera(ViewState& state) {
     const Picture& picture = *state.shown->picture;
-    // Where nothing is to be seen the camera waits for what is.
+    // While nothing is visible the camera waits.
     if (!picture.camera && state.shown->bounds.empty()) return;
     const double aspect = state.view().size.aspect();
     state.set_camera(picture.camera && !picture.camera->is_ortho()

@@ -9,7 +9,7 @@
 namespace lissom::window {
 namespace {
 
-// A file beside those that are there.
+// Returns the path of a new file beside existing ones.
 std::string new_picture_path() {
     std::error_code error;
     for (int number = 1;; ++number) {
@@ -66,7 +66,7 @@ void Finishing::draw(bool at_rest, bool hair_is_filled) {
     if (!at_rest) {
         if (asked_ == now) return;
         painter_.stop();
-        // What was drawn for a file is out of date.
+        // The picture drawn for a file is out of date.
         wants_file_ = wants_file_ || std::exchange(draws_file_, false);
         return;
     }

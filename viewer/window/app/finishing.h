@@ -15,13 +15,13 @@ class Finishing {
 
     /// A person wants it in a file, which is a new one in this folder.
     void want_file();
-    /// Takes what was drawn.
+    /// Takes the finished picture.
     void take();
-    /// Draws it where nothing moves and all strands are there.
+    /// Draws it if nothing moves and all strands are there.
     void draw(bool at_rest, bool hair_is_filled);
-    /// Tells once for each rest that all is done, where nothing else is `busy`.
+    /// Reports once for each rest that all is done, if nothing else is `busy`.
     void tell_rest(bool at_rest, bool busy);
-    /// Whether it is still to come.
+    /// Returns whether it is still to come.
     bool is_owed() const;
     void stop() { painter_.stop(); }
 
@@ -30,7 +30,7 @@ class Finishing {
 
     ViewState& state_;
     Painter painter_;
-    // Of the change that it was asked for, that it shows, and that was the last rest.
+    // Numbers of the change that was asked for, of the shown one, and of the last rest.
     std::uint64_t asked_ = 0, drawn_ = 0, rested_ = 0;
     // It is wanted in a file; it is drawn for one.
     bool wants_file_ = false, draws_file_ = false;

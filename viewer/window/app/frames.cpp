@@ -66,7 +66,7 @@ void Frames::draw_picture() {
     drawn_canvas_ = canvas;
 }
 
-// What differs from what is in the window, where anything does.
+// Shows the parts that differ from the window's, if any does.
 void Frames::show() {
     const gl::Extent size = state_.window.size();
     const bool all = !state_.window.has_picture() || !(size == shown_size_);

@@ -1,4 +1,4 @@
-/// Frames: draws the picture where it has changed, and shows what differs in the window.
+/// Frames: draws the picture if it has changed, and shows its differing parts in the window.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ class Frames {
     /// Both must outlive it.
     Frames(ViewState& state, Stage& stage) : state_(state), stage_(stage) {}
 
-    /// Whether all of the window has to be shown again.
+    /// Returns whether all of the window has to be shown again.
     bool has_to_show() const;
-    /// The next frame; what a person has asked for in the panel. Nothing in an icon.
+    /// Draws the next frame and returns the answers of the panel. Nothing in an icon.
     PanelAnswers draw();
     /// The graphics card has lost all.
     void forget() { drawn_canvas_ = {}; }
@@ -45,12 +45,12 @@ class Frames {
 
     ViewState& state_;
     Stage& stage_;
-    // The picture is so many times smaller than what it is shown on.
+    // Factor by which the picture is smaller than its canvas.
     int coarseness_ = 1;
     Canvas drawn_canvas_;
-    // Of the last frame.
+    // Settings of the last frame.
     DisplaySettings settings_;
-    // What is in the window.
+    // Size of the window's picture.
     gl::Extent shown_size_ = {};
     std::uint64_t shown_version_ = 0;
     Clock::time_point last_ = Clock::now(), last_measure_ = {};

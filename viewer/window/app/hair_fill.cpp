@@ -8,7 +8,7 @@
 namespace lissom::window {
 namespace {
 
-// Seconds that a picture of strands may take where a finished one follows, and where none does.
+// Limits in seconds of a picture of strands if a finished one follows, and if none does.
 constexpr double kLongFill = 3.0, kLongestFill = 60.0;
 
 }  // namespace

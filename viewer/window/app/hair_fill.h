@@ -1,5 +1,5 @@
-/// HairFill: the strands of what is shown: made beside the window, and drawn one slice after the
-/// other once nothing moves.
+/// HairFill: the strands of the shown picture: made beside the window, and drawn one slice after
+/// the other once nothing moves.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@ class HairFill {
     void begin(const Snapshot& snapshot) { maker_.make(snapshot); }
     /// All of it is gone from there.
     void forget() { maker_.forget(); }
-    /// Takes what was made.
+    /// Takes the finished hair.
     void take();
-    /// Draws a slice where nothing moves; events are to be looked for before the next.
+    /// Draws a slice if nothing moves; look for events before the next.
     void fill(bool at_rest);
-    /// Whether nothing is left to be drawn.
+    /// Returns whether nothing is left to be drawn.
     bool is_filled() const;
 
   private:
@@ -31,7 +31,7 @@ class HairFill {
 
     ViewState& state_;
     HairMaker maker_;
-    // Of the change that light in hair was asked for, and that all strands are drawn for.
+    // Numbers of the change that light in hair was asked for, and that all strands are drawn for.
     std::uint64_t directed_ = 0, filled_ = 0;
 };
 

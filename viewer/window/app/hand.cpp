@@ -8,7 +8,7 @@
 namespace lissom::window {
 namespace {
 
-// Of a line of the wheel.
+// Zoom of a line of the wheel.
 constexpr double kZoomStep = 1.15;
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Hand: what a person does over the picture: it moves the camera, or the tool in hand has it.
+/// Hand: input over the picture: it moves the camera, or goes to the tool in hand.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,13 @@ class Hand {
     /// `state` must outlive it.
     explicit Hand(ViewState& state) : state_(state) {}
 
-    /// Takes what the mouse did, in pixels from the top left corner of the picture.
+    /// Takes an input of the mouse, in pixels from the top left corner of the picture.
     void take(const Input& input);
     /// Takes a key that is the tool's.
     void press_tool_key(const Input& input);
     /// Forgets the drag that goes on.
     void let_go();
-    /// Whether a button is down that was pressed over the picture.
+    /// Returns whether a button is down that was pressed over the picture.
     bool drags() const { return dragged_ || tool_drags_; }
     bool tool_drags() const { return tool_drags_; }
 
@@ -27,7 +27,7 @@ class Hand {
     bool give_to_tool(const Input& input);
 
     ViewState& state_;
-    // Which button moves the camera, and where the cursor was last.
+    // The button that moves the camera, and the last place of the cursor.
     std::optional<MouseButton> dragged_;
     Vec2 cursor_ = Vec2::Zero();
     // The tool has the drag.

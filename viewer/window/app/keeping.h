@@ -1,5 +1,5 @@
-/// Keeping: what a person has made must not be lost: copies of the scene while it changes, saving,
-/// and what a window that was killed has left.
+/// Keeping: protects unsaved work: copies of the scene while it changes, saving, and the scenes
+/// left by killed windows.
 #pragma once
 
 #include <cstdint>
@@ -23,17 +23,17 @@ class Keeping {
     void add_change() { ++change_; }
     /// Another scene has taken its place.
     void replace();
-    /// Copies the scene where it has changed since it was copied last, at most once a second.
+    /// Copies the scene if it has changed since the last copy, at most once a second.
     void copy();
     /// Writes the scene to its file, which `take_saved` hears of.
     void save();
     /// The scene was saved as it was after this change: there is nothing to recover then.
     void take_saved(std::uint64_t change);
-    /// At the start: offers what other windows have not saved.
+    /// At the start: offers unsaved scenes of other windows.
     void offer();
-    /// At the end: keeps what was not saved, and tells it.
+    /// At the end: keeps unsaved work, and reports it.
     void keep_unsaved();
-    /// What was left and is to be opened now, if the panel's answers say so.
+    /// Returns the left scene to be opened now, if the panel's answers ask for it.
     std::optional<std::string> answer(const PanelAnswers& answers);
 
   private:
@@ -47,7 +47,7 @@ class Keeping {
     std::uint64_t change_ = 0, copied_ = 0, saved_ = 0;
     Clock::time_point last_copy_ = Clock::now();
     std::string saved_path_;
-    // What another window left and is to be opened, or was opened here: it goes when it is kept
+    // The scene left by another window to be opened, or opened here: it goes when it is kept
     // elsewhere.
     std::filesystem::path asked_, opened_;
 };

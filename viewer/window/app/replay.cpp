@@ -25,7 +25,7 @@ void Replay::forget() {
     state_.content.playing.reset();
 }
 
-// Tools see what the hand sees again.
+// Tools see the hand's camera again.
 void Replay::end() {
     forget();
     state_.changes.owe_frames();

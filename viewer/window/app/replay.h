@@ -16,14 +16,14 @@ class Replay {
     Replay(ViewState& state, double speed) : state_(state), speed_(speed) {}
 
     bool plays() const { return player_.has_value(); }
-    /// Begins what the session has opened: true then, and the hand lets go.
+    /// Begins the recording that the session has opened; then returns true, and the hand lets go.
     bool begin();
     /// Posts the events that are due once those before them are done, and ends after the last.
     void play();
     void take_key(const Input& input);
     /// Something else is open.
     void forget();
-    /// Seconds until there is something to do; nothing where it rests.
+    /// Returns seconds until the next event; nothing at rest.
     std::optional<double> wait() const;
 
   private:

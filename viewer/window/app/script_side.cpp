@@ -20,8 +20,8 @@ std::string text_of(const lua::ParameterValue& value) {
     return buffer;
 }
 
-// The command line that gives the script these values; what has its default is left to the script,
-// whose next version may have another.
+// Returns the command line that gives the script these values; defaults are left to the script,
+// whose next version may have others.
 std::vector<std::string> words_of(const std::vector<lua::ScriptParameter>& parameters) {
     std::vector<std::string> words;
     for (const lua::ScriptParameter& p : parameters) {

@@ -1,5 +1,5 @@
-/// ScriptSide: what a window does with files and scripts beside showing what they make: runs them
-/// again when they or their parameters change, keeps presets, opens an editor.
+/// ScriptSide: work on files and scripts beside showing their results: runs them again when they or
+/// their parameters change, keeps presets, opens an editor.
 #pragma once
 
 #include <optional>
@@ -20,14 +20,14 @@ class ScriptSide {
 
     /// Something else is open: files, or a script.
     void begin(const std::string& first);
-    /// Looks whether files or parameters have changed, and runs again what they belong to.
+    /// Looks for changed files or parameters, and runs their scripts again.
     void look();
-    /// What is shown was read from other files now.
+    /// The shown picture was read from other files now.
     void watch() { watch_.set(state_.session.files()); }
     void answer(const PanelAnswers& answers);
     /// Tells of editors that have failed.
     void take_failures();
-    /// Whether parameters have changed that the script has not run with.
+    /// Returns whether parameters have changed that the script has not run with.
     bool waits() const { return parameters_changed_.has_value(); }
 
   private:

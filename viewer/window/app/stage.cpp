@@ -9,7 +9,7 @@ namespace {
 // Meshes with more corners are made ready beside the window. Vertices that move fast cost a part of
 // others.
 constexpr Index kManyCorners = 60000, kQuickPart = 8;
-// Seconds of one turn in which pieces of what is ready are sent.
+// Seconds of one turn for sending finished pieces.
 constexpr double kSendAim = 0.01;
 
 // Corners that there is work for.
@@ -87,7 +87,7 @@ void Stage::begin_sending() {
     pieces_left_ = true;
 }
 
-// False where there is more to wait for.
+// Returns false if there is more to wait for.
 bool Stage::end_sending() {
     if (!sender_ || pieces_left_) return false;
     const Sent sent = *std::exchange(preparing_, std::nullopt);
@@ -97,7 +97,7 @@ bool Stage::end_sending() {
     return true;
 }
 
-// Of many that follow each other some are seen.
+// Some of many that follow each other are shown.
 void Stage::send() {
     if (is_sent()) return forget_preparing();
     begin_sending();

@@ -1,5 +1,5 @@
-/// Stage: brings what is shown onto the graphics card. What takes long is made ready beside the
-/// window and sent in pieces; the window shows what was there before meanwhile.
+/// Stage: brings the shown picture onto the graphics card. Long work is done beside the window and
+/// sent in pieces; the window shows the previous picture meanwhile.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +19,18 @@ class Stage {
     /// Makes surfaces ready with so many threads; both must outlive it.
     Stage(ViewState& state, HairFill& hair, int threads);
 
-    /// Whether what is shown is on the graphics card.
+    /// Returns whether the shown picture is on the graphics card.
     bool is_sent() const;
-    /// Whether what is on the graphics card was made by other settings.
+    /// Returns whether the picture on the graphics card was made by other settings.
     bool has_other_settings() const { return !(sent_settings_ == state_.settings); }
     /// Sends it, or begins to. Errors: those of GpuScene::update; internal.
     void send();
-    /// Takes what was made ready.
+    /// Takes the prepared picture.
     void take();
     /// Sends some pieces of it.
     void send_pieces();
     bool has_pieces() const { return pieces_left_; }
-    /// What cannot be drawn is told, and nothing is seen.
+    /// Reports a picture that cannot be drawn, and shows nothing.
     void give_up(const Error& error);
     /// The graphics card has lost all.
     void forget();
@@ -49,13 +49,13 @@ class Stage {
     ViewState& state_;
     HairFill& hair_;
     SurfaceMaker maker_;
-    // What is made ready, what was, and what sends that.
+    // The picture being prepared, the prepared one, and its sender.
     std::optional<Sent> preparing_;
     std::optional<SurfaceMaker::Result> prepared_;
     std::optional<PieceSender> sender_;
     bool pieces_left_ = false;
     std::uint64_t preparations_ = 0;
-    // What is on the graphics card.
+    // The picture on the graphics card.
     std::shared_ptr<const Picture> sent_;
     DisplaySettings sent_settings_;
 };

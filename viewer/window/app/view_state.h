@@ -1,5 +1,5 @@
-/// ViewState: what the parts of the window's program share: the desktop, what is shown and by which
-/// camera, what the panel says of it, and when it changed.
+/// ViewState: the state shared by the parts of the window's program: the desktop, the shown picture
+/// and its camera, the content of the panel, and times of changes.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace lissom::window {
 
-/// When what is seen changed last, whether that was drawn, and which frames are owed.
+/// Time of the last visible change, whether it was drawn, and the frames owed.
 class Changes {
   public:
     /// Something else is to be seen from now on.
@@ -32,7 +32,7 @@ class Changes {
     /// The last change is in the picture.
     void set_drawn() { drawn_ = number_; }
     bool is_drawn() const { return drawn_ == number_; }
-    /// Of the change that is in the picture.
+    /// Returns the number of the change that is in the picture.
     std::uint64_t drawn() const { return drawn_; }
     /// Since the last change.
     double seconds() const { return seconds_since(last_); }
@@ -51,7 +51,7 @@ struct ViewState {
     Panel& panel;
     Session& session;
     ToolPixels pixels = {};
-    /// Whether what happens is written to the standard output, for tests.
+    /// Whether events are written to the standard output, for tests.
     bool tells = false;
     /// Empty only while a lost context is replaced.
     std::optional<Screen> screen{std::in_place};
@@ -60,30 +60,30 @@ struct ViewState {
     DisplaySettings settings = {};
     std::optional<Shown> shown = {};
     Camera camera = {};
-    /// The axis that points up in views, where a person or a saved scene has chosen it; what is
-    /// open says it otherwise.
+    /// The axis that points up in views, if a person or a saved scene has chosen it; the open
+    /// document sets it otherwise.
     std::optional<ViewUp> up = {};
-    /// Whether the camera was chosen for what is open.
+    /// Whether the camera was chosen for the open document.
     bool camera_is_placed = false;
     /// A recording is played: the hand waits.
     bool plays = false;
     /// Whether anything was told since the last rest.
     bool has_told = true;
 
-    /// What the panel leaves free of the window.
+    /// Returns the part of the window beside the panel.
     Canvas canvas() const { return panel.canvas(window.size()); }
     View view() const;
     /// Returns the axis that points up in views.
     ViewUp up_axis() const;
     bool has_tool() const { return !content.tool.tool.empty(); }
-    /// Whether there is nothing to draw on.
+    /// Returns whether there is nothing to draw on.
     bool is_icon() const;
 
     void tell(const std::string& text);
     /// A line of the console, seen with the next frame.
     void add_line(LineKind kind, std::string text);
     void set_camera(const Camera& camera);
-    /// Tools see what the hand sees.
+    /// Lets tools see the hand's camera.
     void tell_camera();
 };
 

@@ -58,7 +58,7 @@ void Colorer::color() {
     });
 }
 
-// Nothing that is older than what was taken last.
+// Drops results older than the last taken one.
 void Colorer::finish(Colored colored, std::uint64_t number) {
     const std::lock_guard lock(mutex_);
     if (number < finished_) return;

@@ -1,5 +1,5 @@
-/// Colorer: gives what a session shows the colours that a person has chosen, on a thread of its
-/// own: what has its own colours passes at once.
+/// Colorer: gives the pictures of a session the chosen colours, on a thread of its own: pictures
+/// with their own colours pass at once.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ namespace lissom::window {
 
 struct Colored {
     Shown shown;
-    /// Why it has its own colours; empty where it has those that were chosen.
+    /// Reason for keeping its own colours; empty if it has the chosen ones.
     std::string error = {};
 };
 
@@ -27,16 +27,16 @@ class Colorer {
     explicit Colorer(std::function<void()> done);
     ~Colorer();
 
-    /// Colours `shown` next, instead of what waits.
+    /// Colours `shown` next, instead of the waiting one.
     void show(Shown shown);
-    /// Colours what was shown last in another way.
+    /// Colours the last shown picture in another way.
     void choose(const Coloring& coloring);
-    /// What was shown last is the shape that others are compared with from now on.
+    /// Makes the last shown picture the shape that others are compared with from now on.
     void compare_with_this();
     bool busy() const { return worker_.busy(); }
     const Coloring& coloring() const { return coloring_; }
 
-    /// What was coloured since the last call.
+    /// Returns the picture coloured since the last call.
     std::optional<Colored> take();
 
   private:
@@ -46,17 +46,17 @@ class Colorer {
     std::function<void()> done_;
     Coloring coloring_;
     RestShapes rest_;
-    // As the session has shown it.
+    // The last one shown by the session.
     std::optional<Shown> latest_;
     std::optional<Context> context_;
-    // Of what was asked for last.
+    // Number of the last request.
     std::uint64_t asked_ = 0;
 
     std::mutex mutex_;
     std::optional<Colored> result_;
-    // Of the result.
+    // Number of the result.
     std::uint64_t finished_ = 0;
-    // Last: it ends before what its jobs use.
+    // Declared last: it ends before the objects that its jobs use.
     Worker worker_;
 };
 

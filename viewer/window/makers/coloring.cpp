@@ -52,8 +52,8 @@ std::vector<double> degrees(std::vector<double> angles) {
     return angles;
 }
 
-// The scale of a distortion: from what one in a hundred values is below to what one is above, and
-// wide enough that what only rounding has changed is of one colour.
+// Returns the scale of a distortion: between its first and 99th percentile, and wide enough that
+// changes by rounding are of one colour.
 ValueRange distortion_range(const std::vector<DrawnMesh>& meshes, By by) {
     std::vector<double> values;
     for (const DrawnMesh& drawn : meshes) {

@@ -1,6 +1,5 @@
-/// Coloring: what gives the meshes of a window their colours, as a person chooses: their own, the
-/// numbers of an attribute, their regions, or how far they are distorted; or the field of
-/// hairstyles.
+/// Coloring: source of the colours of a window's meshes, as chosen: their own, the numbers of an
+/// attribute, their regions, or their distortion; or the field of hairstyles.
 #pragma once
 
 #include <memory>
@@ -19,21 +18,20 @@ struct Coloring {
     enum class By { own, regions, values, stretch, area, angle, field };
 
     By by = By::own;
-    /// Of By::values.
+    /// Attribute of By::values.
     std::string attribute = {};
 
     bool operator==(const Coloring&) const = default;
 };
 
-/// Whether it compares shapes.
+/// Returns whether it compares shapes.
 bool is_distortion(const Coloring& coloring);
 
-/// How a list of choices calls it.
+/// Returns how a list of choices calls it.
 std::string label_of(const Coloring& coloring);
 
-/// What there is to choose from for the meshes of `picture`: their own colours, the field where
-/// there is one, then regions where they have any, attributes with one number a vertex, and
-/// distortion.
+/// Returns the choices for the meshes of `picture`: their own colours, the field if there is one,
+/// then regions if they have any, attributes with one number a vertex, and distortion.
 std::vector<Coloring> colorings_of(const Picture& picture);
 
 /// The shapes that meshes are compared with: for each mesh of a picture the first of the same faces
@@ -44,7 +42,7 @@ class RestShapes {
 
     /// Sees the meshes of the next picture.
     void see(const Picture& picture);
-    /// Forgets all shapes, so that those that are seen next are the first.
+    /// Forgets all shapes, so that the next ones count as the first.
     void forget() { shapes_.clear(); }
     /// One for each mesh of the picture that was seen last.
     const std::vector<MeshPtr>& shapes() const { return shapes_; }

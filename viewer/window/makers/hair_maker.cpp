@@ -36,7 +36,7 @@ bool has_strands(const Snapshot& snapshot) {
         [](const DrawnStrands& drawn) { return drawn.strands && !drawn.strands->empty(); });
 }
 
-// Near what is drawn, so that floats are exact there.
+// Returns a point near the drawn objects, so that floats are exact there.
 Vec3 middle_of(const Snapshot& snapshot) {
     for (const DrawnStrands& drawn : snapshot.strands) {
         for (Index s = 0; s < drawn.strands->size(); ++s) {
@@ -69,7 +69,7 @@ void HairMaker::make(const Snapshot& snapshot) {
     if (making_) making_->cancel();
     stop_directing();
     making_ = context();
-    // The few are made whatever comes next: else nothing would be seen while a hand moves a curve.
+    // The few are always made: else nothing would be seen while a hand moves a curve.
     worker_.post_only([this, snapshot = *last_, all = *making_, few = context()] {
         try {
             if (has_strands(snapshot)) {

@@ -23,13 +23,13 @@ class HairMaker {
     HairMaker(int threads, std::function<void()> done);
     ~HairMaker();
 
-    /// Makes the hair of `snapshot` instead of what is being made; nothing where its strands and
-    /// meshes are those of the last one.
+    /// Makes the hair of `snapshot` instead of the current one; nothing if its strands and meshes
+    /// are those of the last one.
     void make(const Snapshot& snapshot);
-    /// The next call of `make` makes its hair whatever was made before.
+    /// The next call of `make` makes its hair again in any case.
     void forget() { last_.reset(); }
     /// Finds the light of `light` for a camera that turns the world by `to_view`, after that;
-    /// `number` is the caller's. Instead of what was asked for before.
+    /// `number` is the caller's. Replaces the earlier request.
     void direct(std::shared_ptr<const HairLight> light, const Mat3& to_view, std::uint64_t number);
     /// Gives that up.
     void stop_directing();
@@ -37,16 +37,16 @@ class HairMaker {
 
     struct Result {
         Hair hair;
-        /// Why there is no hair; empty where it is there.
+        /// Reason for missing hair; empty if it is there.
         std::string error;
     };
-    /// What was made since the last call.
+    /// Returns the hair made since the last call.
     std::optional<Result> take();
 
     struct Directed {
         std::uint64_t number = 0;
         std::shared_ptr<const HairLight> light;
-        /// HairLight::directed; empty where there is no memory for it.
+        /// HairLight::directed; empty if there is no memory for it.
         std::vector<std::uint8_t> bytes;
     };
     std::optional<Directed> take_directed();
@@ -64,13 +64,13 @@ class HairMaker {
     std::optional<Snapshot> last_;
     std::optional<Context> making_, directing_;
 
-    // The maker's thread: what is complete stays for the next snapshot.
+    // The maker's thread: complete parts stay for the next snapshot.
     std::vector<HairPart> complete_;
 
     std::mutex mutex_;
     std::optional<Result> result_;
     std::optional<Directed> directed_;
-    // Last: it ends before what its jobs use.
+    // Declared last: it ends before the objects that its jobs use.
     Worker worker_;
 };
 

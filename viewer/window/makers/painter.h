@@ -20,10 +20,10 @@ class Painter {
     Painter(int threads, std::function<void()> done);
     ~Painter();
 
-    /// Gives up what is being drawn and draws `picture` instead, and writes it to `path`, a .png
-    /// file, where that is not empty; `number` is the caller's.
+    /// Stops the current picture and draws `picture` instead, and writes it to `path`, a .png file,
+    /// if that is not empty; `number` is the caller's.
     void draw(std::shared_ptr<const Picture> picture, std::uint64_t number, std::string path = {});
-    /// Gives up what is being drawn.
+    /// Stops the current picture.
     void stop();
     bool busy() const { return worker_.busy(); }
 
@@ -32,10 +32,10 @@ class Painter {
         Image image;
         /// The file that it was written to.
         std::string path;
-        /// Why there is no image; empty where there is one.
+        /// Reason for a missing image; empty if there is one.
         std::string error;
     };
-    /// What was finished since the last call.
+    /// Returns the picture finished since the last call.
     std::optional<Result> take();
 
   private:
@@ -45,10 +45,10 @@ class Painter {
     int threads_;
     std::mutex mutex_;
     std::optional<Result> result_;
-    /// Of the picture that was asked for last.
+    /// Context of the last requested picture.
     std::optional<Context> context_;
     std::unique_ptr<Renderer> renderer_;
-    // Last: it ends before what its jobs use.
+    // Declared last: it ends before the objects that its jobs use.
     Worker worker_;
 };
 

@@ -1,5 +1,5 @@
-/// SurfaceMaker: what a graphics card is given of meshes, made on a thread of its own: of many
-/// faces it takes longer than a window may be away.
+/// SurfaceMaker: data of meshes for a graphics card, made on a thread of its own: for many faces it
+/// takes longer than a window may be unresponsive.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ class SurfaceMaker {
     SurfaceMaker(int threads, std::function<void()> done);
     ~SurfaceMaker();
 
-    /// Makes what `needs` says. The last that is asked for is made; what is under way then is made
-    /// as well, so that something is seen while many follow each other.
+    /// Makes the surfaces of `needs`. The last request is made; the current one is made as well, so
+    /// that something is seen while many follow each other.
     void make(std::vector<SurfaceNeeds> needs, std::uint64_t number);
-    /// Ends what is not needed any more: to give much memory back takes long, too.
+    /// Frees surfaces: releasing much memory takes long, too.
     void end(std::vector<PreparedSurface> surfaces);
     bool busy() const { return worker_.busy(); }
 
@@ -33,10 +33,10 @@ class SurfaceMaker {
         /// The caller's.
         std::uint64_t number = 0;
         std::vector<PreparedSurface> surfaces;
-        /// Why there is nothing; empty where there is.
+        /// Reason for a missing result; empty if there is one.
         std::string error;
     };
-    /// What was made since the last call.
+    /// Returns the surfaces made since the last call.
     std::optional<Result> take();
 
   private:
@@ -46,7 +46,7 @@ class SurfaceMaker {
     std::function<void()> done_;
     std::mutex mutex_;
     std::optional<Result> result_;
-    // Last: it ends before what its jobs use.
+    // Declared last: it ends before the objects that its jobs use.
     Worker worker_;
 };
 

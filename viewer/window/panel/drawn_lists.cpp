@@ -9,7 +9,7 @@
 namespace lissom::window {
 namespace {
 
-// Of 64 bits, good enough that two frames of a panel are never taken for one.
+// Hash of 64 bits, good enough that two frames of a panel are never taken for one.
 class Hash {
   public:
     void add(const void* data, std::size_t size) {
@@ -48,7 +48,7 @@ void add(Hash& hash, const ImDrawList& list) {
     add_all(hash, list.IdxBuffer);
 }
 
-// Where a list draws.
+// Extent of a drawn list.
 struct Reach {
     bool inside = false, outside = false;
 };

@@ -1,5 +1,5 @@
-/// DrawnLists: which parts of a window differ from what is in it, by what Dear ImGui has drawn
-/// there. Needs no context of OpenGL.
+/// DrawnLists: parts of a window that differ from the shown ones, by the lists that Dear ImGui has
+/// drawn there. Needs no context of OpenGL.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace lissom::window {
 
 class DrawnLists {
   public:
-    /// Sees what is drawn next around and over a picture on `canvas`.
+    /// Reads the lists drawn next around and over a picture on `canvas`.
     void see(const ImDrawData& data, const Canvas& canvas);
-    /// Whether what is beside the picture differs from the time before, or reaches over its border,
-    /// so that all has to be drawn.
+    /// Returns whether the lists beside the picture differ from the time before, or reach over its
+    /// border, so that all has to be drawn.
     bool beside_differs() const { return beside_differs_; }
-    /// Whether what lies over the picture differs.
+    /// Returns whether the lists over the picture differ.
     bool over_differs() const { return over_differs_; }
-    /// What lies over the picture, in its order.
+    /// Returns the lists over the picture, in their order.
     const std::vector<ImDrawList*>& over() const { return over_; }
 
   private:

@@ -165,7 +165,7 @@ constexpr const char* kKeys =
     "left drag: turn; with a tool: the right button, or alt\n"
     "shift and drag, or the middle button: move\n"
     "wheel: nearer, towards the cursor; with ctrl or in a tool's drag: the tool's\n"
-    "Home: what is selected, else all; with shift: all\n"
+    "Home: the selection, else all; with shift: all\n"
     "without a tool: 1 to 7: sides   O: perspective   F: as Home\n"
     "    W: wire   B: boundaries   U: z up or y up\n"
     "Ctrl-Z, Ctrl-Shift-Z: undo, redo\n"
@@ -185,7 +185,7 @@ void draw_played(const PlayedPart& part) {
                        part.name.c_str());
 }
 
-// In the console, where it moves no button.
+// Draws it in the console, so that it moves no button.
 void draw_left(const PanelContent& content, PanelAnswers& answers) {
     const std::vector<std::filesystem::path>& left = content.left;
     if (left.empty() || content.playing) return;
@@ -233,12 +233,12 @@ struct Panel::State {
     std::deque<Input> inputs;
     bool is_dark = true;
     std::string line;
-    // Words that may stand where the line was completed, and that line up to there.
+    // Words that may follow at the completed place, and the line up to there.
     std::vector<std::string> candidates;
     std::string completed_text;
     // The line was changed from outside: the cursor goes to its end.
     bool goes_to_end = false;
-    // Of each line of the console: the place that it names.
+    // The place named by each line of the console.
     std::vector<std::optional<SourcePlace>> places;
     std::string preset;
     // Lines that were entered, and which of them the arrows have come to.
@@ -247,7 +247,7 @@ struct Panel::State {
     std::size_t lines_drawn = 0;
     // Frames after one that took input: lists open in the second.
     int frames_owed = 0;
-    // Of the console, in units of length: a person drags its upper edge.
+    // Height of the console, in units of length: a person drags its upper edge.
     double console_height = kConsoleHeight;
     // Something of the panel lies over the picture, or is dragged there.
     bool is_over_picture = false;
@@ -326,8 +326,8 @@ bool Panel::owes_frame() const {
     return !state_->inputs.empty() || state_->frames_owed > 0;
 }
 
-// Only lists that lie over the picture, and a slider that is dragged, are asked about where the
-// mouse was in the last frame.
+// Only lists over the picture, and a slider being dragged, depend on the place of the mouse in the
+// last frame.
 bool Panel::wants_mouse(const Vec2& at, gl::Extent window) const {
     const Canvas canvas = state_->canvas_of(window);
     const bool inside = at.x() >= canvas.x && at.y() < canvas.y + canvas.height;
@@ -425,7 +425,7 @@ void Panel::State::view_section(const PanelContent& content, DisplaySettings& se
     draw_colors(content, answers);
 }
 
-// A row of a list, whatever signs its text has.
+// A row of a list, for any characters of its text.
 bool is_chosen_of_list(const std::string& text, bool is_present) {
     constexpr std::size_t kMost = 40;
     const ImVec2 begin = ImGui::GetCursorPos();
@@ -437,7 +437,7 @@ bool is_chosen_of_list(const std::string& text, bool is_present) {
     return chosen;
 }
 
-// A list of what there is, a name, and what to do with it.
+// Draws a list of existing names, a name, and its actions.
 void Panel::State::preset_row(const std::vector<std::string>& presets, PanelAnswers& answers) {
     ImGui::PushID("presets");
     const ImGuiStyle& style = ImGui::GetStyle();
@@ -567,7 +567,7 @@ void replace_text(ImGuiInputTextCallbackData& data, const std::string& text, std
     forget_history_in_use();
 }
 
-// The arrows recall what was entered before.
+// The arrows recall earlier lines.
 void Panel::State::recall(ImGuiInputTextCallbackData& data) {
     const std::size_t count = entered.size();
     if (data.EventKey == ImGuiKey_UpArrow && recalled > 0) --recalled;
@@ -576,7 +576,7 @@ void Panel::State::recall(ImGuiInputTextCallbackData& data) {
     replace_text(data, text, text.size());
 }
 
-// Takes an answer to Tab, where the line is still the one that was asked about.
+// Takes an answer to Tab, if the line is still the one that was asked about.
 void Panel::State::continue_line(ImGuiInputTextCallbackData& data, PanelContent& content) {
     if (std::exchange(goes_to_end, false)) replace_text(data, data.Buf, data.BufTextLen);
     const std::string now(data.Buf, static_cast<std::size_t>(data.BufTextLen));
@@ -626,7 +626,7 @@ void Panel::State::candidate_list(float left, float bottom, float width) {
     if (taken) take_candidate(*taken);
 }
 
-// What the prompt's callbacks need of a frame.
+// Data of a frame for the prompt's callbacks.
 struct Panel::State::PromptFrame {
     State& state;
     PanelContent& content;

@@ -1,5 +1,5 @@
-/// Panel: the controls beside the picture: what is shown and how, the parameters of the script, and
-/// the console. Drawn by Dear ImGui into the window of the current context.
+/// Panel: the controls beside the picture: its contents and looks, the parameters of the script,
+/// and the console. Drawn by Dear ImGui into the window of the current context.
 #pragma once
 
 #include <filesystem>
@@ -31,11 +31,11 @@ struct PlayedPart {
     bool is_paused = false;
 };
 
-/// What the panel shows; its own state is only how it is unfolded.
+/// Content of the panel; its own state is only its unfolded parts.
 struct PanelContent {
     std::vector<std::string> objects;
     std::vector<lua::ScriptParameter> parameters;
-    /// Names of the presets of the parameters; none where there is no script to keep them for.
+    /// Names of the presets of the parameters; none without a script to keep them for.
     std::optional<std::vector<std::string>> presets;
     std::vector<ConsoleLine> lines;
     /// How the line of the console may go on; the panel takes it.
@@ -49,28 +49,28 @@ struct PanelContent {
     bool is_ortho = false, is_z_up = false;
     /// The file that a mesh is exported to; empty: a free name. A person writes it.
     std::string export_name;
-    /// Tools that have a button, and what there is to say of the one in hand.
+    /// Tools that have a button, and the state of the one in hand.
     std::vector<ToolButton> tools;
     ToolState tool;
-    /// What the picture is seen by.
+    /// Camera of the picture.
     Camera camera;
     PictureSize picture_size;
-    /// What may give the meshes their colours, and what does.
+    /// Choices of the meshes' colours, and the current one.
     std::vector<Coloring> colorings;
     Coloring coloring;
     /// A picture for a file is waited for.
     bool draws_picture = false;
-    /// Of the last frame, without waiting.
+    /// Time of the last frame, without waiting.
     double milliseconds = 0.0;
     std::string driver;
 };
 
-/// What a person has asked for in one frame.
+/// Requests of a person in one frame.
 struct PanelAnswers {
     bool frame_all = false, toggle_ortho = false, screenshot = false, save = false,
          export_mesh = false, toggle_up = false, run_again = false, cancel = false,
          compare_with_this = false;
-    /// What to do with the newest scene that was left.
+    /// Action on the newest left scene.
     bool open_left = false, forget_left = false;
     std::optional<StandardView> view = std::nullopt;
     std::optional<Coloring> coloring = std::nullopt;
@@ -88,7 +88,7 @@ struct PanelAnswers {
     std::optional<SourcePlace> place = std::nullopt;
 };
 
-/// What a panel needs of the desktop.
+/// Functions of the desktop for a panel.
 struct PanelHost {
     /// Pixels in a unit of length.
     double scale = 1.0;
@@ -109,31 +109,31 @@ class Panel {
     Panel(const Panel&) = delete;
     Panel& operator=(const Panel&) = delete;
 
-    /// Gives up what belongs to the context of the window, and makes it again in another one, which
-    /// is current by then.
+    /// Releases the objects in the context of the window, and makes them again in another one,
+    /// which is current by then.
     void leave_context();
     void enter_context();
 
     /// Takes input for the next frames, in its order.
     void feed(const Input& input);
-    /// Whether input is left that one frame more must take: a press and a release are never taken
-    /// at once.
+    /// Returns whether input is left that one frame more must take: a press and a release are never
+    /// taken at once.
     bool owes_frame() const;
-    /// Whether the mouse at a pixel of the window, or what is typed, belongs to the panel: by what
-    /// was drawn last, wherever the mouse was then.
+    /// Returns whether the mouse at a pixel of the window, or typed text, belongs to the panel: by
+    /// the last drawn frame, for any place of the mouse then.
     bool wants_mouse(const Vec2& at, gl::Extent window) const;
     bool wants_keys() const;
 
-    /// What the panel leaves free of a window.
+    /// Returns the part of a window beside the panel.
     Canvas canvas(gl::Extent window) const;
 
-    /// Makes the next frame. Changes `settings` and the values of `content.parameters` where a
-    /// person does.
+    /// Makes the next frame. Changes `settings` and the values of `content.parameters` as a person
+    /// asks.
     PanelAnswers make(PanelContent& content, DisplaySettings& settings, gl::Extent window,
                       double seconds);
-    /// How that differs from the frame before.
+    /// Returns how that differs from the frame before.
     const DrawnLists& lists() const;
-    /// Draws it over what is in the framebuffer that is bound.
+    /// Draws it over the bound framebuffer.
     void draw(PanelPart part) const;
 
   private:

@@ -21,7 +21,7 @@ const char* number_format(const lua::ScriptParameter& p) {
     return p.type == lua::ParameterType::integer ? "%.0f" : "%.4g";
 }
 
-// What is typed in a field and not entered yet, in ImGui's own storage, with all its bits.
+// Text typed in a field and not entered yet, in ImGui's own storage, with all its bits.
 class TypedNumber {
   public:
     explicit TypedNumber(ImGuiID field) : storage_(*ImGui::GetStateStorage()), field_(field) {}
@@ -45,8 +45,8 @@ class TypedNumber {
     ImGuiID field_;
 };
 
-// What the last field, which was `before`, makes of its value: that of a slider holds while it is
-// dragged; what is typed, when it is entered or the field is left.
+// Returns the new value of the last field, which was `before`: that of a slider counts while it is
+// dragged; typed text, when it is entered or the field is left.
 double entered(double value, double before) {
     TypedNumber typed(ImGui::GetID("##value"));
     if (ImGui::IsItemActive() && ImGui::GetIO().WantTextInput) {

@@ -8,8 +8,8 @@
 
 namespace lissom::window {
 
-/// A control for each of `parameters`, under its group. Changes values where a person does, and
-/// answers the place of one that has changed.
+/// A control for each of `parameters`, under its group. Changes values as a person asks, and
+/// returns the place of a changed one.
 std::optional<std::size_t> draw_parameters(std::vector<lua::ScriptParameter>& parameters);
 
 }  // namespace lissom::window

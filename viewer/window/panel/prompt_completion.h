@@ -1,4 +1,4 @@
-/// What the console's line becomes when Tab is pressed.
+/// The console's line after Tab is pressed.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@ namespace lissom::window {
 
 struct CompletedLine {
     std::string line;
-    /// Where the cursor is in it.
+    /// Place of the cursor in it.
     std::size_t cursor = 0;
-    /// Words that may stand there, where there are several.
+    /// Words that may stand there, if there are several.
     std::vector<std::string> candidates = {};
 };
 
-/// `line` with its word before `cursor` continued as far as all of `words` agree; `begin` is where
-/// that word begins. Unchanged where there are none.
+/// Returns `line` with its word before `cursor` continued as far as all of `words` agree; `begin`
+/// is the start of that word. Unchanged if there are none.
 CompletedLine completed_line(const std::string& line, std::size_t cursor, std::size_t begin,
                              const std::vector<std::string>& words);
 

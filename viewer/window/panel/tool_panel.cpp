@@ -30,7 +30,7 @@ float width_of_button() {
     return (ImGui::GetContentRegionAvail().x - (kColumns - 1.0f) * gap) / kColumns;
 }
 
-// A button that is drawn strongly where it is `down`.
+// Draws a button strongly if it is `down`.
 bool tool_button(const char* label, float width, bool down) {
     if (down) {
         ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
@@ -132,14 +132,13 @@ ToolAnswers draw_history(const ToolState& state) {
     return answers;
 }
 
-// A colour that lets what is behind it be seen.
+// Returns a translucent colour.
 ImU32 faint(const Color& color, double opacity) {
     return (packed(color) & ~IM_COL32_A_MASK) |
            (static_cast<ImU32>(255.0 * std::clamp(opacity, 0.0, 1.0)) << IM_COL32_A_SHIFT);
 }
 
-// Where a text of this extent begins so that all of it is in the picture, beside the place that it
-// belongs to.
+// Returns the start of a text of this extent so that all of it is in the picture, beside its place.
 ImVec2 inside(const ImVec2& at, const ImVec2& extent, const ImVec2& corner, const ImVec2& end) {
     constexpr float kGap = 4.0f;
     const auto moved = [&](float from, float length, float low, float high) {

@@ -1,5 +1,5 @@
-/// The part of the panel for tools: which is in hand, its parameters, the history of the scene; and
-/// what a tool draws over the picture. Drawn by Dear ImGui.
+/// The part of the panel for tools: the tool in hand, its parameters, the history of the scene; and
+/// the marks of a tool over the picture. Drawn by Dear ImGui.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ void keep_button(std::vector<ToolButton>& buttons, const std::string& word,
 /// The tool in hand has a button from now on, with its name.
 void keep_button(std::vector<ToolButton>& buttons, const ToolState& state);
 
-/// What a person has asked for in one frame.
+/// Requests of a person in one frame.
 struct ToolAnswers {
     /// Another tool; empty for none.
     std::optional<std::string> tool = std::nullopt;
@@ -41,17 +41,17 @@ struct ToolAnswers {
     std::optional<ToolObject> object = std::nullopt;
 };
 
-/// The objects of the scene, each with a box whether it is seen.
+/// Returns the objects of the scene, each with a box whether it is seen.
 ToolAnswers draw_scene_objects(const ToolState& state);
 
 /// Buttons for tools, and the parameters of the one in hand, whose values a person may change.
 ToolAnswers draw_tools(const std::vector<ToolButton>& buttons, ToolState& state);
-/// The steps, those that were undone greyed.
+/// Draws the steps, with undone ones in grey.
 ToolAnswers draw_history(const ToolState& state);
-/// Where a tool draws.
+/// Picture that a tool draws on.
 struct MarkedPicture {
     Camera camera;
-    /// In pixels, and where that is in the window.
+    /// Size in pixels, and its place in the window.
     PictureSize size;
     Canvas canvas;
     /// Pixels in one of a tool's.

@@ -1,4 +1,4 @@
-/// How a window shows what it shows, beside what a script has asked for.
+/// Settings of a window's display, beside those of a script.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ struct DisplaySettings {
     bool wire = false;
     bool flat = false;
     bool boundaries = false;
-    /// Meshes are seen through: what is behind them shows, hair above all.
+    /// Meshes are translucent: objects behind them show, hair above all.
     bool see_through = false;
     bool vertex_normals = false, face_normals = false;
     /// Occlusion and all samples once nothing moves.
@@ -30,15 +30,15 @@ struct DisplaySettings {
 /// Behind the meshes.
 Color background_of(const DisplaySettings& settings);
 
-/// `picture` as the window shows it: without what is hidden, cells and captions, all in one space,
-/// in a picture of `width` x `height` pixels that `camera` sees.
+/// Returns `picture` as the window shows it: without hidden objects, cells and captions, all in one
+/// space, in a picture of `width` x `height` pixels that `camera` sees.
 Picture displayed(const Picture& picture, const DisplaySettings& settings, const Camera& camera,
                   int width, int height);
 
-/// What is drawn while something moves: the same.
+/// Returns the snapshot drawn while something moves: the same.
 Snapshot quick_snapshot(const Picture& picture, const DisplaySettings& settings);
 
-/// The legend beside what is shown.
+/// Returns the legend beside the shown picture.
 std::optional<Legend> shown_legend(const Picture& picture, const DisplaySettings& settings);
 
 }  // namespace lissom::window

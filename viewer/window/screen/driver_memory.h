@@ -3,9 +3,9 @@
 
 namespace lissom::window {
 
-/// Lets the process keep what is given back, up to some hundred megabytes, for the next frame: to
-/// get it from the system and to clear it, page by page, takes longer than to draw. For programs,
-/// once; nothing where the C library is not glibc.
+/// Lets the process keep freed memory, up to some hundred megabytes, for the next frame: getting
+/// and clearing it, page by page, takes longer than drawing. For programs, once; nothing if the C
+/// library is not glibc.
 void keep_driver_memory();
 
 }  // namespace lissom::window

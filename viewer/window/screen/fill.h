@@ -37,7 +37,7 @@ struct Slice {
     bool is_last() const { return end == of; }
 };
 
-/// Pictures of more and more strands until one has all of them: what a fast driver draws in a
+/// Pictures of more and more strands until one has all of them: as many as a fast driver draws in a
 /// moment, or a few times as many as the one before.
 class Fill {
   public:
@@ -45,7 +45,7 @@ class Fill {
     /// drawn in `longest` seconds, but the first one, which is always drawn.
     Fill(Index all, Index shown, double longest) : all_(all), shown_(shown), longest_(longest) {}
 
-    /// What to draw next, given the pace so far; nothing when all is done.
+    /// Returns the next slice, given the pace so far; nothing when all is done.
     std::optional<Slice> next(const StrandPace& pace);
     /// The last slice was drawn.
     void drawn();

@@ -12,7 +12,7 @@ namespace lissom::window {
 /// Seconds that this thread has had a processor for, which other programs do not change.
 double thread_seconds();
 
-/// What a thread was away for, without the calls that draw.
+/// Time that a thread was busy, without the calls that draw.
 struct Turn {
     /// That have passed, and in which the thread had a processor.
     double seconds = 0.0, busy = 0.0;
@@ -26,9 +26,9 @@ class FrameTimes {
     void add_turn(double all, const Turn& own);
     /// Something was done by a hand at `time`, or shortly after.
     void add_event(Time time);
-    /// What was done until now has changed nothing that is seen.
+    /// The work until now has changed nothing visible.
     void end_event() { waiting_.reset(); }
-    /// What has changed was drawn and shown at `time`.
+    /// The change was drawn and shown at `time`.
     void add_frame(Time time);
 
     double longest() const { return longest_; }

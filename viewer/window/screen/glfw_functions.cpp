@@ -1,6 +1,6 @@
 // The functions of GLFW that this program and Dear ImGui's platform call, each looked up in the
 // shared library when it is first called: a program that opens no window starts without GLFW and
-// the eight libraries of X that come with it. Where it is missing glfwInit fails, and glfwGetError
+// the eight libraries of X that come with it. If it is missing glfwInit fails, and glfwGetError
 // says so.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -75,7 +75,7 @@ Modifiers modifiers_of(int bits) {
             (bits & GLFW_MOD_ALT) != 0};
 }
 
-// With the key of a modifier X tells what was held before it.
+// With the key of a modifier X tells the modifiers held before it.
 Modifiers modifiers_after(int code, bool is_down, Modifiers held) {
     if (code == GLFW_KEY_LEFT_SHIFT || code == GLFW_KEY_RIGHT_SHIFT) held.shift = is_down;
     if (code == GLFW_KEY_LEFT_CONTROL || code == GLFW_KEY_RIGHT_CONTROL) held.ctrl = is_down;
@@ -199,7 +199,8 @@ void GlfwWindow::State::listen() {
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* from) { of(from).is_exposed = true; });
 }
 
-// Whether the driver promises that what is shown stays there to be drawn on. Through GLX none does.
+// Returns whether the driver promises that the shown picture stays there to be drawn on. Through
+// GLX none does.
 bool GlfwWindow::State::ask_to_keep_picture() const {
     if (glfwGetWindowAttrib(window, GLFW_CONTEXT_CREATION_API) != GLFW_EGL_CONTEXT_API) {
         return false;

@@ -50,14 +50,14 @@ struct Input {
     Vec2 at = Vec2::Zero();
     MouseButton button = MouseButton::left;
     Modifiers modifiers = {};
-    /// Of a scroll: lines to the right and up.
+    /// For a scroll: lines to the right and up.
     Vec2 scroll = Vec2::Zero();
     Key key = Key::none;
-    /// Of text: the character. Of Key::character: the letter or digit on the key, in capitals.
+    /// For text: the character. For Key::character: the letter or digit on the key, in capitals.
     char32_t character = 0;
-    /// Of text: the letter or digit of the key that was pressed last; 0 for none.
+    /// For text: the letter or digit of the key that was pressed last; 0 for none.
     char32_t letter = 0;
-    /// Of a drop: paths.
+    /// For a drop: paths.
     std::vector<std::string> files = {};
 };
 
@@ -73,14 +73,14 @@ class InputQueue {
     std::vector<Input> inputs_;
 };
 
-/// InputMaker: what a desktop tells of a hand, as inputs. Cursors are in the desktop's units; where
-/// one is not told, the last one counts: when an input is taken, the hand may have moved on.
+/// InputMaker: converts events of a desktop to inputs. Cursors are in the desktop's units; if none
+/// is given, the last one counts: when an input is taken, the hand may have moved on.
 class InputMaker {
   public:
     /// `scale` tells that of the window at the time of an input.
     explicit InputMaker(std::function<PixelScale()> scale) : scale_(std::move(scale)) {}
 
-    /// Where the cursor is when nothing has happened yet.
+    /// Sets the place of the cursor before the first event.
     void begin(const Vec2& cursor) { cursor_ = cursor; }
     void move(const Vec2& cursor);
     void button(MouseButton button, bool is_down, const Modifiers& held);

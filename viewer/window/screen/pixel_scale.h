@@ -1,4 +1,4 @@
-/// PixelScale: the units of a desktop's window and the pixels of what is drawn in it.
+/// PixelScale: the units of a desktop's window and the pixels of its framebuffer.
 #pragma once
 
 #include "kernel/core/geometry.h"
@@ -7,13 +7,13 @@
 namespace lissom::window {
 
 struct PixelScale {
-    /// Of the window in the desktop's units, in which cursors are, and of what is drawn in it in
+    /// Size of the window in the desktop's units, those of cursors, and of its framebuffer in
     /// pixels.
     gl::Extent window = {1, 1}, framebuffer = {1, 1};
     /// How many times larger than usual the desktop wants letters to be, in pixels.
     double content = 1.0;
 
-    /// The pixel under a cursor.
+    /// Returns the pixel under a cursor.
     Vec2 pixels(const Vec2& cursor) const;
     /// Pixels in a unit of length of the panel: 1, or 2 on a screen of high density.
     double panel() const;

@@ -117,7 +117,7 @@ Index Screen::wide_strands(const SceneView& view, int height, Index most, double
     return count;
 }
 
-// As many as are drawn in time, and can be seen.
+// Returns as many strands as are drawn in time, and can be seen.
 Index Screen::moving_strands(const SceneView& view, int height) const {
     Index count = std::min(std::max(moving_pace_.count(), kFewestMoving), hair_.size());
     if (!hair_.complete()) {

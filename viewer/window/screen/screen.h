@@ -25,35 +25,36 @@ class Screen {
     Screen();
     ~Screen();
 
-    /// Becomes what `snapshot` shows; see GpuScene::update.
+    /// Shows `snapshot` from now on; see GpuScene::update.
     Uploads update(const Snapshot& snapshot, std::span<const PreparedSurface> prepared = {}) {
         return scene_.update_with(prepared, snapshot, {}, MovedVertices::quick);
     }
-    /// What `update` would have to find out for it; see GpuScene.
+    /// Returns the needs of `update` for it; see GpuScene.
     std::vector<SurfaceNeeds> needs(const Snapshot& snapshot) const {
         return scene_.needs(snapshot);
     }
-    /// The strands of what is shown, and the light for one camera; see GpuHair. Bytes sent.
+    /// Set the strands of the shown picture, and the light for one camera; see GpuHair. Return the
+    /// bytes sent.
     std::size_t set_hair(const Hair& hair) { return hair_.update(hair); }
     std::size_t direct_light(std::span<const std::uint8_t> light) { return hair_.direct(light); }
     const GpuHair& hair() const { return hair_; }
-    /// From now on `legend` stands at the right of what is drawn on a canvas of this height; taken
-    /// pictures have their own.
+    /// Sets the legend at the right of pictures on a canvas of this height; taken pictures have
+    /// their own.
     void set_legend(const std::optional<Legend>& legend, int height, const Color& background);
-    /// What the legend leaves free of a canvas.
+    /// Returns the part of a canvas beside the legend.
     Canvas beside_legend(const Canvas& canvas) const;
-    /// Draws what `camera` sees beside the legend, with one sample a pixel and without occlusion,
-    /// in a picture that is `coarseness` times smaller than `canvas`. Of the strands so many as are
+    /// Draws the view of `camera` beside the legend, with one sample a pixel and without occlusion,
+    /// in a picture that is `coarseness` times smaller than `canvas`. Strands are limited to those
     /// drawn in a moment. A fill that is going on ends.
     void draw(const Camera& camera, const Canvas& canvas, const Color& background, int coarseness);
-    /// Begins to draw what `draw` draws again, with smooth edges and more and more strands. Where
+    /// Begins to draw the picture of `draw` again, with smooth edges and more and more strands. If
     /// `longest` seconds are not enough for all, the last picture has as many as they are enough
     /// for.
     void begin_fill(const Camera& camera, const Canvas& canvas, const Color& background,
                     double longest);
     /// Draws the next slice of that; whether a picture is finished, which is shown from now on.
     bool fill();
-    /// Whether a fill goes on.
+    /// Returns whether a fill goes on.
     bool filling() const { return filling_ != nullptr; }
     /// Seconds that the last slice took, and that the strands of the last moving picture took.
     double slice_seconds() const { return slice_seconds_; }
@@ -62,11 +63,11 @@ class Screen {
     Index moving_strands() const { return moving_; }
     /// Shows `image` from now on.
     void take(const Image& image);
-    /// Reads back what is shown, without the legend: for tests.
+    /// Reads back the shown picture, without the legend: for tests.
     Image picture() const;
     /// Another number: `show` shows something else.
     std::uint64_t version() const { return version_; }
-    /// Copies what was drawn or taken last to `canvas` of a window of this height.
+    /// Copies the picture drawn or taken last to `canvas` of a window of this height.
     void show(const Canvas& canvas, int window_height) const;
 
   private:

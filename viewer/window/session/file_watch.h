@@ -14,11 +14,11 @@ class FileWatch {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// Watches these files from now on, instead of others; those that are watched already as they
-    /// were last seen.
+    /// Watches these files from now on, instead of others; files watched already keep their last
+    /// seen state.
     void set(const std::vector<std::filesystem::path>& files);
-    /// Looks at the files where the last look is a quarter of a second ago or longer. True once
-    /// after a change, when nothing has changed any more since the look before.
+    /// Looks at the files if the last look is a quarter of a second ago or longer. True once after
+    /// a change, when nothing has changed any more since the look before.
     bool changed(Clock::time_point now);
 
   private:

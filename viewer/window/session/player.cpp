@@ -7,7 +7,7 @@
 namespace lissom::window {
 namespace {
 
-// Of a second that has passed, at most this is played at once.
+// Part of a passed second that is played at once, at most.
 constexpr double kLongest = 0.1;
 constexpr double kMostSpeed = 64.0;
 constexpr double kNever = 1e9;

@@ -17,8 +17,8 @@ class Player {
     /// goes on by a tenth of a second times its speed at most, so that whoever is slower than the
     /// recording sees it slowed down, and never has much of it waiting.
     std::size_t advance(double seconds);
-    /// Seconds until the next event is due, if nothing is slower; a large number where none will
-    /// be.
+    /// Returns seconds until the next event is due, if nothing is slower; a large number if there
+    /// is none.
     double wait() const;
 
     void pause_or_go_on() { is_paused_ = !is_paused_; }
@@ -38,7 +38,7 @@ class Player {
     bool is_paused_ = false;
 };
 
-/// Where a recorded picture lies in another: as large as fits, in the middle.
+/// Place of a recorded picture in another: as large as fits, in the middle.
 struct PictureFit {
     double scale = 1.0;
     Vec2 corner = Vec2::Zero();
@@ -49,8 +49,8 @@ struct PictureFit {
     Vec2 operator()(const Vec2& pixel) const { return corner + scale * pixel; }
 };
 
-/// The camera that shows in a picture of size `now` what `camera` shows in a `recorded` one, and
-/// what is beside that.
+/// Returns the camera that shows in a picture of size `now` the view of `camera` in a `recorded`
+/// one, and its surroundings.
 Camera fitted(const Camera& camera, const PictureSize& recorded, const PictureSize& now);
 
 }  // namespace lissom::window

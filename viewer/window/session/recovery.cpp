@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// recovery-PROCESS.lissom is the copy of a window's scene; what it did not save is kept as
+// recovery-PROCESS.lissom is the copy of a window's scene; unsaved scenes are kept as
 // unsaved-PROCESS.lissom and unsaved-PROCESS-2.lissom and so on.
 constexpr std::string_view kCopy = "recovery-", kUnsaved = "unsaved-", kSuffix = ".lissom";
 

@@ -24,13 +24,13 @@ namespace fs = std::filesystem;
 // Lines that are kept for a window that does not take them.
 constexpr std::size_t kMostLines = 10000;
 
-// Seconds after which what a tool does is stopped where its file changes.
+// Seconds after which a tool is stopped if its file changes.
 constexpr double kLongWork = 1.0;
 
 // Seconds after which a stroke that a slow tool follows is shown as far as it has come.
 constexpr double kLongStroke = 0.05;
 
-// os.exit, which would end the window and what it holds.
+// Refuses os.exit, which would end the window and its contents.
 int refuse_exit(lua_State* L) {
     return luaL_error(L, "os.exit does not end the window: return, or raise an error");
 }
@@ -74,8 +74,8 @@ bool has_global(lua_State* L, const char* name) {
     return has;
 }
 
-// The variables `lissom` and `help`, for lines of the console, where the script has none. Runs
-// inside lua_pcall.
+// Provides the variables `lissom` and `help`, for lines of the console, if the script has none.
+// Runs inside lua_pcall.
 int provide_library(lua_State* L) {
     if (!has_global(L, "help")) {
         lua_getglobal(L, "require");
@@ -224,7 +224,7 @@ void Session::set_saving(bool saves) {
     if (saves) program_.forget_interrupt();
 }
 
-// What follows is neither stopped by what has stopped the last, nor as far as that came.
+// The next work starts without the cancel and the progress of the last.
 void Session::begin_work() {
     program_.forget_interrupt();
     const std::lock_guard lock(mutex_);
@@ -233,7 +233,7 @@ void Session::begin_work() {
     news_.work_began = Clock::now();
 }
 
-// Stops what runs, as something else takes its place: nobody has to be told.
+// Stops the running work because something else takes its place: nobody has to be told.
 void Session::give_up() {
     given_up_ = true;
     cancel();
@@ -247,7 +247,7 @@ void Session::use_tool(const std::string& word) {
     });
 }
 
-// What runs for long may be the tool that never returns, and for that was mended.
+// Work that runs for long may be the tool that never returns, and was mended for that reason.
 void Session::read_tool_again() {
     {
         const std::lock_guard lock(mutex_);
@@ -260,7 +260,7 @@ void Session::read_tool_again() {
     });
 }
 
-// Inputs keep their place among all that is asked for: those that follow another job wait for that.
+// Inputs keep their place among all requests: inputs after another job wait for it.
 void Session::post(ToolInput input) {
     const std::lock_guard lock(mutex_);
     news_.last_setting.reset();
@@ -279,7 +279,7 @@ void Session::post_job(Worker::Job job) {
     worker_.post(std::move(job));
 }
 
-// What waits is dropped; but what is seen by now is seen of what comes, too.
+// Drops waiting jobs; but the view known by now counts for the next ones, too.
 void Session::post_only(Worker::Job job) {
     const std::lock_guard lock(mutex_);
     std::vector<ToolInput> kept;
@@ -363,7 +363,7 @@ void Session::show_object(const std::string& name, bool visible) {
     });
 }
 
-// Where the last that waits sets the same parameter, the newer value takes its place.
+// If the last waiting job sets the same parameter, the newer value takes its place.
 void Session::set_tool_parameter(const std::string& name, const lua::ParameterValue& value) {
     const std::lock_guard lock(mutex_);
     if (news_.last_setting && news_.last_setting->first == name) {
@@ -476,7 +476,7 @@ bool Session::finish(double seconds) {
 void Session::run(const std::vector<std::string>& words, bool is_new) {
     begin_work();
     given_up_ = plays_ = shows_hand_ = false;
-    // Where nothing is open yet, nothing is lost.
+    // If nothing is open yet, nothing is lost.
     const bool is_first = is_new && !has_words();
     if (is_first) adopt(words);
     if (!opens(words, is_new && !is_first)) let_go();
@@ -489,7 +489,7 @@ bool Session::opens(const std::vector<std::string>& words, bool is_new) {
     return load_files(words, is_new);
 }
 
-// From now on these words are what is open.
+// Makes these words the open document.
 void Session::adopt(const std::vector<std::string>& words) {
     const std::lock_guard lock(mutex_);
     news_.words = words;
@@ -502,14 +502,14 @@ bool Session::has_words() const {
     return !news_.words.empty();
 }
 
-// Whether what fails is what is open, to be mended and read again.
+// Returns whether the failed words are the open document, to be mended and read again.
 bool Session::keeps_failed(const std::vector<std::string>& words, bool is_new) const {
     const std::lock_guard lock(mutex_);
     const bool is_same_script = is_script(words.front()) && news_.words.front() == words.front();
     return !is_new || is_same_script || news_.words == words;
 }
 
-// Nothing of a script stays with what is open now.
+// Nothing of a script stays with the open document now.
 void Session::forget_script() {
     ran_.clear();
     kept_.clear();
@@ -519,7 +519,7 @@ Session::Document Session::put_aside() {
     return {std::move(script_), std::move(bench_), pictures_};
 }
 
-// What was opened instead has failed.
+// Restores the document after its replacement has failed.
 void Session::put_back(Document document) {
     bench_ = std::move(document.bench);
     script_ = std::move(document.script);
@@ -527,7 +527,7 @@ void Session::put_back(Document document) {
     if (script_) cli::Interrupt::attend(script_->lua());
 }
 
-// Where something else was shown meanwhile.
+// Shows the picture again if something else was shown meanwhile.
 void Session::show_again(const std::optional<Shown>& shown) {
     if (!shown || !last_shown_ || last_shown_->number == shown->number) return;
     last_shown_ = shown;
@@ -557,8 +557,8 @@ void Session::open_script(const lua::ScriptArguments& arguments) {
     pictures_ = 0;
 }
 
-// A script that runs again finds what was selected and the tool as they were; one that fails leaves
-// the scene before it to the tools.
+// A script that runs again finds the selection and the tool as they were; one that fails leaves the
+// scene before it to the tools.
 bool Session::run_script(const std::vector<std::string>& words, bool is_new) {
     const bool is_same = ran_ == words[0];
     if (is_same && bench_) kept_ = bench_->kept().value_or(kept_);
@@ -588,12 +588,12 @@ bool Session::run_script(const std::vector<std::string>& words, bool is_new) {
     return true;
 }
 
-// Whether a script that has run has anything to be seen; tells where it has not.
+// Returns whether a script that has run has anything to show; reports if it has not.
 bool Session::has_shown(const std::string& script) {
     if (pictures_ > 0 || has_values()) return true;
     tell(LineKind::warning, script +
-                                " shows nothing: let it draw with lissom.render, or return what is "
-                                "to be seen: a mesh, strands, a scene, or a table of them");
+                                " shows nothing: let it draw with lissom.render, or return an "
+                                "object to show: a mesh, strands, a scene, or a table of them");
     return bench_->has_scene_among(1, lua_gettop(script_->lua()));
 }
 
@@ -610,7 +610,7 @@ void Session::settle_script(const std::vector<std::string>& words, bool is_same)
     if (pictures_ > 0) show_last();
     show_values();
     succeeds(bench_->take_values(1, lua_gettop(L)));
-    // What its command line said is not in a recording.
+    // The words of its command line are not in a recording.
     settle_scene(words.size() == 1 ? words : std::vector<std::string>());
     lua_settop(L, 0);
 }
@@ -622,7 +622,7 @@ void Session::take_own_tool(const std::string& path) {
         return show_scene(true);
     }
     options_.tool = path;
-    tell(LineKind::message, path + " is a tool: open what it is to work on");
+    tell(LineKind::message, path + " is a tool: open an object for it to work on");
 }
 
 void Session::find_tools(const std::vector<std::string>& scripts) {
@@ -652,7 +652,7 @@ void Session::look_for_tools(const std::vector<std::string>& scripts) {
     wake_();
 }
 
-// Nothing where the script fails or is no tool, which is told.
+// Nothing if the script fails or is no tool, which is told.
 std::optional<std::string> Session::name_of_tool(const std::string& script) {
     open_script({script, {}});
     const cli::ScriptResult result = script_->run_file(script);
@@ -673,7 +673,8 @@ void Session::tell_whether_mended(const std::string& file, bool works) {
     if (works) broken_.clear();
 }
 
-// Whether what is on the stack can be seen; what cannot be drawn is told when it is shown.
+// Returns whether the values on the stack can be seen; values that cannot be drawn are reported
+// when shown.
 bool Session::has_values() {
     lua_State* L = script_->lua();
     try {
@@ -683,7 +684,7 @@ bool Session::has_values() {
     }
 }
 
-// Shows what is on the stack; false where that is nothing to be seen.
+// Shows the values on the stack; returns false if there is nothing to see.
 bool Session::show_values() {
     lua_State* L = script_->lua();
     try {
@@ -698,7 +699,7 @@ bool Session::show_values() {
     return true;
 }
 
-// What was there stays where the files cannot be read.
+// The old document stays if the files cannot be read.
 bool Session::load_files(const std::vector<std::string>& paths, bool is_new) {
     Document before = put_aside();
     open_script({});
@@ -722,7 +723,7 @@ void Session::tell_sizes() {
 
 // ---- Recordings
 
-// What was there stays where the recording cannot be opened.
+// The old document stays if the recording cannot be opened.
 bool Session::open_recording(const std::string& path, bool is_new) {
     Document before = put_aside();
     open_script({});
@@ -776,7 +777,7 @@ void Session::let_go() {
     succeeds(bench_->take(cancel));
 }
 
-// What a recording calls a file: by its place beside or below the recording, else by its whole
+// Returns a recording's name of a file: its place beside or below the recording, else its whole
 // path.
 std::string Session::told_path(const std::string& path) const {
     if (options_.record.empty()) return path;
@@ -793,7 +794,7 @@ std::string Session::told_path(const std::string& path) const {
 
 // ---- Tools
 
-// Tells what went wrong; false then.
+// Reports an error; returns false then.
 bool Session::succeeds(const cli::ScriptResult& result) {
     if (result.status == cli::kSuccess) return true;
     if (!given_up_) tell(LineKind::error, result.message);
@@ -831,7 +832,7 @@ void Session::settle_scene(const std::vector<std::string>& open, bool takes_tool
         bench_->publish_scene();
         succeeds(bench_->take(look_));
         begin_records(open);
-        // A recording begins with what the script has made.
+        // A recording begins with the scene that the script has made.
         const bool selects = options_.record.empty();
         if (!kept_.empty()) succeeds(bench_->restore(std::exchange(kept_, ""), selects));
         if (!options_.tool.empty() && takes_tool) settle_tool(options_.tool);
@@ -900,7 +901,7 @@ void Session::take_input(const ToolInput& input, bool is_late) {
     }
 }
 
-// What the tool shows; an error that comes again with every event is told once.
+// Draws the marks of the tool; an error that comes again with every event is told once.
 void Session::draw_marks() {
     const cli::ScriptResult drawn = bench_->draw();
     const bool fails = drawn.status != cli::kSuccess;
@@ -909,7 +910,7 @@ void Session::draw_marks() {
     draw_error_ = fails ? drawn.message : "";
 }
 
-// Shows the scene with what the tool draws; where that is as before only if `always`.
+// Shows the scene with the tool's marks; unchanged ones only if `always`.
 void Session::show_scene(bool always) {
     if (!bench_ || !bench_->has_scene()) return;
     draw_marks();
@@ -951,7 +952,7 @@ void Session::save_records() {
     save_record("journal_text", options_.journal, told_);
 }
 
-// Writes what the host's method `what` tells, where that is not what was saved.
+// Writes the text of the host's method `what`, if it differs from the saved one.
 void Session::save_record(const char* what, const std::string& path, std::string& saved) {
     if (path.empty() || bench_->is_held()) return;
     const std::optional<std::string> text = bench_->text_of(what);
@@ -963,7 +964,7 @@ void Session::save_record(const char* what, const std::string& path, std::string
     }
     // It is tried again at the next change.
     if (!std::exchange(record_fails_, true)) {
-        tell(LineKind::error, "what is recorded cannot be written to " + path);
+        tell(LineKind::error, "the recording cannot be written to " + path);
     }
 }
 
@@ -1009,7 +1010,7 @@ void Session::evaluate_line(const std::string& line) {
         begin_work();
         if (bench_->changed_outside(statement, failed)) {
             tell(LineKind::warning,
-                 "the recording does not hold what the console does: it cannot be repeated");
+                 "the recording does not hold lines of the console: it cannot be repeated");
         }
         if (failed) {
             tell(LineKind::error, result.message);
@@ -1067,7 +1068,7 @@ void Session::find_files(const std::string& script) {
     set_files(std::move(files));
 }
 
-// What is open was read from these.
+// Files that the open document was read from.
 void Session::set_files(std::vector<fs::path> files) {
     const std::lock_guard lock(mutex_);
     news_.files = std::move(files);

@@ -1,5 +1,5 @@
-/// Session: what a window looks at, a script or files, worked on by a thread of its own. The window
-/// reads what is finished and never waits.
+/// Session: the document of a window, a script or files, worked on by a thread of its own. The
+/// window reads finished results and never waits.
 #pragma once
 
 #include <atomic>
@@ -43,7 +43,7 @@ void add_line(std::vector<ConsoleLine>& lines, ConsoleLine line);
 /// Something finished to look at.
 struct Shown {
     std::shared_ptr<const Picture> picture;
-    /// Of the meshes, where they have any.
+    /// Names of the meshes, if they have any.
     std::vector<std::string> names;
     Snapshot snapshot;
     Box bounds;
@@ -68,9 +68,9 @@ struct Playback {
 struct SessionOptions {
     /// The tool that is in hand from the first: a file, or the name of one that ships.
     std::string tool = {};
-    /// Where what is done with tools is recorded; empty for nowhere.
+    /// File that records the work of tools; empty for none.
     std::string record = {};
-    /// Where the calls that tools make are kept as a script; empty for nowhere but `copy_scene`.
+    /// File that keeps the calls of tools as a script; empty for none but that of `copy_scene`.
     std::string journal = {};
     /// How mesh files are read.
     LoadOptions load = {};
@@ -80,7 +80,7 @@ class Session {
   public:
     /// `wake` is called on the session's thread when there is something new.
     Session(cli::Program& program, std::function<void()> wake, SessionOptions options = {});
-    /// Stops what runs; waits a second for it at most.
+    /// Stops the running work; waits a second for it at most.
     ~Session();
 
     // ---- For the window's thread. All of it returns at once.
@@ -90,21 +90,21 @@ class Session {
     /// puts that in hand instead. If it fails, all that was open before stays as it was.
     void open(const std::vector<std::string>& words);
     /// Finds out which of these scripts are tools, for `take_tools`, and tells it; none is taken in
-    /// hand, and what is open stays.
+    /// hand, and the open document stays.
     void find_tools(const std::vector<std::string>& scripts);
     /// Runs the script again, or reads the files again, with `words` as the command line of the
-    /// script. What runs is given up; while something else is being opened nothing is done.
+    /// script. Running work is given up; while something else is being opened nothing is done.
     void run_again(const std::vector<std::string>& words);
     /// Evaluates a line of Lua in the state of the script; values that can be seen are shown.
     void evaluate(const std::string& line);
     /// Finds out how `text`, a line of the console up to the cursor, may go on.
     void complete(const std::string& text);
-    /// Stops what runs.
+    /// Stops the running work.
     void cancel();
-    /// Takes a tool in hand: a file, the name of one that ships, or none where `word` is empty.
+    /// Takes a tool in hand: a file, the name of one that ships, or none if `word` is empty.
     void use_tool(const std::string& word);
-    /// Reads the tool in hand again, whose parameters and state stay; the old one stays where the
-    /// new one fails.
+    /// Reads the tool in hand again, with its parameters and state; the old one stays if the new
+    /// one fails.
     void read_tool_again();
     /// A hand has done this.
     void post(ToolInput input);
@@ -116,52 +116,53 @@ class Session {
     /// Writes the mesh in hand to a file whose ending names the format, a free name if `path` is
     /// empty, and tells it. After an error all is as before.
     void export_mesh(const std::string& path);
-    /// Writes the scene and, where no other was asked for, its journal to files, silently.
+    /// Writes the scene and, if no other was asked for, its journal to files, silently.
     void copy_scene(const std::string& path, const std::string& journal);
     /// A parameter of the tool has this value.
     void set_tool_parameter(const std::string& name, const lua::ParameterValue& value);
 
     // ---- Playing
 
-    /// The recording that was opened since the last call.
+    /// Returns the recording that was opened since the last call.
     std::optional<Playback> take_playback();
-    /// Whether events of it are taken: until the last, a failure or `stop_playing`.
+    /// Returns whether events of it are taken: until the last, a failure or `stop_playing`.
     bool is_playing() const { return plays_; }
     /// Number of events that are done.
     std::size_t events_played() const { return events_played_; }
-    /// Stops what runs, drops the events that wait, and lets go of what the recording holds.
+    /// Stops the running work, drops waiting events, and releases the objects held by the
+    /// recording.
     void stop_playing();
 
     bool busy() const { return worker_.busy(); }
-    /// Whether something else than what is open is being opened, which may yet fail.
+    /// Returns whether another document is being opened, which may yet fail.
     bool is_opening() const;
-    /// Whether a value of a parameter waits: what is told of the tool is older.
+    /// Returns whether a value of a parameter waits: the state of the tool is older.
     bool has_setting() const;
-    /// What the running operation does, and the fraction done.
+    /// Returns the name of the running operation, and the fraction done.
     std::pair<std::string, double> progress() const;
-    /// The words of what was opened since the last call.
+    /// Returns the words opened since the last call.
     std::optional<std::vector<std::string>> take_opened();
-    /// The number that the last scene saved since the last call was saved with.
+    /// Returns the number that the last scene saved since the last call was saved with.
     std::optional<std::uint64_t> take_saved();
-    /// The tools that were found since the last call: file and name of each.
+    /// Returns the tools that were found since the last call: file and name of each.
     std::vector<std::pair<std::string, std::string>> take_tools();
-    /// What was finished since the last call.
+    /// Returns the picture finished since the last call.
     std::optional<Shown> take_shown();
     /// Lines of the console since the last call.
     std::vector<ConsoleLine> take_lines();
-    /// What was asked for last, where it was found since the last call.
+    /// Returns the completion asked for last, if it was found since the last call.
     std::optional<Completion> take_completion();
-    /// The parameters that the script has declared, since the last call.
+    /// Returns the parameters that the script has declared, since the last call.
     std::optional<std::vector<lua::ScriptParameter>> take_parameters();
-    /// What the panel says of the scene and the tool, since the last call.
+    /// Returns the panel's state of the scene and the tool, since the last call.
     std::optional<ToolState> take_tool_state();
-    /// What was read for what is shown: the script, what it requires, or the files.
+    /// Returns the files of the shown picture: the script, its required modules, or the files.
     std::vector<std::filesystem::path> files() const;
-    /// What was read for the tool in hand.
+    /// Returns the files of the tool in hand.
     std::vector<std::filesystem::path> tool_files() const;
 
-    /// Stops what runs and waits `seconds` for it; false where it goes on: the process must then
-    /// end without ending this object.
+    /// Stops the running work and waits `seconds` for it; returns false if it goes on: the process
+    /// must then end without ending this object.
     bool finish(double seconds);
 
   private:
@@ -230,9 +231,9 @@ class Session {
     cli::Program& program_;
     std::function<void()> wake_;
 
-    // Shared, under the mutex: what was asked for, and what is there to be taken.
+    // Shared, under the mutex: requests, and results to be taken.
     struct News {
-        // Of what is open, and of what is to be opened.
+        // Words of the open document, and of the one to be opened.
         std::vector<std::string> words, asked;
         std::optional<std::vector<std::string>> opened;
         std::optional<std::uint64_t> saved;
@@ -244,7 +245,7 @@ class Session {
         // Each is taken by a job of its own; the last of them grows while no other job follows it.
         std::deque<std::vector<ToolInput>> inputs;
         bool takes_inputs_last = false;
-        // The last that waits, where it sets a parameter of the tool.
+        // The last waiting job, if it sets a parameter of the tool.
         std::shared_ptr<Setting> last_setting;
         std::optional<ToolState> tool_state;
         std::optional<Completion> completion;
@@ -258,13 +259,13 @@ class Session {
     News news_;
 
     std::atomic<bool> plays_{false};
-    // What runs is stopped for something else.
+    // Running work is stopped for something else.
     std::atomic<bool> given_up_{false};
     /// Guards `saves_`, which is true while `cancel` must not stop the job that runs.
     std::mutex cancel_mutex_;
     bool saves_ = false;
     std::atomic<std::size_t> events_played_{0};
-    // Numbers of what was asked to be opened last, and of what was opened, or has failed.
+    // Numbers of the last document asked for, and of the last that was opened or failed.
     std::atomic<std::uint64_t> asked_{0}, opened_{0};
 
     // The worker's own.
@@ -278,7 +279,7 @@ class Session {
     std::string recorded_, told_, draw_error_;
     // The script or tool that failed last, as it was called.
     std::string broken_;
-    // The script whose scene there is, and what stays of it when it runs again.
+    // The script of the present scene, and its state kept when it runs again.
     std::string ran_, kept_;
     std::uint64_t scene_number_ = 0;
     bool record_fails_ = false;
@@ -290,9 +291,9 @@ class Session {
     Worker worker_;
 };
 
-/// Whether a word of the command line names a script.
+/// Returns whether a word of the command line names a script.
 bool is_script(const std::string& word);
-/// Whether it names a script that does nothing but repeat what was recorded.
+/// Returns whether it names a script that only repeats a recording.
 bool is_recording(const std::string& word);
 
 }  // namespace lissom::window

@@ -1,5 +1,5 @@
-/// SnapshotBounds: the box around what is shown. A picture that follows another has mostly the same
-/// meshes and strands, which are not looked at again.
+/// SnapshotBounds: the box around the shown objects. A picture that follows another has mostly the
+/// same meshes and strands, which are not looked at again.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ class SnapshotBounds {
     Box of(const Snapshot& snapshot);
 
   private:
-    // Of one object where it stood in the last snapshot.
+    // Bounds of one object at its place in the last snapshot.
     struct Known {
         std::weak_ptr<const void> object;
         Affine transform;

@@ -24,7 +24,7 @@ bool ends_word(char c) {
     return std::strchr(" \t\n\"'`([<", c) != nullptr;
 }
 
-// The number at the beginning of `text`; 0 where there is none.
+// Returns the number at the beginning of `text`; 0 if there is none.
 int number_at(std::string_view text) {
     constexpr std::size_t kMostDigits = 8;
     int number = 0;

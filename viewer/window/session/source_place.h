@@ -17,32 +17,33 @@ struct SourcePlace {
     bool operator==(const SourcePlace&) const = default;
 };
 
-/// The first FILE:LINE in `text` whose file `exists`; names of files may have blanks.
+/// Returns the first FILE:LINE in `text` whose file `exists`; names of files may have blanks.
 std::optional<SourcePlace> find_place(std::string_view text,
                                       const std::function<bool(const std::string&)>& exists);
 
-/// The words of the command that opens `place` with `editor`, a value of $VISUAL: a program and
-/// options. Knows how the common editors are told a line; others get "+LINE FILE", as vi does.
+/// Returns the words of the command that opens `place` with `editor`, a value of $VISUAL: a program
+/// and options. Knows how the common editors are told a line; others get "+LINE FILE", as vi does.
 std::vector<std::string> editor_command(std::string_view editor, const SourcePlace& place);
 
-/// What opening a file needs of the system.
+/// Functions of the system for opening a file.
 struct EditorHost {
-    /// The value of a variable of the environment; null where it is not set.
+    /// Returns the value of a variable of the environment; null if it is not set.
     std::function<const char*(const char*)> variable;
-    /// Starts a program with these words, the first its name, without a shell; what went wrong, or
+    /// Starts a program with these words, the first its name, without a shell; returns an error, or
     /// nothing.
     std::function<std::string(const std::vector<std::string>&)> start;
 };
 
-/// Opens `place` in $VISUAL, else $EDITOR. What a person must know where that fails, or nothing.
+/// Opens `place` in $VISUAL, else $EDITOR. Returns a message for the person if that fails, or
+/// nothing.
 std::string open_in_editor(const SourcePlace& place, const EditorHost& host);
 
 /// Programs that were started, in the terminal that this one was started from.
 class StartedPrograms {
   public:
-    /// Starts `words`; what went wrong, or nothing.
+    /// Starts `words`; returns an error, or nothing.
     std::string start(const std::vector<std::string>& words);
-    /// Those that have ended badly since the last call, in words.
+    /// Returns failures of started programs since the last call, in words.
     std::vector<std::string> failures();
 
   private:

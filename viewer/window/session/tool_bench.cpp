@@ -96,7 +96,7 @@ Vec3 raw_point(lua_State* L, int index, const char* key, int count) {
     return point;
 }
 
-// Three rows of four numbers; the identity where there are none.
+// Reads three rows of four numbers; the identity if there are none.
 Affine raw_transform(lua_State* L, int index, const char* key) {
     Affine transform;
     push_raw(L, index, key);
@@ -135,7 +135,7 @@ Object* raw_object(lua_State* L, int index, const char* key) {
     return holder ? static_cast<Object*>(holder->object.get()) : nullptr;
 }
 
-// ---- What a tool has drawn: the table at `list`.
+// ---- Marks of a tool: the table at `list`.
 
 Overlay overlay_of(lua_State* L, int list) {
     Overlay overlay;
@@ -727,7 +727,7 @@ PlayedHand ToolBench::hand() const {
     return hand;
 }
 
-// ---- What there is to see
+// ---- Results
 
 cli::ScriptResult ToolBench::draw() {
     lua_State* L = script_.lua();
@@ -868,7 +868,7 @@ std::vector<std::string> shipped_tools() {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(fs::path(folder) / "tools", error)) {
         const std::string name = entry.path().stem().string();
-        // The window does what that does where no tool is in hand.
+        // The window does its work if no tool is in hand.
         if (entry.path().extension() == ".lua" && name != "navigate") names.push_back(name);
     }
     std::sort(names.begin(), names.end());

@@ -46,7 +46,7 @@ struct ToolSurface {
     bool operator==(const ToolSurface&) const = default;
 };
 
-/// What a tool shows that is no part of the scene.
+/// Marks of a tool that are no part of the scene.
 struct ToolMarks {
     std::vector<ToolLabel> labels;
     std::vector<ToolOutline> outlines;
@@ -65,7 +65,7 @@ struct ToolObject {
     bool operator==(const ToolObject&) const = default;
 };
 
-/// The hand of a recording that is played: what it saw, and where it is.
+/// The hand of a played recording: its view, and its place.
 struct PlayedHand {
     Camera camera;
     gl::Extent size;
@@ -74,20 +74,20 @@ struct PlayedHand {
     bool is_down = false;
 };
 
-/// What the panel says of the scene and the tool.
+/// State of the scene and the tool for the panel.
 struct ToolState {
     bool has_scene = false;
     /// Another number: another scene.
     std::uint64_t scene = 0;
-    /// Where the tool has set it since the last state: what the scene is to be seen by.
+    /// Camera of the scene, if the tool has set it since the last state.
     std::optional<Camera> camera;
     /// Likewise of a scene that was saved: the axis that points up in it.
     std::optional<ViewUp> up = std::nullopt;
-    /// What can be shown by itself, in the order of the scene.
+    /// Objects that can be shown by themselves, in the order of the scene.
     std::vector<ToolObject> objects;
     /// Name of the tool in hand, and the word that it was taken by; empty for none.
     std::string tool, word;
-    /// What the tool asks, or its help.
+    /// Question of the tool, or its help.
     std::string prompt;
     std::vector<lua::ScriptParameter> parameters;
     /// Names of the steps, oldest first; the first `place` can be undone.
@@ -103,9 +103,9 @@ struct ToolState {
     bool operator==(const ToolState& other) const;
 };
 
-/// What an event of a recording has brought.
+/// Result of an event of a recording.
 struct PlayedEvent {
-    /// Where the scene differs from what was recorded, and did not before.
+    /// First difference of the scene from the recording.
     std::string difference;
     /// The tool that is in hand from now on, as `ToolBench::use` takes it.
     std::optional<std::string> tool;
@@ -120,19 +120,19 @@ class ToolBench {
 
     /// Opens files as one scene: meshes, read with `options`, or one .lissom file.
     cli::ScriptResult open(const std::vector<std::string>& paths, const LoadOptions& options);
-    /// Makes a scene of what is between two stack indices: a scene that is there, or objects that a
+    /// Makes a scene of the values between two stack indices: an existing scene, or objects that a
     /// scene can hold. Without any there is no scene afterwards.
     cli::ScriptResult take_values(int first, int last);
     bool has_scene() const { return has_scene_; }
-    /// Whether what is between two stack indices is one tool.
+    /// Returns whether the values between two stack indices are one tool.
     bool is_tool(int first, int last);
-    /// The name of the tool at a stack index.
+    /// Returns the name of the tool at a stack index.
     std::string tool_name(int index);
-    /// Whether one of the values between two stack indices is a scene.
+    /// Returns whether one of the values between two stack indices is a scene.
     bool has_scene_among(int first, int last) const;
-    /// Whether there is no scene, or one without objects.
+    /// Returns whether there is no scene, or one without objects.
     bool is_empty();
-    /// Writes the scene to a file; `left_out` says what had no place there.
+    /// Writes the scene to a file; `left_out` lists its omissions.
     cli::ScriptResult save(const std::string& path, std::string& left_out);
     /// Writes the mesh in hand to a file whose ending names the format, or to a free name if `path`
     /// is empty; `told` says which. The scene stays as it is.
@@ -142,12 +142,12 @@ class ToolBench {
 
     // ---- Tools
 
-    /// Takes a tool in hand: a file, the name of one that ships, or none where `word` is empty; a
+    /// Takes a tool in hand: a file, the name of one that ships, or none if `word` is empty; a
     /// recording calls it `told`.
     cli::ScriptResult use(const std::string& word, const std::string& told);
-    /// What `word`, the tool in hand, was read from.
+    /// Returns the files of `word`, the tool in hand.
     std::vector<std::filesystem::path> tool_files(const std::string& word);
-    /// Whether a button is down that the tool knows of.
+    /// Returns whether a button is down that the tool knows of.
     bool is_held() const;
     /// A hand has done this; `is_late` if a later place of the same drag is known already.
     cli::ScriptResult take(const ToolInput& input, bool is_late = false);
@@ -156,25 +156,26 @@ class ToolBench {
     cli::ScriptResult set(const std::string& name, const lua::ParameterValue& value);
     /// After a call that was stopped from outside.
     bool recover();
-    /// Whether one of the values between two stack indices is an object of the scene, or that.
+    /// Returns whether one of the values between two stack indices is an object of the scene, or
+    /// that.
     bool holds(int first, int last);
     /// A line of a console follows.
     void begin_outside();
-    /// That `line`, a statement or an expression, was done, or `failed`: the journal tells it where
-    /// it has changed the scene. True where a recording lacks that.
+    /// Reports that `line`, a statement or an expression, was done, or `failed`: the journal has it
+    /// if it has changed the scene. Returns true if a recording lacks that.
     bool changed_outside(const std::string& line, bool failed);
 
-    /// What is selected, and the tool's parameters and state, as a text for `restore` in another
-    /// state of Lua; nothing where there is no scene.
+    /// Returns the selection, and the tool's parameters and state, as a text for `restore` in
+    /// another state of Lua; nothing if there is no scene.
     std::optional<std::string> kept();
-    /// Takes that back before a tool is taken in hand; what was selected only where it `selects`.
+    /// Restores that before a tool is taken in hand; the selection only if it `selects`.
     cli::ScriptResult restore(const std::string& kept, bool selects);
 
     /// Begins a recording ("record") or a journal ("keep_journal"); `open` are the files of the
-    /// scene, where nothing else led to it, and how they were read.
+    /// scene, if nothing else led to it, and their options.
     cli::ScriptResult record(const char* method, const std::vector<std::string>& open,
                              const LoadOptions& options);
-    /// Their text up to now ("recording", "journal_text"); nothing where none is made.
+    /// Returns their text up to now ("recording", "journal_text"); nothing if none is made.
     std::optional<std::string> text_of(const char* method);
 
     // ---- Playing
@@ -185,26 +186,26 @@ class ToolBench {
                                      std::vector<double>& times);
     /// Does the event at `place` of the open recording.
     cli::ScriptResult play(std::size_t place, PlayedEvent& done);
-    /// Whether a difference was found.
+    /// Returns whether a difference was found.
     bool play_differs() const { return play_differs_; }
-    /// What the event at `place` is.
+    /// Returns the kind of the event at `place`.
     std::string event_kind(std::size_t place);
-    /// The hand as the last event left it.
+    /// Returns the hand as the last event left it.
     PlayedHand hand() const;
 
-    // ---- What there is to see
+    // ---- Results
 
-    /// Tells by the tool what it shows; then `picture` and `state` can be asked.
+    /// Asks the tool for its marks; then `picture` and `state` can be asked.
     cli::ScriptResult draw();
     /// Errors: those of drawing_of.
     Picture picture();
-    /// A name for each mesh of the picture.
+    /// Returns a name for each mesh of the picture.
     std::vector<std::string> names_of(const Picture& picture);
     ToolState state();
     /// The camera that the tool or a saved scene has set since the last call.
     struct Looked {
         std::optional<Camera> camera;
-        /// Of a saved scene.
+        /// Up axis of a saved scene.
         std::optional<ViewUp> up;
     };
     Looked looked();
@@ -220,7 +221,7 @@ class ToolBench {
 
     cli::Script& script_;
     bool has_scene_ = false, play_differs_ = false;
-    /// What a script may have closed, and must not.
+    /// The scene, which a script may have closed and which must stay.
     std::shared_ptr<void> scene_;
 };
 

@@ -1,4 +1,4 @@
-/// What a hand does to the picture, on its way to a tool; and a queue that keeps each move.
+/// Inputs of a hand for a tool; and a queue that keeps each move.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace lissom::window {
 
-/// `play` is an event of the recording that is open, `stop` lets go of what it holds.
+/// `play` is an event of the open recording, `stop` releases the objects that it holds.
 struct ToolInput {
     enum class Kind { press, move, release, wheel, key, cancel, undo, redo, look, play, stop };
 
@@ -20,27 +20,27 @@ struct ToolInput {
     Vec2 at = Vec2::Zero();
     MouseButton button = MouseButton::left;
     Modifiers modifiers = {};
-    /// Of wheel: lines upwards.
+    /// For wheel: lines upwards.
     double lines = 0.0;
     /// "enter", "a", ...
     std::string key = {};
-    /// Of look: from where the picture is seen now, and its size.
+    /// For look: the present camera of the picture, and its size.
     Camera camera = {};
     gl::Extent size = {};
-    /// Of look: the axis of the world that points up in the window's views.
+    /// For look: the axis of the world that points up in the window's views.
     ViewUp up = ViewUp::y;
-    /// Of play: the place of the event in the recording, from 0.
+    /// For play: the place of the event in the recording, from 0.
     std::size_t event = 0;
 };
 
-/// The pixels of tools: as large on every screen, so that a hand finds within a radius what it
-/// found on another screen, and a recording can be played there.
+/// The pixels of tools: as large on every screen, so that a radius means the same on another
+/// screen, and a recording can be played there.
 struct ToolPixels {
     /// Pixels of the screen in one.
     double scale = 1.0;
 
     Vec2 at(const Vec2& pixel) const { return pixel / scale; }
-    /// Of a picture of so many pixels.
+    /// Returns the size of a picture in these pixels.
     gl::Extent size(const PictureSize& pixels) const;
 };
 
@@ -49,11 +49,11 @@ struct ToolPixels {
 void push_input(std::vector<ToolInput>& inputs, ToolInput input);
 
 /// Returns whether the input at `place` is a move that another move follows, with the same
-/// modifiers: a tool may leave out what is only seen between them.
+/// modifiers: a tool may leave out its intermediate drawing.
 bool is_followed(const std::vector<ToolInput>& inputs, std::size_t place);
 
-/// The name of a key as tools know it: "enter", "a", "7"; empty for one that they are not told of.
-/// A letter that is not Latin has the name of the Latin letter on its key.
+/// Returns the name of a key as tools know it: "enter", "a", "7"; empty for one that they are not
+/// told of. A letter that is not Latin has the name of the Latin letter on its key.
 std::string tool_key(const Input& input);
 
 }  // namespace lissom::window

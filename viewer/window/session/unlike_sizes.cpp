@@ -9,7 +9,7 @@
 namespace lissom::window {
 namespace {
 
-// What is smaller by more than this is a few pixels wide where the other fills the window.
+// An object smaller by more than this is a few pixels wide while the other fills the window.
 constexpr double kHardlySeen = 100.0;
 
 double size_of(const DrawnMesh& drawn) {

@@ -9,8 +9,8 @@
 
 namespace lissom::window {
 
-/// What to tell where the largest of some meshes, called `names`, is so many times as large as the
-/// smallest that this is hardly seen beside it; "" where all can be seen. Vertices that are not
+/// Returns a warning if the largest of some meshes, called `names`, is so many times as large as
+/// the smallest that this is hardly seen beside it; "" if all can be seen. Vertices that are not
 /// finite do not count.
 std::string unlike_sizes(std::span<const DrawnMesh> meshes, std::span<const std::string> names);
 

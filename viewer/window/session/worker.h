@@ -15,7 +15,7 @@ class Worker {
     using Job = std::function<void()>;
 
     Worker();
-    /// Drops what waits and joins; whoever wants the running job to end soon cancels it before.
+    /// Drops waiting jobs and joins; cancel the running job before to end it soon.
     ~Worker();
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
@@ -25,7 +25,7 @@ class Worker {
     void post(Job job, bool stays = false);
     /// The same instead of all others that wait and do not stay.
     void post_only(Job job);
-    /// Whether a job runs or waits.
+    /// Returns whether a job runs or waits.
     bool busy() const { return open_ > 0; }
     /// Waits until nothing runs, `seconds` at most; whether that is so.
     bool wait_idle(double seconds);
