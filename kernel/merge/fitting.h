@@ -23,7 +23,7 @@ struct FitSides {
     const Loop& target_loop;
 };
 
-/// Finds how the parts of a join fit: as they lie, if the surface turns by less than 75 degrees
+/// Finds how the parts of a join fit: as they lie, if the surface turns by less than 105 degrees
 /// across the seam in the median; in the free configuration also where a similarity brings them
 /// together, if it turns by less than 15 degrees. Where the surface bends it turns by what it does
 /// beyond that. Nothing where they do not fit, or not with `keys`; without keys only as they lie.

@@ -1,10 +1,12 @@
 #include "kernel/merge/merge.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "kernel/core/clock.h"
 #include "kernel/core/memory_error.h"
+#include "kernel/merge/crossings.h"
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/merge/verdict.h"
@@ -84,6 +86,27 @@ BandQuality band_of(const MergePreparation& preparation, const Sewn& sewn, const
                         preparation.options.configuration == Configuration::fixed, context);
 }
 
+// What the caller could still change of a merge.
+OpenOptions open_options(const MergePreparation& preparation, const Matching& matching,
+                         const MergeReport& report) {
+    const MergeOptions& options = preparation.options;
+    const bool blends = options.suit_transition || options.source_transition > 0.0 ||
+                        options.target_transition > 0.0;
+    OpenOptions open;
+    open.sought = options.find_intersections;
+    open.keys = std::any_of(matching.joins.begin(), matching.joins.end(),
+                            [](const JoinReport& join) { return join.placed != Placing::keys; });
+    open.fair = options.seam != SeamKind::fair && !blends && !options.thesis;
+    open.transition = !blends;
+    open.no_transition = blends && report.transition.kept > 0.0;
+    open.smooth = report.seam.smoothed >= options.smooth;
+    open.collar = !options.collar && !options.thesis;
+    open.fixed = options.fixed.empty();
+    open.free = options.configuration == Configuration::fixed;
+    open.moves = open.free;
+    return open;
+}
+
 }  // namespace
 
 MergeReport report_of(const MergePreparation& preparation, const Matching& matching,
@@ -105,11 +128,13 @@ MergeReport report_of(const MergePreparation& preparation, const Matching& match
     report.seam = merged.sewn.report;
     report.transition = merged.transition;
     report.intersections = merged.intersections;
+    report.known_intersections = merged.known_intersections;
+    report.crossings = crossing_groups(merged.sewn, merged.intersections, context);
     report.prepare_seconds = preparation.seconds;
     for (std::size_t j = 0; j < report.joins.size(); ++j) {
         report.joins[j].band = band_of(preparation, merged.sewn, report.joins[j], j, context);
     }
-    judge(report, preparation.options.find_intersections);
+    judge(report, open_options(preparation, matching, report));
     return report;
 }
 

@@ -197,6 +197,19 @@ enum class MergeFault {
 /// The name of a fault, as scripts see it: "crossings", "folds" and so on.
 const char* fault_name(MergeFault fault);
 
+/// Where faces run through one another: within one radius of a seam, farther from it on the source
+/// or on the target, or there between both.
+enum class CrossingPlace { seam, source, target, between };
+
+/// The pairs of faces that run through one another at one kind of place.
+struct CrossingGroup {
+    CrossingPlace place = CrossingPlace::seam;
+    Index pairs = 0;
+    /// Faces of the result, ascending, and the mean of their corners.
+    std::vector<Index> faces;
+    Vec3 middle = Vec3::Zero();
+};
+
 /// Why a merge is not good.
 struct MergeReason {
     MergeFault fault = MergeFault::crossings;
@@ -206,8 +219,11 @@ struct MergeReason {
     /// the length of folds, a count of pairs of faces, the part of the volume that was kept, the
     /// certainty of a guess; for bites the depth or the length in radii of the seam.
     double value = 0.0, limit = 0.0;
-    /// What is wrong, in plain words with both figures, and what may help.
+    /// What is wrong, in plain words with both figures, and what may help: only options that the
+    /// operation has and that are not set already are named.
     std::string text, remedy;
+    /// Of crossings: the faces of the result concerned, ascending.
+    std::vector<Index> faces = {};
 };
 
 /// Bites of a paste into the sharp edges of its target (edges that turn by more than 35 degrees):
@@ -247,8 +263,12 @@ struct MergeReport {
     /// Bands of the transition region, where there is one.
     TransitionReport transition;
     /// Pairs of faces of the result that run through one another and come from faces that did not.
-    /// Where separate parts of the source did, the faces next to those count as well.
+    /// Pairs of the source count as before if faces next to theirs did run through one another and
+    /// both belong to separate parts, or lie more than one radius from every seam.
     std::vector<FacePair> intersections;
+    /// The same by where they are; and the number of pairs that came from faces that did.
+    std::vector<CrossingGroup> crossings;
+    Index known_intersections = 0;
     /// Wall-clock seconds of preparation and of the last solve.
     double prepare_seconds = 0.0, solve_seconds = 0.0;
 };

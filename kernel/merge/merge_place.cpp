@@ -123,6 +123,40 @@ FoundPlaces places_by_shape(const MergePreparation& preparation, std::span<const
     return {{{0.0, best.turn.offset}}, Placing::shape, {best.certainty}, false};
 }
 
+// A part that lies turned by more than a quarter from how the shapes clearly suggest may look the
+// wrong way.
+constexpr double kQuarterTurn = 0.25;
+
+double apart_from(const TurnCandidate& turn, const ParameterPair& key) {
+    return std::abs(std::remainder(key.target - key.source - turn.offset, 1.0));
+}
+
+// Before anything is deformed: whether the turn that outlines, symmetry and masses speak for most
+// is about that of the key.
+bool agrees_roughly(const MergePreparation& preparation, const PartShapes::Pair& parts,
+                    const ParameterPair& key) {
+    const Boundaries& from = preparation.boundaries;
+    const std::vector<TurnCandidate> turns = turn_candidates(
+        {&from.source_curves.front(), &from.target_curves.front(), &parts.source, &parts.target});
+    const auto best =
+        std::min_element(turns.begin(), turns.end(), [](const auto& a, const auto& b) {
+            return score_of({a, 0.0}) < score_of({b, 0.0});
+        });
+    return best == turns.end() || apart_from(*best, key) <= kQuarterTurn;
+}
+
+void compare_with_shape(const MergePreparation& preparation, FoundPlaces& found,
+                        const Context& context) {
+    const PartShapes::Pair& parts = preparation.parts->of(preparation.boundaries, context);
+    const ParameterPair& key = found.keys.front();
+    if (parts.source.round || parts.target.round || agrees_roughly(preparation, parts, key)) return;
+    const std::vector<JudgedTurn> turns = judged_turns(preparation, context);
+    const JudgedTurn& best = best_turn(turns);
+    const double apart = apart_from(best.turn, key);
+    if (!(best.certainty >= kCertain && apart > kQuarterTurn)) return;
+    found.off_shape = 2.0 * kPi * apart;
+}
+
 }  // namespace
 
 std::vector<JudgedTurn> judged_turns(const MergePreparation& preparation, const Context& context) {
@@ -155,7 +189,9 @@ FoundPlaces find_places(const MergePreparation& preparation, const Context& cont
     }
     const bool over = loops.size() == 1 && is_turned_over(loops.front());
     if (options.place == Place::shape || over) return places_by_shape(preparation, loops, context);
-    return sure_places(as_placed_offsets(loops), Placing::as_placed);
+    FoundPlaces found = sure_places(as_placed_offsets(loops), Placing::as_placed);
+    if (loops.size() == 1) compare_with_shape(preparation, found, context);
+    return found;
 }
 
 }  // namespace lissom

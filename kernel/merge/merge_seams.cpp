@@ -1,12 +1,13 @@
 // What a merge does last: the seams, and what runs through what.
 #include <algorithm>
 #include <cstdio>
-#include <set>
+#include <numeric>
 #include <string>
 #include <utility>
 
 #include "kernel/merge/blend/fair_seam.h"
-#include "kernel/merge/loop/face_angles.h"
+#include "kernel/merge/creases.h"
+#include "kernel/merge/crossings.h"
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/sew/seam_collar.h"
 #include "kernel/merge/sew/seam_guard.h"
@@ -58,6 +59,9 @@ void note_refused_bands(double kept, std::vector<std::string>& warnings) {
         "the parts are smoother");
 }
 
+// A seam that turns by less at every edge is smooth: fairing would only change what is good.
+constexpr double kSmoothSeam = 5.0 * kDegree;
+
 // A seam whose greatest dihedral angle is above this shows.
 constexpr double kVisible = 20.0 * kPi / 180.0;
 // A seam without a collar must be this much better than one with it.
@@ -67,37 +71,44 @@ double greatest_angles(const SewReport& report) {
     return report.after.greatest_dihedral + report.after.greatest_near;
 }
 
-// An edge that the surface turns at by more than this is a crease.
-constexpr double kCrease = 30.0 * kDegree;
-
-// The vertices on the loops and next to them that a crease of a side at rest ends at, in the
-// numbers of both sides.
-std::vector<Index> creased_vertices(const Boundaries& boundaries) {
-    std::set<Index> creased;
-    const auto add = [&](const Mesh& mesh, const std::vector<std::vector<Index>>& loops,
-                         Index shift) {
-        const auto look_at = [&](Index v) {
-            for (const Index w : mesh.topology().neighbors(v)) {
-                if (edge_dihedral(mesh, v, w) > kCrease) creased.insert(v + shift);
-            }
-        };
-        for (const std::vector<Index>& loop : loops) {
-            for (const Index v : loop) {
-                look_at(v);
-                for (const Index w : mesh.topology().neighbors(v)) look_at(w);
-            }
-        }
-    };
-    add(boundaries.target, boundaries.target_loops, 0);
-    add(boundaries.source.mesh, boundaries.source.loops, boundaries.target.vertex_count());
-    return {creased.begin(), creased.end()};
+bool makes_transition(const MergeOptions& options) {
+    return options.suit_transition || options.source_transition > 0.0 ||
+           options.target_transition > 0.0;
 }
 
-SewOptions sewing(const MergePreparation& preparation, const Matching& matching, bool collar) {
+// The vertices that a crease of a side at rest ends at, in the numbers of both sides: those near
+// the loops, which umbrella steps keep, and if bands move, those on all of the sides.
+struct KeptCreases {
+    std::vector<Index> near, all;
+};
+
+std::vector<Index> creases_of(const Boundaries& boundaries, bool all) {
+    const auto of_side = [&](const Mesh& mesh, const std::vector<std::vector<Index>>& loops) {
+        std::vector<Index> asked(all ? at(mesh.vertex_count()) : 0);
+        std::iota(asked.begin(), asked.end(), 0);
+        return creased_vertices(mesh, all ? asked : vertices_near(mesh, loops));
+    };
+    std::vector<Index> creased = of_side(boundaries.target, boundaries.target_loops);
+    for (const Index v : of_side(boundaries.source.mesh, boundaries.source.loops)) {
+        creased.push_back(v + boundaries.target.vertex_count());
+    }
+    return creased;
+}
+
+KeptCreases kept_creases(const Boundaries& boundaries, const MergeOptions& options) {
+    if (options.thesis) return {};
+    KeptCreases kept{creases_of(boundaries, false), {}};
+    const bool bands = options.seam == SeamKind::fair || makes_transition(options);
+    if (bands) kept.all = creases_of(boundaries, true);
+    return kept;
+}
+
+SewOptions sewing(const MergePreparation& preparation, const Matching& matching,
+                  const std::vector<Index>& firm, bool collar) {
     const MergeOptions& options = preparation.options;
     SewOptions how;
     for (const auto& fit : matching.fits) how.kept.push_back(fit ? 1 : 0);
-    if (!options.thesis) how.firm = creased_vertices(preparation.boundaries);
+    how.firm = firm;
     how.kind = options.seam;
     how.smooth = options.smooth;
     how.collar = collar;
@@ -114,22 +125,25 @@ std::vector<TransitionWidths> asked_widths(const MergeOptions& options,
     return widths;
 }
 
-void blend(const MergeOptions& options, const Matching& matching, MergedSides& merged,
-           const Context& context) {
+void blend(const MergeOptions& options, const Matching& matching, const std::vector<Index>& firm,
+           MergedSides& merged, const Context& context) {
     std::vector<TransitionWidths> widths = options.suit_transition
                                                ? suitable_widths(merged.sewn, context)
                                                : asked_widths(options, matching.joins);
     for (std::size_t k = 0; k < widths.size(); ++k) {
         if (matching.joins[k].fits) widths[k] = {0.0, 0.0};
     }
-    merged.transition = blend_transition(merged.sewn, widths, {}, context);
+    TransitionOptions how;
+    how.firm = became_of(merged.sewn, firm);
+    merged.transition = blend_transition(merged.sewn, widths, how, context);
     for (std::size_t k = 0; k < widths.size(); ++k) {
         note_narrow_band(k, "source", widths[k].source, merged.transition.source[k].width,
                          merged.warnings);
         note_narrow_band(k, "target", widths[k].target, merged.transition.target[k].width,
                          merged.warnings);
     }
-    for (std::size_t k = 0; k < widths.size(); ++k) {
+    // What was left out cannot have folded.
+    for (std::size_t k = 0; merged.transition.kept > 0.0 && k < widths.size(); ++k) {
         note_folded_band(k, "source", merged.transition.source[k], merged.warnings);
         note_folded_band(k, "target", merged.transition.target[k], merged.warnings);
     }
@@ -137,9 +151,8 @@ void blend(const MergeOptions& options, const Matching& matching, MergedSides& m
 }
 
 void finish_seams(const MergeOptions& options, const Matching& matching, const Moved& moved,
-                  MergedSides& merged, const Context& context) {
-    const bool blends = options.suit_transition || options.source_transition > 0.0 ||
-                        options.target_transition > 0.0;
+                  const std::vector<Index>& firm, MergedSides& merged, const Context& context) {
+    const bool blends = makes_transition(options);
     Sewn& sewn = merged.sewn;
     const std::vector<std::vector<Index>> worked = worked_seams(sewn);
     if (worked.empty()) {
@@ -150,9 +163,12 @@ void finish_seams(const MergeOptions& options, const Matching& matching, const M
     if (moved.thesis) {
         merged.transition = moved.thesis->reconstruct(sewn, context);
     } else if (blends) {
-        blend(options, matching, merged, context);
-    } else if (options.seam == SeamKind::fair) {
-        fair_seam(sewn.mesh, worked, {}, context);
+        blend(options, matching, firm, merged, context);
+    } else if (options.seam == SeamKind::fair &&
+               sewn.report.after.greatest_dihedral > kSmoothSeam) {
+        SeamFairing how;
+        how.firm = became_of(sewn, firm);
+        fair_seam(sewn.mesh, worked, how, context);
         flip_near_seams(sewn, context);
     }
     if (blends || options.seam == SeamKind::fair) {
@@ -166,11 +182,12 @@ MergedSides sew_well(const MergePreparation& preparation, const Matching& matchi
                      const Moved& moved, const Context& context) {
     const MergeOptions& options = preparation.options;
     const Mesh& target = preparation.boundaries.target;
+    const KeptCreases firm = kept_creases(preparation.boundaries, options);
     const auto sew_with = [&](bool collar) {
         MergedSides merged;
         merged.sewn = sew(target, moved.source, matching.pairs,
-                          sewing(preparation, matching, collar), context);
-        finish_seams(options, matching, moved, merged, context);
+                          sewing(preparation, matching, firm.near, collar), context);
+        finish_seams(options, matching, moved, firm.all, merged, context);
         require_sound(merged.sewn, target, moved.source, matching.pairs);
         return merged;
     };
@@ -183,123 +200,16 @@ MergedSides sew_well(const MergePreparation& preparation, const Matching& matchi
     return better ? std::move(plain) : std::move(merged);
 }
 
-// The faces of the source, which is deformed, and those of the target that were made or moved.
-std::vector<Index> changed_faces(const Mesh& target, const Sewn& sewn) {
-    const auto is_same = [&](Index v) {
-        const auto sources = sewn.map.vertices[v];
-        return sources.size() == 1 && sources.front().element < target.vertex_count() &&
-               sewn.mesh.position(v) == target.position(sources.front().element);
-    };
-    const auto stays = [&](Index f) {
-        const std::span<const Index> face = sewn.mesh.topology().face(f);
-        const std::span<const Index> old = target.topology().face(sewn.map.faces.main_source(f));
-        if (face.size() != old.size()) return false;
-        for (std::size_t k = 0; k < face.size(); ++k) {
-            if (!is_same(face[k]) || sewn.map.vertices.main_source(face[k]) != old[k]) return false;
-        }
-        return true;
-    };
-    std::vector<Index> faces;
-    for (Index f = 0; f < sewn.mesh.face_count(); ++f) {
-        if (sewn.side_of_face[f] == SeamSide::source || !stays(f)) faces.push_back(f);
-    }
-    return faces;
-}
-
-// Those of the targets and of the source as they are, among the given faces: of the targets, then
-// of the source.
-std::vector<FacePair> own_intersections(const Mesh& target, const Mesh& source,
-                                        const std::vector<Index>& origins, const Context& context) {
-    std::vector<FacePair> result;
-    Index shift = 0;
-    for (const Mesh* mesh : {&target, &source}) {
-        std::vector<Index> faces;
-        for (const Index f : origins) {
-            if (f >= shift && f < shift + mesh->face_count()) faces.push_back(f - shift);
-        }
-        std::sort(faces.begin(), faces.end());
-        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-        if (!faces.empty()) {
-            for (const FacePair& pair : self_intersections(*mesh, {faces, faces}, context)) {
-                result.push_back({pair.first + shift, pair.second + shift});
-            }
-        }
-        shift += mesh->face_count();
-    }
-    return result;
-}
-
 }  // namespace
-
-std::vector<FacePair> new_intersections(const Mesh& target, const Mesh& source, const Sewn& sewn,
-                                        const Context& context) {
-    std::vector<FacePair> pairs =
-        self_intersections(sewn.mesh, {changed_faces(target, sewn), std::nullopt}, context);
-    if (pairs.empty()) return pairs;
-    // In the numbers of the unconnected mesh: faces of the target, then of the source.
-    const Topology& old = target.topology();
-    const Topology& other = source.topology();
-    const auto origins = [&](Index f) {
-        if (sewn.side_of_face[f] == SeamSide::target) {
-            return origin_faces(old, sewn.mesh.topology(), sewn.map, f);
-        }
-        std::vector<Index> faces = origin_faces(other, sewn.mesh.topology(), sewn.map, f,
-                                                {old.face_count(), old.corner_count()});
-        for (Index& face : faces) face += old.face_count();
-        return faces;
-    };
-    // Where two parts of the source run through one another, one that is loose moves as a whole and
-    // the other bends: the line along which they cross slides over to the next faces.
-    const auto part = [&](Index f) {
-        return other.components()[other.face(f - old.face_count())[0]];
-    };
-    const auto slides = [&](Index a, Index b) {
-        return a >= old.face_count() && b >= old.face_count() && part(a) != part(b);
-    };
-    const auto around = [&](Index f) {
-        std::vector<Index> faces;
-        for (const Index v : other.face(f - old.face_count())) {
-            for (const Index g : other.faces_around(v)) faces.push_back(g + old.face_count());
-        }
-        return faces;
-    };
-    std::vector<Index> concerned;
-    for (const FacePair& pair : pairs) {
-        const std::vector<Index> first = origins(pair.first), second = origins(pair.second);
-        for (const std::vector<Index>& faces : {first, second}) {
-            concerned.insert(concerned.end(), faces.begin(), faces.end());
-            if (!slides(first.front(), second.front())) continue;
-            for (const Index f : faces) {
-                const std::vector<Index> near = around(f);
-                concerned.insert(concerned.end(), near.begin(), near.end());
-            }
-        }
-    }
-    const std::vector<FacePair> before = own_intersections(target, source, concerned, context);
-    const auto was = [&](std::span<const Index> first, std::span<const Index> second) {
-        for (const Index a : first) {
-            for (const Index b : second) {
-                const FacePair own{std::min(a, b), std::max(a, b)};
-                if (std::binary_search(before.begin(), before.end(), own)) return true;
-            }
-        }
-        return false;
-    };
-    std::erase_if(pairs, [&](const FacePair& pair) {
-        const std::vector<Index> first = origins(pair.first), second = origins(pair.second);
-        if (was(first, second)) return true;
-        return slides(first.front(), second.front()) &&
-               was(around(first.front()), around(second.front()));
-    });
-    return pairs;
-}
 
 MergedSides sew_sides(const MergePreparation& preparation, const Matching& matching,
                       const Moved& moved, const Context& context) {
     MergedSides merged = sew_well(preparation, matching, moved, context);
     if (!preparation.options.find_intersections) return merged;
-    merged.intersections = new_intersections(
-        preparation.boundaries.target, preparation.boundaries.source.mesh, merged.sewn, context);
+    Crossings found = new_crossings(preparation.boundaries.target,
+                                    preparation.boundaries.source.mesh, merged.sewn, context);
+    merged.intersections = std::move(found.pairs);
+    merged.known_intersections = found.known;
     if (!merged.intersections.empty()) {
         merged.warnings.push_back(std::to_string(merged.intersections.size()) +
                                   " pairs of faces run through one another that did not "

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <string>
 #include <utility>
@@ -124,6 +125,13 @@ void note_place(const MergePreparation& preparation, const FoundPlaces& found, s
                            "the source must be turned over to meet the target, so that how it lies "
                            "does not say which way it belongs; the shapes decide");
     }
+    if (found.off_shape > 0.0) {
+        char angle[64];
+        std::snprintf(angle, sizeof angle, "%.0f degrees from the turn", found.off_shape / kDegree);
+        warnings.push_back(name + "as it lies, the source is " + angle +
+                           " that the shapes of both parts suggest, so that it may look the wrong "
+                           "way; turn it round, give a key, or use place = \"shape\"");
+    }
     if (join.any_turn) {
         warnings.push_back(name + "the parts are round, any turn fits; give a key to choose one");
     } else if (join.certainty < kCertain) {
@@ -184,46 +192,54 @@ BoundaryDeformation laid(const MergePreparation& preparation, const CurveFit& fi
     return result;
 }
 
-// Parts of the source without a join go as a whole with what is nearest to them.
+// Vertices of the source with where they go and how the surface turns and grows there.
+struct Motion {
+    Region region;
+    BoundaryDeformation deformed;
+};
+
+// A part of the source without a join goes as a whole with the row that is nearest to its middle.
 void follow(const Mesh& mesh, const Region& moved, const BoundaryDeformation& deformed,
-            std::vector<Vec3>& positions) {
-    const Topology& topology = mesh.topology();
-    if (moved.size() == topology.vertex_count()) return;
-    std::map<Index, std::vector<Index>> loose;
-    for (const Index v : moved.inverted().vertices()) loose[topology.components()[v]].push_back(v);
-    for (const auto& entry : loose) {
-        Vec3 center = Vec3::Zero();
-        for (const Index v : entry.second) {
-            center += mesh.position(v) / count_of(entry.second);
-        }
-        std::size_t nearest = 0;
-        const auto distance = [&](std::size_t row) {
-            return (mesh.position(moved.vertices()[row]) - center).squaredNorm();
-        };
-        for (std::size_t row = 1; row < moved.vertices().size(); ++row) {
-            if (distance(row) < distance(nearest)) nearest = row;
-        }
-        const Vec3& from = mesh.position(moved.vertices()[nearest]);
-        const Mat3& transform = deformed.transforms[nearest];
-        for (const Index v : entry.second) {
-            positions[v] = deformed.positions[nearest] + transform * (mesh.position(v) - from);
-        }
+            const std::vector<Index>& part, BoundaryDeformation& whole) {
+    Vec3 center = Vec3::Zero();
+    for (const Index v : part) center += mesh.position(v) / count_of(part);
+    const std::vector<Index>& ids = moved.vertices();
+    std::size_t nearest = 0;
+    const auto distance = [&](std::size_t row) {
+        return (mesh.position(ids[row]) - center).squaredNorm();
+    };
+    for (std::size_t row = 1; row < ids.size(); ++row) {
+        if (distance(row) < distance(nearest)) nearest = row;
+    }
+    const Vec3& from = mesh.position(ids[nearest]);
+    const Mat3& transform = deformed.transforms[nearest];
+    for (const Index v : part) {
+        whole.positions[at(v)] =
+            deformed.positions[nearest] + transform * (mesh.position(v) - from);
+        whole.transforms[at(v)] = transform;
     }
 }
 
-std::vector<Vec3> all_positions(const MergePreparation& preparation,
-                                const BoundaryDeformation& deformed) {
+// Parts without a join move along; in the fixed configuration they stay where they are.
+Motion motion_of(const MergePreparation& preparation, BoundaryDeformation deformed) {
     const Mesh& mesh = preparation.boundaries.source.mesh;
     const Region& region = preparation.deformer->region();
-    std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
-    const std::vector<Index>& moved = region.vertices();
-    for (std::size_t row = 0; row < moved.size(); ++row) {
-        positions[moved[row]] = deformed.positions[row];
+    const bool stays = preparation.options.configuration == Configuration::fixed;
+    if (stays || region.size() == mesh.vertex_count()) return {region, std::move(deformed)};
+    Motion motion{Region::all(mesh.shared_topology()), {}};
+    BoundaryDeformation& whole = motion.deformed;
+    whole.positions.assign(mesh.positions().begin(), mesh.positions().end());
+    whole.transforms.assign(whole.positions.size(), Mat3::Identity());
+    for (std::size_t row = 0; row < region.vertices().size(); ++row) {
+        whole.positions[at(region.vertices()[row])] = deformed.positions[row];
+        whole.transforms[at(region.vertices()[row])] = deformed.transforms[row];
     }
-    if (preparation.options.configuration == Configuration::free) {
-        follow(mesh, region, deformed, positions);
+    std::map<Index, std::vector<Index>> loose;
+    for (const Index v : region.inverted().vertices()) {
+        loose[mesh.topology().components()[at(v)]].push_back(v);
     }
-    return positions;
+    for (const auto& entry : loose) follow(mesh, region, deformed, entry.second, whole);
+    return motion;
 }
 
 // The thesis's transition, where it is asked for.
@@ -403,8 +419,13 @@ Moved deform_source(const MergePreparation& preparation, const Matching& matchin
         deformed = result.thesis->deform(preparation.deformer->region(), *preparation.kept,
                                          deformed, context);
     }
-    result.source.set_positions(all_positions(preparation, deformed));
-    turn_directions(rest, preparation.deformer->region(), deformed, result.source);
+    const Motion motion = motion_of(preparation, std::move(deformed));
+    std::vector<Vec3> positions(rest.positions().begin(), rest.positions().end());
+    for (std::size_t row = 0; row < motion.deformed.positions.size(); ++row) {
+        positions[at(motion.region.vertices()[row])] = motion.deformed.positions[row];
+    }
+    result.source.set_positions(std::move(positions));
+    turn_directions(rest, motion.region, motion.deformed, result.source);
     return result;
 }
 

@@ -164,6 +164,9 @@ struct FoundPlaces {
     Placing by = Placing::as_placed;
     std::vector<double> certainty;
     bool any_turn = false;
+    /// As placed, the angle (radians) from the turn that the shapes surely suggest; 0 if it is less
+    /// than a quarter turn.
+    double off_shape = 0.0;
 };
 FoundPlaces find_places(const MergePreparation& preparation, const Context& context);
 
@@ -219,14 +222,10 @@ struct MergedSides {
     TransitionReport transition;
     std::vector<std::string> warnings;
     std::vector<FacePair> intersections;
+    Index known_intersections = 0;
 };
 MergedSides sew_sides(const MergePreparation& preparation, const Matching& matching,
                       const Moved& moved, const Context& context);
-
-/// Pairs of faces of `sewn` that run through one another and come from faces of the opened target
-/// and of the source at rest that did not.
-std::vector<FacePair> new_intersections(const Mesh& target, const Mesh& source, const Sewn& sewn,
-                                        const Context& context);
 
 MergeReport report_of(const MergePreparation& preparation, const Matching& matching,
                       const Moved& moved, const MergedSides& merged, const Context& context);

@@ -8,6 +8,23 @@
 
 namespace lissom {
 
+/// Lists the options of an operation that its caller could still change: it has them, and they are
+/// not set. Remedies name no others.
+struct OpenOptions {
+    /// Crossings were looked for.
+    bool sought = true;
+    /// Keys can be given.
+    bool keys = false;
+    /// The seam can be fair; a transition can be made; the one that was made can be left out.
+    bool fair = false, transition = false, no_transition = false;
+    /// More umbrella steps would be made; the collar, which is off, can be left on.
+    bool smooth = false, collar = false;
+    /// Regions of the source can be fixed; the configuration can be free.
+    bool fixed = false, free = false;
+    /// The result depends on where the part lies, how it is turned and how large it is.
+    bool moves = false;
+};
+
 struct Verdict {
     bool good = false;
     std::string text;
@@ -15,12 +32,12 @@ struct Verdict {
 };
 
 /// Judges the whole band around each seam against the parts as they were before. It is good if
-/// - no faces run through one another that did not before (`sought`: they were looked for);
+/// - no faces run through one another that did not before (`open.sought`: they were looked for);
 /// - source and target do not lie on the same side of their boundary;
 /// - the surface does not fold back within one radius of the seam where it did not before;
 /// - within half a radius it is at most 1.4 times as rough as both sides were, or turns by less
 ///   than 8 degrees an edge;
-/// - each part keeps three quarters of its volume at its scale;
+/// - each part keeps three fifths of its volume at its scale;
 /// - planes fitted to either side of the seam differ by at most 25 degrees in the mean and 50 at
 /// one
 ///   place, and by the crease of a paste, or 1.3 times as much as they did beside the boundaries;
@@ -32,9 +49,9 @@ struct Verdict {
 /// - no triangle at the seam has an angle under 2 degrees, or under the smallest that was there.
 /// Angles of parts that fit (JoinReport::fits) are theirs. The text says what holds, or all that
 /// does not.
-Verdict verdict_of(const MergeReport& report, bool sought);
+Verdict verdict_of(const MergeReport& report, const OpenOptions& open);
 
 /// Judges a report, and writes verdict and reasons into it.
-void judge(MergeReport& report, bool sought);
+void judge(MergeReport& report, const OpenOptions& open);
 
 }  // namespace lissom

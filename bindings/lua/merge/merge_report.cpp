@@ -104,7 +104,7 @@ int reason_text(lua_State* L) {
 
 void push_reason(const Call& call, const MergeReason& reason) {
     lua_State* L = call.lua();
-    lua_createtable(L, 0, 6);
+    lua_createtable(L, 0, 7);
     const double unit = is_angle(reason.fault) ? kDegrees : 1.0;
     call.set_field("fault", call.push(fault_name(reason.fault)));
     if (reason.join != kNoIndex) call.set_field("join", call.push_id(reason.join));
@@ -112,6 +112,7 @@ void push_reason(const Call& call, const MergeReason& reason) {
     call.set_field("limit", call.push(unit * reason.limit));
     call.set_field("text", call.push(reason.text));
     call.set_field("remedy", call.push(reason.remedy));
+    if (reason.fault == MergeFault::crossings) call.set_field("faces", call.push_ids(reason.faces));
     lua_createtable(L, 0, 1);
     lua_pushcfunction(L, reason_text);
     lua_setfield(L, -2, "__tostring");
@@ -370,7 +371,7 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     call.charge(provenance);
     lua_pushvalue(call.lua(), first);
     call.remember(owner.get());
-    lua_createtable(call.lua(), 0, 24);
+    lua_createtable(call.lua(), 0, 25);
     push_joins(call, result.report.joins);
     call.set_field("joins");
     set_verdict(call, result.report.ok, result.report.verdict, result.report.reasons);
@@ -396,6 +397,7 @@ int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs
     }
     push_intersections(call, result.report.intersections);
     call.set_field("intersections");
+    call.set_field("known_intersections", call.push(result.report.known_intersections));
     push_times(call, result.report);
     if (push_paths(call, owner, seams) != 1) return call.fail();
     call.set_field("seams");
@@ -542,6 +544,7 @@ std::vector<Record> merge_records() {
            "the "
            "certainty for place."},
           {"number", "limit", "The limit that it passes."},
+          {"integer[]|nil", "faces", "Of crossings: the faces of the merged mesh concerned."},
           {"string", "text", "What is wrong, in plain words."},
           {"string", "remedy", "What may help."}}},
         {"lissom.TargetBite",
@@ -559,7 +562,7 @@ std::vector<Record> merge_records() {
            "degrees from one side to the other and 50 at one place, or 1.3 times what it did "
            "before (and by the crease of a paste); a paste takes no sharp edge of its target along "
            "more than .3 of its radius or deeper than .15; each part keeps "
-           "three quarters of its volume; the seam turns by no more than 30 degrees and 20 in "
+           "three fifths of its volume; the seam turns by no more than 30 degrees and 20 in "
            "the mean, or than the surfaces did beside the boundaries; no place is a toss; no "
            "triangle at the seam has less than 2 degrees, or than there were."},
           {"string", "verdict", "The same in one line: what holds, or what does not."},
@@ -581,6 +584,8 @@ std::vector<Record> merge_records() {
            "since it would have folded the surface."},
           {"integer[][]", "intersections",
            "Pairs of faces that run through one another and come from faces that did not."},
+          {"integer", "known_intersections",
+           "How many pairs of moved or made faces come from faces that did."},
           {"lissom.Path[]", "seams", "The seams on the merged mesh."},
           {"lissom.Region", "source", "The vertices of the merged mesh that are the source's."},
           {"lissom.Region", "target", "Those that are the targets'."},

@@ -37,10 +37,11 @@ std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> sea
     for (const std::vector<Index>& seam : seams) require_vertices(mesh.topology(), seam);
     const std::vector<Index> rings = seam_rings(mesh.topology(), seams, options.rings);
     const Region region = seam_band(mesh.shared_topology(), rings);
-    if (region.empty()) return {};
+    const Region moving = region.minus(Region(mesh.shared_topology(), options.firm));
+    if (moving.empty()) return {};
 
     Progress progress(context, "fair the seam");
-    BandSystem band(region, region, mesh.positions());
+    BandSystem band(region, moving, mesh.positions());
     band.take_morphs(mesh);
     const SeamCore core(band, rings, options.core);
     for (Index i = 0; i < options.umbrella; ++i) core.umbrella(band);
@@ -55,7 +56,7 @@ std::vector<Index> fair_seam(Mesh& mesh, std::span<const std::vector<Index>> sea
         return {};
     }
     band.write_guarded(mesh, seams, faint_seam(), context);
-    return region.vertices();
+    return moving.vertices();
 }
 
 }  // namespace lissom

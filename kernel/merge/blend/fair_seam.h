@@ -23,6 +23,8 @@ struct SeamFairing {
     Index umbrella = 1;
     /// Times that the surface is bent, each from the shape before; at least 1.
     Index passes = 2;
+    /// Vertices that stay, ascending.
+    std::vector<Index> firm = {};
 };
 
 /// Bends `mesh` in place around `seams`, each a closed loop of vertices joined by edges, as Sewn

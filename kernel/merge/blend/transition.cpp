@@ -267,7 +267,8 @@ TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> 
         transitions.push_back(make_transition(sewn, index_of(k), widths[k], seam_at, context));
     }
     TransitionReport report;
-    const Region moving = moving_region(sewn, transitions);
+    const Region moving =
+        moving_region(sewn, transitions).minus(Region(sewn.mesh.shared_topology(), options.firm));
     report.moved = moving.vertices();
 
     progress.step(0.5);

@@ -31,6 +31,8 @@ struct TransitionOptions {
     Index core = 3;
     Index umbrella = 1;
     Index passes = 2;
+    /// Vertices that stay, ascending.
+    std::vector<Index> firm = {};
 };
 
 /// What became of the band on one side of a seam.

@@ -203,6 +203,10 @@ double volume_kept(double after, double before, double radius) {
 
 }  // namespace
 
+double loop_radius(const Mesh& mesh, std::span<const Index> loop) {
+    return radius_of(mesh, loop, middle_of(mesh, loop));
+}
+
 double rms_dihedral(const Mesh& mesh, std::span<const Index> faces) {
     return edges_of(mesh, faces, {}).rms();
 }

@@ -53,6 +53,9 @@ BandQuality band_quality(const BandSide& made_target, const BandSide& made_sourc
                          const BandSide& target, const BandSide& source, double scale, bool stays,
                          const Context& context = {});
 
+/// The RMS distance of the points of a loop of vertices from their middle.
+double loop_radius(const Mesh& mesh, std::span<const Index> loop);
+
 /// The RMS dihedral angle, weighted by length, of the edges of `faces`, in radians; 0 without any.
 /// Open edges and those of faces without area do not count.
 double rms_dihedral(const Mesh& mesh, std::span<const Index> faces);

@@ -6,7 +6,7 @@
 
 #include "kernel/core/clock.h"
 #include "kernel/core/memory_error.h"
-#include "kernel/merge/merge_stages.h"
+#include "kernel/merge/crossings.h"
 #include "kernel/merge/paste/laid_part.h"
 #include "kernel/merge/paste/part/paste_part.h"
 #include "kernel/merge/paste/part/source_rest.h"
@@ -120,7 +120,10 @@ MergeReport merge_report(const Mesh& target, const Mesh& source, const SewnPart&
     report.warnings = morph_conflicts(target, part.mesh);
     const bool sought = options.find_intersections && !options.draft;
     if (sought) {
-        report.intersections = new_intersections(target, part.mesh, sewn, context);
+        Crossings found = new_crossings(target, part.mesh, sewn, context);
+        report.intersections = std::move(found.pairs);
+        report.known_intersections = found.known;
+        report.crossings = crossing_groups(sewn, report.intersections, context);
     }
     if (!options.draft) {
         const std::vector<Index> of_target = faces_on(sewn.side_of_face, SeamSide::target);
@@ -131,7 +134,12 @@ MergeReport merge_report(const Mesh& target, const Mesh& source, const SewnPart&
             join.scale, false, context);
         note_source(source_rest(source, part, context), report);
     }
-    judge(report, sought);
+    OpenOptions open;
+    open.sought = sought;
+    open.moves = true;
+    open.smooth = !options.draft && report.seam.smoothed >= options.smooth;
+    open.collar = !options.draft && !options.collar;
+    judge(report, open);
     return report;
 }
 

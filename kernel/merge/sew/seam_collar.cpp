@@ -1,12 +1,14 @@
 #include "kernel/merge/sew/seam_collar.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
 
+#include "kernel/merge/loop/band_quality.h"
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/merge/sew/seam_guard.h"
@@ -452,6 +454,29 @@ bool is_kept(const Sewn& old, const SeamQuality& before, Remade& remade, const C
            !adds_crossings(old.mesh, remade.shape(), map, remade.made(), context);
 }
 
+// Collars that take away or add more than this many cubes of the seam's radius bite edges of the
+// side.
+constexpr double kCollarBite = 0.03;
+
+double volume_below(const Mesh& mesh, std::span<const Index> faces, const Vec3& apex) {
+    double sum = 0.0;
+    for (const Index f : faces) {
+        const Vec3 arm = mesh.position(mesh.topology().face(f)[0]) - apex;
+        sum += arm.dot(area_vector(mesh, f)) / 6.0;
+    }
+    return sum;
+}
+
+// Whether the faces made enclose another volume than those that they replace.
+bool bites(const Sewn& old, std::span<const Index> faces, std::size_t seam, const Remade& remade) {
+    const std::vector<Index>& loop = old.seams[seam];
+    const Vec3& apex = old.mesh.position(loop.front());
+    const double change =
+        volume_below(remade.shape(), remade.made(), apex) - volume_below(old.mesh, faces, apex);
+    const double radius = loop_radius(old.mesh, loop);
+    return std::abs(change) > kCollarBite * radius * radius * radius;
+}
+
 // The smallest angle of the triangles made that touch a seam.
 double least_angle_beside(const Remade& remade, std::size_t seam) {
     const Mesh& mesh = remade.shape();
@@ -495,6 +520,7 @@ void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& con
         if (!remade) continue;
         const double angle = least_angle_beside(*remade, seam);
         if (best && angle <= least + kSameQuality) continue;
+        if (bites(sewn, faces, seam, *remade)) continue;
         if (!is_kept(sewn, now, *remade, context)) continue;
         best.emplace(*std::move(remade));
         least = angle;

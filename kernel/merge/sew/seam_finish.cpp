@@ -116,8 +116,9 @@ class Assembly {
     std::vector<Index> vertices_;
 };
 
-// Vertices of the sewn mesh that may not be smoothed: what became of `firm`, on the seams too.
-std::vector<Index> firm_vertices(const Sewn& sewn, std::span<const Index> firm) {
+}  // namespace
+
+std::vector<Index> became_of(const Sewn& sewn, std::span<const Index> firm) {
     const auto is_firm = [&](Index v) { return std::binary_search(firm.begin(), firm.end(), v); };
     std::vector<Index> vertices;
     for (Index v = 0; v < sewn.mesh.vertex_count(); ++v) {
@@ -130,8 +131,6 @@ std::vector<Index> firm_vertices(const Sewn& sewn, std::span<const Index> firm) 
     }
     return vertices;
 }
-
-}  // namespace
 
 SeamSources sources_of(const SeamWork& work, const LoopPair& join, const LoopPoint& on_target,
                        const LoopPoint& on_source) {
@@ -162,7 +161,7 @@ Sewn finish(const SeamWork& work, const SeamFaces& faces, const SewOptions& opti
     sewn.kept = options.kept;
     if (options.collar) make_collars(sewn, context);
     sewn.report.smoothed =
-        smooth_seams(sewn.mesh, worked_seams(sewn), firm_vertices(sewn, options.firm),
+        smooth_seams(sewn.mesh, worked_seams(sewn), became_of(sewn, options.firm),
                      {options.smooth, options.guard}, context);
     if (options.flip && sewn.report.smoothed > 0) flip_near_seams(sewn, context);
     sewn.report.after = seam_quality(sewn.mesh, sewn.seams);

@@ -131,6 +131,10 @@ struct Sewn {
 Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins,
          const SewOptions& options = {}, const Context& context = {});
 
+/// Returns the vertices of `sewn` that vertices of the sides became, ascending: at least half of
+/// each comes from one of `firm`, which are ascending and numbered as in SewOptions.
+std::vector<Index> became_of(const Sewn& sewn, std::span<const Index> firm);
+
 /// The seams that are not kept as they were sewn.
 std::vector<std::vector<Index>> worked_seams(const Sewn& sewn);
 

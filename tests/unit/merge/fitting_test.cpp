@@ -299,6 +299,117 @@ TEST_CASE("smoothing moves no vertex with a crease of its own") {
     }
 }
 
+namespace {
+
+// A flat disc over a regular polygon, with rings of vertices inside and one in the middle.
+Mesh disc(Index sides, Index rings) {
+    std::vector<Vec3> positions;
+    for (Index r = rings; r > 0; --r) {
+        for (Index k = 0; k < sides; ++k) {
+            const double angle = 2.0 * kPi * k / sides, radius = static_cast<double>(r) / rings;
+            positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+        }
+    }
+    const Index middle = sides * rings;
+    positions.emplace_back(0.0, 0.0, 0.0);
+    FaceList faces;
+    for (Index k = 0; k < sides; ++k) {
+        const Index next = (k + 1) % sides;
+        for (Index r = 0; r + 1 < rings; ++r) {
+            const Index a = r * sides;
+            faces.add({a + k, a + next, a + sides + next, a + sides + k});
+        }
+        const Index last = sides * (rings - 1);
+        faces.add({last + k, last + next, middle});
+    }
+    return {std::move(positions), std::move(faces)};
+}
+
+PrismShape round_tube(Index sides, double height, Index rings) {
+    std::mt19937 random(1);
+    PrismShape shape{polygon(sides, 0, true, random)};
+    for (Index r = 0; r <= rings; ++r) shape.heights.push_back(height * r / rings);
+    return shape;
+}
+
+}  // namespace
+
+TEST_CASE("a flat lid with vertices inside fits the tube that it was laid on: all vertices stay") {
+    for (const Index sides : {4, 8, 24}) {
+        for (const Index rings : {1, 3}) {
+            const Mesh tube = prism(round_tube(sides, -2.0, 4)), lid = disc(sides, rings);
+            for (const Configuration configuration : {Configuration::fixed, Configuration::free}) {
+                MergeOptions options;
+                options.configuration = configuration;
+                const MergeResult result = joined(lid, tube, options);
+                CHECK(result.report.joins[0].fits);
+                CHECK(result.report.ok);
+                CHECK(greatest_move(result, places_of(tube, lid)) < 1e-9);
+            }
+        }
+    }
+}
+
+TEST_CASE("fair seams and transitions move no vertex of the target with a crease of its own") {
+    std::mt19937 random(5);
+    for (int run = 0; run < 12; ++run) {
+        PrismShape shape{polygon(5 + run % 6, 1, false, random)};
+        shape.heights = heights(4, 2.0, random);
+        const Mesh source = prism(shape), box = subdivide(prism(square_prism(-2.0, 2)));
+        MergeOptions options;
+        options.collar = false;
+        if (run % 2 == 0) options.seam = SeamKind::fair;
+        options.suit_transition = run % 2 == 1;
+        const MergeResult result = joined(source, box, options);
+        for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+            for (const auto& from : result.provenance.vertices[v]) {
+                if (from.element >= box.vertex_count() || from.weight < 1.0) continue;
+                if (!has_crease(box, from.element)) continue;
+                CHECK((result.mesh.position(v) - box.position(from.element)).norm() < 1e-12);
+            }
+        }
+    }
+}
+
+TEST_CASE("a tube on a like tube stays a tube: fair seams and transitions do not make it bulge") {
+    for (const Index sides : {24, 25, 32}) {
+        const Mesh source = prism(round_tube(sides, 3.0, 12));
+        const Mesh target = prism(round_tube(24, -3.0, 12));
+        for (int how = 0; how < 3; ++how) {
+            MergeOptions options;
+            if (how == 1) options.seam = SeamKind::fair;
+            options.suit_transition = how == 2;
+            const MergeResult result =
+                joined(source, target, options, {{Vec3(1, 0, 0), Vec3(1, 0, 0)}});
+            double least = kInfinity, most = 0.0;
+            for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+                const Vec3& p = result.mesh.position(v);
+                if (std::abs(p.z()) > 1.5) continue;
+                const double radius = std::hypot(p.x(), p.y());
+                least = std::min(least, radius);
+                most = std::max(most, radius);
+            }
+            CAPTURE(sides);
+            CAPTURE(how);
+            CHECK(most < 1.01);
+            CHECK(least > 0.98);
+        }
+    }
+}
+
+TEST_CASE("a collar does not bite the edges of a box of one ring") {
+    for (const Index sides : {6, 8, 12}) {
+        const Mesh source = prism(round_tube(sides, 1.0, 1)), box = prism(square_prism(-1.5));
+        MergeOptions options;
+        const MergeResult collared = joined(source, box, options);
+        options.collar = false;
+        options.smooth = 0;
+        const MergeResult plain = joined(source, box, options);
+        CAPTURE(sides);
+        CHECK(volume(collared.mesh) > 0.98 * volume(plain.mesh));
+    }
+}
+
 TEST_CASE("of several joins the one that fits is left as it is") {
     std::mt19937 random(5);
     PrismShape shape{polygon(12, 0, true, random)};

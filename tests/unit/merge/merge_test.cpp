@@ -589,6 +589,50 @@ TEST_CASE("keys are checked when they are set, and those of before stay") {
     CHECK(hash(merge.solve().mesh) == before);
 }
 
+TEST_CASE("normals and morph targets of loose parts turn and grow with what they move along with") {
+    Mesh source = bumpy_dome(40, 24);
+    SphereOptions small;
+    small.radius = 0.1;
+    Mesh eye = make_sphere(small);
+    for (Vec3& p : eye.edit_positions()) p += Vec3(0.8, 0, 1.4);
+    const Index first = source.vertex_count();
+    append(source, eye);
+    for (const char* name : {"normal", "morph.1.position"}) {
+        Attribute attribute;
+        attribute.name = name;
+        attribute.width = 3;
+        for (Index v = 0; v < source.vertex_count(); ++v) {
+            for (const double x : {0.0, 0.6, 0.8}) attribute.values.push_back(x);
+        }
+        source.attributes().add(attribute);
+    }
+    MergeOptions options;
+    options.collar = false;
+    const MergeResult result =
+        merged(source, bowl(50, 20), options, {{Vec3(1, 0, 0), Vec3(0, 2, 0)}});
+    const Attribute& normals = *result.mesh.attributes().find("normal");
+    const Attribute& morphs = *result.mesh.attributes().find("morph.1.position");
+    const Index shift = result.mesh.vertex_count() - source.vertex_count();
+    // The similarity that took the eye along, by three of its vertices.
+    const auto now = [&](Index v) { return result.mesh.position(v + shift); };
+    Mat3 from, to;
+    const Index spread = eye.vertex_count() / 4;
+    for (int k = 0; k < 3; ++k) {
+        const Index v = first + (k + 1) * spread + 3 * k;
+        from.col(k) = source.position(v) - source.position(first);
+        to.col(k) = now(v) - now(first);
+    }
+    const Mat3 turn = to * from.inverse();
+    const double scale = std::cbrt(turn.determinant());
+    CHECK(std::abs(turn(2, 1)) < scale);
+    for (Index v = first; v < source.vertex_count(); ++v) {
+        const auto n = normals.at(v + shift), m = morphs.at(v + shift);
+        const Vec3 wanted = turn * Vec3(0.0, 0.6, 0.8);
+        CHECK((Vec3(n[0], n[1], n[2]) - wanted / scale).norm() < 1e-6);
+        CHECK((Vec3(m[0], m[1], m[2]) - wanted).norm() < 1e-6);
+    }
+}
+
 TEST_CASE("loose parts that move along are told") {
     Mesh source = bumpy_dome(40, 24);
     SphereOptions small;

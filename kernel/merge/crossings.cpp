@@ -1,0 +1,223 @@
+#include "kernel/merge/crossings.h"
+
+#include <algorithm>
+#include <map>
+
+#include "kernel/merge/sew/seam_guard.h"
+#include "kernel/mesh/query/distances.h"
+
+namespace lissom {
+namespace {
+
+// Within this many radii of a seam, faces cross because of the seam.
+constexpr double kAtSeam = 1.0;
+
+// The faces of the source, which is deformed, and those of the target that were made or moved.
+std::vector<Index> changed_faces(const Mesh& target, const Sewn& sewn) {
+    const auto is_same = [&](Index v) {
+        const auto sources = sewn.map.vertices[v];
+        return sources.size() == 1 && sources.front().element < target.vertex_count() &&
+               sewn.mesh.position(v) == target.position(sources.front().element);
+    };
+    const auto stays = [&](Index f) {
+        const std::span<const Index> face = sewn.mesh.topology().face(f);
+        const std::span<const Index> old = target.topology().face(sewn.map.faces.main_source(f));
+        if (face.size() != old.size()) return false;
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            if (!is_same(face[k]) || sewn.map.vertices.main_source(face[k]) != old[k]) return false;
+        }
+        return true;
+    };
+    std::vector<Index> faces;
+    for (Index f = 0; f < sewn.mesh.face_count(); ++f) {
+        if (sewn.side_of_face[f] == SeamSide::source || !stays(f)) faces.push_back(f);
+    }
+    return faces;
+}
+
+// Those of the targets and of the source as they are, among the given faces: of the targets, then
+// of the source.
+std::vector<FacePair> own_intersections(const Mesh& target, const Mesh& source,
+                                        const std::vector<Index>& origins, const Context& context) {
+    std::vector<FacePair> result;
+    Index shift = 0;
+    for (const Mesh* mesh : {&target, &source}) {
+        std::vector<Index> faces;
+        for (const Index f : origins) {
+            if (f >= shift && f < shift + mesh->face_count()) faces.push_back(f - shift);
+        }
+        std::sort(faces.begin(), faces.end());
+        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        if (!faces.empty()) {
+            for (const FacePair& pair : self_intersections(*mesh, {faces, faces}, context)) {
+                result.push_back({pair.first + shift, pair.second + shift});
+            }
+        }
+        shift += mesh->face_count();
+    }
+    return result;
+}
+
+// Whether vertices lie within one radius of a seam.
+std::vector<char> near_seams(const Sewn& sewn, const Context& context) {
+    std::vector<char> near(at(sewn.mesh.vertex_count()), 0);
+    for (const std::vector<Index>& seam : sewn.seams) {
+        const double reach = kAtSeam * loop_radius(sewn.mesh, seam);
+        const std::vector<double> distance = edge_distances(sewn.mesh, seam, reach, context);
+        for (std::size_t v = 0; v < near.size(); ++v) near[v] |= distance[v] <= reach ? 1 : 0;
+    }
+    return near;
+}
+
+bool touches(const Mesh& mesh, const std::vector<char>& near, Index f) {
+    const std::span<const Index> face = mesh.topology().face(f);
+    return std::any_of(face.begin(), face.end(), [&](Index v) { return near[at(v)] != 0; });
+}
+
+// Tells which pairs of faces of the sides at rest, in the numbers of the unconnected mesh, a pair
+// of the merged mesh comes from.
+class Origins {
+  public:
+    Origins(const Mesh& target, const Mesh& source, const Sewn& sewn, const Context& context)
+        : old_(target.topology()),
+          other_(source.topology()),
+          sewn_(sewn),
+          near_(near_seams(sewn, context)) {}
+
+    std::vector<Index> of(Index f) const {
+        if (sewn_.side_of_face[at(f)] == SeamSide::target) {
+            return origin_faces(old_, sewn_.mesh.topology(), sewn_.map, f);
+        }
+        std::vector<Index> faces = origin_faces(other_, sewn_.mesh.topology(), sewn_.map, f,
+                                                {old_.face_count(), old_.corner_count()});
+        for (Index& face : faces) face += old_.face_count();
+        return faces;
+    }
+
+    // Separate parts move each as a whole while the others bend; away from a seam the source bends
+    // by itself. The line along which it crosses itself slides over to the next faces.
+    bool slides(const FacePair& pair) const {
+        if (sewn_.side_of_face[at(pair.first)] == SeamSide::target) return false;
+        if (sewn_.side_of_face[at(pair.second)] == SeamSide::target) return false;
+        if (part(of(pair.first).front()) != part(of(pair.second).front())) return true;
+        return !touches(sewn_.mesh, near_, pair.first) && !touches(sewn_.mesh, near_, pair.second);
+    }
+
+    std::vector<Index> around(std::span<const Index> faces) const {
+        std::vector<Index> result;
+        for (const Index f : faces) {
+            for (const Index v : other_.face(f - old_.face_count())) {
+                for (const Index g : other_.faces_around(v)) {
+                    result.push_back(g + old_.face_count());
+                }
+            }
+        }
+        std::sort(result.begin(), result.end());
+        result.erase(std::unique(result.begin(), result.end()), result.end());
+        return result;
+    }
+
+  private:
+    Index part(Index f) const {
+        return other_.components()[at(other_.face(f - old_.face_count())[0])];
+    }
+
+    const Topology& old_;
+    const Topology& other_;
+    const Sewn& sewn_;
+    std::vector<char> near_;
+};
+
+// The faces at rest that a pair of the merged mesh may have crossed as.
+struct RestPair {
+    std::vector<Index> first, second;
+};
+
+RestPair rest_pair(const Origins& origins, const FacePair& pair) {
+    RestPair rest{origins.of(pair.first), origins.of(pair.second)};
+    if (!origins.slides(pair)) return rest;
+    return {origins.around(rest.first), origins.around(rest.second)};
+}
+
+bool is_among(const std::vector<FacePair>& known, const RestPair& rest) {
+    for (const Index a : rest.first) {
+        for (const Index b : rest.second) {
+            const FacePair own{std::min(a, b), std::max(a, b)};
+            if (std::binary_search(known.begin(), known.end(), own)) return true;
+        }
+    }
+    return false;
+}
+
+CrossingPlace place_of(const Sewn& sewn, const std::vector<char>& near, const FacePair& pair) {
+    if (touches(sewn.mesh, near, pair.first) || touches(sewn.mesh, near, pair.second)) {
+        return CrossingPlace::seam;
+    }
+    const SeamSide first = sewn.side_of_face[at(pair.first)];
+    if (first != sewn.side_of_face[at(pair.second)]) return CrossingPlace::between;
+    return first == SeamSide::source ? CrossingPlace::source : CrossingPlace::target;
+}
+
+Vec3 middle_of_faces(const Mesh& mesh, std::span<const Index> faces) {
+    Vec3 sum = Vec3::Zero();
+    double count = 0.0;
+    for (const Index f : faces) {
+        for (const Index v : mesh.topology().face(f)) {
+            sum += mesh.position(v);
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? Vec3(sum / count) : sum;
+}
+
+}  // namespace
+
+Crossings new_crossings(const Mesh& target, const Mesh& source, const Sewn& sewn,
+                        const Context& context) {
+    Crossings found{
+        self_intersections(sewn.mesh, {changed_faces(target, sewn), std::nullopt}, context), 0};
+    if (found.pairs.empty()) return found;
+    const Origins origins(target, source, sewn, context);
+    std::vector<RestPair> rest;
+    std::vector<Index> concerned;
+    for (const FacePair& pair : found.pairs) {
+        rest.push_back(rest_pair(origins, pair));
+        for (const std::vector<Index>* faces : {&rest.back().first, &rest.back().second}) {
+            concerned.insert(concerned.end(), faces->begin(), faces->end());
+        }
+    }
+    const std::vector<FacePair> before = own_intersections(target, source, concerned, context);
+    std::vector<FacePair> fresh;
+    for (std::size_t k = 0; k < rest.size(); ++k) {
+        if (!is_among(before, rest[k])) fresh.push_back(found.pairs[k]);
+    }
+    found.known = count_of(found.pairs) - count_of(fresh);
+    found.pairs = std::move(fresh);
+    return found;
+}
+
+std::vector<CrossingGroup> crossing_groups(const Sewn& sewn, std::span<const FacePair> pairs,
+                                           const Context& context) {
+    if (pairs.empty()) return {};
+    const std::vector<char> near = near_seams(sewn, context);
+    std::map<CrossingPlace, CrossingGroup> groups;
+    for (const FacePair& pair : pairs) {
+        const CrossingPlace place = place_of(sewn, near, pair);
+        CrossingGroup& group = groups[place];
+        group.place = place;
+        ++group.pairs;
+        group.faces.push_back(pair.first);
+        group.faces.push_back(pair.second);
+    }
+    std::vector<CrossingGroup> result;
+    for (auto& entry : groups) {
+        std::vector<Index>& faces = entry.second.faces;
+        std::sort(faces.begin(), faces.end());
+        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        entry.second.middle = middle_of_faces(sewn.mesh, faces);
+        result.push_back(std::move(entry.second));
+    }
+    return result;
+}
+
+}  // namespace lissom
