@@ -92,7 +92,9 @@ Mesh joined_scene_mesh(const fs::path& path, const Context& context) {
         Mesh mesh = *object.mesh;
         label_object(mesh, object.name);
         if (result) {
-            append(*result, mesh, context);
+            for (const std::string& warning : append(*result, mesh, context)) {
+                context.log(LogLevel::warning, display_name(path) + ": " + warning);
+            }
         } else {
             result = std::move(mesh);
         }

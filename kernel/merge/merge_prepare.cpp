@@ -12,6 +12,7 @@
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/edit/joined_content.h"
 #include "kernel/mesh/edit/joined_morphs.h"
 #include "kernel/mesh/query/distances.h"
 
@@ -71,7 +72,8 @@ void require_distinct(const Mesh& source, std::span<const Mesh* const> targets) 
     for (std::size_t t = 0; t < targets.size(); ++t) {
         if (targets[t] == &source) {
             throw Error(ErrorCode::boundary_conflict,
-                        "source and target are one mesh; merge a copy of it");
+                        "source and target are one mesh; join its boundaries by a bridge, or "
+                        "merge a copy of it");
         }
         const auto earlier = targets.first(t);
         if (std::find(earlier.begin(), earlier.end(), targets[t]) != earlier.end()) {
@@ -230,6 +232,18 @@ void find_fits(std::span<const Join> joins, const MergeOptions& options, Sides& 
     }
 }
 
+void note_absent_values(Sides& sides) {
+    std::vector<NamedSide> named{{"the source", &sides.source.mesh}};
+    const bool one = sides.targets.size() == 1;
+    for (std::size_t t = 0; t < sides.targets.size(); ++t) {
+        named.push_back(
+            {one ? "the target" : "target " + std::to_string(t + 1), &sides.targets[t].mesh});
+    }
+    for (std::string& warning : absence_warnings(named)) {
+        sides.found.warnings.push_back(std::move(warning));
+    }
+}
+
 void trim_sides(std::span<const Join> joins, const MergeOptions& options, Sides& sides,
                 const Context& context) {
     for (MergeSide& side : sides.targets) {
@@ -238,6 +252,7 @@ void trim_sides(std::span<const Join> joins, const MergeOptions& options, Sides&
     }
     if (options.trim) trim_jagged(sides.source, options.greatest_turn, context);
     note_trims(sides.source, "source", sides.found.warnings);
+    note_absent_values(sides);
     for (std::size_t j = 0; j < joins.size(); ++j) {
         JoinReport& join = sides.found.joins.emplace_back();
         const MergeSide& side = sides.targets[joins[j].target_mesh];

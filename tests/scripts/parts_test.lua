@@ -559,3 +559,20 @@ test("scatter: there is room on a cube of twelve triangles", function()
     expect.equal(#report.refused, 0)
     expect_whole(mesh)
 end)
+
+test("a target without texture coordinates has 0, 0 after a paste, and a warning names it", function()
+    local part = nosed(24)
+    part:parameterize{ region = part:region{ plane = { point = { 0, 0, 0 }, normal = { 0, 0, 1 } } } }
+    local uv = part:attribute("uv")
+    for i = 1, #uv do if uv[i] ~= uv[i] then uv[i] = 0.5 end end
+    local ball = lissom.shapes.sphere{ segments = 24, kind = "triangles" }
+    local paste = paste_nose{ source = part, target = ball, placement = { at = { 0, 0, 1 }, scale = 0.5 } }
+    local mesh, report = paste:merge()
+    local values, zeros = mesh:attribute("uv"), 0
+    for i = 1, #values do
+        expect.truthy(values[i] == values[i])
+        if values[i] == 0 then zeros = zeros + 1 end
+    end
+    expect.truthy(zeros > 0 and zeros < #values)
+    expect.truthy(table.concat(report.warnings, "\n"):find("the target has no texture coordinates", 1, true))
+end)

@@ -23,7 +23,9 @@ int append_mesh(Call& call) {
     const auto other = call.object<MeshObject>("other");
     return change_mesh(call, [&](Mesh& mesh) {
         // A copy, because the other mesh may be this one.
-        append(mesh, Mesh(other->mesh), call.context());
+        for (const std::string& warning : append(mesh, Mesh(other->mesh), call.context())) {
+            call.context().log(LogLevel::warning, warning);
+        }
     });
 }
 
@@ -113,7 +115,9 @@ std::vector<Function> in_place_methods() {
          .body = append_mesh,
          .summary =
              "Adds the vertices and faces of another mesh after its own, unconnected, with all "
-             "attributes, groups and regions.",
+             "attributes, groups and regions. Where one of the two has no colors it becomes white, "
+             "where it has no texture coordinates they become 0, 0; a warning in the log names "
+             "them. Other attributes have no value there (NaN).",
          .arguments = {object("other", "lissom.Mesh", "The mesh to add.")},
          .results = kSelf,
          .errors = {ErrorCode::out_of_range, ErrorCode::cancelled},

@@ -17,6 +17,7 @@
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/merge/verdict.h"
+#include "kernel/mesh/edit/joined_content.h"
 #include "kernel/mesh/edit/joined_morphs.h"
 #include "kernel/mesh/measure/measures.h"
 
@@ -115,9 +116,13 @@ MergeReport merge_report(const Mesh& target, const Mesh& source, const SewnPart&
     join.target_size = count_of(laid.opened.loop);
     join.scale = laid.trial.scale;
     report.joins.push_back(join);
+    const NamedSide sides[] = {{"the part", &part.mesh}, {"the target", &target}};
+    report.warnings = absence_warnings(sides);
     report.deform = laid.trial.moved.stats;
     report.seam = sewn.report;
-    report.warnings = morph_conflicts(target, part.mesh);
+    for (std::string& conflict : morph_conflicts(target, part.mesh)) {
+        report.warnings.push_back(std::move(conflict));
+    }
     const bool sought = options.find_intersections && !options.draft;
     if (sought) {
         Crossings found = new_crossings(target, part.mesh, sewn, context);

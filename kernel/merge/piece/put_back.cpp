@@ -5,7 +5,7 @@
 
 #include "kernel/merge/piece/face_set.h"
 #include "kernel/merge/piece/spliced.h"
-#include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/edit/joined_content.h"
 #include "kernel/mesh/query/box_tree.h"
 
 namespace lissom {
@@ -147,7 +147,7 @@ Mesh unconnected(const Mesh& target, const Mesh& source, const Context& context)
     Mesh both = target, other = source;
     split_charts(both);
     split_charts(other);
-    append(both, other, context);
+    append_with(both, other, AbsentValues::none, context);
     return both;
 }
 

@@ -1,6 +1,7 @@
 #include "kernel/merge/sew/sew.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "kernel/merge/sew/seam_loop.h"
 #include "kernel/merge/sew/seam_skin.h"
 #include "kernel/merge/sew/seam_work.h"
+#include "kernel/mesh/edit/joined_content.h"
 #include "kernel/mesh/measure/measures.h"
 
 namespace lissom {
@@ -169,6 +171,41 @@ std::vector<Index> kept_vertices(const SeamWork& work, const SewOptions& options
     return vertices;
 }
 
+const ElementMap& map_of(const MeshMap& map, Domain domain) {
+    switch (domain) {
+        case Domain::vertex:
+            return map.vertices;
+        case Domain::corner:
+            return map.corners;
+        default:
+            return map.faces;
+    }
+}
+
+// Gives elements of the side that lacks an attribute its shown value: after the seam, which keeps
+// the values of the side that has some.
+void show_absent(Attribute& attribute, double value, const ElementMap& from, Index of_target,
+                 bool target_has) {
+    for (Index i = 0; i < attribute.size(); ++i) {
+        const std::span<double> values = attribute.at(i);
+        if (!std::isnan(values[0])) continue;
+        const Index origin = from.main_source(i);
+        if (origin != kNoIndex && (origin < of_target) == target_has) continue;
+        std::fill(values.begin(), values.end(), value);
+    }
+}
+
+void show_absent(const Mesh& target, const Mesh& source, Sewn& sewn) {
+    for (Attribute& attribute : sewn.mesh.attributes().all()) {
+        const double value = shown_value(attribute);
+        const bool target_has = target.attributes().find(attribute.name) != nullptr;
+        const bool source_has = source.attributes().find(attribute.name) != nullptr;
+        if (std::isnan(value) || target_has == source_has) continue;
+        show_absent(attribute, value, map_of(sewn.map, attribute.domain),
+                    element_count(target.topology(), attribute.domain), target_has);
+    }
+}
+
 }  // namespace
 
 Sewn sewn_whole(const BothSides& both, std::span<const LoopPair> joins, const SewOptions& options,
@@ -226,6 +263,7 @@ Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins
     std::optional<Sewn> of_piece = sewn_piece(both, joins, options, context);
     Sewn sewn = of_piece ? std::move(*of_piece) : sewn_whole(both, joins, options, context);
     if (const auto skinned = skinned_side(target, source)) extend_skin(sewn, *skinned, context);
+    show_absent(target, source, sewn);
     require_sound(sewn, target, source, joins);
     return sewn;
 }

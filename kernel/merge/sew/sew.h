@@ -113,8 +113,8 @@ struct Sewn {
 ///   the side that has any. Those of corners are interpolated in their own face, so that each side
 ///   keeps its values along the seam. Texture coordinates and tangents of vertices become those of
 ///   corners before;
-/// - what a side does not have at all is NaN there, as `append` does. glTF files get white, zeros
-///   or the surface's normals in its place, OBJ files leave such colors out, others say nan;
+/// - a side without colors is white, without texture coordinates has 0, 0; what else a side does
+///   not have at all is NaN there, as `append` does;
 /// - a seam vertex is in the regions that it lies in on either side;
 /// - normals are those of the surface on the seam, and turn with the vertices that were smoothed;
 /// - "joints" and "weights" are blended by joint where both sides have the same joints: the names

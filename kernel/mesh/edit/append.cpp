@@ -56,7 +56,14 @@ std::shared_ptr<const Topology> joined_topology(const Mesh& mesh, const Mesh& ot
 
 }  // namespace
 
-void append(Mesh& mesh, const Mesh& other, const Context& context) {
+std::vector<std::string> append(Mesh& mesh, const Mesh& other, const Context& context) {
+    const NamedSide sides[] = {{"the mesh", &mesh}, {"the appended mesh", &other}};
+    std::vector<std::string> warnings = absence_warnings(sides);
+    append_with(mesh, other, AbsentValues::shown, context);
+    return warnings;
+}
+
+void append_with(Mesh& mesh, const Mesh& other, AbsentValues absent, const Context& context) {
     require_complete_attributes(mesh);
     require_complete_attributes(other);
     require_room(mesh.vertex_count(), other.vertex_count(), "vertices");
@@ -74,7 +81,7 @@ void append(Mesh& mesh, const Mesh& other, const Context& context) {
     const std::optional<Mesh> first = with_morph_numbers(mesh, morphs),
                               second = with_morph_numbers(other, morphs);
     JoinedContent content =
-        joined_content(first ? *first : mesh, second ? *second : other, renames, context);
+        joined_content(first ? *first : mesh, second ? *second : other, renames, context, absent);
     result.attributes() = std::move(content.attributes);
     for (auto& [name, vertices] : content.regions) {
         result.set_region(name, Region(result.shared_topology(), std::move(vertices)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "kernel/core/geometry.h"
@@ -54,10 +55,11 @@ ScalarType common_type(ScalarType a, ScalarType b) {
     return is_wide(a) || is_wide(b) ? ScalarType::float64 : ScalarType::float32;
 }
 
-Attribute absent(const Attribute& like, const Topology& topology) {
+Attribute absent(const Attribute& like, const Topology& topology, AbsentValues values) {
     Attribute result{like.name, like.domain, like.width, like.type, {}};
     const std::size_t count = element_count(topology, like.domain);
-    result.values.assign(count * like.width, kNone);
+    result.values.assign(count * like.width,
+                         values == AbsentValues::shown ? shown_value(like) : kNone);
     return result;
 }
 
@@ -75,18 +77,30 @@ Attribute joined(const Attribute& first, const Topology& first_topology, const A
     return result;
 }
 
-AttributeSet joined_attributes(const Mesh& mesh, const Mesh& other) {
+AttributeSet joined_attributes(const Mesh& mesh, const Mesh& other, AbsentValues values) {
     AttributeSet result;
     for (const Attribute& a : mesh.attributes().all()) {
         const Attribute* b = other.attributes().find(a.name);
-        result.add(
-            joined(a, mesh.topology(), b ? *b : absent(a, other.topology()), other.topology()));
+        result.add(joined(a, mesh.topology(), b ? *b : absent(a, other.topology(), values),
+                          other.topology()));
     }
     for (const Attribute& b : other.attributes().all()) {
         if (mesh.attributes().find(b.name)) continue;
-        result.add(joined(absent(b, mesh.topology()), mesh.topology(), b, other.topology()));
+        result.add(
+            joined(absent(b, mesh.topology(), values), mesh.topology(), b, other.topology()));
     }
     return result;
+}
+
+bool lacks(const NamedSide& side, const Attribute& attribute) {
+    return side.mesh->vertex_count() > 0 && !side.mesh->attributes().find(attribute.name);
+}
+
+std::string absence_warning(const NamedSide& side, const Attribute& attribute) {
+    const bool color = role_of(attribute) == AttributeRole::color;
+    return side.name + " has no " + (color ? "colors" : "texture coordinates") + " (\"" +
+           attribute.name + "\"): " + (color ? "it is white there" : "they are 0, 0 there") +
+           "; give it its own before";
 }
 
 const std::string& renamed(const LabelRenames& renames, const std::string& kind,
@@ -138,13 +152,38 @@ std::vector<std::string> joined_libraries(const Mesh& mesh, const Mesh& other) {
 }  // namespace
 
 JoinedContent joined_content(const Mesh& mesh, const Mesh& other, const LabelRenames& renames,
-                             const Context& context) {
+                             const Context& context, AbsentValues absent) {
     require_complete_attributes(mesh);
     require_complete_attributes(other);
-    JoinedContent content{joined_attributes(mesh, other), joined_regions(mesh, other),
+    JoinedContent content{joined_attributes(mesh, other, absent), joined_regions(mesh, other),
                           joined_libraries(mesh, other)};
     join_labels(mesh, other, renames, content.attributes, context);
     return content;
+}
+
+double shown_value(const Attribute& attribute) {
+    switch (role_of(attribute)) {
+        case AttributeRole::color:
+            return 1.0;
+        case AttributeRole::texture_coordinates:
+            return 0.0;
+        default:
+            return kNone;
+    }
+}
+
+std::vector<std::string> absence_warnings(std::span<const NamedSide> sides) {
+    std::vector<std::string> warnings;
+    std::set<std::string> told;
+    for (const NamedSide& having : sides) {
+        for (const Attribute& attribute : having.mesh->attributes().all()) {
+            if (std::isnan(shown_value(attribute)) || !told.insert(attribute.name).second) continue;
+            for (const NamedSide& side : sides) {
+                if (lacks(side, attribute)) warnings.push_back(absence_warning(side, attribute));
+            }
+        }
+    }
+    return warnings;
 }
 
 }  // namespace lissom

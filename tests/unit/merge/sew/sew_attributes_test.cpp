@@ -283,15 +283,37 @@ TEST_CASE("sew: skins of files are joined where their joints have the same names
     for (const Index label : labels.of_face) CHECK(labels.names[label] == object);
 }
 
-TEST_CASE("sew: a side that has no colors gets none") {
-    SewScene scene = two_tubes(24, 31);
-    add_attribute(scene.source, "color", 3, [](const Vec3&, Index) { return 0.25; });
-    const Sewn sewn = sew(scene.target, scene.source, scene.joins);
-    const std::set<Index> seam = on_seam(sewn);
-    const Attribute& color = *sewn.mesh.attributes().find("color");
-    for (Index v = 0; v < sewn.mesh.vertex_count(); ++v) {
-        const bool none = v < scene.target.vertex_count() && !seam.contains(v);
-        CHECK(std::isnan(color.at(v)[0]) == none);
-        if (!none) CHECK(color.at(v)[0] == 0.25);
+TEST_CASE("sew: a side without colors is white, and the seam has the colors of the other") {
+    for (const bool of_source : {true, false}) {
+        SewScene scene = two_tubes(24, 31);
+        add_attribute(of_source ? scene.source : scene.target, "color", 3,
+                      [](const Vec3&, Index) { return 0.25; });
+        const Sewn sewn = sew(scene.target, scene.source, scene.joins);
+        const std::set<Index> seam = on_seam(sewn);
+        const Attribute& color = *sewn.mesh.attributes().find("color");
+        for (Index v = 0; v < sewn.mesh.vertex_count(); ++v) {
+            const bool has = (v >= sewn.first_source_vertex) == of_source || seam.contains(v);
+            for (const double value : color.at(v)) CHECK(value == (has ? 0.25 : 1.0));
+        }
+    }
+}
+
+TEST_CASE("sew: a side without texture coordinates has 0, 0") {
+    for (const bool on_vertices : {false, true}) {
+        SewScene scene = two_tubes(24, 31);
+        if (on_vertices) {
+            add_attribute(scene.source, "uv", 2, [](const Vec3& p, Index k) { return p[k] + 10; });
+        } else {
+            add_corner_uvs(scene.source, 10.0);
+        }
+        const Sewn sewn = sew(scene.target, scene.source, scene.joins);
+        const Attribute& uv = *sewn.mesh.attributes().find("uv");
+        for (Index f = 0; f < sewn.mesh.face_count(); ++f) {
+            const bool of_target = sewn.side_of_face[f] == SeamSide::target;
+            const Index first = sewn.mesh.topology().first_corner(f);
+            for (Index c = first; c < first + count_of(sewn.mesh.topology().face(f)); ++c) {
+                for (const double value : uv.at(c)) CHECK((value == 0.0) == of_target);
+            }
+        }
     }
 }

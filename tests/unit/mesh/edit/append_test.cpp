@@ -52,6 +52,25 @@ TEST_CASE("attributes that only one side has are absent on the other") {
     CHECK(mesh.attributes().labels().at("group").of_face[3] == kNoIndex);
 }
 
+TEST_CASE("a side without colors is white, without texture coordinates has 0, 0, and is named") {
+    Mesh mesh = test::tetrahedron(), other = test::tetrahedron();
+    mesh.attributes().add({"color", Domain::face, 4, ScalarType::uint8, std::vector(16, 0.5)});
+    other.attributes().add({"uv", Domain::corner, 2, ScalarType::float32, std::vector(24, 0.5)});
+    const std::vector<std::string> warnings = append(mesh, other);
+    const Attribute& color = *mesh.attributes().find("color");
+    const Attribute& uv = *mesh.attributes().find("uv");
+    for (Index f = 0; f < 8; ++f) {
+        for (const double value : color.at(f)) CHECK(value == (f < 4 ? 0.5 : 1.0));
+    }
+    for (Index c = 0; c < 24; ++c) {
+        for (const double value : uv.at(c)) CHECK(value == (c < 12 ? 0.0 : 0.5));
+    }
+    REQUIRE(warnings.size() == 2);
+    CHECK(warnings[0].find("the appended mesh has no colors (\"color\")") == 0);
+    CHECK(warnings[1].find("the mesh has no texture coordinates (\"uv\")") == 0);
+    CHECK(append(mesh, Mesh()).empty());
+}
+
 TEST_CASE("the greater width counts, and colors without alpha are opaque") {
     FaceList faces;
     faces.add({0, 1, 2});
