@@ -554,9 +554,70 @@ test("paths that are no boundaries", function()
     merging_fails("topology_mismatch", nil, { { source = stale, target = rim(bowl) } })
 end)
 
+test("a mesh merged with itself: two of its boundaries are joined, and nothing moves", function()
+    local pair = tube:copy():append(tube:copy():transform{ translate = { 0, 3, 0 } })
+    local before, rims = pair:hash(), pair:boundaries()
+    local middle = { source = rims[3], target = rims[2] }
+    local one, of_one = lissom.merge{ source = pair, target = pair, joins = { middle } }
+    expect.equal(one:components(), 1)
+    expect.equal(#one:boundaries(), 2)
+    expect.equal(one:face_count(), pair:face_count() + 48)
+    expect.truthy(of_one.ok)
+    expect.equal(#of_one.joins, 1)
+    for i = 1, #pair do
+        local x, y, z = pair:position(i)
+        local u, v, w = one:position(i)
+        expect.truthy(x == u and y == v and z == w)
+    end
+    local ring, of_ring = lissom.merge{ joins = { middle, { source = rims[1], target = rims[4] } } }
+    expect.truthy(ring:is_closed())
+    expect.equal(ring:genus(), 1)
+    expect.equal(#of_ring.joins, 2)
+    local function refused(code, options)
+        options.joins = options.joins or { middle }
+        if code == "invalid_argument" then
+            expect.error(function() lissom.merge(options) end, "[" .. code .. "]")
+        else
+            expect.failure(code, lissom.merge(options))
+        end
+    end
+    refused("invalid_argument", { smooth = 0 })
+    refused("invalid_argument", { configuration = "fixed" })
+    refused("invalid_argument", { place = "shape" })
+    refused("invalid_argument", { fidelity = "thesis" })
+    refused("invalid_argument", { joins = { { source = rims[3], target = rims[2], keys = {
+        { rims[3]:vertices()[1], rims[2]:vertices()[1] } } } } })
+    refused("boundary_conflict", { joins = { { source = rims[1], target = rims[2] }, middle } })
+    expect.equal(pair:hash(), before)
+end)
+
+test("a side without colors or texture coordinates has some after a merge, and a warning names it", function()
+    local function holds_nan(place)
+        local file <close> = assert(io.open(place, "rb"))
+        return file:read("a"):lower():find("%f[%a]nan%f[%A]") ~= nil
+    end
+    for _, of_cap in ipairs{ true, false } do
+        local part, other = cap:copy(), bowl:copy()
+        local painted = of_cap and part or other
+        painted:parameterize{ attribute = "uv" }
+        local joined = { source = rim(part), target = rim(other), keys = { { from, to } } }
+        local both, of_both = lissom.merge{ joins = { joined } }
+        expect.truthy(of_both.warnings[1]:find((of_cap and "the target" or "the source")
+            .. " has no texture coordinates", 1, true))
+        local values = both:attribute("uv")
+        for i = 1, #values do expect.truthy(values[i] == values[i]) end
+        for _, extension in ipairs{ ".obj", ".ply", ".glb" } do
+            local place = os.tmpname() .. extension
+            both:save(place, extension == ".ply" and { binary = false } or nil)
+            if extension ~= ".glb" then expect.truthy(not holds_nan(place)) end
+            expect.equal(lissom.load(place):face_count(), both:face_count())
+            os.remove(place)
+        end
+    end
+end)
+
 test("joins that get in each other's way", function()
     merging_fails("boundary_conflict", nil, { { source = rim(cap), target = rim(cap) } })
-    merging_fails("boundary_conflict", nil, { { source = ends[1], target = ends[2] } })
     merging_fails("boundary_conflict", nil, { join(), join() })
     merging_fails("boundary_conflict", nil, {
         { source = ends[1], target = rim(bowl) }, { source = ends[2], target = rim(bowl) },

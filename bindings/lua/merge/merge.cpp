@@ -3,6 +3,7 @@
 
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/merge/merge_object.h"
+#include "kernel/merge/merge_within.h"
 
 namespace lissom::lua {
 
@@ -179,15 +180,62 @@ std::shared_ptr<MergingObject> make_merging(const Call& call, const MergeCall& a
     return merging;
 }
 
+// Boundaries of one mesh are bridged: what says how a source is deformed and sewn does not apply.
+void require_bridge_options(const Call& call) {
+    constexpr const char* kDeforming[] = {"source_up", "target_up", "source_front", "target_front",
+                                          "fixed",     "features",  "reach",        "frames",
+                                          "seam",      "smooth",    "collar",       "transition",
+                                          "trim",      "refine"};
+    const auto refuse = [](const std::string& name) {
+        throw Error(ErrorCode::invalid_argument,
+                    name +
+                        " does not apply where source and target are one mesh: its boundaries "
+                        "are bridged and nothing is deformed; leave it out, or merge a copy");
+    };
+    for (const char* name : kDeforming) {
+        if (call.has(name)) refuse(name);
+    }
+    const MergeOptions options = merge_options(call), defaults;
+    if (options.configuration != defaults.configuration) refuse("configuration = \"fixed\"");
+    if (options.place != defaults.place) refuse("place = \"shape\"");
+    if (options.thesis) refuse("fidelity = \"thesis\"");
+}
+
+// The one mesh that all boundaries lie on, or null.
+MeshObject* mesh_within(const MergeCall& asked) {
+    const MeshesOfJoins meshes = meshes_of(asked.joins);
+    const bool one = meshes.targets.size() == 1 && meshes.targets.front() == meshes.source;
+    return one ? meshes.source : nullptr;
+}
+
+MergeResult merged_within(const Call& call, const MergeCall& asked, const Mesh& mesh,
+                          MergeInputs& inputs) {
+    require_bridge_options(call);
+    const MeshesOfJoins meshes = meshes_of(asked.joins);
+    require_named(asked.source, {meshes.source}, "source");
+    for (std::size_t i = 0; i < asked.target_count; ++i) {
+        require_named(asked.targets[i], meshes.targets, "target");
+    }
+    inputs = {{mesh.vertex_count(), mesh.vertex_count()}, {mesh.face_count(), mesh.face_count()}};
+    return merge_within(mesh, joins_of(asked.joins, meshes), call.boolean("intersections"),
+                        call.context());
+}
+
 int merge_meshes(Call& call) {
     const MergeCall asked = read_merge(call);
+    auto& inputs = call.hold<MergeInputs>();
     auto& merging = call.hold<std::shared_ptr<MergingObject>>();
     auto& result = call.hold<std::unique_ptr<MergeResult>>();
     const bool done = call.attempt([&] {
+        if (const MeshObject* mesh = mesh_within(asked)) {
+            result = std::make_unique<MergeResult>(merged_within(call, asked, mesh->mesh, inputs));
+            return;
+        }
         merging = make_merging(call, asked);
+        inputs = merging->inputs;
         result = std::make_unique<MergeResult>(merging->merge().solve(call.context()));
     });
-    return done ? push_merge_result(call, *result, merging->inputs) : call.fail();
+    return done ? push_merge_result(call, *result, inputs) : call.fail();
 }
 
 int new_merging(Call& call) {
@@ -423,7 +471,10 @@ std::vector<Function> merge_functions() {
              "source is deformed so that its boundaries meet those of the targets, wherever it "
              "lies and whatever its size; the targets stay. Vertices and faces of the targets come "
              "first, in their order, then those of the source; attributes, labels and regions of "
-             "all are kept.",
+             "all are kept. Where one side has no colors it is white, where it has no texture "
+             "coordinates they are 0, 0, and a warning says so. If source and target are one mesh, "
+             "two of its boundaries are joined by a bridge of triangles, and nothing moves: "
+             "options that say how a source is deformed are refused.",
          .options = merge_parameters(true),
          .results = {{"lissom.Mesh", "mesh", "The merged mesh."},
                      {"lissom.MergeReport", "report", "What was found and done."}},

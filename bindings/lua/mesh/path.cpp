@@ -1,6 +1,7 @@
 // lissom.Path, and the methods of a mesh that make paths and close boundaries.
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/path_object.h"
+#include "kernel/mesh/fill/bridge.h"
 #include "kernel/mesh/fill/fill.h"
 #include "kernel/mesh/query/path_smooth.h"
 
@@ -93,6 +94,19 @@ int fill_boundary(Call& call) {
     for (const auto& count : counts) call.set_field(count.name, call.push(count.value));
     call.set_field("limit_reached", call.push(report.limit_reached));
     return 2;
+}
+
+int bridge_boundaries(Call& call) {
+    const auto a = call.object<PathObject>("a");
+    const auto b = call.object<PathObject>("b");
+    BridgeReport report;
+    const int results = change_mesh(call, [&](Mesh& mesh) {
+        report = bridge(mesh, a->current(), b->current(), call.context());
+    });
+    if (results != 1) return results;
+    call.push(report.first_face + 1);
+    call.push(report.face_count);
+    return 3;
 }
 
 // ---- Methods of a path
@@ -339,7 +353,27 @@ assert(#path == 11))"},
                         ErrorCode::unsupported, ErrorCode::memory_limit, ErrorCode::cancelled},
              .example = R"(local tube = lissom.shapes.cylinder{ caps = false }
 while #tube:boundaries() > 0 do tube:fill(tube:boundaries()[1]) end
-assert(tube:is_closed()))"}};
+assert(tube:is_closed()))"},
+            {.name = "bridge",
+             .body = bridge_boundaries,
+             .summary =
+                 "Joins two open boundaries by a strip of triangles between their vertices, in "
+                 "place: two parts become one, holes on both sides of a part a tunnel. Boundaries "
+                 "are matched by arc length where they lie closest. All ids stay; a triangle has "
+                 "the groups and attributes of the face at its boundary edge.",
+             .arguments = {object("a", "lissom.Path", "An open boundary of this mesh."),
+                           object("b", "lissom.Path", "Another one.")},
+             .results = {{"lissom.Mesh", "mesh", "The mesh itself."},
+                         {"integer", "first_face", "The first of the triangles."},
+                         {"integer", "face_count", "How many there are; the last of all faces."}},
+             .errors = {ErrorCode::topology_mismatch, ErrorCode::not_a_boundary,
+                        ErrorCode::boundary_conflict, ErrorCode::inconsistent_orientation,
+                        ErrorCode::memory_limit, ErrorCode::cancelled},
+             .example = R"(local tube = lissom.shapes.cylinder{ caps = false }
+tube:append(tube:copy():transform{ translate = { 0, 5, 0 } })
+local rims = tube:boundaries()
+tube:bridge(rims[2], rims[3])
+assert(tube:components() == 1))"}};
 }
 
 }  // namespace lissom::lua
