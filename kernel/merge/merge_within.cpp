@@ -86,9 +86,7 @@ void measure(const Mesh& before, std::span<const Join> joins, bool sought, Merge
                                   " pairs of faces run through one another that did not "
                                   "before; see the report's intersections");
     }
-    const Verdict verdict = verdict_of(report, sought);
-    report.ok = verdict.good;
-    report.verdict = verdict.text;
+    judge(report, sought);
 }
 
 }  // namespace
