@@ -292,6 +292,12 @@ void SceneDrawer::draw_output(const DrawTarget& target, const gl::Program& progr
 
 namespace {
 
+double least_width(const Snapshot& snapshot) {
+    Index count = 0;
+    for (const DrawnStrands& drawn : snapshot.strands) count += drawn.strands->size();
+    return least_visible_width(count);
+}
+
 // The picture without strands, which `shadow` stands for; may be null.
 Image draw_meshes(const SceneTools& tools, const GpuScene& scene, const SceneView& view,
                   const RenderOptions& options, const StrandShadow* shadow,
@@ -318,7 +324,8 @@ Image draw_scene(const SceneTools& tools, const GpuScene& scene, const Camera& c
     progress.step(0.3);
     const Mat4& to_view = view.parameters.view;
     const StrandScene strands{view_strands(snapshot, to_view, scene.origin()),
-                              view_triangles(snapshot, to_view, scene.origin()), view.parameters};
+                              view_triangles(snapshot, to_view, scene.origin()), view.parameters,
+                              least_width(snapshot)};
     const StrandShadow shadow(strands.strands, strands.triangles, context);
     progress.step(0.3);
     RenderOptions on_nothing = options;

@@ -26,14 +26,16 @@ constexpr Index kBatchChunks = 8;
 
 class Screen {
   public:
-    Screen(const ViewParameters& view, int width, int height)
+    // `least_radius`: of opaque strands, in pixels.
+    Screen(const ViewParameters& view, int width, int height, float least_radius)
         : projection_(view.projection.cast<float>()),
           perspective_(view.perspective),
           near_(static_cast<float>(view.near)),
           width_(static_cast<float>(width)),
           height_(static_cast<float>(height)),
           // Pixels in a view unit; at depth 1 with perspective.
-          scale_(static_cast<float>(0.5 * height / view.half_extent.y())) {}
+          scale_(static_cast<float>(0.5 * height / view.half_extent.y())),
+          least_radius_(least_radius) {}
 
     // A point in front of the near plane.
     ScreenPoint operator()(const Vector3f& p, float width) const {
@@ -42,6 +44,12 @@ class Screen {
         const float inverse = perspective_ ? -1.0f / p.z() : 1.0f;
         return {(0.5f + 0.5f * x * inverse) * width_, (0.5f - 0.5f * y * inverse) * height_,
                 0.5f + 0.5f * z * inverse, 0.5f * width * scale_ * inverse};
+    }
+    // The same of a strand that is seen however thin it is.
+    ScreenPoint visible(const Vector3f& p, float width) const {
+        ScreenPoint point = (*this)(p, width);
+        if (width > 0.0f) point.radius = std::max(point.radius, least_radius_);
+        return point;
     }
     bool in_front(const Vector3f& p) const { return p.z() <= -near_; }
     // Fraction of a line, from a point in front to one that is not, at which it meets the near
@@ -56,7 +64,7 @@ class Screen {
   private:
     Eigen::Matrix4f projection_;
     bool perspective_;
-    float near_, width_, height_, scale_;
+    float near_, width_, height_, scale_, least_radius_;
 };
 
 // ---- Strands by the numbers of their points: the ids of samples
@@ -263,14 +271,14 @@ void add_segment(SortedSegments& sorted, const Tiles& tiles, const Segment& segm
 
 // A segment as far as it is in front of the near plane.
 bool project(const Screen& screen, const Vector3f& a, const Vector3f& b, float a_width,
-             float b_width, Segment& segment) {
+             float b_width, bool opaque, Segment& segment) {
     const bool a_front = screen.in_front(a), b_front = screen.in_front(b);
     if (!a_front && !b_front) return false;
     Vector3f begin = a, end = b;
     if (!b_front) end = a + screen.to_near(a, b) * (b - a);
     if (!a_front) begin = b + screen.to_near(b, a) * (a - b);
-    segment.begin = screen(begin, a_width);
-    segment.end = screen(end, b_width);
+    segment.begin = opaque ? screen.visible(begin, a_width) : screen(begin, a_width);
+    segment.end = opaque ? screen.visible(end, b_width) : screen(end, b_width);
     return true;
 }
 
@@ -278,12 +286,14 @@ void sort_strand(const ViewStrands& drawn, Index strand, std::uint32_t base, con
                  const Tiles& tiles, std::vector<float>& widths, SortedSegments& sorted) {
     const Index first = drawn.strands->first_point(strand);
     cover_widths(drawn, strand, widths);
+    const StrandValues<float>& clear = drawn.strands->transparency();
+    const bool opaque = clear.domain == StrandDomain::all && clear.common <= 0.0f;
     Vector3f before = drawn.position(first);
     for (std::size_t i = 1; i < widths.size(); ++i) {
         const Vector3f here = drawn.position(first + index_of(i));
         Segment segment;
         segment.id = base + static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(i) - 1;
-        if (project(screen, before, here, widths[i - 1], widths[i], segment)) {
+        if (project(screen, before, here, widths[i - 1], widths[i], opaque, segment)) {
             add_segment(sorted, tiles, segment);
         }
         before = here;
@@ -543,11 +553,18 @@ Light filtered(const std::vector<Light>& lights, int width, int height, int x, i
 
 }  // namespace
 
+double least_visible_width(Index strands) {
+    constexpr double kWidth = 1.5, kFew = 50.0, kMany = 500.0;
+    const double of_way = std::log(kMany / std::max<Index>(strands, 1)) / std::log(kMany / kFew);
+    return kWidth * std::clamp(of_way, 0.0, 1.0);
+}
+
 StrandLayer draw_strands(const StrandScene& scene, const StrandShadow& shadow,
                          const RenderOptions& options, const Context& context) {
     const int fine = options.supersample;
     const int width = options.width * fine, height = options.height * fine;
-    const Screen screen(scene.view, width, height);
+    const Screen screen(scene.view, width, height,
+                        static_cast<float>(0.5 * scene.least_width * fine));
     const PointNumbers numbers(scene.strands);
     const StrandShader shader(scene, shadow, screen, numbers, context);
     StrandLayer layer{options.width, options.height, {}};

@@ -65,6 +65,27 @@ TEST_CASE("strand layer: a strand covers its length times its width") {
     }
 }
 
+TEST_CASE("strand layer: a few strands are as wide as can be seen, but for transparent ones") {
+    CHECK(least_visible_width(1) == Approx(1.5));
+    CHECK(least_visible_width(50) == Approx(1.5));
+    CHECK(least_visible_width(160) == Approx(0.75).epsilon(0.02));
+    CHECK(least_visible_width(500) == 0.0);
+    CHECK(least_visible_width(100000) == 0.0);
+    Strands strands = test::strands_of({{Vec3(-0.5, -0.3, 0), Vec3(0.5, 0.3, 0)}}, 1e-5);
+    const double length = 48.0 * std::hypot(1.0, 0.6);
+    for (const int fine : {1, 3}) {
+        RenderOptions options = small_options();
+        options.supersample = fine;
+        CHECK(covered_by_strands(
+                  test::layer_of_least(1.5, drawing_of(strands), front_view(), options)) ==
+              Approx(1.5 * length).epsilon(0.06));
+    }
+    const double thin = covered_by_strands(layer_of(drawing_of(strands), front_view()));
+    CHECK(thin < 0.01 * length);
+    strands.set_transparency({0.5f});
+    CHECK(covered_by_strands(test::layer_of_least(1.5, drawing_of(strands), front_view())) < thin);
+}
+
 TEST_CASE("strand layer: supersampling and perspective keep the cover") {
     const Strands strands = test::strands_of({{Vec3(-0.5, -0.3, 0), Vec3(0.4, 0.2, 0)}}, 0.02);
     RenderOptions fine = small_options();

@@ -55,13 +55,21 @@ inline Snapshot drawing_of(const Strands& strands, const StrandStyle& style = {}
     return drawing;
 }
 
+/// Strands of an opaque drawing are at least so many pixels wide.
+inline StrandLayer layer_of_least(double least_width, const Snapshot& drawing,
+                                  const ViewParameters& view,
+                                  const RenderOptions& options = small_options(),
+                                  const Context& context = {}) {
+    const StrandScene scene{view_strands(drawing, view.view, Vec3::Zero()),
+                            view_triangles(drawing, view.view, Vec3::Zero()), view, least_width};
+    const StrandShadow shadow(scene.strands, scene.triangles, context);
+    return draw_strands(scene, shadow, options, context);
+}
+
 inline StrandLayer layer_of(const Snapshot& drawing, const ViewParameters& view,
                             const RenderOptions& options = small_options(),
                             const Context& context = {}) {
-    const StrandScene scene{view_strands(drawing, view.view, Vec3::Zero()),
-                            view_triangles(drawing, view.view, Vec3::Zero()), view};
-    const StrandShadow shadow(scene.strands, scene.triangles, context);
-    return draw_strands(scene, shadow, options, context);
+    return layer_of_least(0.0, drawing, view, options, context);
 }
 
 /// Pixels that strands cover, partly covered ones by their share.
