@@ -212,8 +212,11 @@ void make_objects(SceneRecord record, Scene& scene, ItemMaker& maker, const Cont
         live.take({index_of(i), std::move(record.items[i])});
         record.items[i] = {};
     }
-    for (ObjectRecord& object : record.objects) {
-        scene.add(object.name, live.item(object.item), std::move(object.look));
+    for (std::size_t i = 0; i < record.objects.size(); ++i) {
+        ObjectRecord& object = record.objects[i];
+        at_scene_place("objects/" + std::to_string(i), object.name, [&] {
+            scene.add(object.name, live.item(object.item), std::move(object.look));
+        });
     }
 }
 

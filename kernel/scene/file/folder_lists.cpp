@@ -176,14 +176,15 @@ class WordReader {
     std::size_t at_ = 0;
 };
 
-[[noreturn]] void refuse_entry(const std::string& what) {
-    throw Error(ErrorCode::file_syntax, "scene.json: " + what);
+// `path` is that of a value in scene.json.
+[[noreturn]] void refuse_entry(const std::string& path, const std::string& what) {
+    throw Error(ErrorCode::file_syntax, "the scene's '" + path + "' " + what);
 }
 
-std::size_t count_in(const SceneJson& entry, const char* key) {
+std::size_t count_in(const std::string& path, const SceneJson& entry, const char* key) {
     const auto found = entry.find(key);
     if (found == entry.end() || !found->is_number_unsigned()) {
-        refuse_entry(std::string("a list lacks '") + key + "'");
+        refuse_entry(path + "/" + key, "must be a count");
     }
     return found->get<std::size_t>();
 }
@@ -201,10 +202,10 @@ std::string raw_bytes(const std::vector<Number>& numbers) {
 }
 
 template <typename Number>
-std::string read_inline(const SceneJson& entry) {
+std::string read_inline(const std::string& path, const SceneJson& entry) {
     std::vector<Number> numbers;
     for (const SceneJson& one : entry) {
-        if (!one.is_number()) refuse_entry("a list has something else than numbers");
+        if (!one.is_number()) refuse_entry(path, "must be a list of numbers");
         numbers.push_back(one.get<Number>());
     }
     return raw_bytes(numbers);
@@ -247,10 +248,10 @@ ModelText read_model(std::string_view text, const std::string& name, bool lines)
     return model;
 }
 
-void require_points(const std::string& name, const SceneJson& entry, const ModelText& model,
-                    std::size_t points) {
-    require_count(name, "points", points, count_in(entry, "points"));
-    require_count(name, "elements", model.offsets.size() - 1, count_in(entry, "elements"));
+void require_points(const std::string& path, const std::string& name, const SceneJson& entry,
+                    const ModelText& model, std::size_t points) {
+    require_count(name, "points", points, count_in(path, entry, "points"));
+    require_count(name, "elements", model.offsets.size() - 1, count_in(path, entry, "elements"));
     for (const Index corner : model.corners) {
         if (at(corner) < points) continue;
         throw Error(ErrorCode::face_index, name + ": has no point " + std::to_string(corner + 1) +
@@ -318,10 +319,10 @@ SceneJson FolderSink::put_model(const std::string& label, const ModelView& model
     return {{"file", name}, {"points", points}, {"elements", elements}};
 }
 
-std::string FolderSource::read(const SceneJson& entry, std::string& name) {
+std::string FolderSource::read(const std::string& path, const SceneJson& entry, std::string& name) {
     const auto file = entry.is_object() ? entry.find("file") : entry.end();
     if (!entry.is_object() || file == entry.end() || !file->is_string()) {
-        refuse_entry("a list must be numbers, or have the name of its 'file'");
+        refuse_entry(path, "must be numbers, or have the name of its 'file'");
     }
     name = file->get<std::string>();
     require_inside(name);
@@ -331,27 +332,28 @@ std::string FolderSource::read(const SceneJson& entry, std::string& name) {
 }
 
 std::string_view FolderSource::get(const std::string& path, const SceneJson* entry, ListForm form) {
-    if (!entry) refuse_entry("'" + path + "' must be there");
+    if (!entry) refuse_entry(path, "must be there");
     with_number_type(form.type, [&](auto kind) {
         using Number = decltype(kind);
         if (entry->is_array()) {
-            bytes_ = read_inline<Number>(*entry);
+            bytes_ = read_inline<Number>(path, *entry);
             return;
         }
         std::string name;
-        const std::string text = read(*entry, name);
-        bytes_ = read_lines<Number>(text, name, count_in(*entry, "count"));
+        const std::string text = read(path, *entry, name);
+        bytes_ = read_lines<Number>(text, name, count_in(path, *entry, "count"));
     });
     return bytes_;
 }
 
-void FolderSource::get_surface(const SceneJson& entry, std::vector<Vec3>& positions,
-                               std::vector<Index>& offsets, std::vector<Index>& corners) {
+void FolderSource::get_surface(const std::string& path, const SceneJson& entry,
+                               std::vector<Vec3>& positions, std::vector<Index>& offsets,
+                               std::vector<Index>& corners) {
     std::string name;
-    const std::string text = read(entry, name);
+    const std::string text = read(path, entry, name);
     ModelText model = read_model(text, name, false);
     const std::size_t count = model.coordinates.size() / 3;
-    require_points(name, entry, model, count);
+    require_points(path, name, entry, model, count);
     positions.resize(count);
     if (count > 0) {
         std::memcpy(positions.front().data(), model.coordinates.data(), count * sizeof(Vec3));
@@ -361,12 +363,12 @@ void FolderSource::get_surface(const SceneJson& entry, std::vector<Vec3>& positi
 }
 
 // The points of a strand follow each other.
-void FolderSource::get_lines(const SceneJson& entry, std::vector<float>& points,
-                             std::vector<Index>& offsets) {
+void FolderSource::get_lines(const std::string& path, const SceneJson& entry,
+                             std::vector<float>& points, std::vector<Index>& offsets) {
     std::string name;
-    const std::string text = read(entry, name);
+    const std::string text = read(path, entry, name);
     ModelText model = read_model(text, name, true);
-    require_points(name, entry, model, model.float_coordinates.size() / 3);
+    require_points(path, name, entry, model, model.float_coordinates.size() / 3);
     for (Index k = 0; k < count_of(model.corners); ++k) {
         if (model.corners[at(k)] == k) continue;
         throw Error(ErrorCode::file_syntax,

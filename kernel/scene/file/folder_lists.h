@@ -42,13 +42,13 @@ class FolderSource : public ListSource {
         : folder_(std::move(folder)), context_(context) {}
 
     std::string_view get(const std::string& path, const SceneJson* entry, ListForm form) override;
-    void get_surface(const SceneJson& entry, std::vector<Vec3>& positions,
+    void get_surface(const std::string& path, const SceneJson& entry, std::vector<Vec3>& positions,
                      std::vector<Index>& offsets, std::vector<Index>& corners) override;
-    void get_lines(const SceneJson& entry, std::vector<float>& points,
+    void get_lines(const std::string& path, const SceneJson& entry, std::vector<float>& points,
                    std::vector<Index>& offsets) override;
 
   private:
-    std::string read(const SceneJson& entry, std::string& name);
+    std::string read(const std::string& path, const SceneJson& entry, std::string& name);
 
     std::filesystem::path folder_;
     const Context& context_;

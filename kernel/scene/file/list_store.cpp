@@ -22,12 +22,13 @@ SceneJson ListSink::put_model(const std::string&, const ModelView&) {
     return nullptr;
 }
 
-void ListSource::get_surface(const SceneJson&, std::vector<Vec3>&, std::vector<Index>&,
-                             std::vector<Index>&) {
+void ListSource::get_surface(const std::string&, const SceneJson&, std::vector<Vec3>&,
+                             std::vector<Index>&, std::vector<Index>&) {
     refuse_model();
 }
 
-void ListSource::get_lines(const SceneJson&, std::vector<float>&, std::vector<Index>&) {
+void ListSource::get_lines(const std::string&, const SceneJson&, std::vector<float>&,
+                           std::vector<Index>&) {
     refuse_model();
 }
 

@@ -69,10 +69,11 @@ class ListSource {
     virtual std::string_view get(const std::string& path, const SceneJson* entry,
                                  ListForm form) = 0;
     /// The surface or the lines of a model.
-    virtual void get_surface(const SceneJson& entry, std::vector<Vec3>& positions,
-                             std::vector<Index>& offsets, std::vector<Index>& corners);
-    virtual void get_lines(const SceneJson& entry, std::vector<float>& points,
-                           std::vector<Index>& offsets);
+    virtual void get_surface(const std::string& path, const SceneJson& entry,
+                             std::vector<Vec3>& positions, std::vector<Index>& offsets,
+                             std::vector<Index>& corners);
+    virtual void get_lines(const std::string& path, const SceneJson& entry,
+                           std::vector<float>& points, std::vector<Index>& offsets);
 };
 
 }  // namespace lissom

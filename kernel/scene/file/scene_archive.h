@@ -222,12 +222,12 @@ class SceneReader {
     bool surface(std::vector<Vec3>& positions, std::vector<Index>& offsets,
                  std::vector<Index>& corners) {
         if (!json_.contains("model")) return false;
-        lists_.get_surface(at("model"), positions, offsets, corners);
+        lists_.get_surface(path_ + "model", at("model"), positions, offsets, corners);
         return true;
     }
     bool lines(std::vector<float>& points, std::vector<Index>& offsets) {
         if (!json_.contains("model")) return false;
-        lists_.get_lines(at("model"), points, offsets);
+        lists_.get_lines(path_ + "model", at("model"), points, offsets);
         return true;
     }
     /// Reads the parameters, if there are any.

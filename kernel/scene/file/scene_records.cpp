@@ -93,8 +93,11 @@ void LiveItems::take(PlacedRecord placed) {
     context_.checkpoint();
     require(placed.item >= 0 && placed.item <= count_of(items_),
             "an item of the scene has a number out of order", ErrorCode::file_syntax);
-    if (placed.item < count_of(items_)) return put_back(placed.item, placed.record);
-    items_.push_back(made(placed.record));
+    const std::string kind(kind_name(placed.record.kind));
+    at_scene_place("items/" + std::to_string(placed.item), kind, [&] {
+        if (placed.item < count_of(items_)) return put_back(placed.item, placed.record);
+        items_.push_back(made(placed.record));
+    });
 }
 
 const std::shared_ptr<SceneItem>& LiveItems::item(Index number) const {

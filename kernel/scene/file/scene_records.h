@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
+#include "kernel/core/error.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/scene/file/describe_items.h"
@@ -83,6 +84,19 @@ class StateRecorder {
     const SceneState& state_;
     ItemTable& items_;
 };
+
+/// Runs `action`; the messages of its errors begin with a place in the scene's text, and who is
+/// there.
+template <typename Action>
+void at_scene_place(const std::string& path, const std::string& name, const Action& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::cancelled) throw;
+        throw Error(error.code(), "the scene's '" + path + "' (" + name + "): " + error.message(),
+                    error.elements());
+    }
+}
 
 /// Objects made from records, which take the contents of later ones.
 class LiveItems {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "kernel/hair/strands/strand_measures.h"
@@ -461,6 +462,68 @@ TEST_CASE("scene file: a folder that is a file, and files that are no scene, are
     CHECK(error_of([&] { load_scene(folder.path, loaded, maker); }).code() ==
           ErrorCode::file_syntax);
     CHECK(folder.files().size() == 1);
+}
+
+namespace {
+
+// Calls visit(parent, key, path) for every value of `json` that has a key.
+template <typename Visit>
+void for_each_key(nlohmann::json& json, const Visit& visit) {
+    if (json.is_array()) {
+        for (nlohmann::json& one : json) for_each_key(one, visit);
+    }
+    if (!json.is_object()) return;
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : json.items()) keys.push_back(key);
+    for (const std::string& key : keys) {
+        for_each_key(json[key], visit);
+        visit(json, key);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("scene file: a value that is wrong is named by its key, and text by its line") {
+    SceneFolder folder;
+    BentScene b;
+    b.scene.add("grid", std::make_shared<MeshItem>(labelled_grid()));
+    b.scene.add("hair",
+                std::make_shared<StrandsItem>(std::make_shared<Strands>(colored_strands())));
+    save_scene(b.scene, folder.path);
+    const std::string whole = folder.text("scene.json");
+    const auto refusal = [&](const std::string& text) {
+        folder.write("scene.json", text);
+        Scene scene;
+        ItemMaker maker;
+        std::string message;
+        try {
+            load_scene(folder.path, scene, maker);
+        } catch (const Error& error) {
+            message = error.message();
+        }
+        return message;
+    };
+    nlohmann::json manifest = nlohmann::json::parse(whole);
+    int refused = 0;
+    for_each_key(manifest, [&](nlohmann::json& parent, const std::string& key) {
+        const nlohmann::json kept = parent[key];
+        for (const nlohmann::json& wrong : {nlohmann::json(nullptr), nlohmann::json(-7),
+                                            nlohmann::json{{"odd", nlohmann::json::array({1})}}}) {
+            parent[key] = wrong;
+            const std::string message = refusal(manifest.dump(1));
+            CAPTURE(message);
+            // A format of another name is no scene, whose keys are unknown.
+            CHECK((message.empty() || key == "format" || message.find(key) != std::string::npos ||
+                   message.find("the scene's 'items/") != std::string::npos ||
+                   message.find("the scene's 'objects/") != std::string::npos));
+            refused += !message.empty();
+        }
+        parent[key] = kept;
+    });
+    CHECK(refused > 100);
+    const std::size_t end = whole.find("\"items\"");
+    CHECK(refusal(std::string(whole).insert(end, "}")).find("line ") != std::string::npos);
+    CHECK(refusal(whole) == "");
 }
 
 TEST_CASE("scene file: parts of a folder that are missing or cut short are named") {
