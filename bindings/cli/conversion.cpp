@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <system_error>
+#include <variant>
 
 #include "bindings/cli/scene_input.h"
 #include "bindings/lua/core/failure.h"
+#include "kernel/io/record/file_rules.h"
 #include "kernel/io/stream/file.h"
 
 namespace lissom::cli {
@@ -52,10 +54,71 @@ std::string short_message(const Conversion& conversion) {
     return message.starts_with(' ') ? message.substr(1) : "line " + message;
 }
 
+bool is_repair(const StrandFinding& finding) {
+    return finding.kind < StrandFindingKind::content_dropped;
+}
+
+bool has_extension_of(const fs::path& path, const std::vector<std::string>& extensions) {
+    const std::string extension = normalized_extension(display_name(path.extension()));
+    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+using Content = std::variant<Mesh, Strands>;
+
+bool shows(const std::vector<SceneObject>& objects, std::string_view kind) {
+    return std::any_of(objects.begin(), objects.end(), [&](const SceneObject& object) {
+        return object.visible && object.kind == kind;
+    });
+}
+
+Content read_scene_content(const fs::path& in, const fs::path& out, const Context& context) {
+    const std::vector<SceneObject> objects = read_scene(in, context);
+    const bool hair = has_extension_of(out, hair_only_extensions()) ||
+                      (!shows(objects, "mesh") && shows(objects, "strands"));
+    if (hair) return joined_scene_strands(in, objects, context);
+    return joined_scene_mesh(in, objects, context);
+}
+
+Content read_content(const fs::path& in, const fs::path& out, const ConversionOptions& options,
+                     const Context& context) {
+    if (is_scene_path(in)) return read_scene_content(in, out, context);
+    if (is_hair_path(in)) return load_strands(in, options.hair_load, context);
+    if (has_extension_of(out, hair_only_extensions())) {
+        throw Error(ErrorCode::unknown_format, display_name(out) + ": such files hold hair, and " +
+                                                   display_name(in) +
+                                                   " holds a mesh; take a format of meshes");
+    }
+    return load_mesh(in, options.load, context);
+}
+
+void write(const Mesh& mesh, Conversion& conversion, const ConversionOptions& options,
+           const Context& context) {
+    conversion.origin = save_mesh(mesh, conversion.out, options.save, context).origin;
+    conversion.vertices = mesh.vertex_count();
+    conversion.faces = mesh.face_count();
+    conversion.report = mesh.report();
+}
+
+void write(const Strands& strands, Conversion& conversion, const ConversionOptions& options,
+           const Context& context) {
+    if (!options.mesh_only.empty()) {
+        throw Error(ErrorCode::invalid_argument,
+                    display_name(conversion.in) + ": " + options.mesh_only.front() +
+                        " is for meshes, and this is hair; leave it out");
+    }
+    conversion.is_hair = true;
+    conversion.hair_report = save_strands(strands, conversion.out, options.hair_save, context);
+    conversion.strands = strands.size();
+    conversion.points = strands.point_count();
+}
+
 }  // namespace
 
 const char* Conversion::outcome() const {
     if (error) return "failed";
+    const auto& of_hair = hair_report.findings;
+    const auto is_changed = [](const StrandFinding& finding) { return is_repair(finding); };
+    if (std::any_of(of_hair.begin(), of_hair.end(), is_changed)) return "repaired";
     const auto& findings = report.findings();
     const bool repaired = std::any_of(findings.begin(), findings.end(),
                                       [](const Finding& f) { return is_repair(f.kind); });
@@ -79,14 +142,13 @@ Conversion convert_file(Program& program, const fs::path& in, const fs::path& ou
     LogFilter log(program, options.shows_warnings);
     const Clock::time_point start = Clock::now();
     make_folder(out.parent_path());
-    const Mesh mesh = is_scene_path(in) ? joined_scene_mesh(in, program.context())
-                                        : load_mesh(in, options.load, program.context());
+    // A scene's warnings name the objects that are left out.
+    log.is_saving = is_scene_path(in);
+    const Content content = read_content(in, out, options, program.context());
     log.is_saving = true;
-    conversion.origin = save_mesh(mesh, out, options.save, program.context()).origin;
+    std::visit([&](const auto& held) { write(held, conversion, options, program.context()); },
+               content);
     conversion.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    conversion.vertices = mesh.vertex_count();
-    conversion.faces = mesh.face_count();
-    conversion.report = mesh.report();
     conversion.lost = std::move(log.warnings);
     return conversion;
 }
@@ -99,13 +161,18 @@ Json conversion_json(const Conversion& conversion) {
         json["error"] = error_json(*conversion.error);
         return json;
     }
+    json["seconds"] = conversion.seconds;
+    json["lost"] = conversion.lost;
+    if (conversion.is_hair) {
+        json["strands"] = conversion.strands;
+        json["points"] = conversion.points;
+        return json;
+    }
     json["vertices"] = conversion.vertices;
     json["faces"] = conversion.faces;
-    json["seconds"] = conversion.seconds;
     const Vec3& origin = conversion.origin;
     json["origin"] = {origin.x(), origin.y(), origin.z()};
     json["report"] = report_json(conversion.report);
-    json["lost"] = conversion.lost;
     return json;
 }
 
@@ -119,6 +186,7 @@ std::string conversion_notes(const Conversion& conversion) {
         if (is_repair(finding.kind)) add(describe(finding));
         if (is_loss(finding.kind)) add(describe(finding) + ": " + finding.message);
     }
+    if (conversion.is_hair) add(std::to_string(conversion.strands) + " strands");
     for (const std::string& lost : conversion.lost) add(lost);
     return notes;
 }

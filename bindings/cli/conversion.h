@@ -1,4 +1,4 @@
-/// The conversion of one mesh file, and its outcome.
+/// The conversion of one file, and its outcome.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include "bindings/cli/json.h"
 #include "bindings/cli/program.h"
 #include "kernel/io/mesh_file.h"
+#include "kernel/io/strand_file.h"
 #include "kernel/mesh/report.h"
 
 namespace lissom::cli {
@@ -16,6 +17,10 @@ namespace lissom::cli {
 struct ConversionOptions {
     LoadOptions load;
     SaveOptions save;
+    StrandLoadOptions hair_load;
+    StrandSaveOptions hair_save;
+    /// The given options of the command line that hair does not have.
+    std::vector<std::string> mesh_only;
     /// Allow the output to replace an input.
     bool force = false;
     /// Write warnings to the standard error too.
@@ -26,8 +31,12 @@ struct ConversionOptions {
 struct Conversion {
     std::filesystem::path in, out;
     Index vertices = 0, faces = 0;
+    /// Strands and their points, if the file holds hair.
+    Index strands = 0, points = 0;
+    bool is_hair = false;
     double seconds = 0.0;
     Report report;
+    StrandReport hair_report;
     /// The point of the mesh that is the origin of the output.
     Vec3 origin = Vec3::Zero();
     /// Notes on parts of the mesh that the output does not hold.
@@ -40,14 +49,17 @@ struct Conversion {
     const char* outcome() const;
 };
 
-/// Reads `in` and writes `out`; makes its folder if it is missing. Errors: those of `load_mesh` and
-/// `save_mesh`; file_write_failed if `out` is `in` and may not be, or if a folder cannot be
-/// created.
+/// Reads `in` and writes `out`; makes its folder if it is missing. Hair files become hair files; a
+/// scene becomes hair if `out` holds nothing else, or if no mesh is visible. Errors: those of
+/// loading and saving; file_write_failed if `out` is `in` and may not be, or if a folder cannot be
+/// created; unknown_format for a mesh that is to become hair; invalid_argument for hair with
+/// options of meshes.
 Conversion convert_file(Program& program, const std::filesystem::path& in,
                         const std::filesystem::path& out, const ConversionOptions& options);
 
-/// Returns {"file", "out", "outcome", "vertices", "faces", "seconds", "origin", "report", "lost"},
-/// or with "error" in place of the fields of a success.
+/// Returns {"file", "out", "outcome", "vertices", "faces", "seconds", "origin", "report", "lost"};
+/// of hair with "strands" and "points" for "vertices", "faces", "origin" and "report"; or with
+/// "error" in place of the fields of a success.
 Json conversion_json(const Conversion& conversion);
 
 /// Returns the reason of a failure, or the repairs and losses, in a few words.

@@ -2,10 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <optional>
 
 #include "bindings/cli/conversion.h"
 #include "bindings/cli/convert_many.h"
 #include "bindings/cli/load_flags.h"
+#include "bindings/cli/scene_input.h"
 #include "bindings/cli/verbs.h"
 
 namespace lissom::cli {
@@ -13,6 +15,7 @@ namespace {
 
 struct Request {
     std::string in, out, in_up, up, origin;
+    std::optional<double> in_unit;
     ManyFiles many;
     ConversionOptions options;
     LoadFlags load_flags;
@@ -24,8 +27,10 @@ struct Request {
 };
 
 const char* const kDescription =
-    "Reads mesh files, or the visible meshes of a scene (.lissom), and writes them in another "
-    "format.\n\n"
+    "Reads mesh files, hair files, or what is visible of a scene (.lissom), and writes them in "
+    "another format. Hair goes to .hair, .data, .usda and .rib, and as lines to .glb, .gltf and "
+    ".obj. Of a scene the meshes are written as one, or its hair where the format holds only hair "
+    "or the scene has no mesh.\n\n"
     "  lissom convert IN OUT                                    one file\n"
     "  lissom convert --in 'a/*.obj' --out b/ --to glb          many files\n"
     "  lissom convert --in 'a/**/*.ply' other/ --out b/         with their folders\n\n"
@@ -43,9 +48,16 @@ std::string normalized(const std::string& extension) {
     return CLI::detail::to_lower(extension.substr(extension.starts_with('.') ? 1 : 0));
 }
 
+std::vector<std::string> known_extensions() {
+    std::vector<std::string> known = writable_extensions();
+    const std::vector<std::string> of_hair = hair_only_extensions();
+    known.insert(known.end(), of_hair.begin(), of_hair.end());
+    return known;
+}
+
 void declare_files(CLI::App& app, Request& request) {
-    app.add_option("IN", request.in, "The mesh file or scene to read");
-    app.add_option("OUT", request.out, "The mesh file to write; its extension names the format");
+    app.add_option("IN", request.in, "The mesh file, hair file or scene to read");
+    app.add_option("OUT", request.out, "The file to write; its extension names the format");
     app.add_option("--in", request.many.in,
                    "Files to read: names, folders (the mesh files in them) or patterns in quotes, "
                    "with * and ? in names and ** for any folders");
@@ -54,7 +66,7 @@ void declare_files(CLI::App& app, Request& request) {
     app.add_option("--to", request.many.to,
                    "Format of the files in --out, by its extension (default: each as it was)")
         ->transform(normalized)
-        ->check(CLI::IsMember(writable_extensions()));
+        ->check(CLI::IsMember(known_extensions()));
     app.add_flag("--force", request.options.force, "Let outputs replace files to read");
 }
 
@@ -68,8 +80,9 @@ void declare(CLI::App& app, Request& request) {
     app.add_option("--unit", request.options.save.unit,
                    "Length of the output's unit: coordinates are divided by it (default: 1)")
         ->check(CLI::PositiveNumber);
-    app.add_option("--in-unit", request.options.load.unit,
-                   "Length of the input's unit: coordinates are multiplied by it (default: 1)")
+    app.add_option("--in-unit", request.in_unit,
+                   "Length of the input's unit: coordinates are multiplied by it (default: 1, of "
+                   "hair what the file says)")
         ->check(CLI::PositiveNumber);
     app.add_option("--origin", request.origin,
                    "auto: move the output's origin into a mesh that is far from it, so that 32-bit "
@@ -82,6 +95,25 @@ void declare(CLI::App& app, Request& request) {
     request.load_flags.declare(app);
 }
 
+// Options that say how meshes are read and written.
+std::vector<std::string> mesh_only(const CLI::App& app) {
+    std::vector<std::string> given;
+    for (const char* name :
+         {"--origin", "--text", "--normals", "--big-endian", "--weld", "--keep-unused"}) {
+        if (app.count(name) > 0) given.emplace_back(name);
+    }
+    return given;
+}
+
+void complete_hair(Request& request) {
+    ConversionOptions& options = request.options;
+    options.hair_load.up = options.load.up;
+    options.hair_load.unit = request.in_unit;
+    options.hair_save.up = options.save.up;
+    options.hair_save.unit = options.save.unit;
+    options.hair_save.mend = options.load.repair;
+}
+
 void complete(Request& request) {
     request.options.load.up = up_axis(request.in_up);
     request.options.save.up = up_axis(request.up);
@@ -89,6 +121,8 @@ void complete(Request& request) {
     request.options.save.endianness = request.big_endian ? Endianness::big : Endianness::little;
     if (request.origin == "auto") request.options.save.origin = FileOrigin::automatic;
     request.load_flags.apply(request.options.load);
+    request.options.load.unit = request.in_unit.value_or(1.0);
+    complete_hair(request);
 }
 
 // Returns the defect of the choice of files; empty if there is none.
@@ -121,6 +155,7 @@ int convert(Program& program, const std::vector<std::string>& words) {
         return program.fail("lissom convert: " + wrong + " (see lissom convert --help)", kUsage);
     }
     complete(request);
+    request.options.mesh_only = mesh_only(app);
     if (!request.is_for_many()) return convert_one(program, request);
     request.options.shows_warnings = false;
     return convert_many(program, request.many, request.options);

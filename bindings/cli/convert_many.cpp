@@ -69,7 +69,7 @@ class JobList {
             add_failure(folder, ErrorCode::file_unreadable, "the folder cannot be listed");
         }
         if (matches.files.empty() && jobs_.size() == before) {
-            add_failure(pattern, ErrorCode::file_not_found, "no mesh file has such a name");
+            add_failure(pattern, ErrorCode::file_not_found, "no file has such a name");
         }
     }
 
@@ -136,7 +136,10 @@ class Table {
 
     void add(const Conversion& conversion) const {
         char numbers[64] = "        -         -        -";
-        if (!conversion.error) {
+        if (conversion.is_hair) {
+            std::snprintf(numbers, sizeof numbers, "%9d         - %8.2f", conversion.points,
+                          conversion.seconds);
+        } else if (!conversion.error) {
             std::snprintf(numbers, sizeof numbers, "%9d %9d %8.2f", conversion.vertices,
                           conversion.faces, conversion.seconds);
         }

@@ -10,10 +10,10 @@ ProgramParts kernel_parts() {
         {"run", "FILE [--name value ...]", "Runs a Lua script.", run_script},
         {"test", "PATH...", "Runs the tests of scripts.", run_tests},
         {"inspect", "FILE...", "Describes the contents of meshes, hair and scenes.", inspect},
-        {"convert", "IN OUT", "Writes meshes in another format.", convert},
+        {"convert", "IN OUT", "Writes meshes and hair in another format.", convert},
         {"new", "tool NAME", "Writes a tool to begin with.", make_new},
         {"repl", "", "Runs Lua line by line.", repl},
-        {"help", "NAME", "Says how a Lua function is called.", help},
+        {"help", "NAME", "Describes a verb or a Lua function.", help},
         {"explain", "[CODE]", "Explains an error code.", explain}};
     parts.libraries = {lua::kernel_library};
     parts.version_lines = {"Lissom's own code is under the MIT licence."};

@@ -44,7 +44,7 @@ bool Program::parse(CLI::App& app, const std::vector<std::string>& words, int& s
     try {
         app.parse(reversed);
     } catch (const CLI::CallForHelp&) {
-        std::cout << app.help();
+        (help_stream ? *help_stream : std::cout) << app.help();
         status = kSuccess;
         return false;
     } catch (const CLI::ParseError& error) {

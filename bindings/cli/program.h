@@ -10,6 +10,7 @@
 #pragma once
 
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -84,6 +85,8 @@ class Program {
     bool parse(CLI::App& app, const std::vector<std::string>& words, int& status);
 
     Output output = Output::text;
+    /// Receives the text of --help; null for the standard output.
+    std::ostream* help_stream = nullptr;
     bool debug = false;
     /// Receives each message of the log first, if it is set; false keeps the message from the
     /// standard error.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "kernel/core/error.h"
 #include "kernel/hair/strands/strand_edit.h"
+#include "kernel/io/mesh_file.h"
 #include "kernel/io/record/file_rules.h"
 #include "kernel/io/strand_file.h"
 #include "kernel/io/stream/file.h"
@@ -55,6 +57,34 @@ void label_object(Mesh& mesh, const std::string& name) {
     labels["object"] = {{name}, std::vector<Index>(at(mesh.face_count()), 0)};
 }
 
+std::string listed(const std::vector<std::string>& extensions) {
+    std::string text;
+    for (const std::string& extension : extensions)
+        text += (text.empty() ? "." : ", .") + extension;
+    return text;
+}
+
+// A deformation holds nothing that is seen but its mesh, which is an object of its own.
+bool is_left_out(const SceneObject& object, std::string_view kind) {
+    return object.visible &&
+           (object.kind == kind || object.kind == "polyline" || object.kind == "hairstyle");
+}
+
+// Warns of the visible objects of `kind`, and of those that no file but a scene holds.
+void warn_of_left_out(const fs::path& path, const std::vector<SceneObject>& objects,
+                      std::string_view kind, const std::string& remedy, const Context& context) {
+    std::string names;
+    bool any_of_kind = false;
+    for (const SceneObject& object : objects) {
+        if (!is_left_out(object, kind)) continue;
+        names += (names.empty() ? "'" : ", '") + object.name + "' (" + object.kind + ")";
+        any_of_kind = any_of_kind || object.kind == kind;
+    }
+    if (names.empty()) return;
+    context.log(LogLevel::warning, display_name(path) + ": left out: " + names + "; " +
+                                       (any_of_kind ? remedy : "only scenes hold them"));
+}
+
 }  // namespace
 
 bool is_scene_path(const fs::path& path) {
@@ -68,6 +98,17 @@ bool is_hair_path(const fs::path& path) {
     const std::vector<std::string>& known = readable_strand_extensions();
     const std::string extension = normalized_extension(display_name(path.extension()));
     return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+std::vector<std::string> hair_only_extensions() {
+    std::vector<std::string> result;
+    const std::vector<std::string>& of_meshes = writable_extensions();
+    for (const std::string& extension : writable_strand_extensions()) {
+        if (std::find(of_meshes.begin(), of_meshes.end(), extension) == of_meshes.end()) {
+            result.push_back(extension);
+        }
+    }
+    return result;
 }
 
 ObjectList read_scene_list(const fs::path& path, const Context& context) {
@@ -85,9 +126,10 @@ std::vector<SceneObject> read_scene(const fs::path& path, const Context& context
     return objects;
 }
 
-Mesh joined_scene_mesh(const fs::path& path, const Context& context) {
+Mesh joined_scene_mesh(const fs::path& path, const std::vector<SceneObject>& objects,
+                       const Context& context) {
     std::optional<Mesh> result;
-    for (const SceneObject& object : read_scene(path, context)) {
+    for (const SceneObject& object : objects) {
         if (!object.mesh || !object.visible) continue;
         Mesh mesh = *object.mesh;
         label_object(mesh, object.name);
@@ -99,10 +141,37 @@ Mesh joined_scene_mesh(const fs::path& path, const Context& context) {
             result = std::move(mesh);
         }
     }
-    if (result) return std::move(*result);
-    throw Error(
-        ErrorCode::mesh_empty,
-        display_name(path) + ": the scene has no visible mesh; lissom inspect lists its contents");
+    if (!result) {
+        throw Error(ErrorCode::mesh_empty, display_name(path) +
+                                               ": the scene has no visible mesh; lissom inspect "
+                                               "lists its contents");
+    }
+    warn_of_left_out(path, objects, "strands",
+                     "write the hair to a file of its own (" + listed(hair_only_extensions()) + ")",
+                     context);
+    return std::move(*result);
+}
+
+Strands joined_scene_strands(const fs::path& path, const std::vector<SceneObject>& objects,
+                             const Context& context) {
+    std::optional<Strands> result;
+    for (const SceneObject& object : objects) {
+        if (!object.strands || !object.visible) continue;
+        if (result) {
+            append(*result, *object.strands);
+        } else {
+            result = *object.strands;
+        }
+    }
+    if (!result) {
+        throw Error(ErrorCode::invalid_argument, display_name(path) +
+                                                     ": the scene has no visible hair; lissom "
+                                                     "inspect lists its contents");
+    }
+    warn_of_left_out(
+        path, objects, "mesh",
+        "write the meshes to a file of their own (" + listed(writable_extensions()) + ")", context);
+    return std::move(*result);
 }
 
 }  // namespace lissom::cli

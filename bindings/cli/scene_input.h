@@ -20,6 +20,9 @@ bool is_scene_path(const std::filesystem::path& path);
 /// Returns whether the extension of a path is that of a hair file that can be read.
 bool is_hair_path(const std::filesystem::path& path);
 
+/// Returns the extensions of files that hold hair and no meshes.
+std::vector<std::string> hair_only_extensions();
+
 /// An object of a scene, placed by its transform.
 struct SceneObject {
     std::string name;
@@ -37,8 +40,16 @@ ObjectList read_scene_list(const std::filesystem::path& path, const Context& con
 /// Reads the objects of a scene with their transforms applied. Errors: as load_scene.
 std::vector<SceneObject> read_scene(const std::filesystem::path& path, const Context& context);
 
-/// Returns the visible meshes of a scene as one, in which each object has a face label "object" of
-/// its name, unless its faces have such labels. Errors: as load_scene; mesh_empty if there is none.
-Mesh joined_scene_mesh(const std::filesystem::path& path, const Context& context);
+/// Returns the visible meshes among the objects of the scene at `path` as one, in which each object
+/// has a face label "object" of its name, unless its faces have such labels. Warnings name the
+/// other visible objects. Errors: mesh_empty if there is no mesh.
+Mesh joined_scene_mesh(const std::filesystem::path& path, const std::vector<SceneObject>& objects,
+                       const Context& context);
+
+/// Returns the visible hair among the objects of the scene at `path` as one. Warnings name the
+/// other visible objects. Errors: invalid_argument if there is none, or if its points are too many
+/// to be numbered.
+Strands joined_scene_strands(const std::filesystem::path& path,
+                             const std::vector<SceneObject>& objects, const Context& context);
 
 }  // namespace lissom::cli

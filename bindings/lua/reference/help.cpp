@@ -80,10 +80,38 @@ std::string plain_name(std::string_view name) {
     return plain;
 }
 
-// The name alone, and that behind its last dot.
+bool is_part_of_name(char c) {
+    return c == '_' || std::isalnum(static_cast<unsigned char>(c));
+}
+
+// Returns whether the example of a method calls it by `plain`: edit:report() by "edit.report".
+bool is_in_example(const Function& method, const std::string& plain) {
+    const std::size_t dot = plain.rfind('.');
+    if (dot == std::string::npos || plain.substr(dot + 1) != lowered(method.name)) return false;
+    const std::string example = lowered(method.example);
+    const auto ends_at = [&](std::size_t i) {
+        return i >= example.size() || !is_part_of_name(example[i]);
+    };
+    for (std::size_t at = example.find(plain); at != std::string::npos;
+         at = example.find(plain, at + 1)) {
+        if ((at == 0 || ends_at(at - 1)) && ends_at(at + plain.size())) return true;
+    }
+    return false;
+}
+
+// Returns whether examples of the type's methods call its object so: "edit" of a deformation.
+bool is_variable_of(const Type& type, const std::string& plain) {
+    return std::any_of(type.methods.begin(), type.methods.end(), [&](const Function& method) {
+        return is_in_example(method, plain + "." + lowered(method.name));
+    });
+}
+
+// Returns whether a name is that of a function in full, the part behind its last dot, or that of
+// its example.
 bool is_called(const Entry& entry, const std::string& plain) {
     const std::string full = plain_name(call_of(entry));
-    return full == plain || full.substr(full.rfind('.') + 1) == plain;
+    return full == plain || full.substr(full.rfind('.') + 1) == plain ||
+           (entry.type && is_in_example(*entry.function, plain));
 }
 
 std::string option_text(const Entry& entry, const Parameter& option) {
@@ -173,6 +201,11 @@ std::string help_for(const Registry& registry, std::string_view name) {
         if (is_called(*entry, plain)) add(help_text(*entry));
     }
     if (!text.empty()) return text;
+    for (const auto& library : registry.libraries()) {
+        for (const Type& type : library->types) {
+            if (is_variable_of(type, plain)) add(help_text(type));
+        }
+    }
     for (const auto& entry : registry.entries()) {
         for (const Parameter& option : entry->function->options) {
             if (plain_name(option.name) == plain) add(option_text(*entry, option));

@@ -75,6 +75,74 @@ TEST_CASE("convert keeps sub-folders and says what the new format does not hold"
     CHECK(rows.at("two.obj")["lost"].empty());
 }
 
+const char* const kConvertHair =
+    "#usda 1.0\n(\n    metersPerUnit = 0.01\n)\ndef BasisCurves \"curls\"\n{\n"
+    "    uniform token type = \"linear\"\n    int[] curveVertexCounts = [2, 3]\n"
+    "    point3f[] points = [(0, 0, 0), (0, 100, 0), (1, 0, 0), (1, 50, 0), (1, 100, 0)]\n}\n";
+
+TEST_CASE("convert writes hair as hair, in every format that holds hair") {
+    const ProgramFolder folder;
+    const std::string in = folder.write("curls.usda", kConvertHair);
+    const auto inspected = [&](const std::string& file) {
+        return ConvertJson::parse(run_program({"inspect", file, "--json"}).out)["hair"][0];
+    };
+    std::string last = in;
+    for (const char* name : {"a.data", "b.hair", "c.usda"}) {
+        const std::string out = folder.path(name);
+        const Ended ended = run_program({"convert", last, out, "--json"});
+        CAPTURE(ended.err);
+        REQUIRE(ended.status == cli::kSuccess);
+        CHECK(ConvertJson::parse(ended.out)["strands"] == 2);
+        CHECK(inspected(out)["points"] == 5);
+        CHECK(inspected(out)["bounds"]["max"][1].get<double>() == doctest::Approx(1.0));
+        last = out;
+    }
+    CHECK(run_program({"convert", in, folder.path("lines.glb")}).status == cli::kSuccess);
+    const Ended mesh = run_program({"convert", in, folder.path("no.ply")});
+    CHECK(mesh.status == cli::kFailure);
+    CHECK(mesh.err.find("hair cannot be written to '.ply' files; known are") != std::string::npos);
+    const Ended text = run_program({"convert", in, folder.path("no.data"), "--text"});
+    CHECK(text.status == cli::kFailure);
+    CHECK(text.err.find("--text is for meshes") != std::string::npos);
+    const std::string triangle = folder.write("t.obj", kConvertTriangle);
+    const Ended hair = run_program({"convert", triangle, folder.path("no.usda")});
+    CHECK(hair.status == cli::kFailure);
+    CHECK(hair.err.find("such files hold hair, and") != std::string::npos);
+    const Ended many = run_program({"convert", "--in", folder.path("*.usda"), triangle, "--out",
+                                    folder.path("many"), "--to", "data", "--json"});
+    CHECK(rows_of(many).at("curls.usda")["strands"] == 2);
+    CHECK(rows_of(many).at("t.obj")["error"]["code"] == "unknown_format");
+}
+
+TEST_CASE("convert names the objects of a scene that the file does not hold") {
+    const ProgramFolder folder;
+    const std::string hair = folder.write("curls.usda", kConvertHair);
+    const std::string scene = folder.path("both.lissom"), only = folder.path("hair.lissom");
+    const std::string script =
+        folder.write("make.lua",
+                     "local lissom = require 'lissom'\nlocal scene = lissom.scene{}\n"
+                     "scene:add('curls', lissom.load_strands('" +
+                         hair +
+                         "'))\n"
+                         "scene:save('" +
+                         only +
+                         "')\n"
+                         "scene:add('ball', lissom.shapes.sphere())\nscene:save('" +
+                         scene + "')\n");
+    REQUIRE(run_program({"run", script}).err == "");
+    const Ended glb = run_program({"convert", scene, folder.path("a.glb")});
+    CHECK(glb.status == cli::kSuccess);
+    CHECK(glb.err.find("left out: 'curls' (strands); ") != std::string::npos);
+    const Ended json = run_program({"convert", scene, folder.path("a.glb"), "--json"});
+    CHECK(ConvertJson::parse(json.out)["lost"].size() == 1);
+    const Ended data = run_program({"convert", scene, folder.path("a.data")});
+    CHECK(data.status == cli::kSuccess);
+    CHECK(data.err.find("left out: 'ball' (mesh); ") != std::string::npos);
+    const Ended lines = run_program({"convert", only, folder.path("b.glb"), "--json"});
+    CHECK(lines.err == "");
+    CHECK(ConvertJson::parse(lines.out)["strands"] == 2);
+}
+
 TEST_CASE("convert writes no output twice and replaces no input unasked") {
     const ProgramFolder folder;
     folder.write("a/one.obj", kConvertTriangle);

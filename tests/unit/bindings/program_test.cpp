@@ -45,6 +45,19 @@ TEST_CASE("the command line itself") {
     }
 }
 
+TEST_CASE("help prints the usage of a verb, and of the function of its name") {
+    for (const Verb& verb : kernel_parts().verbs) {
+        CAPTURE(verb.name);
+        const std::string usage = run({verb.name, "--help"}).out;
+        CHECK(run({"help", verb.name}).out.find(usage) == 0);
+        const Json json = Json::parse(run({"help", verb.name, "--json"}).out);
+        CHECK(json["help"].get<std::string>().find(usage) == 0);
+    }
+    CHECK(run({"help", "inspct"}).err.find("did you mean 'inspect'?") != std::string::npos);
+    CHECK(run({"help", "test"}).out.find("lissom test") != std::string::npos);
+    CHECK(run({"help", "edit.report"}).out.find("deformation:report") == 0);
+}
+
 TEST_CASE("inspect answers in text and JSON") {
     const Folder folder;
     const std::string good = folder.write("a.obj", kTriangle);
