@@ -76,7 +76,7 @@ TEST_CASE("help says how a function is called, under all its names") {
     CHECK(help_for(registry, "sav") == "");
     // Under the names that examples give to objects.
     const std::string report = help_for(registry, "deformation.report");
-    CHECK(report.find("deformation:report([{...}])\n") == 0);
+    CHECK(report.find("deformation:report{...}\n") == 0);
     for (const char* name : {"edit.report", "edit:report", "Deformation:report"}) {
         CHECK_MESSAGE(help_for(registry, name) == report, name);
     }
