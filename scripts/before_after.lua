@@ -14,13 +14,19 @@ local known = {
 
 local function check(options)
     for key, value in pairs(options) do
-        if not known[key] then error("unknown option '" .. tostring(key) .. "' of 'write'", 3) end
+        if not known[key] then
+            lissom.error{ message = "unknown option '" .. tostring(key) .. "' of 'write'", level = 3 }
+        end
         if type(value) ~= known[key] then
-            error("option '" .. key .. "' of 'write': " .. known[key] .. " expected, got " .. type(value), 3)
+            lissom.error{ level = 3,
+                message = "option '" .. key .. "' of 'write': " .. known[key]
+                    .. " expected, got " .. type(value) }
         end
     end
     for _, key in ipairs{ "name", "before", "after" } do
-        if options[key] == nil then error("'write' needs the option '" .. key .. "'", 3) end
+        if options[key] == nil then
+            lissom.error{ message = "'write' needs the option '" .. key .. "'", level = 3 }
+        end
     end
 end
 
@@ -32,13 +38,13 @@ end
 function before_after.write(options)
     check(options)
     local path = (options.out or "out") .. "/" .. options.name
-    assert(options.after:save(path .. ".obj"))
-    assert(options.after:save(path .. ".ply"))
-    assert(lissom.render{
+    options.after:save(path .. ".obj")
+    options.after:save(path .. ".ply")
+    lissom.render{
         meshes = { options.before, options.after }, columns = 2, view = options.view, camera = options.camera,
         region = options.region, handles = options.handles, wire = options.wire,
         size = options.size or { 1200, 640 }, file = path .. ".png",
-    })
+    }
     return path .. ".obj"
 end
 

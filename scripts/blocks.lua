@@ -71,8 +71,11 @@ function blocks.surface(options)
             end
         end
     end
-    local mesh, message = lissom.mesh{ positions = positions, faces = faces, repair = false, weld = false }
-    if not mesh then error("these cells have no surface: " .. message, 2) end
+    local mesh, problem = lissom.try(lissom.mesh,
+        { positions = positions, faces = faces, repair = false, weld = false })
+    if not mesh then
+        lissom.error{ message = "these cells have no surface: " .. problem, code = problem.code, level = 2 }
+    end
     local levels = options.levels or 3
     mesh = mesh:subdivide(1, { scheme = "catmull_clark" })
     mesh:smooth{ iterations = options.soft or 3, keep_volume = true }

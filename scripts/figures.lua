@@ -249,7 +249,7 @@ function figures.write(options)
     render.meshes, render.captions = meshes, captions
     render.columns = options.columns or #meshes
     render.file = (options.out or "out") .. "/" .. options.name .. ".png"
-    print(assert(lissom.render(render)))
+    print(lissom.render(render))
 end
 
 --- Prints a row of a table: a name of 24 letters and the numbers.
@@ -259,7 +259,7 @@ end
 
 --- Raises an error that names the claim if it does not hold.
 function figures.claim(holds, text)
-    if not holds then error("the figure does not show that " .. text, 2) end
+    if not holds then lissom.error{ message = "the figure does not show that " .. text, level = 2 } end
 end
 
 return figures

@@ -37,19 +37,19 @@ hairdo.fidelity = { type = "choice", default = "default", choices = { "default",
 
 function hairdo.head(params)
     if params.head == "" then return lissom.shapes.head{ vertices = params.vertices } end
-    return assert(lissom.load(params.head))
+    return lissom.load(params.head)
 end
 
 -- The scalp of a head in the unit of the parameters.
 function hairdo.scalp(head, params)
-    return assert(lissom.scalp(head, { unit = params.unit > 0 and params.unit or nil }))
+    return lissom.scalp(head, { unit = params.unit > 0 and params.unit or nil })
 end
 
 -- A style with the unit and resolution of the parameters; `options` are further ones of lissom.hairstyle.
 function hairdo.style(head, params, options)
     local all = { scalp = hairdo.scalp(head, params), resolution = params.resolution }
     for key, value in pairs(options or {}) do all[key] = value end
-    return assert(lissom.hairstyle(head, all))
+    return lissom.hairstyle(head, all)
 end
 
 -- Hair of a figure, with the options of style:grow. To the letter of the thesis it is as long as the field
@@ -286,18 +286,18 @@ function hairdo.finish(style, hair, params, rings)
     if params.detail then hairdo.detail(hair) end
     local literal = style:stats().fidelity == "thesis"
     local path = params.out .. "/" .. params.name .. (literal and "_thesis" or "")
-    assert(style:save(path .. ".json"))
-    assert(hair:save(path .. "." .. params.format))
+    style:save(path .. ".json")
+    hair:save(path .. "." .. params.format)
     if not params.pictures then return end
     local meshes, colors = { style:head() }, { "clay" }
     for _, ring in ipairs(rings or {}) do
         meshes[#meshes + 1], colors[#colors + 1] = ring, "#2a1c28"
     end
     for _, side in ipairs{ "front", "left", "back", "three-quarter" } do
-        assert(lissom.render{
+        lissom.render{
             meshes = meshes, color = colors, strands = hair, camera = hairdo.camera(style, hair, side),
             size = { params.size, params.size }, background = "#c8ccd2", file = path .. "_" .. side .. ".png",
-        })
+        }
     end
 end
 

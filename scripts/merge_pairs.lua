@@ -68,24 +68,20 @@ end
 
 -- A model of a folder, subdivided.
 local function model(folder, part)
-    local mesh, message, code = lissom.load(folder .. "/" .. part[1])
-    if not mesh then return nil, message, code end
+    local mesh = lissom.load(folder .. "/" .. part[1])
     return part[2] > 0 and mesh:subdivide(part[2], { scheme = "loop" }) or mesh
 end
 
---- Source, target and the options of merging.join for a pair: their cuts, and keys. nil, message, code
--- where a model is not in the folder.
+--- Source, target and the options of merging.join for a pair: their cuts, and keys.
 function merge_pairs.load(name, folder)
     local pair = known[name]
     if not pair then
-        error("no pair is called '" .. tostring(name) .. "'; there are: "
-            .. table.concat(merge_pairs.names(), ", "), 2)
+        lissom.error{ message = "no pair is called '" .. tostring(name) .. "'; there are: "
+            .. table.concat(merge_pairs.names(), ", "), level = 2 }
     end
     local models = {}
     for i = 1, 2 do
-        local mesh, message, code = model(folder, pair[i])
-        if not mesh then return nil, message, code end
-        models[i] = mesh
+        models[i] = model(folder, pair[i])
     end
     return models[1], models[2], { source_cut = pair[1][3], target_cut = pair[2][3], keys = pair[3] }
 end

@@ -73,12 +73,14 @@ end
 
 local function check(options, known)
     for key in pairs(options) do
-        if not known[key] then error("unknown option '" .. tostring(key) .. "' of 'write'", 3) end
+        if not known[key] then
+            lissom.error{ message = "unknown option '" .. tostring(key) .. "' of 'write'", level = 3 }
+        end
     end
 end
 
 local function draw(options)
-    print(assert(lissom.render(options)))
+    print(lissom.render(options))
 end
 
 local picture_options = {

@@ -53,9 +53,8 @@ function merge_script.models(params, schema, generate)
     local source, target, options
     if params.pair ~= "" then
         source, target, options = merge_pairs.load(params.pair, params.models)
-        assert(source, target)
     elseif params.source ~= "" or params.target ~= "" then
-        source, target = assert(lissom.load(params.source)), assert(lissom.load(params.target))
+        source, target = lissom.load(params.source), lissom.load(params.target)
         source = source:subdivide(params.levels, { scheme = "loop" })
         target = target:subdivide(params.levels, { scheme = "loop" })
         options = {}
@@ -75,7 +74,7 @@ end
 -- merge_pictures.write.
 function merge_script.finish(params, name, mesh, report, parts, more)
     merge_pictures.print(name, mesh, report, parts)
-    print(assert(mesh:save(params.out .. "/" .. name .. ".obj")))
+    print(mesh:save(params.out .. "/" .. name .. ".obj"))
     local all = { name = name, out = params.out, size = params.size, mesh = mesh, report = report,
         parts = parts }
     for key, value in pairs(more or {}) do all[key] = value end

@@ -50,7 +50,8 @@ function merging.direction(value)
         local vector = numbers(value)
         if vector and length(vector) > 0 then return vector end
     end
-    error("a direction is {x, y, z}, \"x\", \"-y\" or \"0, 1, -0.5\", not " .. tostring(value), 2)
+    lissom.error{ level = 2,
+        message = "a direction is {x, y, z}, \"x\", \"-y\" or \"0, 1, -0.5\", not " .. tostring(value) }
 end
 
 --- The cut that "point; normal" or "point; normal; seed" means, as "0, -0.95, 0; 0, 1, 0"; nil for "" and
@@ -62,8 +63,8 @@ function merging.read_cut(text)
     for part in (text .. ";"):gmatch("([^;]*);") do table.insert(list, numbers(part) or false) end
     local point, normal, seed = list[1], list[2], list[3]
     if not point or not normal or seed == false or #list > 3 then
-        error("a cut is \"x, y, z; x, y, z\", a point and a normal, perhaps \"; x, y, z\" of a seed, not '"
-            .. text .. "'", 2)
+        lissom.error{ level = 2, message = "a cut is \"x, y, z; x, y, z\", a point and a normal, perhaps "
+            .. "\"; x, y, z\" of a seed, not '" .. text .. "'" }
     end
     return { point = point, normal = normal, seed = seed }
 end
@@ -77,7 +78,9 @@ function merging.read_keys(text)
     for pair in text:gmatch("[^;]+") do
         local from, to = pair:match("^([^=]+)=([^=]+)$")
         if not from then
-            error("keys are \"direction = direction; ...\", the source's first, not '" .. text .. "'", 2)
+            lissom.error{ level = 2,
+                message = "keys are \"direction = direction; ...\", the source's first, not '" .. text
+                    .. "'" }
         end
         table.insert(keys, { merging.direction(from), merging.direction(to) })
     end
@@ -162,7 +165,8 @@ function merging.keys(source, target, directions)
     local keys, warnings = {}, {}
     for i, pair in ipairs(directions) do
         if type(pair) ~= "table" or #pair ~= 2 then
-            error("key " .. i .. " is no pair of directions, the source's and the target's", 2)
+            lissom.error{ level = 2,
+                message = "key " .. i .. " is no pair of directions, the source's and the target's" }
         end
         keys[i] = { merging.extreme(source, pair[1]), merging.extreme(target, pair[2]) }
         table.insert(warnings, tilt_warning(i, "source", source, pair[1]))
@@ -182,20 +186,31 @@ function merging.longest_boundary(mesh)
 end
 
 --- The part of a mesh that a cut keeps, its new boundary, and what the cut found (a list of warnings).
--- Without a cut the mesh itself and its longest boundary. nil, message, code where the plane does not cut a
--- part off.
+-- Without a cut the mesh itself and its longest boundary. boundary_conflict if the plane cuts no part off.
 function merging.part(mesh, cut)
     if not cut then
         local boundary = merging.longest_boundary(mesh)
-        if not boundary then error("the mesh is closed; say by a cut where it is to be opened", 2) end
+        if not boundary then
+            lissom.error{ message = "the mesh is closed; say by a cut where it is to be opened", level = 2 }
+        end
         return mesh, boundary, {}
     end
     local plane = {}
     for key, value in pairs(cut) do plane[key] = value end
     plane.normal = merging.direction(cut.normal)
-    local kept, rest, lines = mesh:cut{ plane = plane }
-    if not kept then return nil, rest, lines end
+    local kept, _, lines = mesh:cut{ plane = plane }
     return kept, lines[1], lines.report.warnings
+end
+
+--- Calls a function; the message of its error begins with the name of what it works on.
+function merging.named(name, f, ...)
+    local results = table.pack(lissom.try(f, ...))
+    local problem = results[1] == nil and results[2]
+    if type(problem) == "table" and problem.code then
+        problem.message = name .. ": " .. problem.message
+        error(problem, 0)
+    end
+    return table.unpack(results, 1, results.n)
 end
 
 -- ---- Joining
@@ -221,14 +236,15 @@ function merging.read_options(name, schema, options)
     end
     local unknown = next(left)
     if unknown ~= nil then
-        error("unknown option '" .. tostring(unknown) .. "' of '" .. name .. "'", 3)
+        lissom.error{ level = 3,
+            message = "unknown option '" .. tostring(unknown) .. "' of '" .. name .. "'" }
     end
     return values, own
 end
 
 --- Merges joins as lissom.merge does, `options` being its other options; `fixed` may be a function that is
 -- given the source and returns a list of its regions. Returns the mesh, the report and { source=, targets=,
--- joins=, warnings= }: the parts as they were joined. nil, message, code where it fails.
+-- joins=, warnings= }: the parts as they were joined.
 function merging.merge(joins, options, warnings)
     local source, targets, seen = joins[1].source:mesh(), {}, {}
     for _, join in ipairs(joins) do
@@ -242,8 +258,7 @@ function merging.merge(joins, options, warnings)
     for _, name in ipairs(direction_options) do
         if all[name] ~= nil then all[name] = merging.direction(all[name]) end
     end
-    local mesh, report, code = lissom.merge(all)
-    if not mesh then return nil, report, code end
+    local mesh, report = lissom.merge(all)
     return mesh, report, { source = source, targets = targets, joins = joins, warnings = warnings or {} }
 end
 
@@ -274,13 +289,12 @@ merging.schema = {
 --- Cuts two models, or takes their longest open boundaries, and merges what is left of the source onto the
 -- target.
 -- Options: source_cut, target_cut; keys, pairs of directions; the others are those of merging.merge.
--- Returns what that returns. nil, message, code where a cut or the merge fails.
+-- Returns what that returns.
 function merging.join(source, target, options)
     local values, own = merging.read_options("join", merging.schema, options)
-    local a, from, of_source = merging.part(source, merging.read_cut(values.source_cut))
-    if not a then return nil, "source: " .. from, of_source end
-    local b, to, of_target = merging.part(target, merging.read_cut(values.target_cut))
-    if not b then return nil, "target: " .. to, of_target end
+    local of, onto = merging.read_cut(values.source_cut), merging.read_cut(values.target_cut)
+    local _, from, of_source = merging.named("source", merging.part, source, of)
+    local _, to, of_target = merging.named("target", merging.part, target, onto)
     local warnings = merging.note({}, "source", of_source)
     merging.note(warnings, "target", of_target)
     local join = merging.joined(from, to, merging.read_keys(values.keys), warnings)
@@ -353,7 +367,7 @@ function merging.configuration_error(mesh, parts, number, options)
         local point = { moved:position(join.source:vertices()[1]) }
         joins[i] = { source = merging.boundary_near(moved, point), target = join.target, keys = join.keys }
     end
-    local other = assert(merging.merge(joins, options))
+    local other = merging.merge(joins, options)
     if #other ~= #mesh then return math.huge end
     local p, q, greatest = mesh:positions(), other:positions(), 0
     for i = 1, #p do greatest = math.max(greatest, math.abs(p[i] - q[i])) end

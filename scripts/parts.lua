@@ -162,7 +162,9 @@ parts.names = { "ear", "handle", "horn", "leaf", "nose", "scale", "spike" }
 function parts.make(name, options)
     local maker = makers[name]
     if not maker then
-        error("there is no part '" .. tostring(name) .. "'; there are " .. table.concat(parts.names, ", "), 2)
+        lissom.error{ level = 2,
+            message = "there is no part '" .. tostring(name) .. "'; there are "
+                .. table.concat(parts.names, ", ") }
     end
     local mesh, reach = maker(options or {}), reaches[name]
     local region, feature

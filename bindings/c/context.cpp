@@ -120,6 +120,7 @@ void CallError::guard(const std::function<void()>& work) noexcept {
         } catch (const StatusError& error) {
             status = error.status();
             message = error.what();
+            elements = error.elements();
         } catch (const std::bad_alloc&) {
             status = LISSOM_MEMORY_LIMIT;
             message = "there is not enough memory";

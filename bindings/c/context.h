@@ -38,15 +38,17 @@ enum class Kind : std::uint8_t {
 /// A refusal that the kernel knows nothing of.
 class StatusError : public std::exception {
   public:
-    StatusError(lissom_status status, std::string message)
-        : status_(status), message_(std::move(message)) {}
+    StatusError(lissom_status status, std::string message, Elements elements = {})
+        : status_(status), message_(std::move(message)), elements_(std::move(elements)) {}
 
     const char* what() const noexcept override { return message_.c_str(); }
     lissom_status status() const { return status_; }
+    const Elements& elements() const { return elements_; }
 
   private:
     lissom_status status_;
     std::string message_;
+    Elements elements_;
 };
 
 /// The error of the last call, returned by lissom_last_error.

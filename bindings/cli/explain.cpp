@@ -4,7 +4,7 @@
 
 #include "bindings/cli/json.h"
 #include "bindings/cli/verbs.h"
-#include "bindings/lua/core/failure.h"
+#include "kernel/core/error.h"
 #include "kernel/core/nearest.h"
 
 namespace lissom::cli {
@@ -12,13 +12,12 @@ namespace {
 
 Json code_json(ErrorCode code) {
     return {{"code", std::string(code_name(code))},
-            {"in_lua", lua::is_misuse(code) ? "an error" : "nil, message, code"},
             {"explanation", std::string(code_explanation(code))}};
 }
 
 void print_code(const Json& code) {
     std::cout << code["code"].get<std::string>() << ": " << code["explanation"].get<std::string>()
-              << " In Lua: " << code["in_lua"].get<std::string>() << ".\n";
+              << "\n";
 }
 
 }  // namespace

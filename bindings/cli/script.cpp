@@ -12,6 +12,7 @@
 #include "bindings/cli/process/child_process.h"
 #include "bindings/cli/terminal/interrupt.h"
 #include "bindings/cli/terminal/script_place.h"
+#include "bindings/lua/core/error_object.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/io/stream/file.h"
 
@@ -148,16 +149,29 @@ std::vector<ScriptLine> calls_at_top(lua_State* L) {
     return calls;
 }
 
-// The handler of lua_pcall: error -> "file:line: message", the traceback of the place, and its
-// calls.
+// Whether the error at `index` knows the line of a script.
+bool has_place(lua_State* L, int index) {
+    if (!lua::is_error_object(L, index)) return false;
+    lua_getfield(L, index, "place");
+    const bool has = lua_type(L, -1) == LUA_TSTRING;
+    lua_pop(L, 1);
+    return has;
+}
+
+// The handler of lua_pcall: error -> "file:line: message", the traceback of the place, its calls,
+// and its code.
 int explain_error(lua_State* L) {
-    luaL_tolstring(L, 1, nullptr);
-    if (!names_a_chunk(L, lua_tostring(L, -1))) {
+    lua::push_error_text(L, 1);
+    if (!has_place(L, 1) && !names_a_chunk(L, lua_tostring(L, -1))) {
         push_script_place(L, 1);
         lua_insert(L, -2);
         lua_concat(L, 2);
     }
-    lua_createtable(L, 3, 0);
+    lua_createtable(L, 4, 0);
+    if (lua::is_error_object(L, 1)) {
+        lua_getfield(L, 1, "code");
+        lua_rawseti(L, -2, 4);
+    }
     lua_pushvalue(L, -2);
     lua_rawseti(L, -2, 1);
     luaL_traceback(L, L, nullptr, 1);
@@ -300,68 +314,24 @@ ScriptResult Script::run_loaded(int status) {
         lua_rawseti(L_, -2, 1);
         return failure();
     }
-    const int first = lua_gettop(L_);
-    ScriptResult result = call_function();
-    if (result.status == kSuccess) result = returned_failure(first);
-    return result;
-}
-
-ScriptResult Script::run_function() {
-    return run_loaded(LUA_OK);
+    return call_function();
 }
 
 ScriptResult Script::call_function() {
     const int function = lua_gettop(L_);
-    const std::size_t dropped_before = state().dropped_count;
     lua_pushcfunction(L_, explain_error);
     lua_insert(L_, function);
     const int status = call_protected(function);
     lua_remove(L_, function);
     program_.clear_progress();
-    if (status != LUA_OK) return failure();
-    return state().dropped_count > dropped_before ? dropped(dropped_before) : ScriptResult{};
+    return status == LUA_OK ? ScriptResult{} : failure();
 }
 
-// Checks the result of a script that ended with `return mesh:save(path)`: nobody else looks at it.
-ScriptResult Script::returned_failure(int first) {
-    ScriptResult result;
-    const lua::State& opened = state();
-    const char* message = lua_type(L_, first + 1) == LUA_TSTRING ? lua_tostring(L_, first + 1) : "";
-    if (!opened.has_failed || !lua_isnil(L_, first) ||
-        std::strcmp(message, opened.last_failure.message) != 0) {
-        return result;
-    }
-    result.status = kFailure;
-    result.code = std::string(code_name(opened.last_failure.code));
-    result.message = opened.last_failure_place + std::string(message) + " [" + result.code + "]";
-    find_place(result);
-    return result;
-}
-
-// The script ran to its end, but failures were dropped: each was told when it came.
-ScriptResult Script::dropped(std::size_t before) {
-    ScriptResult result;
-    result.status = kFailure;
-    const lua::State& opened = state();
-    const std::size_t count = opened.dropped_count - before;
-    if (before < opened.dropped.size()) {
-        const lua::DroppedFailure& first = opened.dropped[before];
-        result.code = first.code;
-        result.message = first.place;
-        find_place(result);
-    }
-    result.message += count == 1
-                          ? "a failure that nobody looked at (told above)"
-                          : std::to_string(count) +
-                                " failures that nobody looked at (told above), the first here";
-    return result;
-}
-
-// Takes the table {message, traceback} from the stack.
+// Takes the table of explain_error from the stack.
 ScriptResult Script::failure() {
     ScriptResult result;
     result.status = kFailure;
-    lua::State& opened = state();
+    const lua::State& opened = state();
     if (opened.script_end != lua::ScriptEnd::none) {
         const bool is_help = opened.script_end == lua::ScriptEnd::help;
         result.status = is_help ? kSuccess : kUsage;
@@ -377,24 +347,18 @@ ScriptResult Script::failure() {
     if (lua_type(L_, -1) == LUA_TTABLE) {
         if (lua_rawgeti(L_, -1, 3) == LUA_TTABLE) result.calls = calls_at_top(L_);
         lua_pop(L_, 1);
+        if (lua_rawgeti(L_, -1, 4) == LUA_TSTRING) result.code = lua_tostring(L_, -1);
+        lua_pop(L_, 1);
         lua_rawgeti(L_, -1, 1);
     }
     const char* text = lua_tostring(L_, -1);
     result.message = text ? text : "an error without a message";
     find_place(result);
-    result.code = code_in(result.message);
-    const lua::Failure& last = opened.last_failure;
-    const bool came_as_nil =
-        opened.has_failed &&
-        (blames_nil(result.message) || result.message.find(last.message) != std::string::npos);
-    if (came_as_nil) result.code = std::string(code_name(last.code));
+    if (result.code.empty()) result.code = code_in(result.message);
     if (lacks_require(result.message)) {
         result.message += "\na script loads the library first: local lissom = require \"lissom\"";
     } else if (lacks_tests(result.message)) {
         result.message += "\ntests are run by: lissom test " + options_.arguments.script;
-    } else if (opened.has_failed && blames_nil(result.message)) {
-        result.message += "\n" + std::string(opened.last_failure_place) +
-                          "the nil may come from here: " + last.message + " [" + result.code + "]";
     }
     if (program_.debug && lua_type(L_, -2) == LUA_TTABLE) {
         lua_rawgeti(L_, -2, 2);

@@ -24,7 +24,7 @@ struct ScriptResult {
     int status = kSuccess;
     /// Error message: "file:line: message", then notes; a traceback below it under --debug.
     std::string message;
-    /// Code of the kernel if the error has one in brackets or came as nil, message, code.
+    /// Code of the error object, or that in brackets at the end of the message.
     std::string code;
     /// Place of the error, if known.
     std::string file;
@@ -51,12 +51,8 @@ class Script {
     /// Runs a text that came from the standard input.
     ScriptResult run_text(std::string text);
 
-    /// Calls the function on top of the stack, whose results stay there. It has failed too if it
-    /// dropped failures of lissom (see lua::DroppedFailure).
+    /// Calls the function on top of the stack, whose results stay there.
     ScriptResult call_function();
-    /// The same for one that is run as a script: its first results may be nil and the message of a
-    /// failure, which then is its own.
-    ScriptResult run_function();
 
     /// Returns the folder of the Lua library installed with the program; empty if it is not found.
     static std::string shipped_scripts();
@@ -67,8 +63,6 @@ class Script {
     int call_protected(int handler);
     ScriptResult run_loaded(int status);
     ScriptResult failure();
-    ScriptResult dropped(std::size_t before);
-    ScriptResult returned_failure(int first);
 
     Program& program_;
     lua::HostOptions options_;

@@ -18,7 +18,7 @@ local params = lissom.params{
     out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
-local rest = assert(lissom.load(params.model))
+local rest = lissom.load(params.model)
 
 -- Points are given as fractions of the bounding box, lengths in the size of the surface.
 local box, size = rest:bounds(), rest:size()
@@ -44,7 +44,7 @@ edit:handle(mesh:region("left_hand")):rotate{ axis = "z", angle = params.raise, 
 edit:handle(mesh:region("right_hand")):rotate{ axis = "z", angle = params.raise, about = at(0.30, 0.72, 0.5) }
 edit:handle(mesh:region("head")):rotate{ axis = "y", angle = params.turn, about = at(0.5, 0.8, 0.5) }
 
-assert(edit:solve())
+edit:solve()
 
 local file = before_after.write{
     name = "armadillo", out = params.out, before = rest, after = mesh,

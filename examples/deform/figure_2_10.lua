@@ -39,7 +39,7 @@ local function body()
     return mesh
 end
 
-local rest = params.mesh ~= "" and assert(lissom.load(params.mesh)) or body()
+local rest = params.mesh ~= "" and lissom.load(params.mesh) or body()
 local axis, box = figures.longest_axis(rest), rest:bounds()
 figures.set_ends(rest, axis, params.share)
 rest:set_region("body", rest:region("low"):union(rest:region("high")):invert())

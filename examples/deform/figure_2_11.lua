@@ -72,7 +72,7 @@ local function lattice()
     return rough:subdivide(2, { scheme = "catmull_clark" }) or rough
 end
 
-local rest = params.mesh ~= "" and assert(lissom.load(params.mesh)) or lattice()
+local rest = params.mesh ~= "" and lissom.load(params.mesh) or lattice()
 local axis = figures.longest_axis(rest)
 figures.set_ends(rest, axis, params.share)
 local along, across = { 0, 0, 0 }, { 0, 0, 0 }

@@ -21,7 +21,7 @@ local params = lissom.params{
     out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
-local rest = params.mesh ~= "" and assert(lissom.load(params.mesh))
+local rest = params.mesh ~= "" and lissom.load(params.mesh)
     or lissom.shapes.cactus{ vertices = params.vertices }
 local axis = figures.longest_axis(rest)
 figures.set_ends(rest, axis, 0.1)

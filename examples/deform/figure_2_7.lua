@@ -19,7 +19,7 @@ local params = lissom.params{
     out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
 }
 
-local rest = params.mesh ~= "" and assert(lissom.load(params.mesh))
+local rest = params.mesh ~= "" and lissom.load(params.mesh)
     or lissom.shapes.bar{ length = 5, across = params.across, along = 5 * params.across }
 
 -- The longest side of the bounding box is the bar's axis; its lowest and highest eighth are the handles.

@@ -43,7 +43,7 @@ end
 
 -- The dinosaur: feet and head hold.
 local function dinosaur()
-    local mesh = assert(lissom.load(params.mesh))
+    local mesh = lissom.load(params.mesh)
     local box = mesh:bounds()
     local function slab(low, high)
         return mesh:region{ box = {

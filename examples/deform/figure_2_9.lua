@@ -52,7 +52,7 @@ end
 
 -- Feet, both hands and the head of the armadillo.
 local function armadillo()
-    local mesh = assert(lissom.load(params.mesh))
+    local mesh = lissom.load(params.mesh)
     local at, size = points_of(mesh), mesh:size()
     local function ball(center, radius)
         return mesh:region{ sphere = { center = center, radius = radius * size } }

@@ -30,18 +30,18 @@ local function pose(time)
     arm:set{ rotate = { axis = "z", angle = params.swing * math.sin(phase - 0.6), about = { 0, 0.5, 0 } } }
 end
 
-local sway = assert(edit:bake{ pose = pose, duration = params.duration, fps = params.fps, name = "sway" })
-assert(sway:save(params.out .. "/cactus_sway.glb"))
+local sway = edit:bake{ pose = pose, duration = params.duration, fps = params.fps, name = "sway" }
+sway:save(params.out .. "/cactus_sway.glb")
 
 -- Handles are called as the regions that they are made of: "base", "tip", "left_tip".
-assert(edit:save_basis(params.out .. "/cactus.basis"))
+edit:save_basis(params.out .. "/cactus.basis")
 
 -- Files for engines repeat vertices at seams of texture coordinates: each carries its row of the basis.
 local rows = {}
 for i, vertex in ipairs(edit:region():vertices()) do rows[vertex] = i - 1 end -- rows count from 0
 for vertex = 1, #cactus do rows[vertex] = rows[vertex] or -1 end
 cactus:add_attribute{ name = "BASIS_ROW", domain = "vertex", width = 1, values = rows }
-assert(cactus:save(params.out .. "/cactus.glb"))
+cactus:save(params.out .. "/cactus.glb")
 
 print(string.format("%d vertices, %d frames: %s/cactus_sway.glb, %s/cactus.glb, %s/cactus.basis",
     #cactus, math.floor(params.duration * params.fps + 0.5) + 1, params.out, params.out, params.out))

@@ -35,10 +35,10 @@ end
 
 local function draw_field(file)
     if not params.pictures then return end
-    print(assert(lissom.render{
+    print(lissom.render{
         style = style, style_marks = { field = true, normal = style:scalp():left() }, view = "left",
         size = { params.size, params.size }, file = params.out .. "/" .. params.name .. "_" .. file .. ".png",
-    }))
+    })
 end
 
 local before, share_before = grown("without the step")
@@ -48,13 +48,13 @@ local after, share_after = grown("with it")
 draw_field("turned")
 
 assert(share_after < 0.5 * share_before or share_before < 0.5, "the scalp step keeps too little hair out")
-assert(style:save(params.out .. "/" .. params.name .. ".json"))
+style:save(params.out .. "/" .. params.name .. ".json")
 if params.pictures then
-    print(assert(lissom.render{
+    print(lissom.render{
         meshes = { head, head }, strands = { before, after }, columns = 2,
         captions = { string.format("%.1f %% in the head", share_before),
             string.format("%.1f %%", share_after) },
         camera = hairdo.camera(style, before, "left"), background = "#c8ccd2",
         size = { 2 * params.size, params.size }, file = params.out .. "/" .. params.name .. ".png",
-    }))
+    })
 end

@@ -18,7 +18,7 @@ local head, body, options = merge_script.models(params, merging.schema, function
     return source, target, cuts
 end)
 
-local mesh, report, parts = assert(merging.join(head, body, options))
+local mesh, report, parts = merging.join(head, body, options)
 merge_script.finish(params, "figure_3_1", mesh, report, parts)
 figures.claim(report.seam.after.greatest_dihedral < 20, "the seam is hidden")
 figures.claim(#mesh:boundaries() == #parts.source:boundaries() + #parts.targets[1]:boundaries() - 2,

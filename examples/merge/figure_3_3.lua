@@ -19,10 +19,10 @@ local params = merge_script.params{
         help = "how far the handle turns" },
 }
 
-local cactus = params.mesh ~= "" and assert(lissom.load(params.mesh))
+local cactus = params.mesh ~= "" and lissom.load(params.mesh)
     or lissom.shapes.cactus{ vertices = 9000 }
 local cut = merging.read_cut(params.cut)
-local above, below, lines = assert(cactus:cut{ plane = { point = cut.point, normal = cut.normal } })
+local above, below, lines = cactus:cut{ plane = { point = cut.point, normal = cut.normal } }
 local size = cactus:size()
 
 -- The similarity is that of the handle; the source kept its place.
@@ -46,8 +46,8 @@ for i, v in ipairs(from:vertices()) do
         table.insert(keys, { v, positions[table.concat({ above:position(v) }, " ")] })
     end
 end
-local mesh, report, parts = assert(merging.merge({ { source = from, target = there, keys = keys } },
-    { smooth = 0, trim = false }))
+local mesh, report, parts = merging.merge({ { source = from, target = there, keys = keys } },
+    { smooth = 0, trim = false })
 merge_script.finish(params, "figure_3_3", mesh, report, parts, { view = "front" })
 
 -- Expected vertices of the source.
@@ -77,7 +77,7 @@ local origin = { 0, 0, 0 }
 edit:handle(foot):scale(params.scale, { about = origin })
     :rotate{ axis = similarity.rotate.axis, angle = params.turn, about = origin }
     :translate(table.unpack(similarity.translate))
-assert(edit:solve())
+edit:solve()
 local exact = figures.difference(cactus:copy():transform(similarity), whole)
 print(string.format("a handle moved by the similarity: the rest off by %.1e of the size", exact))
 figures.claim(exact < 1e-9, "the whole cactus follows a handle's similarity")

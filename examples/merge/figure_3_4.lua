@@ -20,7 +20,7 @@ local function with_discs(mesh, points, radius)
         local disc = mesh:region{ geodesic = { from = mesh:nearest(point).vertex, radius = radius } }
         discs = discs and discs:union(disc) or disc
     end
-    local open, boundaries = assert(mesh:cut{ region = discs:invert() }), {}
+    local open, boundaries = mesh:cut{ region = discs:invert() }, {}
     for i, point in ipairs(points) do boundaries[i] = merging.boundary_near(open, point) end
     return open, boundaries
 end
@@ -29,7 +29,7 @@ end
 local function with_cuts(mesh, cuts)
     local points, boundaries = {}, {}
     for i, cut in ipairs(cuts) do
-        local part, boundary = assert(merging.part(mesh, cut))
+        local part, boundary = merging.part(mesh, cut)
         mesh, points[i] = part, boundary:points()[1]
     end
     for i, point in ipairs(points) do boundaries[i] = merging.boundary_near(mesh, point) end
@@ -38,8 +38,8 @@ end
 
 -- Both models, a boundary for each ear, and the joins.
 local function real()
-    local skull = assert(lissom.load(params.models .. "/skull_headus_20k.off"))
-    local bunny = assert(lissom.load(params.models .. "/stanford_bunny_35k.obj"))
+    local skull = lissom.load(params.models .. "/skull_headus_20k.off")
+    local bunny = lissom.load(params.models .. "/stanford_bunny_35k.obj")
     local source, from = with_discs(skull, { { 8.9, 3, 2 }, { -5, 4, 1.5 } }, 3.4)
     local target, to = with_cuts(bunny, {
         { point = { -0.032, 0.168, -0.005 }, normal = { -1, -0.6, 0.5 }, seed = { 0, 0.05, 0 } },
@@ -69,7 +69,7 @@ for i = 1, 2 do
     joins[i] = { source = from[i], target = to[i], keys = merging.keys(from[i], to[i], directions) }
 end
 -- The boundaries undulate: a few more steps than usual take the last of it away.
-local mesh, report, parts = assert(merging.merge(joins, { seam = params.seam, smooth = 6 }))
+local mesh, report, parts = merging.merge(joins, { seam = params.seam, smooth = 6 })
 merge_script.finish(params, "figure_3_4", mesh, report, parts, { view = "front" })
 
 figures.claim(mesh:genus() == source:genus() + target:genus() + 1, "two joins make a loop")

@@ -35,7 +35,7 @@ for i, place in ipairs(places) do
 end
 
 local options = { seam = params.seam }
-local mesh, report, parts = assert(merging.merge(joins, options))
+local mesh, report, parts = merging.merge(joins, options)
 merge_script.finish(params, "figure_3_5", mesh, report, parts, { seam = 1, wide = 5 })
 
 figures.claim(mesh:genus() == 1 and mesh:components() == 1, "all become one surface of genus 1")

@@ -36,8 +36,8 @@ local source, target, options = merge_script.models(params, merging.schema, func
             target_cut = { point = middle, normal = "z" },
             keys = "1, 1, 0 = 1, 1, 0; -1, 1, 0 = -1, 1, 0; -1, -1, 0 = -1, -1, 0; 1, -1, 0 = 1, -1, 0" }
 end)
-local back, from = assert(merging.part(source, merging.read_cut(options.source_cut)))
-local front, to = assert(merging.part(target, merging.read_cut(options.target_cut)))
+local back, from = merging.part(source, merging.read_cut(options.source_cut))
+local front, to = merging.part(target, merging.read_cut(options.target_cut))
 local directions = merging.read_keys(options.keys) or { { "y", "y" } }
 
 -- Feet of the generated beasts stand on y = 0.
@@ -69,8 +69,8 @@ end
 local function merged(boundary, more)
     local all = { seam = options.seam, transition = options.transition }
     for key, value in pairs(more) do all[key] = value end
-    return assert(merging.merge({ { source = boundary, target = to,
-        keys = merging.keys(from, to, directions) } }, all))
+    return merging.merge({ { source = boundary, target = to,
+        keys = merging.keys(from, to, directions) } }, all)
 end
 local free, free_report, free_parts = merged(from, {})
 local fixed, fixed_report, fixed_parts = merged(there, { configuration = "fixed", fixed = { held } })

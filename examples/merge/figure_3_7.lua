@@ -24,12 +24,12 @@ local source, target, options = merge_script.models(params, merging.schema, func
     return head, body, cuts
 end)
 
-local plain, plain_report, parts = assert(merging.join(source, target, options))
+local plain, plain_report, parts = merging.join(source, target, options)
 merge_script.finish(params, "figure_3_7_plain", plain, plain_report, parts)
 
 local function band(boundary) return params.width * boundary:length() / (2 * math.pi) end
 options.transition = { source = band(parts.joins[1].source), target = band(parts.joins[1].target) }
-local mesh, report, faded = assert(merging.join(source, target, options))
+local mesh, report, faded = merging.join(source, target, options)
 merge_script.finish(params, "figure_3_7", mesh, report, faded)
 
 -- How much faces turn against each other within the bands.
@@ -55,7 +55,7 @@ local literal, literal_report = merging.join(source, target, letter)
 if not literal then
     print("the thesis's seam: " .. literal_report)
     letter.seam = "conform"
-    literal, literal_report = assert(merging.join(source, target, letter))
+    literal, literal_report = merging.join(source, target, letter)
 end
 print(string.format("to the letter: %.2f degrees, %d of %d vertices without a counterpart",
     bends(literal, literal_report), literal_report.transition[1].source.unmapped,

@@ -25,13 +25,13 @@ end
 local egg = lissom.shapes.sphere{ segments = 24, kind = "triangles" }:transform{ scale = { 1.4, 2, 1.6 } }
 
 -- The region around the horn is marked casually.
-local paste = assert(lissom.paste{
+local paste = lissom.paste{
     source = ball, target = egg,
     region = ball:region{ sphere = { center = { 0, 1.3, 0 }, radius = 0.9 } },
     placement = { at = { params.x, params.y, params.z }, scale = params.scale },
-})
-local loop, search = assert(paste:optimize())
-local mesh, report = assert(paste:merge())
+}
+local loop, search = paste:optimize()
+local mesh, report = paste:merge()
 assert(mesh:is_closed() and mesh:genus() == 0)
 print(string.format("misfit %.3g in place of %.3g, %d vertices, scale %.3g; %s",
     search.misfit[#search.misfit], search.misfit[1], #loop, report.paste.scale, report.verdict))

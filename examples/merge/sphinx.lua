@@ -18,12 +18,12 @@ local params = merge_script.params{
 local head = lissom.shapes.head{ vertices = 10000 }
 local body = blocks.beast{ legs = params.legs }
 
-local mesh, report, parts = assert(transplant_head.make(head, body, {
+local mesh, report, parts = transplant_head.make(head, body, {
     -- The cut keeps the side of the seed. The body has an opening at its neck and needs no cut.
     source_cut = { point = { 0, -0.15, 0 }, normal = { 0, 1, -0.25 }, seed = { 0, 0.1, 0 } },
     turn = params.turn,
     seam = params.seam,
-}))
+})
 
 assert(mesh:is_closed() and mesh:is_manifold())
 merge_script.finish(params, "sphinx", mesh, report, parts)

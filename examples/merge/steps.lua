@@ -27,9 +27,9 @@ local angle = math.rad(params.turn)
 local front = { from:nearest(0, 0, 1).position, to:nearest(math.sin(angle), 0, math.cos(angle)).position }
 
 -- 3. The head is turned, scaled and deformed so that the boundaries meet; the cactus stays.
-local mesh, report = assert(lissom.merge{
+local mesh, report = lissom.merge{
     source = head, target = cactus, joins = { { source = from, target = to, keys = { front } } },
-})
+}
 assert(mesh:is_closed() and mesh:is_manifold())
 print(string.format("%d vertices meet %d, scale %.3g, greatest angle at the seam %.1f degrees",
     report.joins[1].source_size, report.joins[1].target_size, report.joins[1].scale,
@@ -49,10 +49,10 @@ local function side_by_side(stays, moves)
         translate = { 0.9, 0.6 - scale * moves:bounds().min[2], 0 } }
     return painted(stays, merge_pictures.blue):append(beside)
 end
-print(assert(lissom.render{
+print(lissom.render{
     meshes = { side_by_side(models[2], models[1]), side_by_side(cactus, head),
         merge_pictures.colored(mesh, report) },
     columns = 3, captions = { "two models", "cut", "merged" }, boundaries = true, view = "front",
     size = { 3 * params.size, params.size }, file = params.out .. "/steps.png",
-}))
-assert(mesh:save(params.out .. "/steps.obj"))
+})
+mesh:save(params.out .. "/steps.obj")

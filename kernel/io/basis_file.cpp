@@ -9,6 +9,7 @@
 #include "kernel/core/error.h"
 #include "kernel/io/stream/byte_reader.h"
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/file_error.h"
 #include "kernel/io/stream/read_error.h"
 #include "kernel/io/stream/scalar.h"
 
@@ -317,7 +318,8 @@ EngineBasis load_basis(const std::filesystem::path& path, const Context& context
     try {
         return decode_basis(content.bytes);
     } catch (const Error& error) {
-        throw Error(error.code(), display_name(path) + ": " + error.message(), error.elements());
+        const std::string file = display_name(path);
+        throw FileError(error.code(), file, file + ": " + error.message(), error.elements());
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "kernel/core/memory_error.h"
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/file_error.h"
 #include "kernel/io/stream/read_error.h"
 #include "kernel/io/stream/text_writer.h"
 
@@ -474,7 +475,8 @@ StyleContent load_style(const std::filesystem::path& path, const Context& contex
     try {
         return decode_style(file.bytes);
     } catch (const Error& error) {
-        throw Error(error.code(), display_name(path) + ": " + error.what());
+        const std::string name = display_name(path);
+        throw FileError(error.code(), name, name + ": " + error.what());
     }
 }
 

@@ -10,6 +10,7 @@
 #include "kernel/core/hasher.h"
 #include "kernel/core/memory_error.h"
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/file_error.h"
 #include "kernel/io/stream/folder.h"
 #include "kernel/scene/deform_item.h"
 #include "kernel/scene/file/folder_lists.h"
@@ -152,9 +153,9 @@ std::set<std::string> files_before(const fs::path& folder) {
         files.insert({kManifest, kHistoryFile});
         return files;
     } catch (const Error&) {
-        throw Error(ErrorCode::file_write_failed,
-                    display_name(folder / kManifest) +
-                        ": is no scene, so the folder is not replaced; take another folder");
+        const std::string file = display_name(folder / kManifest);
+        throw FileError(ErrorCode::file_write_failed, file,
+                        file + ": is no scene, so the folder is not replaced; take another folder");
     }
 }
 
@@ -241,7 +242,9 @@ void take_parameters(const SceneRecord& record, Scene& scene) {
                                   ErrorCode::file_unreadable, ErrorCode::file_empty,
                                   ErrorCode::face_index,      ErrorCode::unsafe_path};
     const bool own = std::find(std::begin(kOwn), std::end(kOwn), error.code()) != std::end(kOwn);
-    throw Error(own ? error.code() : ErrorCode::file_syntax, error.message(), error.elements());
+    const ErrorCode code = own ? error.code() : ErrorCode::file_syntax;
+    const std::string file = FileError::of(error, "");
+    throw FileError(code, file, error.message(), error.elements());
 }
 
 // Runs read(), which fills an empty scene.
@@ -277,18 +280,20 @@ std::optional<FileContent> history_of_folder(const fs::path& folder, const Scene
         const PartReader parts(content.bytes);
         if (has_history(parts) && history_mark(parts) == mark_of(files)) return content;
     } catch (const Error& error) {
-        throw Error(error.code(),
-                    display_name(folder / kHistoryFile) + ": " + error.message() +
-                        "; without this file the scene is loaded without its history",
-                    error.elements());
+        const std::string file = display_name(folder / kHistoryFile);
+        throw FileError(error.code(), file,
+                        file + ": " + error.message() +
+                            "; without this file the scene is loaded without its history",
+                        error.elements());
     }
     return std::nullopt;
 }
 
 void load_folder(const fs::path& folder, Scene& scene, ItemMaker& maker, const Context& context) {
     if (!has_in_folder(folder, kManifest)) {
-        throw Error(ErrorCode::file_is_directory,
-                    display_name(folder) + ": is a folder without a scene: it lacks " + kManifest);
+        const std::string file = display_name(folder);
+        throw FileError(ErrorCode::file_is_directory, file,
+                        file + ": is a folder without a scene: it lacks " + kManifest);
     }
     const FileContent manifest = read_from_folder(folder, kManifest, context);
     const SceneJson json = parse_part(manifest.bytes);
@@ -381,8 +386,10 @@ void load_scene(const fs::path& path, Scene& scene, ItemMaker& maker, const Cont
     } catch (const Error& refused) {
         const std::string name = display_name(in_folder ? path / kManifest : path);
         const bool named = in_folder && refused.message().starts_with(display_name(path));
-        throw Error(refused.code(), named ? refused.message() : name + ": " + refused.message(),
-                    refused.elements());
+        const std::string place = named ? FileError::of(refused, name) : name;
+        throw FileError(refused.code(), place,
+                        named ? refused.message() : name + ": " + refused.message(),
+                        refused.elements());
     }
 }
 

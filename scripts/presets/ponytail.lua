@@ -35,7 +35,9 @@ local function complete(values)
     local all = {}
     for name, one in pairs(ponytail.schema) do all[name] = one.default end
     for name, value in pairs(values or {}) do
-        if all[name] == nil then error("the ponytail has no parameter '" .. name .. "'", 3) end
+        if all[name] == nil then
+            lissom.error{ message = "the ponytail has no parameter '" .. name .. "'", level = 3 }
+        end
         all[name] = value
     end
     return all
@@ -92,7 +94,7 @@ function ponytail.style(head, values, options)
     values = complete(values)
     local all = {}
     for key, value in pairs(options or {}) do all[key] = value end
-    all.scalp = all.scalp or assert(lissom.scalp(head))
+    all.scalp = all.scalp or lissom.scalp(head)
     local tie = { azimuth = 180 - 75 * values.side, elevation = values.height, lift = values.lift,
         length = values.length,
         droop = values.droop >= 0 and values.droop or droop_at(values.height, values.side),
@@ -104,7 +106,7 @@ function ponytail.style(head, values, options)
     -- Hair that leaves the volume is cut off flat at its faces.
     local room = 0.02 + 1.2 * tie.radius * (1 + values.fullness)
     all.volume = all.volume or hairdo.volume(all.scalp, room, spine)
-    local style = assert(lissom.hairstyle(head, all))
+    local style = lissom.hairstyle(head, all)
     hairdo.gather(style, tie,
         { count = values.gather, reach = 0.08, low = 0.002 + 0.012 * (1 - values.tightness) })
     local low = 0.002 + 0.012 * (1 - values.tightness)

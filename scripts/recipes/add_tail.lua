@@ -22,13 +22,11 @@ add_tail.schema = {
 }
 
 --- Merges a tail onto a body. `options` are values of the schema and options of lissom.merge. Returns what
--- merging.merge does: the mesh, the report and the parts; nil, message, code where it fails.
+-- merging.merge does: the mesh, the report and the parts.
 function add_tail.make(tail, body, options)
     local values, own = merging.read_options("add_tail", add_tail.schema, options)
-    local source, from, found = merging.part(tail, merging.read_cut(values.source_cut))
-    if not source then return nil, "tail: " .. from, found end
-    local target, to, seen = merging.part(body, merging.read_cut(values.target_cut))
-    if not target then return nil, "body: " .. to, seen end
+    local _, from, found = merging.named("tail", merging.part, tail, merging.read_cut(values.source_cut))
+    local _, to, seen = merging.named("body", merging.part, body, merging.read_cut(values.target_cut))
     local none = { 0, 0, 0 }
     local up = merging.direction(values.tail_up)
     local meets = merging.turned(values.body_up, merging.axis(to), values.twist)
@@ -49,7 +47,7 @@ if ... ~= "recipes.add_tail" then
     local params = merge_script.params(add_tail.schema)
     local tail, body, options = merge_script.models(params, add_tail.schema, add_tail.example)
     options.keys = nil
-    merge_script.finish(params, "add_tail", assert(add_tail.make(tail, body, options)))
+    merge_script.finish(params, "add_tail", add_tail.make(tail, body, options))
 end
 
 return add_tail

@@ -52,8 +52,8 @@ local function opened(head, left, right, radius)
     local function disc(point)
         return head:region{ geodesic = { from = head:nearest(point).vertex, radius = radius } }
     end
-    local open, rest, lines = head:cut{ region = disc(left):union(disc(right)):invert() }
-    if not open then return nil, "head: " .. rest, lines end
+    local open, _, lines = merging.named("head", head.cut, head,
+        { region = disc(left):union(disc(right)):invert() })
     return open, merging.boundary_near(open, left), merging.boundary_near(open, right), lines.report.warnings
 end
 
@@ -66,20 +66,21 @@ end
 
 --- Merges an ear and its mirror image onto a head. `options` are values of the schema and options of
 -- lissom.merge.
--- Returns what merging.merge does; nil, message, code where it fails.
+-- Returns what merging.merge does.
 function ears.make(ear, head, options)
     local values, own = merging.read_options("ears", ears.schema, options)
-    if values.left == "" then error("'ears' needs the option 'left', a point on the head", 2) end
+    if values.left == "" then
+        lissom.error{ message = "'ears' needs the option 'left', a point on the head", level = 2 }
+    end
     local left = merging.direction(values.left)
     local right = values.right ~= "" and merging.direction(values.right) or mirrored(left, values.mirror)
     local radius = values.radius > 0 and values.radius or head:size() / 6
-    local part, boundary, code = merging.part(ear, merging.read_cut(values.source_cut))
-    if not part then return nil, "ear: " .. boundary, code end
-    local target, to_left, to_right, of_head = opened(head, left, right, radius)
-    if not target then return nil, to_left, to_right end
+    local part, boundary, of_ear = merging.named("ear", merging.part, ear,
+        merging.read_cut(values.source_cut))
+    local _, to_left, to_right, of_head = opened(head, left, right, radius)
     local _, from_left, from_right = both(part, boundary, values.mirror)
     local front, meets = merging.direction(values.ear_front), merging.direction(values.head_front)
-    local warnings = merging.note(merging.note({}, "ear", code), "head", of_head)
+    local warnings = merging.note(merging.note({}, "ear", of_ear), "head", of_head)
     return merging.merge({ join(from_left, to_left, front, meets, warnings),
         join(from_right, to_right, mirrored(front, values.mirror), meets, warnings) }, own, warnings)
 end
@@ -97,7 +98,7 @@ if ... ~= "recipes.ears" then
     local merge_script = require "merge_script"
     local params = merge_script.params(ears.schema)
     local ear, head, options = merge_script.models(params, ears.schema, ears.example)
-    merge_script.finish(params, "ears", assert(ears.make(ear, head, options)))
+    merge_script.finish(params, "ears", ears.make(ear, head, options))
 end
 
 return ears

@@ -52,10 +52,9 @@ local function mirror_image(part)
 end
 
 local function pasted(part, target, at, toward, values, turn)
-    local paste, message, code = lissom.paste{ source = part.mesh, target = target, region = part.region,
+    local paste = lissom.paste{ source = part.mesh, target = target, region = part.region,
         feature = part.feature, clear = values.clear, normals = values.normals,
         placement = { at = at, toward = toward, up = part.up, angle = turn, scale = values.scale } }
-    if not paste then return nil, message, code end
     paste:optimize()
     return paste:merge{ scale = values.lock and "lock" or nil }
 end
@@ -66,7 +65,7 @@ function put_feature.part_of(model, ball, up, front)
     local numbers = {}
     for word in ball:gmatch("[^;,%s]+") do table.insert(numbers, tonumber(word) or false) end
     if #numbers ~= 4 or not (numbers[1] and numbers[2] and numbers[3] and numbers[4]) then
-        error("a region is \"x, y, z; radius\", not '" .. ball .. "'", 2)
+        lissom.error{ message = "a region is \"x, y, z; radius\", not '" .. ball .. "'", level = 2 }
     end
     local center = { numbers[1], numbers[2], numbers[3] }
     return { mesh = model, region = model:region{ sphere = { center = center, radius = numbers[4] } },
@@ -74,21 +73,22 @@ function put_feature.part_of(model, ball, up, front)
 end
 
 --- Pastes a part, as parts.make or lissom.part.load return it, onto a target. `options` are values of the
--- schema, of which `at` is needed. Returns the mesh and a list of reports, one a paste; nil, message, code
--- where one fails.
+-- schema, of which `at` is needed. Returns the mesh and a list of reports, one a paste.
 function put_feature.make(part, target, options)
     local values, own = merging.read_options("put_feature", put_feature.schema, options)
-    if next(own) then error("unknown option '" .. next(own) .. "' of 'put_feature'", 2) end
-    if values.at == "" then error("'put_feature' needs the option 'at', a point on the target", 2) end
+    if next(own) then
+        lissom.error{ message = "unknown option '" .. next(own) .. "' of 'put_feature'", level = 2 }
+    end
+    if values.at == "" then
+        lissom.error{ message = "'put_feature' needs the option 'at', a point on the target", level = 2 }
+    end
     local at, toward = merging.direction(values.at), merging.direction(values.toward)
-    local mesh, report, code = pasted(part, target, at, toward, values, values.turn)
-    if not mesh then return nil, report, code end
+    local mesh, report = pasted(part, target, at, toward, values, values.turn)
     local reports = { report }
     if values.mirror ~= "none" then
         local axis = values.mirror
-        mesh, report, code = pasted(mirror_image(part), mesh, mirrored(at, axis), mirrored(toward, axis),
+        mesh, report = pasted(mirror_image(part), mesh, mirrored(at, axis), mirrored(toward, axis),
             values, -values.turn)
-        if not mesh then return nil, report, code end
         table.insert(reports, report)
     end
     return mesh, reports
@@ -116,13 +116,13 @@ end
 local function given(params)
     local part, target, options
     if params.source ~= "" then
-        local model = params.region == "" and assert(lissom.part.load(params.source))
-            or put_feature.part_of(assert(lissom.load(params.source)), params.region, params.up, params.front)
+        local model = params.region == "" and lissom.part.load(params.source)
+            or put_feature.part_of(lissom.load(params.source), params.region, params.up, params.front)
         part, options = model, {}
     else
         part, target, options = put_feature.example(params.part)
     end
-    if params.target ~= "" then target, options = assert(lissom.load(params.target)), {} end
+    if params.target ~= "" then target, options = lissom.load(params.target), {} end
     if not target then target = lissom.shapes.head{ vertices = 8000 } end
     return part, target, options
 end
@@ -149,15 +149,15 @@ local function finish(params, mesh, reports)
             p.scale, p.search.loop_size, p.search.misfit[#p.search.misfit], p.near.energy, report.verdict))
     end
     local file = params.out .. "/put_feature"
-    print(assert(mesh:save(file .. ".obj")))
+    print(mesh:save(file .. ".obj"))
     local clay = mesh:copy()
     clay:remove_attribute("color")
     local last = reports[#reports]
-    print(assert(lissom.render{ meshes = { merge_pictures.colored(mesh, last), clay }, columns = 2,
-        size = { 2 * params.size, params.size }, file = file .. ".png" }))
+    print(lissom.render{ meshes = { merge_pictures.colored(mesh, last), clay }, columns = 2,
+        size = { 2 * params.size, params.size }, file = file .. ".png" })
     local camera = merge_pictures.seam_camera(last, { wide = 6 })
-    print(assert(lissom.render{ mesh = clay, camera = camera, size = { params.size, params.size },
-        file = file .. "_seam.png" }))
+    print(lissom.render{ mesh = clay, camera = camera, size = { params.size, params.size },
+        file = file .. "_seam.png" })
 end
 
 if ... ~= "recipes.put_feature" then
@@ -171,12 +171,10 @@ if ... ~= "recipes.put_feature" then
         if params[name] ~= one.default then options[name] = params[name] end
     end
     if params.save_part ~= "" then
-        assert(lissom.part.save(params.save_part, { mesh = part.mesh, region = part.region,
-            feature = part.feature, up = part.up, front = part.front }))
+        lissom.part.save(params.save_part, { mesh = part.mesh, region = part.region,
+            feature = part.feature, up = part.up, front = part.front })
     end
-    local mesh, reports, code = put_feature.make(part, target, options)
-    if not mesh then error(reports .. " [" .. code .. "]", 0) end
-    finish(params, mesh, reports)
+    finish(params, put_feature.make(part, target, options))
 end
 
 return put_feature

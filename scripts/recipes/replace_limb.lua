@@ -8,6 +8,7 @@
 --             { point = { -1, 2, 0 }, normal = { 1, 0, 0 }, mirror = "x" } },
 --         keys = { { "y", "y" }, { "-y", "-y" } },
 --     })
+local lissom = require "lissom"
 local merging = require "merging"
 
 local replace_limb = {}
@@ -41,9 +42,9 @@ end
 local function cut_all(body, places, warnings)
     local points = {}
     for i, place in ipairs(places) do
-        local kept, boundary, found = merging.part(body, without_mirror(place))
-        if not kept then return nil, "place " .. i .. ": " .. boundary, found end
-        merging.note(warnings, "place " .. i, found)
+        local name = "place " .. i
+        local kept, boundary, found = merging.named(name, merging.part, body, without_mirror(place))
+        merging.note(warnings, name, found)
         body, points[i] = kept, boundary:points()[1]
     end
     return body, points
@@ -67,21 +68,20 @@ local function copies(limb, boundary, places)
 end
 
 --- Merges copies of a limb onto a body. `options` are values of the schema, `places`, and options of
--- lissom.merge. Keys are directions of the limb as it is given. Returns what merging.merge does; nil,
--- message, code where it fails.
+-- lissom.merge. Keys are directions of the limb as it is given. Returns what merging.merge does.
 function replace_limb.make(limb, body, options)
     local given = {}
     for key, value in pairs(options or {}) do given[key] = key ~= "places" and value or nil end
     local values, own = merging.read_options("replace_limb", replace_limb.schema, given)
     local places = options and options.places or { merging.read_cut(values.target_cut) }
     if #places == 0 then
-        error("'replace_limb' needs 'target_cut' or 'places': where limbs are cut off", 2)
+        lissom.error{ level = 2,
+            message = "'replace_limb' needs 'target_cut' or 'places': where limbs are cut off" }
     end
-    local part, boundary, found = merging.part(limb, merging.read_cut(values.source_cut))
-    if not part then return nil, "limb: " .. boundary, found end
+    local part, boundary, found = merging.named("limb", merging.part, limb,
+        merging.read_cut(values.source_cut))
     local warnings = merging.note({}, "limb", found)
-    local target, there, failed = cut_all(body, places, warnings)
-    if not target then return nil, there, failed end
+    local target, there = cut_all(body, places, warnings)
     local source, here = copies(part, boundary, places)
 
     local joins, directions = {}, merging.read_keys(values.keys)
@@ -114,7 +114,7 @@ if ... ~= "recipes.replace_limb" then
     local merge_script = require "merge_script"
     local params = merge_script.params(replace_limb.schema)
     local limb, body, options = merge_script.models(params, replace_limb.schema, replace_limb.example)
-    merge_script.finish(params, "replace_limb", assert(replace_limb.make(limb, body, options)))
+    merge_script.finish(params, "replace_limb", replace_limb.make(limb, body, options))
 end
 
 return replace_limb

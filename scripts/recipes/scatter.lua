@@ -100,7 +100,7 @@ end
 -- sides of a leaf, count as farther apart. Options: count, seed, candidates, region (of the mesh).
 function scatter.places(mesh, options)
     local triangles, sums, area = summed_areas(mesh, options.region)
-    if #triangles == 0 then error("there is no surface to scatter over", 2) end
+    if #triangles == 0 then lissom.error{ message = "there is no surface to scatter over", level = 2 } end
     local next = random(options.seed or 1)
     local points = points_on(triangles, sums, options.candidates or scatter.schema.candidates.default, next)
     local count = math.min(options.count, #points)
@@ -157,14 +157,16 @@ end
 
 --- Scatters a part, as parts.make or lissom.part.load return it, over a mesh. `options` are values of the
 -- schema and `region`, the part of the target that has places. Returns the mesh and the report of
--- lissom.scatter with `places`, `angles` and `scales`; nil, message, code where it fails.
+-- lissom.scatter with `places`, `angles` and `scales`.
 function scatter.make(part, target, options)
     local own = {}
     for key, value in pairs(options or {}) do own[key] = value end
     local region = own.region
     own.region = nil
     local values, rest = merging.read_options("scatter", scatter.schema, own)
-    if next(rest) then error("unknown option '" .. next(rest) .. "' of 'scatter'", 2) end
+    if next(rest) then
+        lissom.error{ message = "unknown option '" .. next(rest) .. "' of 'scatter'", level = 2 }
+    end
     local count = values.count
     if values.density > 0 then
         count = math.max(1, math.floor(values.density * target:area() / target:size() ^ 2 + 0.5))
@@ -182,10 +184,9 @@ function scatter.make(part, target, options)
     local unit = radius / radius_of(part)
     for i = 1, #sizes do sizes[i] = sizes[i] * unit end
     local toward = values.toward ~= "" and merging.direction(values.toward) or part.up
-    local mesh, report, code = lissom.scatter{ source = part.mesh, target = target, region = part.region,
+    local mesh, report = lissom.scatter{ source = part.mesh, target = target, region = part.region,
         feature = part.feature, at = places, angles = angles, scales = sizes, toward = { toward },
         up = part.up }
-    if not mesh then return nil, report, code end
     report.places, report.angles, report.scales = places, angles, sizes
     return mesh, report
 end
@@ -225,20 +226,20 @@ local function run()
     end
     local params = lissom.params(all)
     local part, target, options = scatter.example(params.part)
-    if params.source ~= "" then part = assert(lissom.part.load(params.source)) end
-    if params.target ~= "" then target, options = assert(lissom.load(params.target)), {} end
+    if params.source ~= "" then part = lissom.part.load(params.source) end
+    if params.target ~= "" then target, options = lissom.load(params.target), {} end
     target = target:subdivide(params.levels, { scheme = "loop" })
     for name, one in pairs(scatter.schema) do
         if params[name] ~= one.default then options[name] = params[name] end
     end
     local start = os.clock()
-    local mesh, report = assert(scatter.make(part, target, options))
+    local mesh, report = scatter.make(part, target, options)
     print(string.format("%d parts of %d places in %.1f s, %d rounds: %d vertices, %d faces",
         #report.places - #report.refused, #report.places, os.clock() - start, report.rounds, #mesh,
         mesh:face_count()))
     print(report)
     print_refused(report.refused)
-    print(assert(mesh:save(params.out .. "/scatter.obj")))
+    print(mesh:save(params.out .. "/scatter.obj"))
     local colored = mesh:copy()
     for _, name in ipairs{ "color", "normal" } do colored:remove_attribute(name) end
     local colors = colored:add_attribute{ name = "color", domain = "vertex", width = 4 }
@@ -246,8 +247,8 @@ local function run()
         local color = report.parts:contains(v) and { 0.86, 0.70, 0.46, 1 } or { 0.42, 0.58, 0.80, 1 }
         for k = 1, 4 do colors[4 * v - 4 + k] = color[k] end
     end
-    print(assert(lissom.render{ mesh = colored, size = { params.picture, params.picture },
-        file = params.out .. "/scatter.png" }))
+    print(lissom.render{ mesh = colored, size = { params.picture, params.picture },
+        file = params.out .. "/scatter.png" })
 end
 
 if ... ~= "recipes.scatter" then run() end

@@ -4,6 +4,7 @@
 --
 --     local stack = require "recipes.stack"
 --     local mesh, reports = stack.make({ foot, trunk, trunk, crown }, { axis = "y", low = 0.1, high = 0.1 })
+local lissom = require "lissom"
 local merging = require "merging"
 local vectors = require "vectors"
 
@@ -61,10 +62,10 @@ end
 
 --- Stacks a list of parts on the first. `options` are values of the schema and options of lissom.merge.
 -- Returns the mesh, the report of the last merge and its parts (with the warnings of all cuts), and the list
--- of all reports; nil, message, code where it fails.
+-- of all reports.
 function stack.make(list, options)
     local values, own = merging.read_options("stack", stack.schema, options)
-    if #list < 2 then error("'stack' needs a list of two or more parts", 2) end
+    if #list < 2 then lissom.error{ message = "'stack' needs a list of two or more parts", level = 2 } end
     local axis = vectors.unit(merging.direction(values.axis))
     local down = vectors.plus({ 0, 0, 0 }, axis, -1)
     local front = merging.direction(values.front)
@@ -73,15 +74,13 @@ function stack.make(list, options)
         { back, merging.turned(back, axis, values.turn) } }
     local mesh, reports, warnings, parts = list[1], {}, {}, nil
     for i = 2, #list do
-        local target, to, below = opened(mesh, axis, values.high)
-        if not target then return nil, "part " .. (i - 1) .. ": " .. to, below end
-        local source, from, above = opened(list[i], down, values.low)
-        if not source then return nil, "part " .. i .. ": " .. from, above end
-        merging.note(merging.note(warnings, "part " .. (i - 1), below), "part " .. i, above)
+        local last, name = "part " .. (i - 1), "part " .. i
+        local _, to, below = merging.named(last, opened, mesh, axis, values.high)
+        local _, from, above = merging.named(name, opened, list[i], down, values.low)
+        merging.note(merging.note(warnings, last, below), name, above)
         local report
         local join = merging.joined(from, to, directions, warnings)
-        mesh, report, parts = merging.merge({ join }, own, warnings)
-        if not mesh then return nil, "part " .. i .. ": " .. report, parts end
+        mesh, report, parts = merging.named(name, merging.merge, { join }, own, warnings)
         reports[i - 1] = report
     end
     return mesh, reports[#reports], parts, reports
@@ -89,7 +88,7 @@ end
 
 --- Generated parts: a foot, bellies, and a head.
 function stack.example(levels, count)
-    local blocks, lissom = require "blocks", require "lissom"
+    local blocks = require "blocks"
     local list = { blocks.torso{ levels = levels } }
     for i = 2, (count or 4) - 1 do
         list[i] = lissom.shapes.sphere{ segments = 4 * 2 ^ ((levels or 3) - 1) }
@@ -106,7 +105,7 @@ if ... ~= "recipes.stack" then
     local params = merge_script.params(schema)
     local list, options = stack.example(3, params.parts)
     for name in pairs(stack.schema) do options[name] = params[name] end
-    local mesh, report, parts = assert(stack.make(list, options))
+    local mesh, report, parts = stack.make(list, options)
     merge_script.finish(params, "stack", mesh, report, parts)
 end
 

@@ -34,7 +34,7 @@ local function around(up, front, turn)
 end
 
 --- Merges a head onto a body. `options` are values of the schema and options of lissom.merge. Returns what
--- merging.join does: the mesh, the report and the parts; nil, message, code where it fails.
+-- merging.join does: the mesh, the report and the parts.
 function transplant_head.make(head, body, options)
     local values, own = merging.read_options("transplant_head", transplant_head.schema, options)
     own.source_cut, own.target_cut, own.keys = values.source_cut, values.target_cut, {}
@@ -55,7 +55,7 @@ if ... ~= "recipes.transplant_head" then
     local merge_script = require "merge_script"
     local params = merge_script.params(transplant_head.schema)
     local head, body, options = merge_script.models(params, transplant_head.schema, transplant_head.example)
-    merge_script.finish(params, "transplant_head", assert(transplant_head.make(head, body, options)))
+    merge_script.finish(params, "transplant_head", transplant_head.make(head, body, options))
 end
 
 return transplant_head

@@ -9,7 +9,7 @@ local hair_view = require "tools.support.hair_view"
 
 -- The stroke in the hair that is seen; an error where the head hides it.
 local function drawn(self, ev, one)
-    local strands = ev.scene:get(one.name .. " hair")
+    local strands = hair.strands(ev.scene, one)
     if not strands or #strands == 0 then error("there is no hair to comb: draw a stream first", 0) end
     local camera = hair.camera(ev.camera, one)
     local line = camera:stroke{ points = self.pixels, on = strands, size = ev.size }.points

@@ -43,7 +43,7 @@ end
 
 -- Cuts, and shows both parts instead of the mesh, with their edge until something else is done.
 local function cut(self, scene, one, options)
-    local first, second = assert(one.mesh:cut(options))
+    local first, second = one.mesh:cut(options)
     for _, part in ipairs{ first, second } do
         part:remove_region("selected")
         scene:add(meshes.unused_name(scene, one.name), part, { transform = one.place, style = one.style })
@@ -94,8 +94,8 @@ return lissom.tool{
         self.line, self.lines = { ev.start, { ev.x, ev.y } }, nil
         local one, plane = plane_of(self, ev)
         if not one then return end
-        local found, lines = pcall(one.mesh.cut, one.mesh, { plane = plane, preview = true })
-        if found and lines then self.lines = { place = one.place, list = lines } end
+        local lines = lissom.try(one.mesh.cut, one.mesh, { plane = plane, preview = true })
+        if lines then self.lines = { place = one.place, list = lines } end
     end,
     release = function(self, ev)
         local drawn = self.line

@@ -90,7 +90,7 @@ end
 
 -- Solves for where the handle is now, and says what that did to the surface.
 local function finish(self, one)
-    assert(one.edit:solve())
+    one.edit:solve()
     local report = one.edit:report()
     local words = { string.format("stretch %.2f", report.stretch) }
     if report.volume_change then
@@ -159,7 +159,7 @@ return lissom.tool{
         if not one or not self.grip.gizmo:part() then return end
         handles.follow(one, self.grip.before, self.grip:drag(ev))
         if ev.late then return end
-        assert(handles.preview(one, self.params.preview))
+        handles.preview(one, self.params.preview)
     end,
     release = function(self, ev)
         local one = active(self, ev.scene)

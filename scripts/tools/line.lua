@@ -35,7 +35,7 @@ end
 
 -- The polyline that was drawn last, where it is still there.
 local function last_of(self, scene)
-    local object = self.last and scene:get(self.last)
+    local object = self.last and meshes.object(scene, self.last)
     return object and scene:info(self.last).kind == "polyline" and object or nil
 end
 

@@ -136,11 +136,11 @@ local function merged(self, scene, join)
     local radii = self.params.transition
     local function width(loop) return radii * loop:length() / (2 * math.pi) end
     local function merge(keys)
-        return assert(lissom.merge(with_hints({
+        return lissom.merge(with_hints({
             joins = { { source = source, target = target, keys = #keys > 0 and keys or nil } },
             transition = radii > 0 and { source = width(source), target = width(target) } or nil,
             place = self.params.place ~= "as placed" and self.params.place or nil,
-        }, self.params, scene, join)))
+        }, self.params, scene, join))
     end
     local keys = moved_keys(join.keys, turn)
     local mesh, report = merge(keys)
@@ -155,7 +155,7 @@ end
 -- Shows the result of a join, in place of the one before or of the target.
 local function show(self, scene, join)
     local mesh, report = merged(self, scene, join)
-    local before = self.result and scene:info(self.result)
+    local before = self.result and meshes.info(scene, self.result)
     if before then
         scene:remove(self.result)
     else
@@ -175,7 +175,7 @@ end
 
 -- A point of a loop in the scene, or nil once it is gone.
 local function in_scene(scene, loop)
-    local info = scene:info(loop.object)
+    local info = meshes.info(scene, loop.object)
     return info and matrices.point(info.transform, loop.boundary:points()[1])
 end
 
@@ -187,20 +187,20 @@ end
 -- The same; where it cannot be merged, that is told in the picture, and the clicks go on.
 local function try(self, scene, join)
     local done, message = pcall(show, self, scene, join)
-    message = not done and message:gsub("^%S+:%d+: ", ""):gsub(" %[[%l_]+%]$", "")
+    message = not done and tostring(message):gsub("^%S+:%d+: ", ""):gsub(" %[[%l_]+%]$", "")
     self.trouble = message and { at = join.target.position, text = message } or nil
 end
 
 -- The join that is shown, which undo changes too; nil where there is none.
 local function shown(self, scene)
-    local mesh = self.result and scene:get(self.result)
+    local mesh = self.result and meshes.object(scene, self.result)
     return mesh and self.joins[mesh:hash()]
 end
 
 -- The same, as long as the result is not taken: the part is still to be seen.
 local function in_progress(self, scene)
     local join = shown(self, scene)
-    local source = join and scene:info(join.source.object)
+    local source = join and meshes.info(scene, join.source.object)
     return source and source.visible and join
 end
 
@@ -212,7 +212,7 @@ end
 
 -- Draws a loop and the keys on it, the first or second of each pair.
 local function draw_loop(view, loop, keys, which, color)
-    local info = loop and view.scene:info(loop.object)
+    local info = loop and meshes.info(view.scene, loop.object)
     if not info then return end
     local points = {}
     for i, point in ipairs(loop.boundary:points()) do points[i] = matrices.point(info.transform, point) end

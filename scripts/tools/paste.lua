@@ -18,7 +18,7 @@ local part_color = "#d9b38c"
 local function marked(one)
     local selected = meshes.selection(one.mesh)
     if #selected > 0 then return selected end
-    return one.mesh:region("region"), one.mesh:region("feature")
+    return meshes.region(one.mesh, "region"), meshes.region(one.mesh, "feature")
 end
 
 -- The mesh that has the part: the one that was pressed, or that was so last, or the only one with a part.
@@ -49,7 +49,7 @@ local function placement(self, at)
         scale = self.params.scale }
 end
 
--- A new paste with the part at a point; nil and the reason where it does not fit.
+-- A new paste with the part at a point.
 local function begun(self, onto, at)
     local region, feature = marked(self.part)
     return lissom.paste{ source = self.part.mesh, target = onto.mesh, region = region, feature = feature,
@@ -64,9 +64,9 @@ local function follow(self, ev)
     if self.paste and rawequal(onto.mesh, self.onto.mesh) then
         local move = placement(self, at)
         move.search = false
-        there, message = self.paste:move(move)
+        there, message = lissom.try(self.paste.move, self.paste, move)
     else
-        there, message = begun(self, onto, at)
+        there, message = lissom.try(begun, self, onto, at)
         if there then
             there:optimize()
             self.paste, self.onto = there, onto
@@ -76,17 +76,17 @@ local function follow(self, ev)
         self.at, self.angle, self.scale = at, self.params.angle, self.params.scale
         self.draft = nil
     end
-    self.trouble = not there and { at = matrices.point(onto.place, at), text = message } or nil
+    self.trouble = not there and { at = matrices.point(onto.place, at), text = tostring(message) } or nil
 end
 
 -- Gives the target the part: what was seen, with the best loop there.
 local function commit(self, scene)
     self.params.angle, self.params.scale = self.angle, self.scale
-    local paste = assert(begun(self, self.onto, self.at))
+    local paste = begun(self, self.onto, self.at)
     paste:optimize()
-    local mesh, report = paste:merge{}
+    local mesh, problem = lissom.try(paste.merge, paste, {})
     if not mesh then
-        self.trouble = { at = matrices.point(self.onto.place, self.at), text = report }
+        self.trouble = { at = matrices.point(self.onto.place, self.at), text = tostring(problem) }
         return
     end
     for _, name in ipairs{ "selected", "region", "feature" } do mesh:remove_region(name) end
@@ -97,9 +97,9 @@ end
 -- The part as it stands now, made when it is first seen there; what does not fit has a reason instead.
 local function draft(self)
     if not self.draft then
-        local mesh, boundary = self.paste:draft()
+        local mesh, boundary = lissom.try(self.paste.draft, self.paste)
         self.draft = mesh and { mesh = mesh, loop = boundary }
-            or { loop = select(2, self.paste:loop()), trouble = boundary }
+            or { loop = select(2, self.paste:loop()), trouble = tostring(boundary) }
     end
     return self.draft
 end

@@ -65,7 +65,7 @@ return lissom.tool{
         if not self.pixels then return end
         table.insert(self.pixels, { ev.x, ev.y })
         local edit = self.line and #self.pixels > 3 and follow(self, ev, stroke(self, ev))
-        if edit then assert(edit:preview()) end
+        if edit then edit:preview() end
     end,
     release = function(self, ev)
         if not self.pixels or #self.pixels < 3 then return forget(self) end
@@ -76,7 +76,7 @@ return lissom.tool{
             return
         end
         local edit = follow(self, ev, pixels)
-        if edit then assert(edit:solve()) end
+        if edit then edit:solve() end
         forget(self)
     end,
     draw = function(self, view)

@@ -2,6 +2,7 @@
 local hand = require "hand"
 local lissom = require "lissom"
 local matrices = require "matrices"
+local meshes = require "tools.support.meshes"
 
 -- Upright, five units long and one wide.
 local function bar() return lissom.shapes.bar{ across = 4, along = 20 } end
@@ -440,7 +441,7 @@ test("what is pinned stays so in a saved scene, until it is taken away or the wo
     support.remove(loaded, support.list(loaded)[1])
     expect.equal(pins(loaded), {})
     h:key("f")
-    expect.equal(h.scene:get("bar"):region("pinned"), nil)
+    expect.equal(meshes.region(h.scene:get("bar"), "pinned"), nil)
 end)
 
 test("a pivot can be set, and turns are about it", function()
@@ -464,7 +465,7 @@ test("a pivot can be set, and turns are about it", function()
     h:key("v")
     h.host:draw()
     expect.near(h.tool.grip.gizmo:origin()[2], -1, 0.3)
-    expect.equal(h.scene:get("bar"):region("selected"), nil)
+    expect.equal(meshes.region(h.scene:get("bar"), "selected"), nil)
     h:move{ 4, 4, 0 }
     h:key("v")
     h.host:draw()

@@ -84,7 +84,8 @@ end
 
 --- The selected vertices of an object, as a list.
 function hand:selected(name)
-    local region = self.scene:get(name):region("selected")
+    local mesh = self.scene:get(name)
+    local region = lissom.try(mesh.region, mesh, "selected")
     return region and region:vertices() or {}
 end
 

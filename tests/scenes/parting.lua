@@ -3,6 +3,7 @@ local hair = require "tools.support.hair"
 local hand = require "hand"
 local lissom = require "lissom"
 local matrices = require "matrices"
+local meshes = require "tools.support.meshes"
 
 local head = lissom.shapes.head{ vertices = 6000 }
 local scalp = lissom.scalp(head)
@@ -89,7 +90,7 @@ test("with shift, or away from it, a stroke is another parting; tab and a click 
     expect.equal(#style:curves(), 2)
     h:key("delete", "delete", "delete")
     expect.equal(#style:curves(), 0)
-    expect.truthy(not h.scene:get("style hair"))
+    expect.falsy(meshes.object(h.scene, "style hair"))
     h:there_and_back()
 end)
 

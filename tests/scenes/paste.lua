@@ -48,10 +48,8 @@ test("the part may be moved, and a move that fails leaves it where it was", func
     local paste = pasted{ onto = egg:region{ plane = { point = { 0, 0.2, 0 }, normal = { 0, 1, 0 } } } }
     paste:optimize()
     local before = select(2, paste:loop()):points()
-    local moved, message, code = paste:move{ at = { 0, -2, 0 } }
-    expect.equal(moved, nil)
-    expect.equal(code, "boundary_conflict")
-    expect.truthy(message:find("outside the region", 1, true))
+    local problem = expect.failure("boundary_conflict", paste.move, paste, { at = { 0, -2, 0 } })
+    expect.truthy(problem.message:find("outside the region", 1, true))
     expect.equal(#select(2, paste:loop()):points(), #before)
     expect.truthy(paste:move{ at = { 0.5, 1.7, 0.4 }, scale = 0.6, angle = 90 })
     expect.truthy(paste:merge():is_closed())
@@ -75,16 +73,13 @@ test("a part alone is that of a draft", function()
 end)
 
 test("regions that cannot be pasted are refused", function()
-    local _, message, code = pasted{ feature = region }
-    expect.equal(code, "boundary_conflict")
-    expect.truthy(message:find("touches the outline", 1, true))
-    local ok, text = pcall(pasted, { region = egg:region{ all = true } })
-    expect.falsy(ok)
-    expect.truthy(text:find("topology_mismatch", 1, true))
+    local problem = expect.failure("boundary_conflict", pasted, { feature = region })
+    expect.truthy(problem.message:find("touches the outline", 1, true))
+    expect.failure("topology_mismatch", pasted, { region = egg:region{ all = true } })
     -- The feature's outline is .28 from its middle at the size asked for; faces within .3 hold less.
-    _, message, code = pasted{ onto = egg:region{ sphere = { center = { 0, 2, 0 }, radius = 0.3 } } }
-    expect.equal(code, "boundary_conflict")
-    expect.truthy(message:find("does not fit", 1, true))
+    problem = expect.failure("boundary_conflict", pasted,
+        { onto = egg:region{ sphere = { center = { 0, 2, 0 }, radius = 0.3 } } })
+    expect.truthy(problem.message:find("does not fit", 1, true))
 end)
 
 test("attributes and regions of both come along", function()

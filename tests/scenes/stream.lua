@@ -2,6 +2,7 @@
 local hand = require "hand"
 local lissom = require "lissom"
 local matrices = require "matrices"
+local meshes = require "tools.support.meshes"
 
 local head, style, h
 
@@ -197,7 +198,7 @@ test("symmetric: the other side is drawn, cut and removed too", function()
     expect.near(length(list[1]:points()), length(list[2]:points()), 1e-6)
     h.host:key{ key = "delete" }
     expect.equal(#style:curves(), 0)
-    expect.equal(h.scene:get("style hair"), nil)
+    expect.equal(meshes.object(h.scene, "style hair"), nil)
 end)
 
 test("pull moves a place and what is near, and the root over the scalp; rub makes it straighter", function()

@@ -36,10 +36,10 @@ test("by a plane: the line nearest to the point, the side of the normal or of a 
 end)
 
 test("what stands in the way is said", function()
-    local none, message, code, elements = torus:cut{ plane = { point = { 1, 0, 0 }, normal = { 0, 0, 1 } } }
-    expect.truthy(none == nil and message:find("does not separate", 1, true))
-    expect.equal(code, "boundary_conflict")
-    expect.equal(elements.kind, "edge")
+    local problem = expect.failure("boundary_conflict", torus.cut, torus,
+        { plane = { point = { 1, 0, 0 }, normal = { 0, 0, 1 } } })
+    expect.truthy(problem.message:find("does not separate", 1, true))
+    expect.equal(problem.elements.kind, "edge")
     local grid = lissom.shapes.grid()
     local _, _, line = grid:cut{ plane = { point = { 0.03, 0, 0 }, normal = { 1, 0, 0.2 } } }
     expect.truthy(not line[1]:is_closed())
@@ -132,8 +132,6 @@ test("trimming changes the mesh in place", function()
     expect.near(smooth:mean_turn(), report.after, 1e-9)
     expect.error(function() border:trim() end, "[topology_mismatch]")
     local before = jagged:hash()
-    local failed, _, trim_code = smooth:trim{ margin = 1000 }
-    expect.truthy(failed == nil)
-    expect.equal(trim_code, "boundary_conflict")
+    expect.failure("boundary_conflict", smooth.trim, smooth, { margin = 1000 })
     expect.equal(jagged:hash(), before)
 end)

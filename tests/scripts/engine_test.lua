@@ -45,10 +45,10 @@ test("save_basis writes the handles' weights, their names and the topology's siz
     expect.error(function()
         edit:save_basis(path, { names = { "a", "b", "c" } })
     end, "3 names for 2 handles")
-    expect.failure("file_write_failed", edit:save_basis("no/such/folder/a.basis"))
+    expect.failure("file_write_failed", edit.save_basis, edit, "no/such/folder/a.basis")
     bottom:remove()
     top:remove()
-    expect.failure("unconstrained", edit:save_basis(path))
+    expect.failure("unconstrained", edit.save_basis, edit, path)
 end)
 
 test("bake: shapes at the keys are those of solve, to the digits of a file", function()
@@ -146,7 +146,7 @@ test("bake: a pose without a solution, a cancel and a handle that goes", functio
     expect.equal(#edit:handles(), 2)
     lissom.listen{ progress = function() return false end }
     local handle = edit:handle(mesh:region{ where = function(_, _, y) return math.abs(y) < 0.2 end })
-    expect.failure("cancelled", edit:bake{ duration = 1, pose = pose })
+    expect.failure("cancelled", edit.bake, edit, { duration = 1, pose = pose })
     lissom.listen{}
     handle:remove()
     expect_unchanged()

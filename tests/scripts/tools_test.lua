@@ -316,8 +316,9 @@ test("what is recorded is repeated to the same hash", function()
     end
     expect.equal(hashes >= 4, true)
     recorded.events[3][2] = 2
-    local _, message = pcall(lissom.replay, recorded, { scene = ball_scene(), tools = tools })
-    expect.equal(message:match("differs at event %d+") ~= nil, true)
+    local problem = expect.failure("invalid_argument", lissom.replay, recorded,
+        { scene = ball_scene(), tools = tools })
+    expect.truthy(problem.message:find("differs at event %d+"))
 end)
 
 test("a journal is a script of calls that comes to the same scene, without what failed", function()
@@ -388,12 +389,12 @@ test("a recording of another scene or version is refused", function()
     local recorded = read(host:recording())
     local other = lissom.scene{}
     other:add("ball", lissom.shapes.box())
-    local _, message = pcall(lissom.replay, recorded, { scene = other, tools = { pull() } })
-    expect.equal(message:match("another scene") ~= nil, true)
+    expect.error(function() lissom.replay(recorded, { scene = other, tools = { pull() } }) end,
+        "another scene")
     recorded.before = nil
     table.insert(recorded.events, 2, { "outside" })
-    _, message = pcall(lissom.replay, recorded, { scene = ball_scene(), tools = { pull() } })
-    expect.equal(message:match("console changed the scene") ~= nil, true)
+    expect.error(function() lissom.replay(recorded, { scene = ball_scene(), tools = { pull() } }) end,
+        "console changed the scene")
     recorded.version = 2
     expect.equal(pcall(lissom.replay, recorded, { scene = ball_scene() }), false)
     expect.equal(pcall(lissom.replay, "no such file.lua"), false)
@@ -490,8 +491,7 @@ return (require("lissom").replay{ version = 1, open = { "ball.obj" }, events = {
     end
     os.remove(folder .. "/ball.obj")
     for _, run in ipairs{ lissom.replay, dofile } do
-        local done, message = pcall(run, folder .. "/events.lua")
-        expect.falsy(done)
+        local message = expect.failure("file_not_found", run, folder .. "/events.lua").message
         expect.truthy(message:find("ball.obj", 1, true) and message:find("its own folder", 1, true))
     end
 end)

@@ -678,18 +678,16 @@ std::vector<Function> render_functions() {
          .body = render,
          .summary = "Draws meshes and hair into a picture file. Needs no window and no display.",
          .options = options,
-         .results = {{"string", "file",
-                      "The file that was written; nil, message, code if it could not be, or if "
-                      "nothing can draw here."}},
+         .results = {{"string", "file", "The file that was written."}},
          .errors = {ErrorCode::no_display, ErrorCode::unknown_format, ErrorCode::file_write_failed,
                     ErrorCode::file_is_directory, ErrorCode::mesh_empty,
                     ErrorCode::invalid_argument, ErrorCode::out_of_range,
                     ErrorCode::topology_mismatch, ErrorCode::memory_limit, ErrorCode::cancelled},
          .example = R"(local path = os.tmpname() .. ".png"
 local mesh = lissom.shapes.cactus{ vertices = 2000 }
-local file, message, code = lissom.render{ mesh = mesh, file = path, size = { 320, 240 },
-    view = "front", region = "left_arm", handles = { "left_tip" } }
-assert(file == path or code == "no_display", message)
+local file, problem = lissom.try(lissom.render, { mesh = mesh, file = path, size = { 320, 240 },
+    view = "front", region = "left_arm", handles = { "left_tip" } })
+assert(file == path or problem.code == "no_display", problem)
 os.remove(path))"}};
 }
 

@@ -1,6 +1,10 @@
 #include "bindings/c/script/host.h"
 
+#include <optional>
+#include <string_view>
+
 #include "bindings/c/script_host.h"
+#include "bindings/lua/core/error_object.h"
 #include "bindings/lua/deform/deform_object.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/host/counted_state.h"
@@ -304,22 +308,67 @@ ScriptHost& scripts_of(lissom_context& context) {
     return *context.scripts;
 }
 
-void throw_lua_error(const std::string& message, lissom_status status) {
+namespace {
+
+// An error of Lua as plain data.
+struct LuaError {
+    bool is_object = false;
+    lua::Failure failure;
+    // With its place and code.
+    std::string text;
+};
+
+// Protected: (LuaError*, error).
+int read_lua_error(lua_State* L) {
+    auto* error = static_cast<LuaError*>(lua_touserdata(L, 1));
+    error->is_object = lua::is_error_object(L, 2);
+    if (error->is_object) lua::read_error(L, 2, error->failure);
+    const bool has_text = error->is_object || lua_type(L, 2) == LUA_TSTRING;
+    error->text = has_text ? lua::push_error_text(L, 2) : "the error is no text";
+    return 0;
+}
+
+LuaError error_at_top(lua_State* L) {
+    LuaError error;
+    lua_pushcfunction(L, read_lua_error);
+    lua_insert(L, -2);
+    lua_pushlightuserdata(L, &error);
+    lua_insert(L, -2);
+    if (lua_pcall(L, 2, 0, 0) != LUA_OK) error.text = "not enough memory";
+    return error;
+}
+
+// The code in brackets at the end of a message.
+std::optional<ErrorCode> code_in(std::string_view message) {
     const std::size_t open = message.rfind('[');
-    if (open != std::string::npos && message.back() == ']') {
-        const std::string_view name =
-            std::string_view(message).substr(open + 1, message.size() - open - 2);
-        for (const ErrorCode code : all_codes()) {
-            if (code_name(code) != name) continue;
-            if (code == ErrorCode::cancelled || status != LISSOM_SCRIPT_ERROR)
-                throw Error(code, message);
-        }
+    if (open == std::string_view::npos || !message.ends_with(']')) return std::nullopt;
+    const std::string_view name = message.substr(open + 1, message.size() - open - 2);
+    for (const ErrorCode code : all_codes()) {
+        if (code_name(code) == name) return code;
     }
-    if (message == "not enough memory") {
+    return std::nullopt;
+}
+
+bool passes_scripts(ErrorCode code) {
+    return code == ErrorCode::cancelled || code == ErrorCode::memory_limit;
+}
+
+}  // namespace
+
+void throw_lua_error(lua_State* L, lissom_status status) {
+    const LuaError error = error_at_top(L);
+    const lua::Failure& failure = error.failure;
+    const bool of_script = status == LISSOM_SCRIPT_ERROR;
+    Elements elements{failure.kind, failure.count, {}};
+    elements.ids.assign(failure.ids, failure.ids + failure.id_count);
+    if (error.text == "not enough memory") {
         throw Error(ErrorCode::memory_limit,
                     "a script needs more memory than the context has left");
     }
-    throw StatusError(status, message);
+    if (error.is_object && !of_script) throw Error(failure.code, failure.message, elements);
+    const std::optional<ErrorCode> code = error.is_object ? failure.code : code_in(error.text);
+    if (code && (!of_script || passes_scripts(*code))) throw Error(*code, error.text, elements);
+    throw StatusError(status, error.text, elements);
 }
 
 void connect_scripts(lissom_context& context) {

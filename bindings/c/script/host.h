@@ -102,8 +102,9 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
 /// Returns the host of a context that can run scripts.
 ScriptHost& scripts_of(lissom_context& context);
 
-/// Throws the error of a Lua message: by the code in brackets at its end, else
-/// `status`.
-[[noreturn]] void throw_lua_error(const std::string& message, lissom_status status);
+/// Throws the Lua error on top of the stack: with the code of an error object, or that in brackets
+/// at the end of a message, else with `status`. Of scripts (SCRIPT_ERROR) only cancelled and
+/// memory_limit keep their code.
+[[noreturn]] void throw_lua_error(lua_State* L, lissom_status status);
 
 }  // namespace lissom::c

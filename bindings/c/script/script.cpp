@@ -42,12 +42,6 @@ void give(lissom_context& context, const Json& json, lissom_bytes* bytes) {
     *bytes = {context.bytes.data(), context.bytes.size()};
 }
 
-std::string message_at_top(lua_State* L) {
-    std::size_t size = 0;
-    const char* text = lua_type(L, -1) == LUA_TSTRING ? lua_tolstring(L, -1, &size) : nullptr;
-    return text ? std::string(text, size) : "the error is no text";
-}
-
 // ---- Scripts
 
 struct Running {
@@ -86,7 +80,7 @@ void check_syntax(ScriptHost& host, const Script& script) {
     lua_State* L = host.lua();
     const std::string_view text = lua::lua_text_of(script.text);
     if (luaL_loadbufferx(L, text.data(), text.size(), script.name.c_str(), "t")) {
-        throw_lua_error(message_at_top(L), LISSOM_SCRIPT_ERROR);
+        throw_lua_error(L, LISSOM_SCRIPT_ERROR);
     }
 }
 
@@ -109,7 +103,7 @@ void run_script(ScriptHost& host, Script& script, const Json& arguments, bool on
     if (only_parameters) script.parameters = state.parameters;
     if (status == LUA_OK || (only_parameters && ended)) return;
     if (ended) throw Error(ErrorCode::invalid_argument, state.script_end_text);
-    throw_lua_error(message_at_top(L), LISSOM_SCRIPT_ERROR);
+    throw_lua_error(L, LISSOM_SCRIPT_ERROR);
 }
 
 Json value_of(const std::optional<lua::ParameterValue>& value) {
@@ -232,21 +226,6 @@ int call_protected(lua_State* L) {
     return lua_gettop(L) - 1;
 }
 
-// Throws the failure of a function that has returned nil, message, code.
-void throw_answered_failure(ScriptHost& host, int first) {
-    lua_State* L = host.lua();
-    if (lua_gettop(L) != first + 3 || !lua_isnil(L, first) ||
-        lua_type(L, first + 2) != LUA_TSTRING) {
-        return;
-    }
-    const lua::Failure& failure = host.binding().last_failure;
-    Elements elements;
-    elements.kind = failure.kind;
-    elements.count = failure.count;
-    elements.ids.assign(failure.ids, failure.ids + failure.id_count);
-    throw Error(failure.code, failure.message, elements);
-}
-
 Json call_by_name(ScriptHost& host, const lua::Entry& entry, const Json& arguments) {
     lua_State* L = host.lua();
     const StackGuard guard(L);
@@ -255,9 +234,8 @@ Json call_by_name(ScriptHost& host, const lua::Entry& entry, const Json& argumen
     lua_pushcfunction(L, call_protected);
     lua_pushlightuserdata(L, &calling);
     if (host.call(1, LUA_MULTRET) != LUA_OK) {
-        throw_lua_error(message_at_top(L), LISSOM_INVALID_ARGUMENT);
+        throw_lua_error(L, LISSOM_INVALID_ARGUMENT);
     }
-    throw_answered_failure(host, guard.top() + 1);
     return host.values_from(guard.top() + 1);
 }
 

@@ -4,7 +4,7 @@
 --     host.settings            filter, list, seed, timeout, finished (tests that need not run again)
 --     host.call(action, limit) calls it; nil, or its error: { message =, file =, line =, code = }
 --     host.report(event)       reports an event
---     host.no_picture(exists)  why a picture that exists or not cannot be compared here, or nil
+--     host.no_picture()        why pictures cannot be compared here, or nil
 --     host.folder()            a new folder for the files of the running test
 --     host.picture(check)      compares two picture files: nil, or their difference
 --
@@ -283,32 +283,37 @@ function expect.falsy(value)
     fail("expected false or nil, got " .. show(value) .. variables_text(2))
 end
 
--- Results of a call that was expected to raise an error.
-local function returned_text(result, message, code)
-    if result == nil and type(message) == "string" and type(code) == "string" then
-        return "; it returned nil, " .. show(message) .. ", " .. show(code) .. ", which expect.failure checks"
-    end
-    return ""
+-- An error as `lissom run` shows it: an error object with its place and code.
+local function error_text(raised)
+    if type(raised) ~= "table" or not is_text(rawget(raised, "code")) then return tostring(raised) end
+    local place = rawget(raised, "place")
+    return (place and place .. ": " or "") .. tostring(raised) .. " [" .. raised.code .. "]"
 end
 
 function expect.error(action, text)
     if type(action) ~= "function" then
         misused("expect.error: a function to call is needed, got " .. show(action))
     end
-    local done, message, second, third = pcall(action)
+    local done, raised = pcall(action)
     local wanted = "expected an error" .. (text and " with " .. show(text) or "")
-    if done then fail(wanted .. ", but there was none" .. returned_text(message, second, third)) end
-    if text and not tostring(message):find(text, 1, true) then
-        fail(wanted .. ", got " .. show(tostring(message)))
+    if done then fail(wanted .. ", but there was none") end
+    if text and not error_text(raised):find(text, 1, true) then
+        fail(wanted .. ", got " .. show(error_text(raised)))
     end
-    return message
+    return raised
 end
 
-function expect.failure(code, result, message, got, elements)
-    if result ~= nil then fail("expected nil and " .. show(code) .. ", got " .. show(result)) end
-    if got ~= code then fail("expected " .. show(code) .. ", got " .. show(got) .. ": " .. show(message)) end
-    if not is_text(message) then fail("the failure " .. show(code) .. " has no message") end
-    return message, elements
+function expect.failure(code, action, ...)
+    if type(action) ~= "function" then
+        misused("expect.failure: a function to call is needed, got " .. show(action))
+    end
+    local done, raised = pcall(action, ...)
+    if done then fail("expected the failure " .. show(code) .. ", got " .. show(raised)) end
+    if type(raised) ~= "table" or raised.code ~= code then
+        fail("expected the failure " .. show(code) .. ", got " .. show(error_text(raised)))
+    end
+    if not is_text(raised.message) then fail("the failure " .. show(code) .. " has no message") end
+    return raised
 end
 
 function expect.hash(object, wanted)
@@ -358,16 +363,18 @@ local function read_check(picture, golden, options)
     }
 end
 
--- Draws into a file of the test. Returns the file, or nil and the error, as lissom.render.
+-- Draws into a file of the test: the file; or nil, and why this machine cannot.
 local function draw(scene, golden)
     local render = rawget(require "lissom", "render")
-    if not render then return nil, "this program draws no pictures", "no_display" end
+    if not render then return nil, "this program draws no pictures" end
     local options = {}
     for key, value in pairs(scene) do options[key] = value end
     options.file = scene.file or host.folder() .. "/" .. golden:match("[^/\\]*$")
-    local done, file, message, code = pcall(render, options)
-    if not done then error(file, 4) end
-    return file, message, code
+    local done, drawn = pcall(render, options)
+    if done then return drawn end
+    if drawn.code == "no_display" then return nil, drawn.message end
+    if drawn.code == "invalid_argument" then error(drawn, 4) end
+    return nil, "the picture could not be drawn: " .. drawn, true
 end
 
 local function exists(path)
@@ -379,14 +386,12 @@ end
 -- The file to compare; or nil, why there is none, and whether this machine is the reason.
 local function picture_file(picture, golden)
     if type(picture) == "table" then
-        local file, message, code = draw(picture, golden)
-        if file or code == "no_display" then return file, message, true end
-        return nil, "the picture could not be drawn: " .. tostring(message)
+        local file, message, is_wrong = draw(picture, golden)
+        return file, message, not is_wrong
     end
-    local is_there = exists(picture)
-    local reason = host.no_picture(is_there)
+    local reason = host.no_picture()
     if reason then return nil, reason, true end
-    if not is_there then return nil, "there is no file " .. show(picture) end
+    if not exists(picture) then return nil, "there is no file " .. show(picture) end
     return picture
 end
 

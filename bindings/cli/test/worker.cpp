@@ -126,7 +126,6 @@ class Worker {
     void tell_mistake(const std::string& text);
     void complete_end(Json& event);
     std::uintmax_t output_size() const;
-    ScriptResult called();
     void push_failure(const ScriptResult& result);
     std::string whole_name(const std::string& file) const;
     fs::path test_folder() const;
@@ -166,23 +165,6 @@ void Worker::add_function(const char* name) {
     lua_setfield(L, -2, name);
 }
 
-// Calls the function on top of the stack. A failure of lissom that it dropped is told by its own
-// words.
-ScriptResult Worker::called() {
-    lua::State& state = script_.state();
-    state.has_failed = false;
-    const std::size_t dropped = state.dropped_count;
-    ScriptResult result = script_.run_function();
-    if (result.status != kSuccess && dropped < state.dropped.size()) {
-        const lua::DroppedFailure& first = state.dropped[dropped];
-        if (result.calls.empty()) {
-            result.message = first.place + "a failure that nobody looked at: " + first.message;
-            result.code = first.code;
-        }
-    }
-    return result;
-}
-
 // Lua shortens a long name in its messages: "...ending".
 std::string Worker::whole_name(const std::string& file) const {
     const bool is_short = file.starts_with("...") && job_.shown.ends_with(file.substr(3));
@@ -195,7 +177,7 @@ int Worker::call(lua_State* L) {
     lua_settop(L, 1);
     tell({{"event", "limit"}, {"seconds", limit}});
     TimeLimit watch(limit);
-    ScriptResult result = called();
+    ScriptResult result = script_.call_function();
     const bool is_late = watch.stop();
     program_.forget_interrupt();
     lua_settop(L, 0);
@@ -262,16 +244,10 @@ int Worker::folder(lua_State* L) {
     return 1;
 }
 
-// no_picture(exists)
+// no_picture()
 int Worker::no_picture(lua_State* L) {
-    const lua::State& state = script_.state();
-    if (!program_.parts().compare_pictures) {
-        push(L, "this program draws and compares no pictures");
-        return 1;
-    }
-    if (lua_toboolean(L, 1)) return 0;
-    if (!state.has_failed || state.last_failure.code != ErrorCode::no_display) return 0;
-    push(L, state.last_failure.message);
+    if (program_.parts().compare_pictures) return 0;
+    push(L, "this program draws and compares no pictures");
     return 1;
 }
 

@@ -1,9 +1,9 @@
 #include "bindings/lua/core/call.h"
 
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 
+#include "bindings/lua/core/error_object.h"
 #include "bindings/lua/core/file_path.h"
 #include "bindings/lua/core/parser.h"
 
@@ -20,12 +20,6 @@ struct HeldHead {
 };
 static_assert(sizeof(HeldHead) <= Call::kHeldOffset);
 const char kHeldMark = 0;
-
-int push_kind(lua_State* L, ElementKind kind) {
-    const std::string_view name = kind_name(kind);
-    lua_pushlstring(L, name.data(), name.size());
-    return 1;
-}
 
 // Whether a place is in the library's own Lua text: then it says nothing to a script.
 bool is_own_text(const char* place) {
@@ -145,11 +139,7 @@ void Call::select_item(const char* path, const char* key) {
 }
 
 void Call::raise(const char* text) const {
-    push_place(L_);
-    lua_pushstring(L_, text);
-    lua_concat(L_, 2);
-    lua_error(L_);
-    std::abort();  // lua_error does not return
+    raise_misuse(L_, text);
 }
 
 void Call::reject(const char* path, const char* text) const {
@@ -242,49 +232,7 @@ void Call::require_addresses() const {
 }
 
 int Call::fail() {
-    if (is_misuse(failure_.code)) {
-        const std::string_view code = code_name(failure_.code);
-        raise(lua_pushfstring(L_, "%s [%s]", failure_.message, code.data()));
-    }
-    return answer_failure();
-}
-
-int Call::answer_failure() {
-    state_->last_failure = failure_;
-    state_->has_failed = true;
-    push_place(L_);
-    std::snprintf(state_->last_failure_place, sizeof state_->last_failure_place, "%s",
-                  lua_tostring(L_, -1));
-    lua_pop(L_, 1);
-    state_->tell_if_dropped(L_);
-    lua_pushnil(L_);
-    lua_pushstring(L_, failure_.message);
-    push(code_name(failure_.code));
-    push_elements();
-    return 4;
-}
-
-// nil, or {kind=, count=, ids=}; the ids of an edge are a pair.
-void Call::push_elements() const {
-    if (failure_.kind == ElementKind::none) {
-        lua_pushnil(L_);
-        return;
-    }
-    lua_createtable(L_, 0, 3);
-    push_kind(L_, failure_.kind);
-    lua_setfield(L_, -2, "kind");
-    push_count(failure_.count);
-    lua_setfield(L_, -2, "count");
-    if (failure_.kind == ElementKind::edge) {
-        lua_createtable(L_, index_of(failure_.id_count / 2), 0);
-        for (std::size_t i = 0; i + 1 < failure_.id_count; i += 2) {
-            push_ids({failure_.ids + i, 2});
-            lua_rawseti(L_, -2, index_of(i / 2) + 1);
-        }
-    } else {
-        push_ids({failure_.ids, failure_.id_count});
-    }
-    lua_setfield(L_, -2, "ids");
+    raise_failure(L_, failure_);
 }
 
 void Call::hold_memory(MemoryHold& held, std::size_t bytes) const {
@@ -295,7 +243,10 @@ void Call::hold_memory(MemoryHold& held, std::size_t bytes) const {
     } catch (const Error&) {
         fits = false;
     }
-    if (!fits) raise("there is no memory left for an object of this size [memory_limit]");
+    if (fits) return;
+    Failure failure;
+    failure.set(ErrorCode::memory_limit, "there is no memory left for an object of this size");
+    raise_failure(L_, failure);
 }
 
 void Call::charge_bytes(std::size_t bytes) const {

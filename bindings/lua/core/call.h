@@ -134,7 +134,7 @@ class Call {
     /// Raises "bad option 'radius' of 'region' (`text`)" for a value that only the body could
     /// judge.
     [[noreturn]] void reject(const char* path, const char* text) const;
-    /// Raises a Lua error: the script's file and line, then `text`.
+    /// Raises an error object with the code `invalid_argument`.
     [[noreturn]] void raise(const char* text) const;
 
     /// Memory for plain data that lives as long as the call.
@@ -187,13 +187,8 @@ class Call {
 
     // ---- Step 4: the end.
 
-    /// Ends the call with the failure: raises a Lua error for misuse, or returns nil, message,
-    /// code, elements.
-    int fail();
-    /// Returns nil, message, code, elements whatever the code: for what a script may well ask for
-    /// although it is absent.
-    int answer_failure();
-    const Failure& failure() const { return failure_; }
+    /// Ends the call: raises the failure as an error object.
+    [[noreturn]] int fail();
 
     /// Tells the collector how much native memory `object` has now; growth since the last time
     /// makes it work. May run finalizers. T has `memory_bytes()` and `charged_bytes`; where it has
@@ -253,7 +248,6 @@ class Call {
     void* push_held(std::size_t bytes, void (*destroy)(void*)) const;
     void hold_memory(MemoryHold& held, std::size_t bytes) const;
     bool push_remembered(const void* object) const;
-    void push_elements() const;
     void make_room() const;
     void begin_work();
     bool end_work();

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "kernel/io/stream/file_error.h"
+
 namespace lissom::lua {
 namespace {
 
@@ -65,6 +67,7 @@ void Failure::set(const Error& error) noexcept {
     count = error.elements().count;
     id_count = std::min(error.elements().ids.size(), Elements::kMaximumIds);
     std::copy_n(error.elements().ids.begin(), id_count, ids);
+    set_input(error);
     try {
         copy_text(message, sizeof message, lua_message(error).c_str());
     } catch (const std::exception&) {
@@ -72,27 +75,19 @@ void Failure::set(const Error& error) noexcept {
     }
 }
 
+void Failure::set_input(const Error& error) noexcept {
+    const auto* known = dynamic_cast<const FileError*>(&error);
+    const bool fits = known && known->file().size() < sizeof file;
+    copy_text(file, sizeof file, fits ? known->file().c_str() : "");
+    line = kind == ElementKind::line && id_count > 0 ? at(ids[0]) + 1 : 0;
+}
+
 void Failure::set(ErrorCode code_given, const char* text) noexcept {
     code = code_given;
     kind = ElementKind::none;
-    count = id_count = 0;
+    count = id_count = line = 0;
+    file[0] = '\0';
     copy_text(message, sizeof message, text);
-}
-
-bool is_misuse(ErrorCode code) {
-    switch (code) {
-        case ErrorCode::invalid_argument:
-        case ErrorCode::out_of_range:
-        case ErrorCode::region_empty:
-        case ErrorCode::topology_mismatch:
-        case ErrorCode::handle_outside_region:
-        case ErrorCode::handle_overlap:
-        case ErrorCode::handle_removed:
-        case ErrorCode::singular_transform:
-            return true;
-        default:
-            return false;
-    }
 }
 
 std::string lua_message(const Error& error) {

@@ -18,6 +18,10 @@ struct Failure {
     std::size_t count = 0;
     std::size_t id_count = 0;
     Index ids[Elements::kMaximumIds] = {};
+    /// The file that was to be read or written, in UTF-8; empty without one. Its line counts from
+    /// 1; 0 without one.
+    char file[1024] = {};
+    std::size_t line = 0;
 
     /// Takes over an error, with ids in the message numbered from 1.
     void set(const Error& error) noexcept;
@@ -40,11 +44,10 @@ struct Failure {
         }
         return false;
     }
-};
 
-/// Whether a script that meets this code has made a mistake: then the call raises an error. All
-/// others are the world's faults, and the call returns nil, message, code.
-bool is_misuse(ErrorCode code);
+  private:
+    void set_input(const Error& error) noexcept;
+};
 
 /// The message of an error as scripts read it: vertices, faces and other elements count from 1.
 std::string lua_message(const Error& error);

@@ -88,7 +88,7 @@ Library kernel_library() {
     add(library.functions, tool_functions());
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
-    library.functions.push_back(failures_function());
+    add(library.functions, error_functions());
     library.types = {
         whole_mesh_type(),  region_type(),  whole_path_type(),      buffer_type(),
         deformation_type(), handle_type(),  merging_type(),         provenance_type(),
@@ -96,6 +96,7 @@ Library kernel_library() {
         strands_type(),     scene_type(),   polyline_type(),        whole_camera_type(),
         gizmo_type(),       support_type(), parameters_type()};
     library.records = kernel_records();
+    add(library.records, error_records());
     add(library.records, cut_records());
     add(library.records, parameterize_records());
     add(library.records, merge_records());
@@ -258,11 +259,6 @@ std::vector<Record> kernel_records() {
           {"lissom.Handle[]", "handles", "The handles, in the order of `weights`."},
           {"lissom.Buffer[]", "weights", "For each handle four numbers a vertex."},
           {"lissom.Buffer", "fixed", "What no handle moves: three numbers a vertex."}}},
-        {"lissom.DroppedFailure",
-         "A failure that nobody looked at.",
-         {{"string", "place", "File and line of the call, as in messages: \"file:3: \"."},
-          {"string", "message", "What went wrong."},
-          {"string", "code", "Its code."}}},
         {"lissom.ParamSchema",
          "The declaration of a parameter.",
          {{"string", "name", "Its name."},

@@ -91,8 +91,9 @@ std::vector<Record> tool_records();
 Type parameters_type();
 std::vector<Function> parameter_functions();
 
-/// lissom.failures
-Function failures_function();
+/// lissom.try and lissom.error
+std::vector<Function> error_functions();
+std::vector<Record> error_records();
 
 /// The tables that functions return.
 std::vector<Record> kernel_records();

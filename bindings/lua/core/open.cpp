@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bindings/lua/core/call.h"
+#include "bindings/lua/core/error_object.h"
 #include "kernel/core/nearest.h"
 
 namespace lissom::lua {
@@ -30,7 +31,7 @@ StateBox* find_box(lua_State* L, int index) {
 
 State& state_upvalue(lua_State* L, int i) {
     const StateBox* box = find_box(L, lua_upvalueindex(i));
-    if (!box || !box->state) luaL_error(L, "lissom is closed in this state");
+    if (!box || !box->state) raise_misuse(L, "lissom is closed in this state");
     return *box->state;
 }
 
@@ -99,9 +100,10 @@ int dispatch_operator(lua_State* L) {
     State& state = state_upvalue(L, 2);
     const Type& type = type_upvalue(L);
     if (!open_holder(L, 1, type)) {
-        return luaL_error(
-            L, "bad operand of '%s' (%s expected, got %s)", op->name.c_str(), type.name.c_str(),
-            find_holder(L, 1, type.name.c_str()) ? "a closed one" : luaL_typename(L, 1));
+        const char* got =
+            find_holder(L, 1, type.name.c_str()) ? "a closed one" : luaL_typename(L, 1);
+        raise_misuse(L, lua_pushfstring(L, "bad operand of '%s' (%s expected, got %s)",
+                                        op->name.c_str(), type.name.c_str(), got));
     }
     Call call(L, state, *op);
     return op->body(call);
@@ -175,10 +177,7 @@ int raise_missing(lua_State* L, const Compose& compose) {
     Failure failure;
     const bool composed = failure.guard(
         [&] { std::snprintf(text, sizeof text, "%s", std::string(compose()).c_str()); });
-    push_place(L);
-    lua_pushstring(L, composed ? text : failure.message);
-    lua_concat(L, 2);
-    return lua_error(L);
+    raise_misuse(L, composed ? text : failure.message);
 }
 
 int missing_method(lua_State* L) {
@@ -213,11 +212,11 @@ int close_object(lua_State* L) {
     const Type& type = type_upvalue(L);
     Holder* holder = find_holder(L, 1, type.name.c_str());
     if (!holder) {
-        return luaL_error(L, "bad argument #1 to 'close' (%s expected, got %s)", type.name.c_str(),
-                          luaL_typename(L, 1));
+        raise_misuse(L, lua_pushfstring(L, "bad argument #1 to 'close' (%s expected, got %s)",
+                                        type.name.c_str(), luaL_typename(L, 1)));
     }
     if (state_upvalue(L, 2).listeners->running) {
-        return luaL_error(L, "a listener cannot close objects while an operation runs");
+        raise_misuse(L, "a listener cannot close objects while an operation runs");
     }
     if (holder->object && type.close) type.close(holder->object.get());
     holder->object.reset();
@@ -390,6 +389,7 @@ void open(lua_State* L, const HostOptions& options) {
     lua_pop(L, 1);
     const State& state = push_state(L, options);
     const int box = lua_gettop(L);
+    open_errors(L);
     open_listeners(L, *state.listeners);
     make_object_table(L);
     make_held_metatable(L);

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "bindings/lua/core/call.h"
-#include "bindings/lua/core/call_rest.h"
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/core/nearest.h"
@@ -141,9 +140,7 @@ int declare(Call& call) {
         call.raise("the script's parameters are declared already: once, in one table");
     }
     const int table = call.stack_index("declarations");
-    if (!state.call_codes) state.call_codes = find_call_codes(call.lua());
-    const bool drops_rest =
-        drops_results_after(1, call.lua(), *state.call_codes) && !reads_words(call.lua());
+    const bool drops_rest = !call.boolean("words") && !reads_words(call.lua());
     const auto names = declared_names(call, table);
     auto& list = call.hold<std::vector<ScriptParameter>>();
     for (const char* name : names) {
@@ -343,7 +340,12 @@ std::vector<Function> parameter_functions() {
              .options = {boolean("command_line",
                                  "They are the script's. If not, they have their defaults, and may "
                                  "be declared as often as wanted: what tools do.")
-                             .defaults(true)},
+                             .defaults(true),
+                         boolean("words",
+                                 "The command line may have words that are no flags; else "
+                                 "`lissom run` refuses them, unless the script reads `arg` or "
+                                 "`...`.")
+                             .defaults(false)},
              .results = {{"lissom.Params", "params", "Their values."},
                          {"string[]", "rest", "The words of the command line that are no flags."}},
              .errors = {ErrorCode::invalid_argument},

@@ -260,6 +260,7 @@ void Parser::read_options(int index, int given) {
     if (has_options && lua_type(L_, index) != LUA_TTABLE) {
         refuse({argument, "", 0}, "table of options", push_description(L_, index, ""));
     }
+    if (entry_.function->more_arguments) return;
     for (int extra = takes_options ? index + 1 : index; extra <= given; ++extra) {
         if (lua_isnil(L_, extra)) continue;
         refuse({extra - (entry_.type ? 1 : 0), "", 0}, "no further argument",

@@ -49,6 +49,8 @@ struct Function {
     std::string summary = {};
     /// Arguments by position, without the object of a method.
     std::vector<Parameter> arguments = {};
+    /// Any values may follow the arguments; the body reads them from the stack.
+    bool more_arguments = false;
     /// Keys of the option table that follows them. It may be left out where no key is required, and
     /// may stand in the place of an optional argument that is left out.
     std::vector<Parameter> options = {};

@@ -4,11 +4,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "bindings/lua/core/call_site.h"
 #include "bindings/lua/core/compat.h"
 #include "bindings/lua/core/failure.h"
 #include "bindings/lua/core/listeners.h"
@@ -45,14 +43,6 @@ struct HostOptions {
 
 struct ParameterSet;
 
-/// A failure whose results the script dropped: it called a function as a statement, and what came
-/// back was nil, message, code.
-struct DroppedFailure {
-    /// "file:line: " of the call.
-    std::string place;
-    std::string message, code;
-};
-
 /// Why a script was ended: its help was asked for, or its command line is wrong. The text is the
 /// message of the Lua error that was raised.
 enum class ScriptEnd { none, help, usage };
@@ -66,9 +56,6 @@ struct State {
     /// After an operation, with no C++ object alive: tells the host, delivers log messages, and
     /// raises the error of a listener as a Lua error.
     void end_operation(lua_State* L);
-    /// After a call that failed, with no C++ object alive: tells by a warning in the log, and in
-    /// Lua 5.4 without a log by Lua's own, where the script drops the failure.
-    void tell_if_dropped(lua_State* L);
     /// Where Lua's registry keeps the weak table from objects to their userdata.
     static const void* object_table_key();
     /// Where it keeps the metatable of values held by a call.
@@ -85,16 +72,6 @@ struct State {
     bool only_help = false;
     ScriptEnd script_end = ScriptEnd::none;
     std::string script_end_text;
-
-    /// The last nil, message, code that a call returned, and the script's file and line of that
-    /// call.
-    Failure last_failure;
-    char last_failure_place[256] = {};
-    bool has_failed = false;
-    /// Failures that nobody can have looked at: the first of them, and how many there were.
-    std::vector<DroppedFailure> dropped;
-    std::size_t dropped_count = 0;
-    std::optional<CallCodes> call_codes;
 
     /// A listener hears calls; see hear_calls.
     bool is_heard = false;

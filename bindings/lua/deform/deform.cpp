@@ -401,8 +401,7 @@ std::vector<Parameter> constraint_fields() {
 }
 
 std::vector<Function> solving_methods() {
-    const std::vector<Result> mesh = {
-        {"lissom.Mesh", "mesh", "The mesh; nil, message, code where there is no solution."}};
+    const std::vector<Result> mesh = {{"lissom.Mesh", "mesh", "The mesh."}};
     return {
         {.name = "preview",
          .body = preview,

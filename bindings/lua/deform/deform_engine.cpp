@@ -220,9 +220,7 @@ std::vector<Function> deform_engine_methods() {
                              "Names of the handles, in the order of edit:handles(): a program "
                              "finds them by these.")
                          .optional("that of the mesh's region with the same vertices")},
-         .results = {{"lissom.Deformation", "edit",
-                      "The deformation itself; nil, message, code where there is no solution or "
-                      "the file could not be written."}},
+         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
          .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
                     ErrorCode::not_positive_definite, ErrorCode::memory_limit,
                     ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
@@ -267,9 +265,7 @@ os.remove(path))"},
                       "follows the motion.")
                   .defaults(true),
               string("name", "Name of the animation.").defaults("deformation")},
-         .results = {{"lissom.Mesh", "mesh",
-                      "The rest shape with its targets and the animation; nil, message, code where "
-                      "a pose has no solution."}},
+         .results = {{"lissom.Mesh", "mesh", "The rest shape with its targets and the animation."}},
          .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
                     ErrorCode::not_positive_definite, ErrorCode::memory_limit,
                     ErrorCode::topology_mismatch, ErrorCode::invalid_argument,

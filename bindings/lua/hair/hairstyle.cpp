@@ -11,6 +11,7 @@
 #include "bindings/lua/hair/strands_object.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/file_error.h"
 #include "kernel/io/style_file.h"
 
 namespace lissom::lua {
@@ -78,14 +79,20 @@ std::shared_ptr<MeshObject> named_head(const Call& call, const std::filesystem::
         call.context()));
 }
 
+bool refuses_a_value(ErrorCode code) {
+    return code == ErrorCode::invalid_argument || code == ErrorCode::out_of_range ||
+           code == ErrorCode::region_empty || code == ErrorCode::singular_transform;
+}
+
 // The hairstyle of a file. Values that no style can have are the file's mistake, not the script's.
 Hairstyle style_of(const std::filesystem::path& path, const StyleContent& content, const Mesh& head,
                    const std::shared_ptr<const Scalp>& scalp, const Context& context) {
     try {
         return make_style(content, head, scalp, context);
     } catch (const Error& error) {
-        if (!is_misuse(error.code()) || error.code() == ErrorCode::topology_mismatch) throw;
-        throw Error(ErrorCode::file_syntax, display_name(path) + ": " + error.message());
+        if (!refuses_a_value(error.code())) throw;
+        const std::string file = display_name(path);
+        throw FileError(ErrorCode::file_syntax, file, file + ": " + error.message());
     }
 }
 

@@ -42,7 +42,7 @@ int select_named(Call& call) {
     const bool done = call.attempt([&] {
         result.set(std::make_shared<StrandsObject>(select_group(strands_of(call), group)));
     });
-    if (!done) return call.answer_failure();
+    if (!done) return call.fail();
     call.charge(result);
     return 1;
 }
@@ -199,8 +199,7 @@ std::vector<Function> strand_edit_methods() {
                        "Those for which the function, asked with the root, returns true.")
                   .optional()},
          .one_option = true,
-         .results = {{"lissom.Strands", "strands",
-                      "The new strands; nil, message, code where no group has the name."}},
+         .results = {{"lissom.Strands", "strands", "The new strands."}},
          .errors = {ErrorCode::out_of_range, ErrorCode::invalid_argument,
                     ErrorCode::topology_mismatch, ErrorCode::handle_removed},
          .example = kTwoStrands + "assert(#hair:select{ first = 1 } == 1)"},

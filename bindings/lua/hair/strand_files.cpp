@@ -140,14 +140,13 @@ Function load_strands_function() {
                         .above(0)
                         .in("metres")
                         .optional("what the file says, else 1")},
-        .results = {{"lissom.Strands", "strands",
-                     "The strands; nil, message, code where the file is at fault."}},
+        .results = {{"lissom.Strands", "strands", "The strands."}},
         .errors = {ErrorCode::file_not_found, ErrorCode::file_is_directory, ErrorCode::file_empty,
                    ErrorCode::file_unreadable, ErrorCode::file_syntax, ErrorCode::file_truncated,
                    ErrorCode::file_too_large, ErrorCode::unknown_format, ErrorCode::unsupported,
                    ErrorCode::not_finite, ErrorCode::memory_limit, ErrorCode::cancelled},
-        .example = R"(local hair, message, code = lissom.load_strands("missing.hair")
-assert(hair == nil and code == "file_not_found"))"};
+        .example = R"(local hair, problem = lissom.try(lissom.load_strands, "missing.hair")
+assert(hair == nil and problem.code == "file_not_found"))"};
 }
 
 }  // namespace lissom::lua

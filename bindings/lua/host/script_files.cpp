@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "bindings/lua/core/error_object.h"
 #include "bindings/lua/core/failure.h"
 #include "bindings/lua/core/state.h"
 #include "kernel/io/stream/file.h"
@@ -19,8 +20,8 @@ FileContent content_of(const State& state, std::string_view name) {
     return read_file(path, state.context);
 }
 
-// Pushes the function of the file, or a message and returns false. Loading raises no error.
-bool push_script(lua_State* L, const char* name) {
+// Pushes the function of the file.
+void push_script(lua_State* L, const char* name) {
     Failure failure;
     int status = 0;
     const bool read = failure.guard([&] {
@@ -29,8 +30,10 @@ bool push_script(lua_State* L, const char* name) {
         const std::string place = std::string("@") + name;
         status = luaL_loadbufferx(L, text.data(), text.size(), place.c_str(), "t");
     });
-    if (!read) lua_pushstring(L, failure.message);
-    return read && status == 0;
+    if (!read) raise_failure(L, failure);
+    if (status == 0) return;
+    failure.set(ErrorCode::file_syntax, to_display_string(L, -1));
+    raise_failure(L, failure);
 }
 
 }  // namespace
@@ -46,11 +49,7 @@ std::string_view lua_text_of(std::string_view bytes) {
 int load_script_file(lua_State* L) {
     const char* name = luaL_checkstring(L, 1);
     lua_settop(L, 2);
-    if (!push_script(L, name)) {
-        lua_pushnil(L);
-        lua_insert(L, -2);
-        return 2;
-    }
+    push_script(L, name);
     if (lua_isnil(L, 2)) return 1;
     lua_pushvalue(L, 2);
 #if LUA_VERSION_NUM >= 502

@@ -121,8 +121,7 @@ std::vector<Function> part_functions() {
                    "The way that it looks, at an angle to `up`: along z in the "
                    "file.")
                   .optional("z")},
-         .results = {{"boolean", "done",
-                      "true; nil, message, code where the file could not be written."}},
+         .results = {{"boolean", "done", "true."}},
          .errors = save_errors,
          .example = horn + "assert(#horn.region > 0 and horn.feature == nil)"},
         {.name = "part.load",
@@ -130,9 +129,7 @@ std::vector<Function> part_functions() {
          .summary = "Reads a feature that part.save has kept, or any .glb or .gltf file with a "
                     "region called \"region\".",
          .arguments = {string("path", "The file.")},
-         .results = {{"lissom.Part", "part",
-                      "What lissom.paste and lissom.scatter need; nil, message, code where the "
-                      "file is at fault."}},
+         .results = {{"lissom.Part", "part", "What lissom.paste and lissom.scatter need."}},
          .errors = load_errors,
          .example = horn + R"(local paste = lissom.paste{ source = horn.mesh, region = horn.region,
     target = lissom.shapes.sphere{ radius = 2 }, placement = { at = { 2, 0, 0 }, up = horn.up } }

@@ -314,7 +314,7 @@ int mesh_attribute(Call& call) {
         if (!attribute) refuse_absent("attribute", name, attribute_names(mesh->mesh));
         result.set(attribute_buffer(mesh.share(), *attribute));
     });
-    return done ? 1 : call.answer_failure();
+    return done ? 1 : call.fail();
 }
 
 int mesh_attributes(Call& call) {
@@ -488,10 +488,9 @@ assert(mesh:bounds().max[1] == 1))"},
              "The numbers of an attribute as a typed buffer without a copy. A NaN means that an "
              "element has no value.",
          .arguments = {string("name", "Name of the attribute: \"uv\", \"normal\", \"color\", ...")},
-         .results = {{"lissom.Buffer?", "buffer",
-                      "Its numbers; nil, message, code where there is no such attribute."}},
+         .results = {{"lissom.Buffer?", "buffer", "Its numbers."}},
          .example = R"(local mesh = lissom.shapes.box()
-assert(mesh:attribute("color") == nil))"},
+assert(lissom.try(mesh.attribute, mesh, "color") == nil))"},
         {.name = "add_attribute",
          .body = add_attribute,
          .summary = "Adds an attribute, in place of one of the same name.",

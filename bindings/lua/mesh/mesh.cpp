@@ -424,8 +424,7 @@ std::vector<Function> mesh_functions() {
                      weld_option().optional("false"),
                      boolean("repair", "Whether defects are mended, as lissom.load does.")
                          .defaults(false)},
-         .results = {{"lissom.Mesh", "mesh",
-                      "The mesh; nil, message, code where it is not manifold."}},
+         .results = {{"lissom.Mesh", "mesh", "The mesh."}},
          .errors = {ErrorCode::face_index, ErrorCode::face_too_small, ErrorCode::repeated_vertex,
                     ErrorCode::duplicate_face, ErrorCode::nonmanifold_edge,
                     ErrorCode::inconsistent_orientation, ErrorCode::nonmanifold_vertex,

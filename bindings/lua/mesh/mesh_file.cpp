@@ -73,8 +73,7 @@ std::vector<Function> mesh_file_functions() {
                      up_option("The file's up axis; z is turned to y, which is up here."),
                      unit_option("Length of the file's unit in the unit of the mesh: positions are "
                                  "multiplied by it.")},
-         .results = {{"lissom.Mesh", "mesh",
-                      "The mesh; nil, message, code where the file is at fault."}},
+         .results = {{"lissom.Mesh", "mesh", "The mesh."}},
          .errors = {ErrorCode::file_not_found,
                     ErrorCode::file_is_directory,
                     ErrorCode::file_empty,
@@ -97,8 +96,8 @@ std::vector<Function> mesh_file_functions() {
                     ErrorCode::zero_area,
                     ErrorCode::memory_limit,
                     ErrorCode::cancelled},
-         .example = R"(local mesh, message, code = lissom.load("missing.obj")
-assert(mesh == nil and code == "file_not_found"))"}};
+         .example = R"(local mesh, problem = lissom.try(lissom.load, "missing.obj")
+assert(mesh == nil and problem.code == "file_not_found"))"}};
 }
 
 std::vector<Function> mesh_file_methods() {
@@ -124,9 +123,7 @@ std::vector<Function> mesh_file_methods() {
                      "it is large, so that 32-bit numbers (.glb, .gltf, binary .stl) can hold its "
                      "detail. glTF keeps the place in its nodes; for other formats it is returned.")
                   .defaults("keep")},
-         .results = {{"lissom.Mesh", "mesh",
-                      "The mesh itself; nil, message, code where the file "
-                      "could not be written."},
+         .results = {{"lissom.Mesh", "mesh", "The mesh itself."},
                      {"lissom.Vector?", "origin",
                       "With origin = \"auto\": the point of the mesh that is the origin of the "
                       "file, zero where it stayed or glTF keeps it."}},

@@ -26,7 +26,7 @@ int named_region(Call& call) {
         }
         result.set(std::make_shared<RegionObject>(mesh.share(), *region));
     });
-    return done ? 1 : call.answer_failure();
+    return done ? 1 : call.fail();
 }
 
 // Asks the script's function about every vertex; runs before any C++ object is alive, so that an
@@ -502,8 +502,7 @@ std::vector<Function> region_methods_of_mesh() {
          .arguments = {string("name", "Name of a region that is kept with the mesh.").optional()},
          .options = region_options(),
          .one_option = true,
-         .results = {{"lissom.Region", "region",
-                      "The region, maybe empty; nil, message, code where no region has the name."}},
+         .results = {{"lissom.Region", "region", "The region, maybe empty."}},
          .errors = {ErrorCode::out_of_range, ErrorCode::invalid_argument, ErrorCode::cancelled},
          .example = R"(local mesh = lissom.shapes.cactus{ vertices = 2000 }
 local arm = mesh:region("left_arm")

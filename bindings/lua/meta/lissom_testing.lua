@@ -62,19 +62,16 @@ function expect.falsy(value) end
 
 ---The function raises an error.
 ---@param action fun() What is called.
----@param text? string Part of the error's message; a code is one.
+---@param text? string Part of its place, message and code.
 ---@return any error # What was raised.
 function expect.error(action, text) end
 
----A call failed with this code: `expect.failure("file_not_found", lissom.load("none.obj"))`.
+---A function raises an error object with this code: `expect.failure("file_not_found", lissom.load, "none.obj")`.
 ---@param code string The code.
----@param result nil What the call returned: nil,
----@param message? string a message,
----@param got? string the code,
----@param elements? lissom.Elements and the elements concerned.
----@return string message # The message.
----@return lissom.Elements? elements # The elements.
-function expect.failure(code, result, message, got, elements) end
+---@param action fun(...): ... What is called;
+---@param ... any its arguments.
+---@return lissom.Error error # What was raised.
+function expect.failure(code, action, ...) end
 
 ---An object has this hash.
 ---@param object any An object with a method `hash`.

@@ -130,6 +130,10 @@ std::vector<std::string> add_parameters(std::string& text, const Function& funct
         text += "---@param " + p.name + (p.required ? " " : "? ") + field_type(p, class_name) +
                 " " + explanation(p) + "\n";
     }
+    if (function.more_arguments) {
+        names.emplace_back("...");
+        text += "---@param ... any Its arguments.\n";
+    }
     if (function.options.empty()) return names;
     names.push_back("options");
     const bool instead = function.one_option && !function.arguments.empty();
@@ -143,13 +147,6 @@ void add_results(std::string& text, const Function& function) {
         text +=
             "---@return " + r.type + " " + r.name + (r.help.empty() ? "" : " # " + r.help) + "\n";
     }
-    const bool may_fail = std::any_of(function.errors.begin(), function.errors.end(),
-                                      [](ErrorCode code) { return !is_misuse(code); });
-    if (!may_fail || function.results.size() != 1) return;
-    text +=
-        "---@return string? message # What is wrong, where the first result is nil.\n"
-        "---@return string? code # Its code.\n"
-        "---@return lissom.Elements? elements # The elements concerned.\n";
 }
 
 void add_overloads(std::string& text, const Function& function, const std::string& owner,
@@ -329,37 +326,27 @@ void add_conventions(std::string& text) {
         "- Vertices, faces and all other elements count from 1; angles are in degrees; lengths are "
         "in "
         "the mesh's own unit.\n"
-        "- An option that does not exist is an error, and so is any other misuse: its message "
-        "names the "
-        "file and the line.\n"
-        "- What the world does wrong (a file, a cancel, data that cannot be solved) gives `nil, "
-        "message, "
-        "code, elements`. `elements` is nil or `{kind=, count=, ids=}`: the elements concerned, at "
-        "most "
-        "a hundred ids, pairs of vertices for edges.\n"
+        "- Everything that fails raises an error object: `tostring(e)` is its message, `e.code` "
+        "its [code](errors.md), `e.elements` is nil or `{kind=, count=, ids=}` (at most a hundred "
+        "ids, pairs of vertices for edges), `e.file` and `e.line` are those of an input file, "
+        "`e.place` is the line of the script.\n"
+        "- `lissom.try(f, ...)` returns what `f` returns, or `nil, error`; `pcall` works as with "
+        "every error.\n"
+        "- An option that does not exist is an error, with the nearest name.\n"
         "- Where `x, y, z` are arguments, one `{x, y, z}` will do.\n"
         "- Verbs that change an object return it; those that make something return a new object.\n"
         "- Objects are freed by the collector; `close()` or `local mesh <close> =` frees them "
         "earlier.\n"
-        "- A call as a statement drops what it returns. Where that is `nil, message, code`, nobody "
-        "can "
-        "have looked at it: it is told with file and line, and `lissom run` ends with status 1. "
-        "Write "
-        "`assert(mesh:save(path))`, test the result, or ignore it on purpose with `local _ = `; "
-        "see "
-        "[lissom.failures](lissom.md#failures).\n"
         "- A name that the module does not have is an error: test for one with `rawget(lissom, "
         "name)`.\n\n";
 }
 
 std::string codes_page() {
-    std::string text =
-        kPageHead + std::string("# Error codes\n\n[All pages](README.md)\n\n") +
-        "An error is a mistake of the script and is raised; nil comes as `nil, message, "
-        "code`.\n\n| code | how | meaning |\n|---|---|---|\n";
+    std::string text = kPageHead + std::string("# Error codes\n\n[All pages](README.md)\n\n") +
+                       "The field `code` of an error object.\n\n| code | meaning |\n|---|---|\n";
     for (const ErrorCode code : all_codes()) {
-        text += "| " + std::string(code_name(code)) + " | " + (is_misuse(code) ? "error" : "nil") +
-                " | " + table_cell(std::string(code_explanation(code))) + " |\n";
+        text += "| " + std::string(code_name(code)) + " | " +
+                table_cell(std::string(code_explanation(code))) + " |\n";
     }
     return text;
 }
@@ -489,6 +476,7 @@ std::string signature(const Function& function, const std::string& call) {
                                       : p.name;
         words.push_back(p.required ? shown : "[" + shown + "]");
     }
+    if (function.more_arguments) words.emplace_back("...");
     if (function.options.empty()) return call + "(" + joined(words, ", ") + ")";
     if (words.empty()) return call + "{...}";
     words.push_back(has_required(function.options) ? "{...}" : "[{...}]");

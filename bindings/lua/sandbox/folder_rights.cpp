@@ -6,6 +6,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/file_error.h"
 
 namespace lissom::lua {
 namespace {
@@ -48,9 +49,10 @@ void FolderRights::check(const fs::path& path, FileUse use) {
     if (reads && path.extension() == ".lua" && is_below_any(path, modules_)) return;
     const std::vector<fs::path>& folders = reads ? read_ : write_;
     if (!is_below_any(path, folders) || (!reads && is_open_link(path))) {
-        throw Error(reads ? ErrorCode::file_unreadable : ErrorCode::file_write_failed,
-                    display_name(path) + ": the script may not " + (reads ? "read" : "write") +
-                        " here; the host says below which folders it may");
+        const std::string file = display_name(path);
+        throw FileError(reads ? ErrorCode::file_unreadable : ErrorCode::file_write_failed, file,
+                        file + ": the script may not " + (reads ? "read" : "write") +
+                            " here; the host says below which folders it may");
     }
     if (reads) return;
     count_written();

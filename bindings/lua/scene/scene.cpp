@@ -69,7 +69,7 @@ int get_object(Call& call) {
         item = dynamic_cast<const ScriptItem*>(held.get());
         require(item, "this object belongs to the host", ErrorCode::unsupported);
     });
-    return found ? item->push(call) : call.answer_failure();
+    return found ? item->push(call) : call.fail();
 }
 
 int remove_object(Call& call) {
@@ -104,7 +104,7 @@ int object_info(Call& call) {
     const char* name = call.string("name");
     const NamedObject* object = nullptr;
     if (!call.attempt_quick([&] { object = &object_called(self->scene, name); })) {
-        return call.answer_failure();
+        return call.fail();
     }
     return push_entry(call, *object);
 }
@@ -288,7 +288,7 @@ std::vector<Function> object_methods() {
 assert(scene:get("bar") == bar))"},
         {.name = "get",
          .body = get_object,
-         .summary = "The object of a name; nil, message, code where there is none.",
+         .summary = "The object of a name.",
          .arguments = {name_argument()},
          .results = {{"any", "object", "The very object that was added."}},
          .errors = {ErrorCode::out_of_range},
@@ -296,8 +296,7 @@ assert(scene:get("bar") == bar))"},
 assert(not scene:get("ball")))"},
         {.name = "info",
          .body = object_info,
-         .summary = "Number, kind, place and look of an object; nil, message, code where there is "
-                    "none of this name.",
+         .summary = "Number, kind, place and look of an object.",
          .arguments = {name_argument()},
          .results = {{"lissom.SceneEntry", "entry", "A table of its own."}},
          .errors = {ErrorCode::out_of_range},

@@ -158,8 +158,7 @@ std::vector<Function> scene_file_methods() {
                              "Keeps the steps too: in a folder as its file history.tar, in which "
                              "steps share what they have in common.")
                          .defaults(false)},
-         .results = {{"lissom.Scene", "scene",
-                      "The scene itself; nil, message, code where it could not be written."},
+         .results = {{"lissom.Scene", "scene", "The scene itself."},
                      {"string[]", "left_out",
                       "What had no place in the file, a sentence each: materials and skeletons of "
                       "meshes."}},
@@ -202,8 +201,7 @@ Function load_scene_function() {
                 "it is then, without the history.",
             .arguments = {string("path", "The file or the folder.")},
             .options = {history_option()},
-            .results = {{"lissom.Scene", "scene",
-                         "A scene with the same hash; nil, message, code where there is none."}},
+            .results = {{"lissom.Scene", "scene", "A scene with the same hash."}},
             .errors = {ErrorCode::file_not_found, ErrorCode::file_is_directory,
                        ErrorCode::file_empty, ErrorCode::file_unreadable, ErrorCode::file_syntax,
                        ErrorCode::file_truncated, ErrorCode::unsupported, ErrorCode::face_index,

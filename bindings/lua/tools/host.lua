@@ -1,6 +1,11 @@
 -- The host of tools: calls a tool's functions with what a hand does, each in a step of the scene. What is
 -- returned is what the binding calls; its reference is in tools.cpp.
-local lissom, hear, guard, now, load_script, find_file, name_hint = ...
+-- `error` is Lua's, but for an error object; new_error makes one.
+local lissom, hear, guard, now, load_script, find_file, name_hint, new_error, error = ...
+
+local try = lissom.try
+
+local function fail(text, code) error(new_error(text, code)) end
 
 local Tool, Event, View, Host = { __name = "lissom.Tool" }, {}, {}, { __name = "lissom.ToolHost" }
 Tool.__tostring = function(tool) return "lissom.Tool: " .. rawget(tool, "name") end
@@ -61,23 +66,23 @@ end
 
 local function check_callback(key, value)
     if is_callback[key] and type(value) ~= "function" then
-        error("a tool's '" .. key .. "' is a function, not a " .. type(value), 0)
+        fail("a tool's '" .. key .. "' is a function, not a " .. type(value))
     end
     if is_callback[key] or type(value) ~= "function" or type(key) ~= "string" then return end
     for _, name in ipairs(callbacks) do
         if lacks_a_letter(name, key) or lacks_a_letter(key, name) then
-            error("the host never calls '" .. key .. "'; did you mean '" .. name ..
-                "'? A function of the tool's own needs a name less like it", 0)
+            fail("the host never calls '" .. key .. "'; did you mean '" .. name ..
+                "'? A function of the tool's own needs a name less like it")
         end
     end
 end
 
 local function make_tool(tool)
-    if type(tool.name) ~= "string" or tool.name == "" then error("a tool needs a name, a string", 0) end
-    if tool.help ~= nil and type(tool.help) ~= "string" then error("the help of a tool is a string", 0) end
+    if type(tool.name) ~= "string" or tool.name == "" then fail("a tool needs a name, a string") end
+    if tool.help ~= nil and type(tool.help) ~= "string" then fail("the help of a tool is a string") end
     for key, value in pairs(tool) do check_callback(key, value) end
     if tool.run and (tool.press or tool.drag or tool.release) then
-        error("a tool that asks (run) has no press, drag or release", 0)
+        fail("a tool that asks (run) has no press, drag or release")
     end
     tool.params = lissom.params(tool.params or {}, { command_line = false })
     tool.state = tool.state or {}
@@ -240,7 +245,8 @@ end
 
 function Host:commit()
     if self.scene:depth() ~= self.depth + 1 then
-        self:fail("the tool '" .. self.tool.name .. "' began or ended a step; its host does that")
+        self:fail(new_error("the tool '" .. self.tool.name ..
+            "' began or ended a step; its host does that"))
     end
     self.depth, holders[self.scene] = nil, nil
     guard(self.scene, self.guarded)
@@ -276,7 +282,7 @@ function Host:ready()
     local other = other_holder(self)
     if other then
         error("another host is in the middle of a gesture of '" .. other.tool.name ..
-            "' on this scene; release or cancel that before [invalid_argument]", 3)
+            "' on this scene; release or cancel that before", 3)
     end
 end
 
@@ -305,7 +311,7 @@ function Host:resume(...)
     if not done then self:fail(request) end
     local waits = coroutine.status(self.thread) == "suspended"
     if waits and not (type(request) == "table" and request.kind) then
-        self:fail("the run of a tool waits for nothing but the answers of lissom.pick")
+        self:fail(new_error("the run of a tool waits for nothing but the answers of lissom.pick"))
     end
     self:end_work()
     if opened then self:mark(self:commit()) end
@@ -600,7 +606,7 @@ function Host:show(name, visible)
     visible = visible and true or false
     if self.held then self:cancel() end
     self:note{ "show", name, visible }
-    local known = self.scene:info(name)
+    local known = try(self.scene.info, self.scene, name)
     if known and known.visible ~= visible then
         self.scene:set(name, { visible = visible })
         local line = string.format("scene:set(%q, { visible = %s })", name, tostring(visible))

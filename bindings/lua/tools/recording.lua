@@ -151,11 +151,6 @@ local function free_name(scene, name)
     return free
 end
 
-local function loaded_or_error(value, message, code)
-    if value == nil then error(message .. " [" .. code .. "]", 0) end
-    return value
-end
-
 local function new_host(scene, camera, size)
     size = type(size) == "number" and { size, size } or size or { 1280, 960 }
     local host = setmetatable({ scene = scene, typed = "", base = scene:depth() }, Host)
@@ -209,10 +204,8 @@ local function host_of(...)
 end
 
 local function run_script(path)
-    local chunk, message = load_script(path)
-    if not chunk then error(message, 0) end
-    local host = host_of(chunk())
-    if not host then error(path .. " returns no scene, nor what a scene can hold", 0) end
+    local host = host_of(load_script(path)())
+    if not host then fail(path .. " returns no scene, nor what a scene can hold") end
     return host.scene
 end
 
@@ -226,11 +219,11 @@ end
 local function open_scene(paths, options)
     if #paths == 1 and paths[1]:match("%.lua$") then return run_script(paths[1]) end
     if #paths == 1 and is_scene_path(paths[1]) then
-        return loaded_or_error(lissom.load_scene(paths[1]))
+        return lissom.load_scene(paths[1])
     end
     local scene = lissom.scene{}
     for _, path in ipairs(paths) do
-        scene:add(free_name(scene, stem(path)), loaded_or_error(lissom.load(path, options)))
+        scene:add(free_name(scene, stem(path)), lissom.load(path, options))
     end
     scene:clear_history()
     return scene
@@ -242,18 +235,17 @@ local function load_tool(word)
     if not word:match("%.lua$") then
         path = package.searchpath("tools." .. word, package.path)
         if not path then
-            error("there is no tool '" .. word .. "': name one of scripts/tools, or a .lua file", 0)
+            fail("there is no tool '" .. word .. "': name one of scripts/tools, or a .lua file")
         end
     end
-    local chunk, message = load_script(path)
-    if not chunk then error(message, 0) end
+    local chunk = load_script(path)
     local folder = (path:match("^(.*[/\\])") or "./") .. "?.lua"
     if not (";" .. package.path .. ";"):find(";" .. folder .. ";", 1, true) then
         package.path = folder .. ";" .. package.path
     end
     local tool = chunk()
     if not is_tool(tool) then
-        error(path .. " does not return a tool; end it with return lissom.tool{...}", 0)
+        fail(path .. " does not return a tool; end it with return lissom.tool{...}")
     end
     return tool
 end
@@ -267,8 +259,8 @@ local function place_of(path, folder)
     if not path:match("^[/\\]") and not path:match("^%a:") then path = folder .. path end
     local found, reason = find_file(path)
     if not found then
-        error("the recording needs a file that cannot be opened: " .. reason ..
-            " (paths in a recording begin at its own folder)", 0)
+        fail("the recording needs a file that cannot be opened: " .. reason ..
+            " (paths in a recording begin at its own folder)", "file_not_found")
     end
     return path
 end
@@ -306,7 +298,7 @@ local player = {
     end,
     cancel = function(host) host:cancel() end,
     outside = function()
-        error("a script or a console changed the scene here, which is not in the recording", 0)
+        fail("a script or a console changed the scene here, which is not in the recording")
     end,
     show = function(host, event) host:show(event[2], event[3]) end,
     undo = function(host) host:undo() end,
@@ -323,10 +315,8 @@ end
 local function recording_of(path)
     local recorded
     local catcher = { replay = function(t) recorded = t end }
-    local chunk, message = load_script(path, { require = function() return catcher end })
-    if not chunk then error(message, 0) end
-    chunk()
-    if type(recorded) ~= "table" then error(path .. " is no recording", 0) end
+    load_script(path, { require = function() return catcher end })()
+    if type(recorded) ~= "table" then fail(path .. " is no recording", "file_syntax") end
     return recorded
 end
 
@@ -339,17 +329,17 @@ end
 
 local function same_or_error(scene, wanted, what)
     local text = difference(scene, wanted, what)
-    if text then error(text, 0) end
+    if text then fail(text) end
 end
 
 local function check_recording(recorded)
     if recorded.version ~= 1 then
-        error("this program reads recordings of version 1; this one has " .. tostring(recorded.version), 0)
+        fail("this program reads recordings of version 1; this one has " .. tostring(recorded.version))
     end
-    if type(recorded.events) ~= "table" then error("a recording has a list of events", 0) end
+    if type(recorded.events) ~= "table" then fail("a recording has a list of events") end
     for i, event in ipairs(recorded.events) do
         if type(event) ~= "table" or not player[event[1]] then
-            error("event " .. i .. " of the recording is of no known kind", 0)
+            fail("event " .. i .. " of the recording is of no known kind")
         end
     end
 end
@@ -357,7 +347,7 @@ end
 -- The scene before the first event, made of the files that the recording names.
 local function recorded_scene(recorded, folder)
     if type(recorded.open) ~= "table" then
-        error("the recording names no files: give it a scene (scene=)", 0)
+        fail("the recording names no files: give it a scene (scene=)")
     end
     local paths = {}
     for _, path in ipairs(recorded.open) do table.insert(paths, place_of(tostring(path), folder)) end
@@ -394,25 +384,36 @@ end
 local function differing_objects(scene, event)
     local names = {}
     for _, pair in ipairs(event.objects or {}) do
-        local object = scene:get(pair[1])
+        local object = try(scene.get, scene, pair[1])
         if not object or hash_of(object) ~= pair[2] then table.insert(names, "'" .. pair[1] .. "'") end
     end
     if #names == 0 then return "" end
     return table.concat(names, " and ") .. (#names == 1 and " differs: " or " differ: ")
 end
 
+-- The text of an error, and the line of the script that it names, if any.
+local function text_and_place(problem)
+    if type(problem) ~= "string" then return tostring(problem), type(problem) == "table" and problem.place end
+    problem = problem:gsub("^lissom tools:%d+: ", "")
+    local place, text = problem:match("^(%S-:%d+): (.*)$")
+    return text or problem, place
+end
+
+-- Raises what went wrong at an event, at the line of a script if it names one, else that of the event.
+local function refuse_event(problem, event, i, own)
+    local text, place = text_and_place(problem)
+    if place and own then text = text .. " (the event is " .. own .. ")" end
+    local whole = new_error("event " .. i .. ", " .. event[1] .. ": " .. text)
+    if type(problem) == "table" then whole.code, whole.elements = problem.code, problem.elements end
+    whole.place = place or own or whole.place
+    error(whole)
+end
+
 -- Does an event; says where the scene differs then.
 local function play_event(host, recorded, i, tools, folder, path)
     local event = recorded.events[i]
-    local done, message = pcall(player[event[1]], host, event, tools, folder)
-    if not done and type(message) == "string" then
-        message = message:gsub("^lissom tools:%d+: ", "")
-        local place, text = message:match("^(%S-:%d+: )(.*)$")
-        local own = event_place(recorded, i, path)
-        message = (place or own and own .. ": " or "") .. "event " .. i .. ", " .. event[1] .. ": " ..
-            (text or message) .. (place and own and " (the event is " .. own .. ")" or "")
-    end
-    if not done then error(message, 0) end
+    local done, problem = pcall(player[event[1]], host, event, tools, folder)
+    if not done then refuse_event(problem, event, i, event_place(recorded, i, path)) end
     local text = difference(host.scene, event.hash, "at event " .. i .. ", " .. event[1])
     if not text then return nil end
     local own = event_place(recorded, i, path)
@@ -431,7 +432,7 @@ local function replay(recorded, options)
     local host = new_host(scene, lissom.camera{ eye = { 0, 0, 5 } })
     for i in ipairs(recorded.events) do
         local text = play_event(host, recorded, i, options.tools, folder, path)
-        if text then error(text, 0) end
+        if text then fail(text) end
     end
     host:use(nil)
     same_or_error(scene, recorded.after, "at its end")

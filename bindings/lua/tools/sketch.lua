@@ -2,14 +2,13 @@
 
 local stroke_fields = set_of{ "tool", "points", "key", "camera", "params", "shift", "ctrl", "alt" }
 
-local function refuse_stroke(i, text) error(string.format("stroke %d: %s", i, text), 0) end
+local function refuse_stroke(i, text, code) fail(string.format("stroke %d: %s", i, text), code) end
 
 local function is_finite(x) return type(x) == "number" and math.abs(x) < math.huge end
 
 -- What a tool says, without the place in its file: the stroke is what the script can change.
 local function without_place(message)
-    if type(message) ~= "string" then return "the tool failed" end
-    return (message:gsub("^[^\n]-:%d+: ", ""))
+    return (tostring(message):gsub("^[^\n]-:%d+: ", ""))
 end
 
 local function check_stroke(i, stroke)
@@ -59,7 +58,7 @@ local function prepare(host, stroke, strands, tools)
         host:use(wanted)
         if grows_hair(wanted) then host:set{ strands = strands } end
     end
-    if not host.tool then error("it names no tool, and there is none before it", 0) end
+    if not host.tool then fail("it names no tool, and there is none before it") end
     if stroke.params then host:set(stroke.params) end
 end
 
@@ -110,10 +109,10 @@ local function sketch(style, strokes, options)
         end)
         if not drawn then
             while scene:undo() do end
-            refuse_stroke(i, without_place(result))
+            refuse_stroke(i, without_place(result), type(result) == "table" and result.code or nil)
         end
         done[i] = result
     end
-    return done, scene:get("style hair")
+    return done, (try(scene.get, scene, "style hair"))
 end
 

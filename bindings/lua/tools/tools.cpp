@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bindings/lua/core/error_object.h"
 #include "bindings/lua/core/failure.h"
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/host/script_files.h"
@@ -73,6 +74,35 @@ int push_name_hint(lua_State* L) {
     return 1;
 }
 
+// new_error(text, code): an error object, of invalid_argument without a code.
+int make_error(lua_State* L) {
+    lua_settop(L, 2);
+    Failure failure;
+    failure.set(ErrorCode::invalid_argument, luaL_checkstring(L, 1));
+    push_error(L, failure);
+    if (lua_isnil(L, 2)) return 1;
+    lua_pushvalue(L, 2);
+    lua_setfield(L, -2, "code");
+    return 1;
+}
+
+// error(text, level) of the text: as Lua's, but for an error object with the place of that level.
+int raise_at_level(lua_State* L) {
+    const int level = static_cast<int>(luaL_optinteger(L, 2, 1));
+    lua_settop(L, 1);
+    if (lua_type(L, 1) != LUA_TSTRING || level == 0) return lua_error(L);
+    make_error(L);
+    luaL_where(L, level);
+    std::size_t size = 0;
+    const char* place = lua_tolstring(L, -1, &size);
+    if (size > 2 && std::strncmp(place, kOwnLuaText, std::strlen(kOwnLuaText)) != 0) {
+        lua_pushlstring(L, place, size - 2);
+        lua_setfield(L, -3, "place");
+    }
+    lua_pop(L, 1);
+    return lua_error(L);
+}
+
 // Runs the text and keeps what it returns.
 void load_tool_functions(lua_State* L) {
     Piece piece;
@@ -89,7 +119,9 @@ void load_tool_functions(lua_State* L) {
     lua_pushcfunction(L, load_script_file);
     lua_pushcfunction(L, find_script_file);
     lua_pushcfunction(L, push_name_hint);
-    lua_call(L, 7, 1);
+    lua_pushcfunction(L, make_error);
+    lua_pushcfunction(L, raise_at_level);
+    lua_call(L, 9, 1);
     lua_pushvalue(L, -1);
     raw_set_pointer(L, LUA_REGISTRYINDEX, &kToolFunctions);
 }

@@ -138,7 +138,7 @@ end
 local function draw_hover(view, host)
     local hit, request = host.hover, host.request
     if not hit or not request then return end
-    if hit.object and not host.scene:info(hit.object) then return end
+    if hit.object and not try(host.scene.info, host.scene, hit.object) then return end
     if request.kind == "boundary" then
         view:line{ points = points_of(host.scene, hit), closed = true, color = hover_color, width = 5 }
     else
@@ -168,7 +168,9 @@ function Host:draw()
     while self.scene:depth() > before do self.scene:rollback() end
     if done and whole and not changed then return view.list end
     if changed and before == 0 then self.scene:undo() end
-    if done then message = "the tool '" .. self.tool.name .. "' changed the scene while it was drawn" end
+    if done then
+        message = new_error("the tool '" .. self.tool.name .. "' changed the scene while it was drawn")
+    end
     self:fail(message)
 end
 

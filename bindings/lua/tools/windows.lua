@@ -106,8 +106,7 @@ local function save(host, path)
     local view = view_of(host.camera)
     view.z_up = host.z_up
     host.scene:set_parameters(view_owner, view)
-    local done, left_out, code = host.scene:save(path)
-    if not done then error(left_out .. " [" .. code .. "]", 0) end
+    local _, left_out = host.scene:save(path)
     return table.concat(left_out, "; ")
 end
 
@@ -220,7 +219,7 @@ end
 local function keep(host)
     local selected, tool = {}, host.tool
     each_mesh(host.scene, function(name, mesh)
-        local region = mesh:region("selected")
+        local region = try(mesh.region, mesh, "selected")
         if region then selected[name] = { count = mesh:vertex_count(), vertices = region:vertices() } end
     end)
     local kept = tool and { name = tool.name, values = changed_values(tool), state = tool.state }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "kernel/core/error.h"
+#include "kernel/io/stream/file_error.h"
 
 namespace lissom {
 
@@ -46,7 +47,8 @@ auto with_place_in_errors(const std::string& file, const Action& action) {
             place += (file.empty() ? "line " : ":") + std::to_string(elements.ids[0] + 1LL);
         }
         if (!place.empty()) place += ": ";
-        throw Error(error.code(), place + error.message(), elements);
+        throw FileError(error.code(), FileError::of(error, file), place + error.message(),
+                        elements);
     }
 }
 

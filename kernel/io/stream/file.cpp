@@ -12,6 +12,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/core/nearest.h"
+#include "kernel/io/stream/file_error.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -31,7 +32,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t kPieceBytes = std::size_t{8} << 20;
 
 [[noreturn]] void refuse(ErrorCode code, const fs::path& path, const std::string& what) {
-    throw Error(code, display_name(path) + ": " + what);
+    const std::string file = display_name(path);
+    throw FileError(code, file, file + ": " + what);
 }
 
 [[noreturn]] void refuse_write(const fs::path& path, const std::error_code& reason) {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
-#include "kernel/core/error.h"
+#include "kernel/io/stream/file.h"
+#include "kernel/io/stream/file_error.h"
 
 namespace lissom {
 namespace {
@@ -15,7 +16,8 @@ constexpr const char* kUnfinished = ".lissom-new";
 constexpr const char* kFinished = ".lissom-ready";
 
 [[noreturn]] void refuse_entry(const fs::path& path, const std::string& what) {
-    throw Error(ErrorCode::file_write_failed, display_name(path) + ": " + what);
+    const std::string file = display_name(path);
+    throw FileError(ErrorCode::file_write_failed, file, file + ": " + what);
 }
 
 void require_done(const std::error_code& error, const fs::path& path) {

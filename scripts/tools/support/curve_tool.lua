@@ -137,7 +137,7 @@ function calls.release(self, ev)
     self.curve = self.draft or self.curve
     if self.curve then choose(self, self.curve) end
     if self.own.advise and self.curve and not self.advice then
-        self.advice = self.own.advise(one, self.curve, ev.scene:get(one.name .. " hair"))
+        self.advice = self.own.advise(one, self.curve, hair.strands(ev.scene, one))
     end
     hair.advise(self, ev, self.advice)
     forget(self)

@@ -131,7 +131,7 @@ function curves.apply(curve, operation, hint)
     local reach = { reach = 1 }
     if operation ~= "cut" then hint = rooted(curve, hint) end
     if operation ~= "cut" then reach.join = 0.015 end
-    return assert(curve[operation](curve, hint, reach))
+    return curve[operation](curve, hint, reach)
 end
 
 --- Points moved by a vector: all of it at arc length `place`, less and less within `reach` of there.

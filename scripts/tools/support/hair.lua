@@ -56,12 +56,12 @@ local surely = 0.5              -- confidence from which a mesh is taken for a h
 -- Begins a hairstyle on a head: the only mesh that is to be seen, or the one of which something is selected.
 local function begin(scene)
     local one = meshes.subject(scene)
-    local found, scalp = pcall(lissom.scalp, one and one.mesh)
-    if not found or not scalp or scalp:confidence() < surely then
+    local scalp = lissom.try(lissom.scalp, one and one.mesh)
+    if not scalp or scalp:confidence() < surely then
         error("no hairstyle is to be seen, and no mesh that is surely a head" .. (one and "" or ", alone")
             .. ": add one, as scene:add('style', lissom.hairstyle(head))", 0)
     end
-    local style = assert(lissom.hairstyle(one.mesh, { scalp = scalp, volume = room }))
+    local style = lissom.hairstyle(one.mesh, { scalp = scalp, volume = room })
     local name = meshes.unused_name(scene, one.name .. " style")
     scene:add(name, style, { transform = one.place })
     return name
@@ -225,21 +225,24 @@ local function width_of(count)
     return 75e-6 * math.max(1, math.min(8, (100000 / math.max(count, 1)) ^ (2 / 3)))
 end
 
+--- The strands of a style in the scene; nil where none have grown.
+function hair.strands(scene, one) return meshes.object(scene, one.name .. " hair") end
+
 --- Grows the strands of a style, or a share of them while something is dragged, into the object
 -- "<name> hair", which is added where there is none, and removed where no curve is left.
 function hair.grow(scene, one, share)
     local name = one.name .. " hair"
-    local info, old = scene:info(name), scene:get(name)
-    if info and info.kind ~= "strands" then
-        error("'" .. name .. "' is a " .. info.kind .. ": rename it, hair goes by that name", 0)
+    local old = meshes.object(scene, name)
+    local kind = old and scene:info(name).kind
+    if old and kind ~= "strands" then
+        error("'" .. name .. "' is a " .. kind .. ": rename it, hair goes by that name", 0)
     end
     if not hair.is_grown(one.style) then
         if old then scene:remove(name) end
         return nil
     end
     local count = math.floor(one.strands * (share or 1))
-    local strands = assert(one.style:grow{ count = count, length = one.length, cut = hair.cut(one),
-        into = old })
+    local strands = one.style:grow{ count = count, length = one.length, cut = hair.cut(one), into = old }
     strands:set_widths{ width = width_of(count) }
     if not old then scene:add(name, strands, { transform = one.place }) end
     return strands
@@ -261,7 +264,7 @@ end
 
 --- After a click, which draws nothing: a style that was begun for it goes again.
 function hair.forget_begun(tool, scene)
-    if tool.begun and scene:get(tool.begun) then scene:remove(tool.begun) end
+    if tool.begun and meshes.object(scene, tool.begun) then scene:remove(tool.begun) end
 end
 
 --- What a refused stroke is told, with what else it may have been meant for.

@@ -12,7 +12,7 @@ function handles.list(scene)
     local list = {}
     for _, one in ipairs(meshes.visible(scene)) do
         local name, edit = meshes.deformation(scene, one.mesh)
-        local pinned = one.mesh:region("pinned")
+        local pinned = meshes.region(one.mesh, "pinned")
         for _, handle in ipairs(edit and edit:handles() or {}) do
             local at = matrices.point(one.place, handle:center())
             table.insert(list,
@@ -27,7 +27,7 @@ end
 function handles.pin(handle)
     for _, pin in ipairs{ handle, handle:mirrored() } do
         local region = pin:region()
-        local before = region:mesh():region("pinned")
+        local before = meshes.region(region:mesh(), "pinned")
         region:mesh():set_region("pinned", before and before:union(region) or region)
     end
 end
@@ -36,7 +36,7 @@ end
 local function unpin(handle)
     for _, pin in ipairs{ handle, handle:mirrored() } do
         local region = pin:region()
-        local mesh, before = region:mesh(), region:mesh():region("pinned")
+        local mesh, before = region:mesh(), meshes.region(region:mesh(), "pinned")
         local rest = before and before:minus(region)
         if rest and #rest > 0 then mesh:set_region("pinned", rest) end
         if rest and #rest == 0 then mesh:remove_region("pinned") end
@@ -78,8 +78,7 @@ end
 -- Vertices that follow a drag at full quality.
 local most_exact = 60000
 
---- What a drag shows of a deformation: its preview "always", "never", or for "large meshes"; nil, message,
--- code where there is no solution.
+--- What a drag shows of a deformation: its preview "always", "never", or for "large meshes".
 function handles.preview(one, of)
     local quick = of == "always" or of == "large meshes" and #one.edit:region() > most_exact
     if quick then return one.edit:preview() end
@@ -93,7 +92,7 @@ function handles.remove(scene, one)
         meshes.end_deformation(scene, one.mesh)
     else
         one.handle:remove()
-        assert(one.edit:solve())
+        one.edit:solve()
     end
 end
 

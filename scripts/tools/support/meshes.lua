@@ -1,15 +1,24 @@
 --- What the tools ask of a scene: its meshes, where they stand, what is selected of them.
+local lissom = require "lissom"
 local matrices = require "matrices"
 local vectors = require "vectors"
 
 local meshes = {}
 
+--- An object of the scene, or a region of a mesh; nil where there is none of that name.
+function meshes.object(scene, name) return (lissom.try(scene.get, scene, name)) end
+function meshes.region(mesh, name) return (lissom.try(mesh.region, mesh, name)) end
+
+--- What a scene says of an object; nil where there is none of that name.
+function meshes.info(scene, name) return (lissom.try(scene.info, scene, name)) end
+
 --- The mesh that an object of the scene is, or deforms; nil where there is none.
 function meshes.get(scene, name)
-    local info, object = scene:info(name), scene:get(name)
-    if not info then return nil end
-    if info.kind == "deformation" then return object:mesh() end
-    return info.kind == "mesh" and object or nil
+    local object = meshes.object(scene, name)
+    if not object then return nil end
+    local kind = scene:info(name).kind
+    if kind == "deformation" then return object:mesh() end
+    return kind == "mesh" and object or nil
 end
 
 --- The visible meshes: a list of { name =, mesh =, place =, style = }. The place is the matrix from the
@@ -39,7 +48,7 @@ function meshes.find(scene, mesh)
 end
 
 --- The selected vertices of a mesh, maybe none: its region "selected", which all tools share.
-function meshes.selection(mesh) return mesh:region("selected") or mesh:region{ vertices = {} } end
+function meshes.selection(mesh) return meshes.region(mesh, "selected") or mesh:region{ vertices = {} } end
 
 --- Selects vertices of a mesh, instead of those before.
 function meshes.select(mesh, region)
@@ -112,7 +121,7 @@ function meshes.end_deformation(scene, mesh)
     local name = meshes.deformation(scene, mesh)
     if not name then return end
     local info = scene:info(name)
-    if mesh:region("pinned") then mesh:remove_region("pinned") end
+    if meshes.region(mesh, "pinned") then mesh:remove_region("pinned") end
     scene:remove(name)
     for _, other in ipairs(scene:names()) do
         if rawequal(scene:get(other), mesh) then return end
@@ -138,7 +147,7 @@ end
 --- A name that no object of a scene has: that given, or the same with a number.
 function meshes.unused_name(scene, name)
     local base, number = name:gsub(" %d+$", ""), 2
-    while scene:get(name) do
+    while meshes.object(scene, name) do
         name, number = base .. " " .. number, number + 1
     end
     return name

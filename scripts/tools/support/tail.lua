@@ -1,5 +1,6 @@
 --- A ponytail in a tool's hand: the strokes that make it (its spine, the section around it, the profiles
 --- beside it), and its handles. Points are in the head's own space.
+local lissom = require "lissom"
 local curves = require "tools.support.curves"
 local hair = require "tools.support.hair"
 local hair_view = require "tools.support.hair_view"
@@ -342,7 +343,7 @@ function tail.share(one, strands)
         if curve:kind() == "stream" and curve:options().stop > 0 then return 1 end
         local name = curve:kind() == "ponytail" and curve:name()
         if name and not counted[name] then
-            local own = strands:select{ group = name }
+            local own = lissom.try(strands.select, strands, { group = name })
             counted[name], sum = true, sum + (own and #own or 0)
         end
     end

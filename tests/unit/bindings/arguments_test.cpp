@@ -110,7 +110,7 @@ TEST_CASE("a method called with a dot is told of the colon") {
     CHECK(
         message ==
         "test:1: bad argument #1 to 'smooth' (lissom.Mesh expected, got table; write mesh:smooth, "
-        "not mesh.smooth)");
+        "not mesh.smooth) [invalid_argument]");
     CHECK(lua.run("lissom.shapes.box().area()")
               .find("got no value; write mesh:area, not mesh.area") != std::string::npos);
     CHECK(lua.run("lissom.shapes.box().area(nil)").find("write") == std::string::npos);
@@ -138,6 +138,32 @@ TEST_CASE("no function crashes on arguments of any type") {
     }
 }
 
+// Of what is called with bad values: nothing returns nil and a message, and what is raised by the
+// library is an error object. A function that was given may raise what it likes.
+TEST_CASE("every failure is raised as an object with a code, none is returned") {
+    const Registry registry = kernel_registry();
+    LuaState lua;
+    REQUIRE(lua.run(kSetup) == "");
+    REQUIRE(lua.run("function look(done, first, second, third) "
+                    "  if done then return not (first == nil and type(second) == 'string') end "
+                    "  return type(first) == 'table' and type(first.code) == 'string' and "
+                    "    type(first.message) == 'string' and #first.message > 3 end") == "");
+    for (const auto& entry : registry.entries()) {
+        const std::string& name = entry->function->name;
+        if (name == "try" || name == "listen") continue;
+        for (const char* arguments :
+             {"", "nil", "'no/such/file.x'", "-1e9", "{}", "{ nonsense = 1 }", "0 / 0",
+              "print, print", "'no/such/file.x', {}", "true"}) {
+            CAPTURE(name);
+            CAPTURE(arguments);
+            const std::string given = *arguments ? arguments : "nil";
+            CHECK(lua.run("fresh() local function call() " + call_of(*entry, given) +
+                          " end local done, first, second = call() "
+                          "assert(look(done, first, second), tostring(first))") == "");
+        }
+    }
+}
+
 TEST_CASE("every method refuses another object") {
     const Registry registry = kernel_registry();
     LuaState lua;
@@ -147,7 +173,8 @@ TEST_CASE("every method refuses another object") {
         if (!entry->type) continue;
         const std::string method = "objects['" + entry->type->name + "']." + entry->function->name;
         const std::string expected = "test:1: bad argument #1 to '" + entry->function->name +
-                                     "' (" + entry->type->name + " expected, got nil)";
+                                     "' (" + entry->type->name +
+                                     " expected, got nil) [invalid_argument]";
         CHECK(lua.eval("select(2, pcall(" + method + ", nil))") == expected);
         for (const char* other : {"1", "{}", "io.stdout", "print", "closed"}) {
             CAPTURE(other);

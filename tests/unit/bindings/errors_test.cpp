@@ -1,5 +1,6 @@
 // Errors across the border between C++ and Lua.
 #include "bindings/lua/core/call.h"
+#include "bindings/lua/core/error_object.h"
 #include "tests/unit/bindings/lua_state.h"
 
 namespace lissom::lua {
@@ -79,21 +80,99 @@ HostOptions throwing_host() {
 
 TEST_CASE("no exception leaves a function") {
     LuaState lua(throwing_host());
-    CHECK(lua.eval("select(2, lissom.standard())") == "from the standard library");
-    CHECK(lua.eval("select(3, lissom.number())") == "internal");
+    CHECK(lua.eval("select(2, pcall(lissom.standard)).message") == "from the standard library");
+    CHECK(lua.eval("select(2, pcall(lissom.number)).code") == "internal");
 }
 
-TEST_CASE("the world's faults come with elements") {
+TEST_CASE("what fails raises an error object with code, elements and place") {
     LuaState lua(throwing_host());
-    CHECK(lua.eval("lissom.elements()") == "nil");
-    CHECK(lua.eval("select(2, lissom.elements())") == "edges 1-2 and 5-6");
-    CHECK(lua.eval("select(3, lissom.elements())") == "nonmanifold_edge");
-    CHECK(lua.eval("select(4, lissom.elements()).kind") == "edge");
-    CHECK(lua.eval("select(4, lissom.elements()).ids[2][1]") == "5");
-    const State& state = lua.binding();
-    CHECK(state.has_failed);
-    CHECK(std::string(state.last_failure_place) == "test:1: ");
+    CHECK(lua.run("lissom.elements()") == "test:1: edges 1-2 and 5-6 [nonmanifold_edge]");
+    REQUIRE(lua.run("_, problem = pcall(function() lissom.elements() end)") == "");
+    CHECK(lua.eval("tostring(problem)") == "edges 1-2 and 5-6");
+    CHECK(lua.eval("problem.message") == "edges 1-2 and 5-6");
+    CHECK(lua.eval("'it says ' .. problem .. '.'") == "it says edges 1-2 and 5-6.");
+    CHECK(lua.eval("problem.code") == "nonmanifold_edge");
+    CHECK(lua.eval("problem.place") == "test:1");
+    CHECK(lua.eval("problem.elements.kind") == "edge");
+    CHECK(lua.eval("problem.elements.count") == "2");
+    CHECK(lua.eval("problem.elements.ids[2][1]") == "5");
+    CHECK(lua.eval("problem == select(2, pcall(error, problem))") == "true");
+    CHECK(lua.eval("problem == select(2, pcall(lissom.elements))") == "false");
 }
+
+TEST_CASE("an error object can be read back, even where a script has changed it") {
+    LuaState lua(throwing_host());
+    lua_State* L = lua.get();
+    REQUIRE(
+        lua.run("_, problem = pcall(lissom.elements) _, spoilt = pcall(lissom.elements) "
+                "spoilt.code, spoilt.message, spoilt.elements = 7, {}, { ids = { {}, 'x' } }") ==
+        "");
+    lua_getglobal(L, "problem");
+    REQUIRE(is_error_object(L, -1));
+    Failure read;
+    read_error(L, -1, read);
+    CHECK(read.code == ErrorCode::nonmanifold_edge);
+    CHECK(std::string(read.message) == "edges 1-2 and 5-6");
+    CHECK(read.kind == ElementKind::edge);
+    CHECK(read.count == 2);
+    REQUIRE(read.id_count == 4);
+    CHECK(read.ids[2] == 4);
+    lua_getglobal(L, "spoilt");
+    read_error(L, -1, read);
+    CHECK(read.code == ErrorCode::internal);
+    CHECK(read.id_count == 0);
+    CHECK(std::string(push_error_text(L, -1)).find("[internal]") != std::string::npos);
+    lua_settop(L, 0);
+    CHECK(lua.run("setmetatable(problem, nil)").find("protected") != std::string::npos);
+}
+
+TEST_CASE("an error names the file that was read, and its line") {
+    LuaState lua;
+    CHECK(lua.eval("select(2, pcall(lissom.load, 'none.obj')).file") == "none.obj");
+    CHECK(lua.eval("select(2, pcall(lissom.load, 'none.obj')).line") == "nil");
+    REQUIRE(lua.run("file = os.tmpname() local f = io.open(file .. '.obj', 'w') "
+                    "f:write('v 0 0 0\\nv 1 x 0\\n') f:close() "
+                    "_, problem = pcall(lissom.load, file .. '.obj') "
+                    "os.remove(file) os.remove(file .. '.obj')") == "");
+    CHECK(lua.eval("problem.code") == "file_syntax");
+    CHECK(lua.eval("problem.file == file .. '.obj'") == "true");
+    CHECK(lua.eval("problem.line") == "2");
+}
+
+TEST_CASE("try returns what a function returns, or nil and its error") {
+    LuaState lua(throwing_host());
+    CHECK(lua.eval("select('#', lissom.try(function(...) return ... end, 1, nil, 3, nil))") == "4");
+    CHECK(lua.eval("select('#', lissom.try(function() end))") == "0");
+    CHECK(lua.eval("select('#', lissom.try(lissom.elements))") == "2");
+    CHECK(lua.eval("lissom.try(lissom.elements)") == "nil");
+    CHECK(lua.eval("select(2, lissom.try(lissom.elements)).code") == "nonmanifold_edge");
+    CHECK(lua.eval("select(2, lissom.try(error, 'text', 0))") == "text");
+    CHECK(lua.eval("select(2, lissom.try(lissom.try)).code") == "invalid_argument");
+    CHECK(lua.run("assert(lissom.try(lissom.elements))").find("test:1: edges 1-2 and 5-6") == 0);
+}
+
+TEST_CASE("error raises an object at the line that is to be blamed") {
+    LuaState lua;
+    CHECK(lua.run("\nlissom.error{ message = 'no' }") == "test:2: no [invalid_argument]");
+    CHECK(
+        lua.run("local function f() lissom.error{ message = 'no', level = 2, code = 'zero_area' } "
+                "end\nf()\n") == "test:2: no [zero_area]");
+    CHECK(lua.run("lissom.error{ message = 'no', code = 'zero_aria' }").find("zero_area") !=
+          std::string::npos);
+}
+
+#if LUA_VERSION_NUM >= 504
+TEST_CASE("an error passes through coroutines, and try lets its function yield") {
+    LuaState lua(throwing_host());
+    CHECK(lua.run("local co = coroutine.create(function() lissom.elements() end) "
+                  "local done, problem = coroutine.resume(co) "
+                  "assert(not done and problem.code == 'nonmanifold_edge') "
+                  "local f = coroutine.wrap(function() "
+                  "  return lissom.try(function() coroutine.yield(1) lissom.elements() end) end) "
+                  "assert(f() == 1) local result, raised = f() "
+                  "assert(result == nil and raised.code == 'nonmanifold_edge')") == "");
+}
+#endif
 
 TEST_CASE("an error in a function of where passes through") {
     LuaState lua;
@@ -128,7 +207,7 @@ TEST_CASE("a listener's error is raised when the operation has unwound") {
 TEST_CASE("a progress listener cancels by returning false") {
     LuaState lua(throwing_host());
     CHECK(lua.run("lissom.listen{ progress = function(label, x) return x < 0.5 end }") == "");
-    CHECK(lua.eval("select(3, lissom.work())") == "cancelled");
+    CHECK(lua.eval("select(2, pcall(lissom.work)).code") == "cancelled");
     CHECK(lua.run("lissom.listen{}") == "");
     CHECK(lua.eval("lissom.work()") == "true");
 }
@@ -179,17 +258,18 @@ TEST_CASE("the host's callbacks hear too, and its cancel is sticky") {
     CHECK(reports > 5);
     CHECK(ends == 1);
     lua.binding().context.cancel();
-    CHECK(lua.eval("select(3, lissom.work())") == "cancelled");
-    CHECK(lua.eval("select(3, lissom.work())") == "cancelled");
+    CHECK(lua.eval("select(2, pcall(lissom.work)).code") == "cancelled");
+    CHECK(lua.eval("select(2, pcall(lissom.work)).code") == "cancelled");
     lua.binding().context.clear_cancel();
     CHECK(lua.eval("lissom.work()") == "true");
 }
 
-TEST_CASE("a memory limit of the host is a fault of the world") {
+TEST_CASE("a memory limit of the host is an error with that code") {
     HostOptions options;
     options.context.memory_limit = 1000;
     LuaState lua(options);
-    CHECK(lua.eval("select(3, lissom.shapes.cactus())") == "memory_limit");
+    CHECK(lua.eval("select(2, pcall(function() return lissom.shapes.cactus() end)).code") ==
+          "memory_limit");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "bindings/lua/core/error_object.h"
 #include "bindings/lua/core/state.h"
 
 namespace lissom::test {
@@ -23,7 +24,8 @@ class LuaState {
     lua_State* get() const { return L_; }
     lua::State& binding() const { return *lua::find_state(L_); }
 
-    /// Runs a chunk named "test" and returns the message of its error, empty where there is none.
+    /// Runs a chunk named "test" and returns the text of its error, with place and code; empty
+    /// without one.
     std::string run(const std::string& code) {
         std::string message;
         if (load(code) != 0 || lua_pcall(L_, 0, 0, 0) != 0) message = text_at(-1);
@@ -48,7 +50,7 @@ class LuaState {
         return luaL_loadbuffer(L_, code.data(), code.size(), "=test");
     }
     std::string text_at(int index) {
-        const char* text = lua::to_display_string(L_, index);
+        const char* text = lua::push_error_text(L_, index);
         return text ? text : "";
     }
 

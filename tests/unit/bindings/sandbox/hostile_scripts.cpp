@@ -351,9 +351,12 @@ std::vector<HostileScript> ways_out() {
          "assert(not pcall(m.vertex_count, x)) end return true",
          harmless},
         {"read a file of the system",
-         "return select(3, require('lissom').load('/etc/passwd')) == 'file_unreadable'", harmless},
+         "return select(2, pcall(function() return require('lissom').load('/etc/passwd') "
+         "end)).code == 'file_unreadable'",
+         harmless},
         {"read upwards",
-         "return select(3, require('lissom').load('../../../../../../../../etc/passwd.obj')) == "
+         "return select(2, pcall(function() return "
+         "require('lissom').load('../../../../../../../../etc/passwd.obj') end)).code == "
          "'file_unreadable'",
          harmless},
         {"ask whether a file is there",
@@ -362,15 +365,18 @@ std::vector<HostileScript> ways_out() {
          "return a:gsub('passwd', 'none') == b",
          harmless},
         {"write a file",
-         "return select(3, require('lissom').shapes.box():save('/tmp/lissom_hostile.obj')) == "
+         "return select(2, pcall(function() return "
+         "require('lissom').shapes.box():save('/tmp/lissom_hostile.obj') end)).code == "
          "'file_write_failed'",
          harmless},
         {"write a scene",
-         "return select(3, require('lissom').scene():save('/tmp/lissom_hostile')) == "
+         "return select(2, pcall(function() return "
+         "require('lissom').scene():save('/tmp/lissom_hostile') end)).code == "
          "'file_write_failed'",
          harmless},
         {"read strands",
-         "return select(3, require('lissom').load_strands('/etc/passwd')) == 'file_unreadable'",
+         "return select(2, pcall(function() return require('lissom').load_strands('/etc/passwd') "
+         "end)).code == 'file_unreadable'",
          harmless},
         {"parameter that makes a folder",
          "return pcall(require('lissom').params, { out = { type = 'folder', "

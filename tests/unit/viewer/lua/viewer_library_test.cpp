@@ -307,12 +307,12 @@ TEST_CASE("misuse is an error that names the option") {
     refuses("scalars = { 1, 2, 3, 4, 5, 6, 7, 8 }, range = { 1 }", "{low, high}");
 }
 
-TEST_CASE("what the world does wrong is nil, a message and a code") {
+TEST_CASE("a picture that cannot be drawn or written is an error with a code") {
     const PictureFolder folder;
     test::LuaState lua(with_viewer());
     const auto code = [&](const std::string& file, const std::string& mesh) {
-        return lua.eval("select(3, lissom.render{ mesh = " + mesh + ", file = '" + file +
-                        "', size = { 8, 8 } })");
+        return lua.eval("select(2, lissom.try(lissom.render, { mesh = " + mesh + ", file = '" +
+                        file + "', size = { 8, 8 } })).code");
     };
     CHECK(code(folder.path("p.jpg"), "lissom.shapes.box()") == "unknown_format");
     if (!test::can_draw()) return;
