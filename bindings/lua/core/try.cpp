@@ -61,10 +61,10 @@ std::vector<Function> error_functions() {
     return {{.name = "try",
              .body = try_function,
              .summary = "Calls a function; returns what it returns, or nil and its error.",
-             .arguments = {function("f", "fun(...): ...", "What to call; its arguments follow.")},
+             .arguments = {function("f", "function", "The function; its arguments follow.")},
              .more_arguments = true,
              .results = {{"any", "result", "What the function returns; nil if it fails."},
-                         {"lissom.Error|any", "error",
+                         {"lissom.Error?", "error",
                           "The error; an error that is not of lissom is handed on as it is."}},
              .example = R"(local mesh, problem = lissom.try(lissom.load, "missing.obj")
 assert(mesh == nil and problem.code == "file_not_found" and problem.file == "missing.obj")

@@ -293,7 +293,7 @@ assert(scene:get("bar") == bar))"},
          .results = {{"any", "object", "The very object that was added."}},
          .errors = {ErrorCode::out_of_range},
          .example = kBarScene + R"(assert(scene:get("bar"):vertex_count() == #bar)
-assert(not scene:get("ball")))"},
+assert(not lissom.try(scene.get, scene, "ball")))"},
         {.name = "info",
          .body = object_info,
          .summary = "Number, kind, place and look of an object.",

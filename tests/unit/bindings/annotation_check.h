@@ -154,7 +154,7 @@ inline std::vector<std::string> annotation_mistakes(const std::string& text,
                 good = reader.read_type() && reader.take("]");
             } else {
                 const std::string name = reader.take_name();
-                good = !name.empty() && name.find('.') == std::string::npos;
+                good = name == "..." || (!name.empty() && name.find('.') == std::string::npos);
                 if (tag == "param") parameters.push_back(name);
                 reader.take("?");
             }

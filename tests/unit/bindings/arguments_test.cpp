@@ -252,7 +252,8 @@ TEST_CASE("values are read and defaults filled in") {
 TEST_CASE("what does not fit is named with what is expected") {
     LuaState lua(described_host());
     const auto refuses = [&](const std::string& options, const std::string& message) {
-        CHECK(lua.run("lissom.describe{ " + options + " }") == "test:1: " + message);
+        CHECK(lua.run("lissom.describe{ " + options + " }") ==
+              "test:1: " + message + " [invalid_argument]");
     };
     refuses("count = 11",
             "bad option 'count' of 'describe' (integer from 0 to 10 expected, got 11)");
@@ -287,16 +288,20 @@ TEST_CASE("what does not fit is named with what is expected") {
 TEST_CASE("arguments by position") {
     LuaState lua;
     CHECK(lua.run("lissom.load()") ==
-          "test:1: bad argument #1 to 'load' (string expected, got no value)");
-    CHECK(lua.run("lissom.load('a', 5)") ==
-          "test:1: bad argument #2 to 'load' (table of options expected, got 5)");
-    CHECK(lua.run("lissom.load('a', 5, 6)") ==
-          "test:1: bad argument #2 to 'load' (table of options expected, got 5)");
+          "test:1: bad argument #1 to 'load' (string expected, got no value) [invalid_argument]");
+    CHECK(
+        lua.run("lissom.load('a', 5)") ==
+        "test:1: bad argument #2 to 'load' (table of options expected, got 5) [invalid_argument]");
+    CHECK(
+        lua.run("lissom.load('a', 5, 6)") ==
+        "test:1: bad argument #2 to 'load' (table of options expected, got 5) [invalid_argument]");
     CHECK(lua.run("lissom.load('a', {}, 5)") ==
-          "test:1: bad argument #3 to 'load' (no further argument expected, got 5)");
+          "test:1: bad argument #3 to 'load' (no further argument expected, got 5) "
+          "[invalid_argument]");
     CHECK(lua.run("lissom.shapes.box():subdivide{ scheme = 'loop' }") == "");
     CHECK(lua.run("lissom.shapes.box():set_position(1, 2, 'x', 3)") ==
-          "test:1: bad argument #3 to 'set_position' ({x, y, z} expected, got \"x\")");
+          "test:1: bad argument #3 to 'set_position' ({x, y, z} expected, got \"x\") "
+          "[invalid_argument]");
     CHECK(lua.run("lissom.shapes.box():position(9)") ==
           "test:1: vertex 9 is not one of the 8 of the mesh [out_of_range]");
 }

@@ -126,7 +126,8 @@ TEST_CASE("a library of another module adds functions and types") {
     test::LuaState lua(options);
     CHECK(lua.run("lissom.extra() lissom.tools.noop()") == "");
     CHECK(lua.run("lissom.tools.nop()") ==
-          "test:1: lissom.tools: no function 'nop', did you mean 'noop'?");
+          "test:1: lissom.tools: no function 'nop', did you mean 'noop'? "
+          "[invalid_argument]");
 }
 
 TEST_CASE("inconsistent descriptions are refused") {

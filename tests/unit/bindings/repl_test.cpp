@@ -238,7 +238,7 @@ TEST_CASE("results are shown with their content") {
     CHECK(typed("1, 'x', nil\n").out == "1\tx\tnil\n");
     CHECK(typed("lissom.load('none.obj')\n")
               .err.find("none.obj: there is no such file [file_not_found]") != std::string::npos);
-    CHECK(typed("lissom.load('none.obj')\n").status == kSuccess);
+    CHECK(typed("lissom.load('none.obj')\n").status == kFailure);
 }
 
 }  // namespace

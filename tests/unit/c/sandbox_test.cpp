@@ -104,7 +104,7 @@ TEST_CASE("sandbox of C: limits end a script, and the next one runs") {
             host,
             "local m = require('lissom').shapes.bar{ across = 10, along = 100 } local t = {} "
             "for i = 1, 1000 do t[i] = assert(m:copy()) end");
-        CHECK(outcome == LISSOM_SCRIPT_ERROR);
+        CHECK(outcome == LISSOM_MEMORY_LIMIT);
         CHECK(outcome.says("of the limit of"));
     }
     CHECK(lissom_call(host, "shapes.grid", R"([{"segments": 5000}])", nullptr) ==

@@ -360,9 +360,9 @@ std::vector<HostileScript> ways_out() {
          "'file_unreadable'",
          harmless},
         {"ask whether a file is there",
-         "local l = require('lissom') local _, a = l.load('/etc/passwd.obj') "
-         "local _, b = l.load('/etc/none.obj') "
-         "return a:gsub('passwd', 'none') == b",
+         "local l = require('lissom') local _, a = l.try(l.load, '/etc/passwd.obj') "
+         "local _, b = l.try(l.load, '/etc/none.obj') "
+         "return a.message:gsub('passwd', 'none') == b.message",
          harmless},
         {"write a file",
          "return select(2, pcall(function() return "

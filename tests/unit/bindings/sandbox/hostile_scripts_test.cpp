@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "bindings/lua/core/error_object.h"
 #include "bindings/lua/sandbox/sandbox.h"
 
 namespace lissom::lua {
@@ -30,11 +31,14 @@ int run(Sandbox& sandbox, const std::string& text) {
 }
 
 std::string message_of(lua_State* L) {
-    return lua_isstring(L, -1) ? lua_tostring(L, -1) : "";
+    const bool has_text = lua_isstring(L, -1) != 0 || is_error_object(L, -1);
+    return has_text ? push_error_text(L, -1) : "";
 }
 
 void check_end(Sandbox& sandbox, const HostileScript& script, int status) {
+    const int top = lua_gettop(sandbox.lua());
     const std::string message = message_of(sandbox.lua());
+    lua_settop(sandbox.lua(), top);
     INFO("ended with ", status, ": ", message);
     switch (script.end) {
         case HostileEnd::time:
