@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/deform/deform_report.h"
 #include "kernel/deform/holds/holds.h"
 #include "kernel/deform/options.h"

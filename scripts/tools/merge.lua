@@ -247,7 +247,7 @@ end
 
 return lissom.tool{
     name = "merge",
-    help = "Click two loops; turn the part by the wheel, by hints, or click points that meet; Enter takes it.",
+    help = "Click two loops; turn the part by the wheel, by hints, or click points that meet; Enter takes.",
     params = {
         place = { type = "choice", default = "as placed", choices = { "as placed", "shape" },
             help = "Without keys: turned least from how the part lies, or as the shapes of both suggest." },

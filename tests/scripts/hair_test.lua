@@ -48,7 +48,8 @@ test("how sure the guess is", function()
     expect.equal(huge:knows_unit(), false)
     lissom.listen{}
     local all = table.concat(heard, "; ")
-    expect.truthy(all:find("warning: place and direction of the head") and all:find("unit of the head is not known"))
+    expect.truthy(all:find("warning: place and direction of the head"))
+    expect.truthy(all:find("unit of the head is not known"))
 end)
 
 test("points over the head, in mesh units; lifts in metres", function()

@@ -7,7 +7,6 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/patch/patch.h"
-#include "kernel/deform/patch/sparse_row.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/query/box_tree.h"
 

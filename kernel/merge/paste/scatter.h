@@ -10,7 +10,9 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/error.h"
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/merge/merge.h"
 #include "kernel/merge/paste/paste.h"
 #include "kernel/merge/paste/paste_options.h"
 #include "kernel/mesh/mesh.h"
