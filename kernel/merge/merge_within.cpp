@@ -86,7 +86,7 @@ void measure(const Mesh& before, std::span<const Join> joins, bool sought, Merge
                                   " pairs of faces run through one another that did not "
                                   "before; see the report's intersections");
     }
-    judge(report, sought);
+    judge(report, {.sought = sought});
 }
 
 }  // namespace

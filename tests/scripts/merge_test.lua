@@ -566,7 +566,7 @@ test("a mesh merged with itself: two of its boundaries are joined, and nothing m
         if code == "invalid_argument" then
             expect.error(function() lissom.merge(options) end, "[" .. code .. "]")
         else
-            expect.failure(code, lissom.merge(options))
+            expect.failure(code, lissom.merge, options)
         end
     end
     refused("invalid_argument", { smooth = 0 })

@@ -9,7 +9,7 @@ local lissom = {}
 ---@field color? string Colour of all strands, instead of their own. Default: the strands' own, else a brown.
 ---@field level? number Part of the strands to draw, the first of them; the fewer, the wider each, so that they cover as much. Default: 1.
 ---@field count? integer The same as a number of strands. Default: all.
----@field unit? number Length of the mesh's unit; strands are in metres. In metres. Default: what the places of the roots on the mesh tell, else 1.
+---@field unit? number Length of the mesh's unit; strands are in metres. In metres. Default: that of the places of the roots on the mesh, else 1.
 ---@field primary? number Strength of the white reflection. Default: 0.24.
 ---@field primary_exponent? number How sharp it is. Default: 70.
 ---@field primary_shift? number How far it leans towards the tip; negative: to the root. In degrees. Default: 5.73.
@@ -23,37 +23,37 @@ local lissom = {}
 ---@field root_tone? number Factor of the colour at the root. Default: 0.72.
 ---@field tip_tone? number Factor of the colour at the tip. Default: 1.18.
 ---@field shadow? number How much strands shade each other and the meshes; 0: none. Default: 1.
----@field scalp_tint? number How far the scalp takes the hair's colour where roots are dense. Default: 0.7.
+---@field scalp_tint? number How far the scalp takes the hair's colour at dense roots. Default: 0.7.
 
 ---@class lissom.RenderOptions.Style_marks
 ---@field curves? boolean Draws the curves. Default: true.
----@field constraints? boolean Draws style:constraints() as arrows: along streams, spines and partings blue, where hair ends or parts red, around tails purple, into ties green, those of avoid_scalp grey. Default: false.
+---@field constraints? boolean Draws style:constraints() as arrows: along streams, spines and partings blue, at ends and partings of hair red, around tails purple, into ties green, those of avoid_scalp grey. Default: false.
 ---@field field? boolean Draws the field as arrows on a plane through the volume. Default: false.
----@field legend? boolean Says at the right what the colours of arrows stand for. Default: false.
+---@field legend? boolean Explains the colours of arrows at the right. Default: false.
 ---@field point? lissom.Vector A point of the plane. In mesh units. Default: the center of the head.
----@field normal? lissom.Vector Of the plane. Default: the head's left.
+---@field normal? lissom.Vector Normal of the plane. Default: the head's left.
 ---@field spacing? number Between neighbouring arrows. In metres. Default: a step of the grid.
 
 ---@class lissom.RenderOptions
----@field mesh? lissom.Mesh The mesh to draw; may be left out where strands are drawn.
+---@field mesh? lissom.Mesh The mesh to draw; may be left out if strands are drawn.
 ---@field meshes? lissom.Mesh[] Several meshes to draw, instead of `mesh`.
----@field scene? lissom.Scene A scene to draw instead: its visible objects where they stand, by their styles.
+---@field scene? lissom.Scene A scene to draw instead: its visible objects at their places, by their styles.
 ---@field offsets? lissom.Vector[] Moves each mesh by a vector, in the picture only.
 ---@field columns? integer 0: all meshes in one space. Else each in a cell of its own, this many a row, all seen by the same camera. Default: 0.
 ---@field fit? "all"|"each" In cells, a view frames all meshes at one scale, or each by itself. Default: all.
 ---@field captions? string[] In cells, a line of text below each mesh.
 ---@field color? string|string[] Colour of the meshes: "#rrggbb" or one of white, black, gray, lightgray, darkgray, clay, red, orange, yellow, green, teal, blue, purple, sand; with "#rrggbbaa" they are seen through, the less so the greater aa is. Default: clay.
----@field vertex_colors? boolean Draws the attribute "color" where a mesh has it. Default: true.
+---@field vertex_colors? boolean Draws the attribute "color" if a mesh has it. Default: true.
 ---@field shading? "smooth"|"flat" flat shows the faces. Default: "smooth".
----@field crease? number Smooth shading keeps edges sharp where faces meet at more than this angle. In degrees. Default: 50.
+---@field crease? number Smooth shading keeps edges sharp if faces meet at more than this angle. In degrees. Default: 50.
 ---@field wire? boolean Draws the edges of the faces. Default: false.
 ---@field wire_width? number Their width. In pixels. Default: 1.
 ---@field strands? lissom.Strands|lissom.Strands[] Hair to draw, in metres. It hides paths and points.
 ---@field hair? lissom.RenderOptions.Hair How the strands are drawn.
 ---@field style? lissom.Hairstyle A hairstyle whose curves to draw: streams cyan, dividing curves red, ponytails purple. Without a mesh or strands on its head.
----@field style_marks? lissom.RenderOptions.Style_marks What of the style is drawn.
+---@field style_marks? lissom.RenderOptions.Style_marks Drawn parts of the style.
 ---@field region? lissom.Region|string The region of interest, drawn in blue.
----@field regions? boolean|string[] Named regions, drawn each in a colour of its own, with a legend; where several overlap, the smaller.
+---@field regions? boolean|string[] Named regions, drawn each in a colour of its own, with a legend; the smaller of overlapping ones.
 ---@field handles? string[]|lissom.Region[] Handles, drawn in purple; single vertices as balls.
 ---@field boundaries? boolean Draws the open boundaries, each in a colour of its own. Default: false.
 ---@field paths? lissom.Path[] Paths to draw as lines.
@@ -65,7 +65,7 @@ local lissom = {}
 ---@field label? string Stands above the scale. Default: the name of the scalars.
 ---@field file string The picture to write; its name ends with .png.
 ---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
----@field camera? lissom.Camera Where the picture is seen from, instead of `view`.
+---@field camera? lissom.Camera Camera of the picture, instead of `view`.
 ---@field background? string A colour as for `color`, or "transparent". Default: "white".
 ---@field samples? integer Samples a pixel along edges of meshes: 1, 2, 4, ... as far as the driver has them. Default: 4.
 ---@field supersample? integer Pixels drawn along each side of one in the picture; 2 is for print. Default: 1.
@@ -77,10 +77,7 @@ local lissom = {}
 
 ---Draws meshes and hair into a picture file. Needs no window and no display.
 ---@param options lissom.RenderOptions
----@return string file # The file that was written; nil, message, code where it could not be, or where nothing can draw here.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return string file # The file that was written.
 function lissom.render(options) end
 
 return lissom

@@ -373,7 +373,9 @@ local function draw(scene, golden)
     local done, drawn = pcall(render, options)
     if done then return drawn end
     if drawn.code == "no_display" then return nil, drawn.message end
-    if drawn.code == "invalid_argument" then error(drawn, 4) end
+    if drawn.code == "invalid_argument" then
+        require("lissom").error{ message = drawn.message, code = drawn.code, level = 4 }
+    end
     return nil, "the picture could not be drawn: " .. drawn, true
 end
 

@@ -118,7 +118,15 @@
 ---@field crossings integer|nil Pairs of faces that run through one another, and did not at rest; where asked for.
 ---@field volume_change number|nil Volume over that at rest, less 1; nil without one.
 ---@field tears table[] Where handles nearly touch and tear the surface, the worst first: `vertices`, a pair that different handles hold, and `slip`, how far they part in lengths of the edges between.
----@field warnings string[] What to look at, and what helps, in plain words.
+---@field warnings lissom.DeformWarning[] The harms that a user would see.
+
+---A harm that a deformation did to the surface.
+---@class lissom.DeformWarning
+---@field kind string torn: handles that nearly touch go different ways; stretched: edges become more than 3 times as long or short as the handles ask for; folded: faces look against their neighbours; crossing: the surface runs through itself, if that was asked for; volume: it is a quarter smaller than the handles ask for, or three quarters larger.
+---@field message string Its measure and a remedy.
+---@field vertices integer[]|nil Where handles tear the surface: pairs, at most 50.
+---@field edges integer[]|nil Edges, as pairs of vertices, at most 50.
+---@field faces integer[]|nil Faces, at most 100.
 
 ---Sizes and times of the last preparation of a deformation.
 ---@class lissom.DeformStats
@@ -147,12 +155,6 @@
 ---@field weights lissom.Buffer[] For each handle four numbers a vertex.
 ---@field fixed lissom.Buffer What no handle moves: three numbers a vertex.
 
----A failure that nobody looked at.
----@class lissom.DroppedFailure
----@field place string File and line of the call, as in messages: "file:3: ".
----@field message string What went wrong.
----@field code string Its code.
-
 ---The declaration of a parameter.
 ---@class lissom.ParamSchema
 ---@field name string Its name.
@@ -166,6 +168,15 @@
 ---@field unit string Its unit, or an empty string.
 ---@field group string Heading that it stands under, or an empty string.
 ---@field help string What it does, or an empty string.
+
+---Raised by everything that fails. tostring gives the message, and so does `..`; two are equal only if they are the same.
+---@class lissom.Error
+---@field message string What is wrong and what helps, a sentence.
+---@field code string Its [code](errors.md): "file_not_found", ...
+---@field elements lissom.Elements? The elements concerned.
+---@field file string? The file that was to be read or written.
+---@field line integer? The line of that file.
+---@field place string? File and line of the script: "bend.lua:3".
 
 ---The lines of a cut on the part that is kept, as a list.
 ---@class lissom.CutLines
@@ -279,16 +290,23 @@
 
 ---Why a merge is not good. tostring gives text and remedy.
 ---@class lissom.MergeReason
----@field fault string crossings, side, folds, roughness, volume, bend, seam, place or slivers.
+---@field fault string crossings, side, folds, roughness, volume, bend, bite, seam, place or slivers; of a scatter "left out" as well.
 ---@field join integer|nil The join that it is of; nil of all of them.
----@field value number What was measured: degrees for roughness, bend, seam and slivers; radii of the seam for folds; pairs of faces for crossings; the part that was kept for volume; the certainty for place.
+---@field value number What was measured: degrees for roughness, bend, seam and slivers; radii of the seam for folds and bites; pairs of faces for crossings; the part that was kept for volume; the certainty for place.
 ---@field limit number The limit that it passes.
+---@field faces integer[]|nil Of crossings: the faces of the merged mesh concerned.
 ---@field text string What is wrong, in plain words.
 ---@field remedy string What may help.
 
+---What a paste took of the edges of its target that turn by more than 35 degrees: they stand out of the result, or lie below what is still the target's surface.
+---@class lissom.TargetBite
+---@field length number Their length, in radii of the seam.
+---@field depth number How far they are from the result, at most, in these radii.
+
 ---What a merge found and did.
 ---@class lissom.MergeReport
----@field ok boolean Whether the result is good: no faces run through one another that did not before; the surface around the seam does not fold back, is at most 1.4 times as rough as the parts were there (or turns by less than 8 degrees an edge), and bends by no more than 25 degrees from one side to the other and 50 at one place, or 1.3 times what it did before (and by the crease of a paste); each part keeps three quarters of its volume; the seam turns by no more than 30 degrees and 20 in the mean, or than the surfaces did beside the boundaries; no place is a toss; no triangle at the seam has less than 2 degrees, or than there were.
+---@field bite lissom.TargetBite What a paste took of the sharp edges of its target.
+---@field ok boolean Whether the result is good: no faces run through one another that did not before; the surface around the seam does not fold back, is at most 1.4 times as rough as the parts were there (or turns by less than 8 degrees an edge), and bends by no more than 25 degrees from one side to the other and 50 at one place, or 1.3 times what it did before (and by the crease of a paste); a paste takes no sharp edge of its target along more than .3 of its radius or deeper than .15; each part keeps three fifths of its volume; the seam turns by no more than 30 degrees and 20 in the mean, or than the surfaces did beside the boundaries; no place is a toss; no triangle at the seam has less than 2 degrees, or than there were.
 ---@field verdict string The same in one line: what holds, or what does not.
 ---@field reasons lissom.MergeReason[] Each fault with what was measured, its limit and what may help; empty if ok. tostring(report) lists them.
 ---@field joins lissom.JoinReport[] One a join.
@@ -299,6 +317,7 @@
 ---@field transition table[] For each seam source and target: width, vertices, and flipped and unmapped ones, of its bands; its field `region` has the vertices that they moved.
 ---@field transition_kept number|nil The part of the way that the bands of a transition went: 0 where it was left out, since it would have folded the surface.
 ---@field intersections integer[][] Pairs of faces that run through one another and come from faces that did not.
+---@field known_intersections integer How many pairs of moved or made faces come from faces that did.
 ---@field seams lissom.Path[] The seams on the merged mesh.
 ---@field source lissom.Region The vertices of the merged mesh that are the source's.
 ---@field target lissom.Region Those that are the targets'.
@@ -406,8 +425,24 @@
 ---@field place integer Its number.
 ---@field scale number The scale it has.
 
----What lissom.scatter did.
+---A place whose part was moved away from a sharp edge of the target.
+---@class lissom.MovedPlace
+---@field place integer Its number.
+---@field at number[] {x, y, z}: where it is.
+
+---A part of a scatter that stands though it is not good.
+---@class lissom.FaultyPlace
+---@field place integer The number of its place.
+---@field reasons lissom.MergeReason[] Why, as of a merge.
+
+---What lissom.scatter did. tostring gives the verdict and what may help.
 ---@class lissom.ScatterReport
+---@field ok boolean All parts that stand are good, nothing crosses, and nine of ten places have a part.
+---@field verdict string The same in one line, with the numbers of parts.
+---@field reasons lissom.MergeReason[] Each kind of fault: how many parts have it, or the part of the places left out.
+---@field placed integer Parts that stand.
+---@field moved lissom.MovedPlace[] Places whose parts were moved, by number.
+---@field faulty lissom.FaultyPlace[] Parts that stand but are not good, by number.
 ---@field refused lissom.RefusedPlace[] Places that were left out, by number.
 ---@field shrunk lissom.ShrunkPlace[] Places whose parts were made smaller, by number.
 ---@field crossings integer Pairs of faces that cross, of parts that were kept nevertheless.
@@ -737,9 +772,6 @@ function Mesh:face_count() end
 
 ---The axis-aligned box around all vertices.
 ---@return lissom.Bounds bounds # The box.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Mesh:bounds() end
 
 ---RMS distance of the surface to its centroid: the length that default lengths derive from. Turning the mesh does not change it.
@@ -817,26 +849,17 @@ function Mesh:faces() end
 ---@return integer[] vertices # Their ids.
 function Mesh:neighbors(vertex) end
 
----Adds the vertices and faces of another mesh after its own, unconnected, with all attributes, groups and regions.
+---Adds the vertices and faces of another mesh after its own, unconnected, with all attributes, groups and regions. Where one of the two has no colors it becomes white, where it has no texture coordinates they become 0, 0; a warning in the log names them. Other attributes have no value there (NaN).
 ---@param other lissom.Mesh The mesh to add.
 ---@return lissom.Mesh mesh # The mesh itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Mesh:append(other) end
 
 ---Splits every polygon into triangles; vertices stay.
 ---@return lissom.Mesh mesh # The mesh itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Mesh:triangulate() end
 
 ---Turns the surface inside out: reverses all faces and normals.
 ---@return lissom.Mesh mesh # The mesh itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Mesh:flip() end
 
 ---@class lissom.Mesh.TransformOptions.Rotate
@@ -853,9 +876,6 @@ function Mesh:flip() end
 ---Scales, then rotates, then translates all vertices. A mirroring scale also reverses the faces, so that they go on looking outward.
 ---@param options? lissom.Mesh.TransformOptions
 ---@return lissom.Mesh mesh # The mesh itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Mesh:transform(options) end
 
 ---@class lissom.Mesh.SmoothOptions
@@ -869,9 +889,6 @@ function Mesh:transform(options) end
 ---Smooths the surface by explicit Laplacian steps. Normals turn with it.
 ---@param options? lissom.Mesh.SmoothOptions
 ---@return lissom.Mesh mesh # The mesh itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Mesh:smooth(options) end
 
 ---A copy with all attributes, groups and regions.
@@ -886,9 +903,6 @@ function Mesh:copy() end
 ---@param levels? integer How often each face is split. Default: 1.
 ---@param options? lissom.Mesh.SubdivideOptions
 ---@return lissom.Mesh mesh # The new mesh.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 ---@overload fun(self: lissom.Mesh, options: lissom.Mesh.SubdivideOptions): lissom.Mesh
 function Mesh:subdivide(levels, options) end
 
@@ -907,9 +921,6 @@ function Mesh:remove(region) end
 ---The point of the surface nearest to a given one.
 ---@param point lissom.Vector Three numbers or {x, y, z}.
 ---@return lissom.SurfacePoint found # The nearest point.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 ---@overload fun(self: lissom.Mesh, x: number, y: number, z: number): lissom.SurfacePoint
 function Mesh:nearest(point) end
 
@@ -917,9 +928,6 @@ function Mesh:nearest(point) end
 ---@param origin lissom.Vector Where the ray starts.
 ---@param direction lissom.Vector Where it goes; any length.
 ---@return lissom.SurfacePoint? hit # The point; nil where the ray misses.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 ---@overload fun(self: lissom.Mesh, origin_x: number, origin_y: number, origin_z: number, direction_x: number, direction_y: number, direction_z: number): lissom.SurfacePoint?
 function Mesh:pick(origin, direction) end
 
@@ -930,17 +938,11 @@ function Mesh:pick(origin, direction) end
 ---Distance of every vertex over the surface to the nearest of the given vertices, or to a point; infinite where there is no way.
 ---@param options lissom.Mesh.DistancesOptions
 ---@return lissom.Buffer distances # One number a vertex.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Mesh:distances(options) end
 
 ---How far this mesh is stretched, sheared and folded beside another shape of it, as numbers of the vertices that lissom.render draws in colours: lissom.render{ mesh = mesh, scalars = mesh:distortion(rest).area, ... }.
 ---@param rest lissom.Mesh A mesh with the same faces, such as a copy from before.
 ---@return lissom.Distortion found # Numbers of the vertices.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Mesh:distortion(rest) end
 
 ---@class lissom.Mesh.SaveOptions
@@ -954,7 +956,7 @@ function Mesh:distortion(rest) end
 ---Writes the mesh to a file, whole or not at all.
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.Mesh.SaveOptions
----@return lissom.Mesh mesh # The mesh itself; nil, message, code where the file could not be written.
+---@return lissom.Mesh mesh # The mesh itself.
 ---@return lissom.Vector? origin # With origin = "auto": the point of the mesh that is the origin of the file, zero where it stayed or glTF keeps it.
 function Mesh:save(path, options) end
 
@@ -972,7 +974,7 @@ function Mesh:attributes() end
 
 ---The numbers of an attribute as a typed buffer without a copy. A NaN means that an element has no value.
 ---@param name string Name of the attribute: "uv", "normal", "color", ...
----@return lissom.Buffer? buffer # Its numbers; nil, message, code where there is no such attribute.
+---@return lissom.Buffer? buffer # Its numbers.
 function Mesh:attribute(name) end
 
 ---@class lissom.Mesh.Add_attributeOptions
@@ -1029,10 +1031,7 @@ function Mesh:remove_attribute(name) end
 ---A region by its name, or the vertices that one of the options selects.
 ---@param name? string Name of a region that is kept with the mesh.
 ---@param options? lissom.Mesh.RegionOptions
----@return lissom.Region region # The region, maybe empty; nil, message, code where no region has the name.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Region region # The region, maybe empty.
 ---@overload fun(self: lissom.Mesh, options: lissom.Mesh.RegionOptions): lissom.Region
 function Mesh:region(name, options) end
 
@@ -1070,9 +1069,6 @@ function Mesh:boundaries() end
 ---The shortest line along edges that visits the given vertices in order.
 ---@param options lissom.Mesh.PathOptions
 ---@return lissom.Path path # The line.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Mesh:path(options) end
 
 ---@class lissom.Mesh.FillOptions
@@ -1089,6 +1085,14 @@ function Mesh:path(options) end
 ---@return lissom.Mesh mesh # The mesh itself.
 ---@return lissom.FillReport report # What was added.
 function Mesh:fill(boundary, options) end
+
+---Joins two open boundaries by a strip of triangles between their vertices, in place: two parts become one, holes on both sides of a part a tunnel. Boundaries are matched by arc length where they lie closest. All ids stay; a triangle has the groups and attributes of the face at its boundary edge.
+---@param a lissom.Path An open boundary of this mesh.
+---@param b lissom.Path Another one.
+---@return lissom.Mesh mesh # The mesh itself.
+---@return integer first_face # The first of the triangles.
+---@return integer face_count # How many there are; the last of all faces.
+function Mesh:bridge(a, b) end
 
 ---@class lissom.Mesh.CutOptions.Plane
 ---@field point lissom.Vector A point of the plane; the line nearest to it is cut.
@@ -1276,9 +1280,6 @@ function Path:nearest(point) end
 ---Smooths the line by moving the mesh's vertices under it, and returns the path. Ends of open paths stay.
 ---@param options? lissom.Path.SmoothOptions
 ---@return lissom.Path path # The path itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Path:smooth(options) end
 
 ---Whether its end is joined to its start.
@@ -1346,9 +1347,6 @@ function Buffer:set(row, values) end
 
 ---The address of the numbers, doubles in rows, for LuaJIT's ffi. It is valid until the mesh's topology or attributes change. Call `changed` after writing.
 ---@return lightuserdata address # Address of the first number.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Buffer:pointer() end
 
 ---@class lissom.Buffer.Write_floatsOptions
@@ -1360,16 +1358,10 @@ function Buffer:pointer() end
 ---@param size number Bytes that may be written from there on.
 ---@param options? lissom.Buffer.Write_floatsOptions
 ---@return lissom.Buffer buffer # The buffer.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Buffer:write_floats(address, size, options) end
 
 ---Tells the mesh that numbers were written through `pointer`, and checks them.
 ---@return lissom.Buffer buffer # The buffer.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Buffer:changed() end
 
 ---All numbers as one list.
@@ -1386,22 +1378,19 @@ local Deformation = {}
 ---@class lissom.Deformation.HandleOptions.Mirror
 ---@field point lissom.Vector A point of the plane.
 ---@field normal lissom.Vector Its normal, of any length.
----@field tolerance? number How far a vertex may lie from its counterpart's mirror image. In mesh units. Default: a thousandth of the size.
+---@field tolerance? number Distance of the mirror image from the surface beyond which mirror_residual warns. In mesh units. Default: a fiftieth of the size.
 
 ---@class lissom.Deformation.HandleOptions
 ---@field position? boolean Holds their positions. Default: true.
 ---@field gradient? boolean Holds their orientation and scale. Default: true.
 ---@field weight? number Draws instead of holding exactly: 1 is a compromise with the shape of the surface, 1e6 nearly exact. Depends on neither scale nor resolution. Default: held exactly.
 ---@field falloff? number Within this geodesic distance the surface follows softly, less and less. In mesh units. Default: 0.
----@field mirror? lissom.Deformation.HandleOptions.Mirror Adds a second handle, the mirror image, and moves it along: see mirrored. Default: none.
+---@field mirror? lissom.Deformation.HandleOptions.Mirror Adds a second handle, the mirror image, and moves it along: see mirrored. It lies where the surface is nearest to the reflected one, so that both sides may have different vertices: see mirror_residual. Default: none.
 
 ---Makes a handle of some vertices of the region, of a path, or of points of faces and edges. Points go exactly where the handle takes them: the points of the deformed faces with the same weights do.
 ---@param where lissom.Region|lissom.Path|table What it holds.
 ---@param options? lissom.Deformation.HandleOptions
 ---@return lissom.Handle handle # Where it is; move it and solve.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Deformation:handle(where, options) end
 
 ---@class lissom.Deformation.ConstrainOptions
@@ -1439,10 +1428,7 @@ function Deformation:region() end
 function Deformation:mesh() end
 
 ---Solves the first system only and writes the result into the mesh: quick enough to follow a drag, with some shear.
----@return lissom.Mesh mesh # The mesh; nil, message, code where there is no solution.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Mesh mesh # The mesh.
 function Deformation:preview() end
 
 ---@class lissom.Deformation.SolveOptions
@@ -1450,10 +1436,7 @@ function Deformation:preview() end
 
 ---Solves both systems and writes the result into the mesh. Handles that are where they began give the rest shape, to the bit. What else has moved the region's vertices is overwritten; where the mesh around the region was moved, so that the result would tear, it is an error.
 ---@param options? lissom.Deformation.SolveOptions
----@return lissom.Mesh mesh # The mesh; nil, message, code where there is no solution.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Mesh mesh # The mesh.
 function Deformation:solve(options) end
 
 ---Handles and mesh go back to the rest shape, to the bit; vertex constraints go.
@@ -1475,16 +1458,13 @@ function Deformation:stats() end
 ---@class lissom.Deformation.ReportOptions
 ---@field crossings? boolean Counts faces that run through one another, which takes longer than to solve. Default: false.
 
----How good the last result is beside the rest shape: what is stretched, folded over, torn between handles that nearly touch, or runs through itself.
+---Measures the last result beside the rest shape: stretched edges, folded faces, tears between handles that nearly touch and, on request, crossings, with a warning of each harm that a user would see.
 ---@param options? lissom.Deformation.ReportOptions
----@return lissom.DeformReport report # Measures, and warnings in words.
+---@return lissom.DeformReport report # Measures, and warnings with remedies.
 function Deformation:report(options) end
 
 ---The first system's solution as a linear function of the handles: what an engine needs to follow a drag by itself.
 ---@return lissom.HandleBasis basis # Weights of every vertex for every handle.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Deformation:basis() end
 
 ---@class lissom.Deformation.Save_basisOptions
@@ -1493,10 +1473,7 @@ function Deformation:basis() end
 ---Writes the basis to a file for a program without a solver: 4 floats a vertex and handle, relative to the middle of the region. bindings/engine/lissom_basis.h, one C header, describes the file and gives what preview gives.
 ---@param path string The file.
 ---@param options? lissom.Deformation.Save_basisOptions
----@return lissom.Deformation edit # The deformation itself; nil, message, code where there is no solution or the file could not be written.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Deformation edit # The deformation itself.
 function Deformation:save_basis(path, options) end
 
 ---@class lissom.Deformation.BakeOptions
@@ -1511,10 +1488,7 @@ function Deformation:save_basis(path, options) end
 
 ---Makes an animation of a sequence of poses: a new mesh with a morph target for each different shape, which mesh:save writes as .glb or .gltf and any viewer of such files plays. For each frame the handles stand where they stand now, the function moves them, and the deformation is solved. Handles, mesh and last result are afterwards as they were, also where the function fails.
 ---@param options lissom.Deformation.BakeOptions
----@return lissom.Mesh mesh # The rest shape with its targets and the animation; nil, message, code where a pose has no solution.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Mesh mesh # The rest shape with its targets and the animation.
 function Deformation:bake(options) end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
@@ -1590,6 +1564,10 @@ function Handle:region() end
 ---@return lissom.Handle? image # The other handle.
 function Handle:mirrored() end
 
+---Measures how well both sides of the rest shape match where the handle has a mirror image: the distances of the reflected vertices from the surface, in sizes of what is deformed.
+---@return table residual # {max=, mean=, warning=}; the warning, with what helps, only if the greatest is more than the mirror's tolerance.
+function Handle:mirror_residual() end
+
 ---Gives the handle other vertices. Its transform stays, and the mesh keeps the old result until the next solve.
 ---@param region lissom.Region Its new vertices.
 ---@return lissom.Handle handle # The handle itself.
@@ -1609,9 +1587,6 @@ local Merging = {}
 ---@param join integer Number of the join, from 1.
 ---@param keys table List of { s, t }, as in lissom.merge.
 ---@return lissom.Merging merging # The same merge.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Merging:set_keys(join, keys) end
 
 ---Merges, and returns a new mesh and what was done.
@@ -1693,9 +1668,6 @@ function Paste:draft(options) end
 ---Places the feature anew, and seeks its boundary again from the one it had where `optimize` was called. What is left out stays. Where the feature does not fit there, the last good placement stays.
 ---@param options? lissom.Paste.MoveOptions
 ---@return lissom.Paste paste # The same paste.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Paste:move(options) end
 
 ---What the search for the boundary found last.
@@ -1831,9 +1803,6 @@ function Hairstyle:head() end
 ---@param path string The file.
 ---@param options? lissom.Hairstyle.SaveOptions
 ---@return lissom.Hairstyle style # The hairstyle itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Hairstyle:save(path, options) end
 
 ---Sizes of the grid and of the system.
@@ -1851,9 +1820,6 @@ function Hairstyle:stats() end
 ---Adds a stream curve: hair flows along it.
 ---@param options lissom.Hairstyle.StreamOptions
 ---@return lissom.Curve curve # The curve, behind all others.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Hairstyle:stream(options) end
 
 ---@class lissom.Hairstyle.DividingOptions
@@ -1877,9 +1843,6 @@ function Hairstyle:stream(options) end
 ---Adds a dividing curve: hair parts along it. In a grid of more points the same lengths in metres mean the same style; the defaults follow the grid.
 ---@param options lissom.Hairstyle.DividingOptions
 ---@return lissom.Curve curve # The curve, behind all others.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Hairstyle:dividing(options) end
 
 ---@class lissom.Hairstyle.PonytailOptions
@@ -1907,16 +1870,10 @@ function Hairstyle:dividing(options) end
 ---Adds a ponytail: hair is drawn into a tie and goes on along a spine.
 ---@param options lissom.Hairstyle.PonytailOptions
 ---@return lissom.Curve curve # The curve, behind all others.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Hairstyle:ponytail(options) end
 
 ---Brings the field up to date with the curves. `grow` and `field` do so by themselves.
 ---@return lissom.Hairstyle style # The hairstyle itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Hairstyle:solve() end
 
 ---The field at a point: which way hair grows there.
@@ -1933,9 +1890,6 @@ function Hairstyle:field(point) end
 ---Turns the field along the head wherever it points into it (section 4.6 of the thesis), also where hair only passes, as on the neck. For the end of a design: it stays as it is until it is done again. Hair that grows with `avoid` stays outside anyway.
 ---@param options? lissom.Hairstyle.Avoid_scalpOptions
 ---@return lissom.Hairstyle style # The hairstyle itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Hairstyle:avoid_scalp(options) end
 
 ---Takes back what avoid_scalp did.
@@ -1970,9 +1924,6 @@ function Hairstyle:forget_scalp() end
 ---Grows hair that follows the field from its roots on the scalp. Lengths are those of a style, in metres of an average head. Strands that pass through the tie of a ponytail are in the group of its name.
 ---@param options? lissom.Hairstyle.GrowOptions
 ---@return lissom.Strands hair # The strands.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Hairstyle:grow(options) end
 
 ---@class lissom.Hairstyle.MaskOptions
@@ -1985,9 +1936,6 @@ function Hairstyle:grow(options) end
 ---Paints on the scalp with a round brush where hair is shorter, longer or thinner. A style keeps its strokes, in metres of an average head, and hair grows by them besides `lengths` and `density` of `grow`.
 ---@param options lissom.Hairstyle.MaskOptions
 ---@return lissom.Hairstyle style # The hairstyle itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Hairstyle:mask(options) end
 
 ---What was painted on the scalp, in its order.
@@ -2011,9 +1959,6 @@ function Hairstyle:clear_masks(options) end
 ---Makes hair flow along a stroke, which runs as hair grows. Where hair follows it already nothing changes; otherwise streams beside it are bent, or one is added along it, whichever explains the stroke and changes the rest of the hair least.
 ---@param options lissom.Hairstyle.CombOptions
 ---@return lissom.CombReport report # What was done.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Hairstyle:comb(options) end
 
 ---@class lissom.Hairstyle.SketchOptions
@@ -2062,9 +2007,6 @@ function Curve:hairstyle() end
 ---Draws the curve anew.
 ---@param points lissom.Vector[] The new points, of a ponytail those of the spine. In mesh units.
 ---@return lissom.Curve curve # The curve itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Curve:set_points(points) end
 
 ---@class lissom.Curve.SetOptions
@@ -2106,9 +2048,6 @@ function Curve:set_points(points) end
 ---Changes some of the options that it was made with.
 ---@param options? lissom.Curve.SetOptions
 ---@return lissom.Curve curve # The curve itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Curve:set(options) end
 
 ---Lets it act, or not.
@@ -2141,9 +2080,6 @@ function Curve:hint_operation(hint, options) end
 ---@param hint lissom.Vector[] A polyline that passes near the curve. In mesh units.
 ---@param options? lissom.Curve.CutOptions
 ---@return lissom.Curve curve # The curve itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Curve:cut(hint, options) end
 
 ---@class lissom.Curve.ConcatenateOptions
@@ -2154,9 +2090,6 @@ function Curve:cut(hint, options) end
 ---@param hint lissom.Vector[] A polyline that begins near the curve. In mesh units.
 ---@param options? lissom.Curve.ConcatenateOptions
 ---@return lissom.Curve curve # The curve itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Curve:concatenate(hint, options) end
 
 ---@class lissom.Curve.InsertOptions
@@ -2167,9 +2100,6 @@ function Curve:concatenate(hint, options) end
 ---@param hint lissom.Vector[] A polyline whose ends are near the curve. In mesh units.
 ---@param options? lissom.Curve.InsertOptions
 ---@return lissom.Curve curve # The curve itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Curve:insert(hint, options) end
 
 ---By how much hair on both sides of a dividing curve is turned towards the curve's end, as the options say or as the hints do.
@@ -2179,9 +2109,6 @@ function Curve:tilt() end
 ---A stroke beside a dividing curve that says which way hair flows away from it. The curve keeps its hints, and all hints on a side tell its tilt together; one alone means an even tilt. To set the tilt by numbers takes them out.
 ---@param hint lissom.Vector[] A polyline away from the curve, at most 0.03 metres of an average head beside it. In mesh units.
 ---@return lissom.CurveTilt tilt # What the curve has now.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Curve:add_hint(hint) end
 
 ---The hints of a dividing curve.
@@ -2276,9 +2203,6 @@ function Strands:hash() end
 ---Counts, lengths and turns, and how many strands are damaged.
 ---@param options? lissom.Strands.StatsOptions
 ---@return lissom.StrandStats stats # What was measured.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Strands:stats(options) end
 
 ---@class lissom.Strands.SaveOptions.Camera
@@ -2316,7 +2240,7 @@ function Strands:save(path, options) end
 
 ---Some of the strands as new ones, with all that is known of them.
 ---@param options lissom.Strands.SelectOptions
----@return lissom.Strands strands # The new strands; nil, message, code where no group has the name.
+---@return lissom.Strands strands # The new strands.
 function Strands:select(options) end
 
 ---A copy of all strands.
@@ -2342,9 +2266,6 @@ function Strands:append(other) end
 ---Scales, then rotates, then translates all points. Widths scale too.
 ---@param options? lissom.Strands.TransformOptions
 ---@return lissom.Strands strands # The strands themselves.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Strands:transform(options) end
 
 ---@class lissom.Strands.ResampleOptions
@@ -2354,9 +2275,6 @@ function Strands:transform(options) end
 ---Spreads points evenly along each strand; roots and tips stay.
 ---@param options lissom.Strands.ResampleOptions
 ---@return lissom.Strands strands # The strands themselves.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Strands:resample(options) end
 
 ---@class lissom.Strands.Set_widthsOptions
@@ -2394,9 +2312,6 @@ function Strands:set_colors(options) end
 ---Gathers strands around guides; roots stay.
 ---@param options? lissom.Strands.ClumpOptions
 ---@return lissom.Strands strands # The strands themselves.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Strands:clump(options) end
 
 ---@class lissom.Strands.NoiseOptions
@@ -2411,9 +2326,6 @@ function Strands:clump(options) end
 ---Lets strands wander off their course, neighbours together; roots stay.
 ---@param options? lissom.Strands.NoiseOptions
 ---@return lissom.Strands strands # The strands themselves.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Strands:noise(options) end
 
 ---@class lissom.Strands.TaperOptions
@@ -2442,9 +2354,6 @@ function Strands:taper(options) end
 ---Cuts strands off at the tip, where the first of the options says so.
 ---@param options? lissom.Strands.TrimOptions
 ---@return lissom.Strands strands # The strands themselves.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Strands:trim(options) end
 
 ---@class lissom.Strands.SmoothOptions
@@ -2454,9 +2363,6 @@ function Strands:trim(options) end
 ---Evens out kinks along each strand; roots and tips stay.
 ---@param options? lissom.Strands.SmoothOptions
 ---@return lissom.Strands strands # The strands themselves.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Strands:smooth(options) end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
@@ -2491,17 +2397,14 @@ local Scene = {}
 ---@param object lissom.Mesh|lissom.Deformation|lissom.Strands|lissom.Hairstyle|lissom.Polyline What is added.
 ---@param options? lissom.Scene.AddOptions
 ---@return any object # The object.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:add(name, object, options) end
 
----The object of a name; nil, message, code where there is none.
+---The object of a name.
 ---@param name string The name of the object.
 ---@return any object # The very object that was added.
 function Scene:get(name) end
 
----Number, kind, place and look of an object; nil, message, code where there is none of this name.
+---Number, kind, place and look of an object.
 ---@param name string The name of the object.
 ---@return lissom.SceneEntry entry # A table of its own.
 function Scene:info(name) end
@@ -2513,27 +2416,18 @@ function Scene:names() end
 ---Takes an object out of the scene. The object itself lives on.
 ---@param name string The name of the object.
 ---@return lissom.Scene scene # The scene itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:remove(name) end
 
 ---Gives an object another name.
 ---@param name string The name of the object.
 ---@param new_name string A name that no other object has.
 ---@return lissom.Scene scene # The scene itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:rename(name, new_name) end
 
 ---Gives an object another place in the order.
 ---@param name string The name of the object.
 ---@param place integer Its place; 1 is the first.
 ---@return lissom.Scene scene # The scene itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:move(name, place) end
 
 ---@class lissom.Scene.SetOptions.Style
@@ -2559,40 +2453,25 @@ function Scene:move(name, place) end
 ---@param name string The name of the object.
 ---@param options? lissom.Scene.SetOptions
 ---@return lissom.Scene scene # The scene itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:set(name, options) end
 
 ---Runs a function whose changes of the scene and its objects are one step, which undo takes back. After an error in it the scene and its objects are as they were, and the error goes on. A step inside a step becomes part of that. The function cannot yield; in a coroutine use begin and commit.
 ---@param name string What undo calls it.
 ---@param action fun(): any What is done.
 ---@return any ... # What the function returns.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:step(name, action) end
 
 ---Opens a step, for instance when a drag begins; commit or rollback ends it.
 ---@param name string What undo calls it.
 ---@return lissom.Scene scene # The scene itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:begin(name) end
 
 ---Ends the step opened last. A step in which nothing changed is none.
 ---@return boolean changed # Whether anything changed.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:commit() end
 
 ---Ends the step opened last and takes back what was done since.
 ---@return lissom.Scene scene # The scene itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:rollback() end
 
 ---Number of steps that are open.
@@ -2601,16 +2480,10 @@ function Scene:depth() end
 
 ---Takes back the last step: the contents go back into the objects themselves. What was changed outside a step is a step called "edited".
 ---@return string|nil name # The name of the step; nil where there is none.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:undo() end
 
 ---Does the step again that was undone last. A new step forgets those that were undone.
 ---@return string|nil name # The name of the step; nil where there is none.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:redo() end
 
 ---The steps, and what they hold.
@@ -2619,16 +2492,10 @@ function Scene:history() end
 
 ---Forgets all steps; the scene stays as it is.
 ---@return lissom.Scene scene # The scene itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:clear_history() end
 
 ---Hash of names, order, looks and contents of all objects; the same on every machine, whatever led to the scene.
 ---@return string hash # 16 hexadecimal digits.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:hash() end
 
 ---@class lissom.Scene.SaveOptions
@@ -2638,7 +2505,7 @@ function Scene:hash() end
 ---Writes the scene, whole or not at all: objects with their looks, regions, handles, curves and parameters, to the bit. A file is an uncompressed tar archive. A folder is for looking at and for version control: scene.json describes the scene, meshes and strands are OBJ files under the names of the objects, lists of numbers are text, and only what has changed is written; other files in it stay.
 ---@param path string A file, usually with the extension .lissom, or a folder: one that is there, ends with "/", or has no extension and is new.
 ---@param options? lissom.Scene.SaveOptions
----@return lissom.Scene scene # The scene itself; nil, message, code where it could not be written.
+---@return lissom.Scene scene # The scene itself.
 ---@return string[] left_out # What had no place in the file, a sentence each: materials and skeletons of meshes.
 function Scene:save(path, options) end
 
@@ -2646,9 +2513,6 @@ function Scene:save(path, options) end
 ---@param owner string Whose they are: the name of the tool or script.
 ---@param values table|lissom.Params What is kept in place of what was.
 ---@return lissom.Scene scene # The scene itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Scene:set_parameters(owner, values) end
 
 ---The values that are kept for a tool or script.
@@ -2671,9 +2535,6 @@ function Polyline:points() end
 ---Replaces its points.
 ---@param points lissom.Vector[] Any number of them.
 ---@return lissom.Polyline line # The polyline itself.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Polyline:set_points(points) end
 
 ---@class lissom.Polyline.TransformOptions.Rotate
@@ -2764,9 +2625,6 @@ function Camera:ray(x, y, size) end
 ---@param down number Pixels down.
 ---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@return lissom.Camera camera # Another camera.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Camera:orbit(right, down, size) end
 
 ---Moves it beside itself: what is as far away as its target follows the drag.
@@ -2774,9 +2632,6 @@ function Camera:orbit(right, down, size) end
 ---@param down number Pixels down.
 ---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@return lissom.Camera camera # Another camera.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Camera:pan(right, down, size) end
 
 ---@class lissom.Camera.ZoomOptions
@@ -2789,9 +2644,6 @@ function Camera:pan(right, down, size) end
 ---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@param options? lissom.Camera.ZoomOptions
 ---@return lissom.Camera camera # Another camera.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Camera:zoom(x, y, factor, size, options) end
 
 ---@class lissom.Camera.FrameOptions
@@ -2826,9 +2678,6 @@ function Camera:parallel(parallel) end
 ---What lies under a pixel: of the kinds looked for the first that has anything within the radius, and of that the nearest in pixels that no surface hides.
 ---@param options lissom.Camera.PickOptions
 ---@return lissom.PickHit? hit # nil where there is nothing.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Camera:pick(options) end
 
 ---@class lissom.Camera.Pick_allOptions
@@ -2849,9 +2698,6 @@ function Camera:pick(options) end
 ---All that lies under a pixel, in the order in which pick prefers it; with `through` all faces along the ray.
 ---@param options lissom.Camera.Pick_allOptions
 ---@return lissom.PickHit[] hits # A list.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Camera:pick_all(options) end
 
 ---@class lissom.Camera.SelectOptions.Brush
@@ -2874,9 +2720,6 @@ function Camera:pick_all(options) end
 ---What is seen in a rectangle, inside a lasso or under a brush. Pixels may lie outside the picture.
 ---@param options? lissom.Camera.SelectOptions
 ---@return lissom.Selected[] selected # One for each surface, in order.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Camera:select(options) end
 
 ---@class lissom.Camera.StrokeOptions.Plane
@@ -2899,9 +2742,6 @@ function Camera:select(options) end
 ---A line that a hand drew on the picture, as it was meant: without hooks at its ends, fair between its corners, and put into the world by a rule of depth. On a scalp it is the course of a stream curve, in front of the head wherever it goes; beyond the silhouette its depth is a guess, to be drawn again from another view.
 ---@param options lissom.Camera.StrokeOptions
 ---@return lissom.DrawnStroke stroke # The line.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function Camera:stroke(options) end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
@@ -3079,10 +2919,7 @@ lissom.pick = {}
 ---Reads a mesh from an .obj, .ply, .off, .stl, .gltf or .glb file, with its groups, materials, texture coordinates, normals, colours, skins and morph targets. It is checked and repaired: mesh:report() says what was done.
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.LoadOptions
----@return lissom.Mesh mesh # The mesh; nil, message, code where the file is at fault.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Mesh mesh # The mesh.
 function lissom.load(path, options) end
 
 ---@class lissom.MeshOptions
@@ -3093,10 +2930,7 @@ function lissom.load(path, options) end
 
 ---Makes a mesh from positions and faces.
 ---@param options lissom.MeshOptions
----@return lissom.Mesh mesh # The mesh; nil, message, code where it is not manifold.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Mesh mesh # The mesh.
 function lissom.mesh(options) end
 
 ---@class lissom.BoxOptions
@@ -3172,9 +3006,6 @@ function lissom.shapes.torus(options) end
 ---A saguaro with two arms that stands on y = 0. Regions: base, tip, left_arm, right_arm, left_tip, right_tip.
 ---@param options? lissom.CactusOptions
 ---@return lissom.Mesh mesh # A new mesh that faces outward.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function lissom.shapes.cactus(options) end
 
 ---@class lissom.HeadOptions
@@ -3184,9 +3015,6 @@ function lissom.shapes.cactus(options) end
 ---A bald, stylised head with neck and shoulders that faces +z, to show hair on; symmetric in x, the origin between the ears. Regions: scalp, ears, bottom.
 ---@param options? lissom.HeadOptions
 ---@return lissom.Mesh mesh # A new mesh that faces outward.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function lissom.shapes.head(options) end
 
 ---@class lissom.DeformOptions
@@ -3196,8 +3024,8 @@ function lissom.shapes.head(options) end
 ---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian where the surface has to be as smooth as can be and may stretch, poisson where it may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend"; as in the thesis "laplacian".
 ---@field coherence? integer Rings of neighbours that turn alike. Default: 1; as in the thesis 2.
 ---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
----@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Refined parts get thinner: a result that would run through itself, and without does not, is taken back as far as that, but a draft does not look. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
----@field loose? "error"|"stay"|"follow" What becomes of separate parts that no handle holds, as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece. A basis has no parts that follow a surface which bends. Default: "error".
+---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Where it would fold, cross or stretch the surface more than without, it is taken back as far as that, but a draft does not look. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
+---@field loose? "error"|"stay"|"follow" What becomes of separate parts that no handle holds, as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece; in a basis as an affine one. Default: "error".
 ---@field free_rings? integer Rings of vertices that handles give up where they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
 ---@field refine_borders? boolean Works on a surface that is refined where the border of what is held is coarse beside the region; the mesh keeps its faces. Default: true.
 ---@field flat? "extended"|"displaced" How a vertex whose surroundings are flat knows how it turns: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
@@ -3210,9 +3038,6 @@ function lissom.shapes.head(options) end
 ---@param mesh lissom.Mesh The mesh, in its rest shape.
 ---@param options? lissom.DeformOptions
 ---@return lissom.Deformation edit # Give it handles, move them, solve.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function lissom.deform(mesh, options) end
 
 ---@class lissom.MergeOptions.Transition
@@ -3244,7 +3069,7 @@ function lissom.deform(mesh, options) end
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: true.
 ---@field fidelity? "lissom"|"thesis" thesis: section 3.3 to the letter, for comparison, where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "lissom".
 
----Joins a source to one or several targets along open boundaries, into a new mesh. The source is deformed so that its boundaries meet those of the targets, wherever it lies and whatever its size; the targets stay. Vertices and faces of the targets come first, in their order, then those of the source; attributes, labels and regions of all are kept.
+---Joins a source to one or several targets along open boundaries, into a new mesh. The source is deformed so that its boundaries meet those of the targets, wherever it lies and whatever its size; the targets stay. Vertices and faces of the targets come first, in their order, then those of the source; attributes, labels and regions of all are kept. Where one side has no colors it is white, where it has no texture coordinates they are 0, 0, and a warning says so. If source and target are one mesh, two of its boundaries are joined by a bridge of triangles, and nothing moves: options that say how a source is deformed are refused.
 ---@param options lissom.MergeOptions
 ---@return lissom.Mesh mesh # The merged mesh.
 ---@return lissom.MergeReport report # What was found and done.
@@ -3282,9 +3107,6 @@ function lissom.merge(options) end
 ---As lissom.merge, but returns an object that keeps what was prepared, so that a moved key costs a fraction of the first merge.
 ---@param options lissom.MergingOptions
 ---@return lissom.Merging merging # The merge, not solved yet.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function lissom.merging(options) end
 
 ---@class lissom.PasteOptions.Placement
@@ -3313,9 +3135,6 @@ function lissom.merging(options) end
 ---Puts a feature of one mesh onto another, wherever that is and however it is curved (thesis section 3.4): a nose, an ear, a horn, a handle. Lays the surface around the feature and the target out in one plane; `optimize` then finds the best boundary and `merge` makes the new mesh.
 ---@param options lissom.PasteOptions
 ---@return lissom.Paste paste # The paste, placed and not optimised yet.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function lissom.paste(options) end
 
 ---@class lissom.ScatterOptions
@@ -3334,7 +3153,7 @@ function lissom.paste(options) end
 ---@field smooth? integer Umbrella steps at a seam, at most. Default: 3.
 ---@field collar? boolean Makes faces anew beside a seam where one side is coarser. Default: true.
 ---@field size? "boundary"|"lock" Size of a part: that of its boundary on the target, or what `scales` says. Default: "boundary".
----@field crossings? "shrink"|"leave out"|"keep" What becomes of a part that would run through itself, the target or a part before it. shrink: it is made smaller, by a fifth at a time and by a half at most, and left out if it crosses even then. keep: it stays, and the report counts what crosses. Default: "shrink".
+---@field crossings? "shrink"|"leave out"|"keep" What becomes of a part that would run through itself, the target or a part before it, bite into a sharp edge of the target or fold. shrink: one that bites moves away from the edge; it is made smaller, by a fifth at a time and by a half at most, and left out if that does not help. keep: it stays, and the report tells it. Default: "shrink".
 
 ---Pastes one feature many times: scales, spikes, leaves. Each paste sees a small disk of the target alone, and all that do not touch are put into the mesh together, so that hundreds are quick. A place on another part, or without room, is refused and told; scripts/recipes/scatter.lua finds places.
 ---@param options lissom.ScatterOptions
@@ -3352,18 +3171,12 @@ function lissom.scatter(options) end
 ---Keeps a feature for later pastes in a .glb or .gltf file: the surface of its region and three rings of faces around it, with all they carry, turned upright. Such a file opens as any other model; its regions are called "region" and "feature".
 ---@param path string The file.
 ---@param options lissom.SaveOptions
----@return boolean done # true; nil, message, code where the file could not be written.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return boolean done # true.
 function lissom.part.save(path, options) end
 
 ---Reads a feature that part.save has kept, or any .glb or .gltf file with a region called "region".
 ---@param path string The file.
----@return lissom.Part part # What lissom.paste and lissom.scatter need; nil, message, code where the file is at fault.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Part part # What lissom.paste and lissom.scatter need.
 function lissom.part.load(path) end
 
 ---@class lissom.ScalpOptions
@@ -3377,9 +3190,6 @@ function lissom.part.load(path) end
 ---@param head lissom.Mesh The head.
 ---@param options? lissom.ScalpOptions
 ---@return lissom.Scalp scalp # The scalp.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function lissom.scalp(head, options) end
 
 ---@class lissom.Load_styleOptions
@@ -3390,9 +3200,6 @@ function lissom.scalp(head, options) end
 ---@param head? lissom.Mesh The head that it goes on. Default: the one that the file names, beside it.
 ---@param options? lissom.Load_styleOptions
 ---@return lissom.Hairstyle style # The hairstyle.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function lissom.load_style(path, head, options) end
 
 ---@class lissom.HairstyleOptions.Volume
@@ -3412,9 +3219,6 @@ function lissom.load_style(path, head, options) end
 ---@param head lissom.Mesh The head; its shape is copied.
 ---@param options? lissom.HairstyleOptions
 ---@return lissom.Hairstyle style # The hairstyle.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function lissom.hairstyle(head, options) end
 
 ---@class lissom.Load_strandsOptions
@@ -3424,10 +3228,7 @@ function lissom.hairstyle(head, options) end
 ---Reads hair from a .hair, .data (HairSalon) or .usda (BasisCurves) file.
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.Load_strandsOptions
----@return lissom.Strands strands # The strands; nil, message, code where the file is at fault.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Strands strands # The strands.
 function lissom.load_strands(path, options) end
 
 ---@class lissom.StrandsOptions
@@ -3445,10 +3246,7 @@ function lissom.strands(options) end
 ---Reads a scene that scene:save has written, with its parameters, and with its history where that was saved. What was edited in a folder by hand is read as it is then, without the history.
 ---@param path string The file or the folder.
 ---@param options? lissom.Load_sceneOptions
----@return lissom.Scene scene # A scene with the same hash; nil, message, code where there is none.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
+---@return lissom.Scene scene # A scene with the same hash.
 function lissom.load_scene(path, options) end
 
 ---@class lissom.SceneOptions
@@ -3457,9 +3255,6 @@ function lissom.load_scene(path, options) end
 ---Makes an empty scene.
 ---@param options? lissom.SceneOptions
 ---@return lissom.Scene scene # Give it objects by add.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function lissom.scene(options) end
 
 ---@class lissom.PolylineOptions
@@ -3469,9 +3264,6 @@ function lissom.scene(options) end
 ---Makes a free curve.
 ---@param options lissom.PolylineOptions
 ---@return lissom.Polyline line # A new polyline.
----@return string? message # What is wrong, where the first result is nil.
----@return string? code # Its code.
----@return lissom.Elements? elements # The elements concerned.
 function lissom.polyline(options) end
 
 ---@class lissom.CameraOptions
@@ -3639,6 +3431,7 @@ function lissom.pick.confirm(options) end
 
 ---@class lissom.ParamsOptions
 ---@field command_line? boolean They are the script's. If not, they have their defaults, and may be declared as often as wanted: what tools do. Default: true.
+---@field words? boolean The command line may have words that are no flags; else `lissom run` refuses them, unless the script reads `arg` or `...`. Default: false.
 
 ---Declares the parameters of the script, once, and returns their values. Under `lissom run` they come from flags (--name value), and --help lists them.
 ---@param declarations table<string, lissom.ParamsOptions.Declarations> For each name what the parameter is.
@@ -3655,8 +3448,23 @@ function lissom.params(declarations, options) end
 ---@param options? lissom.ListenOptions
 function lissom.listen(options) end
 
----The failures that nobody can have looked at: a function was called as a statement, and what it returned was nil, message, code. Each was told when it came: `lissom run` writes it and ends with status 1; elsewhere it is a warning for the log function of lissom.listen, or without one for Lua 5.4's own warnings (lua -W).
----@return lissom.DroppedFailure[] failures # The first hundred, in order.
-function lissom.failures() end
+---Calls a function; returns what it returns, or nil and its error.
+---@param f function The function; its arguments follow.
+---@param ... any Its arguments.
+---@return any result # What the function returns; nil if it fails.
+---@return lissom.Error? error # The error; an error that is not of lissom is handed on as it is.
+function lissom.try(f, ...) end
+
+---@class lissom.ErrorOptions
+---@field message string What is wrong and what helps, a sentence.
+---@field code? "cancelled"|"invalid_argument"|"out_of_range"|"file_not_found"|"file_is_directory"|"file_empty"|"file_unreadable"|"file_write_failed"|"file_syntax"|"file_truncated"|"file_too_large"|"unknown_format"|"unsafe_path"|"not_finite"|"mesh_empty"|"face_index"|"face_too_small"|"repeated_vertex"|"duplicate_face"|"nonmanifold_edge"|"nonmanifold_vertex"|"inconsistent_orientation"|"unreferenced_vertex"|"zero_area"|"region_empty"|"topology_mismatch"|"handle_outside_region"|"handle_overlap"|"handle_removed"|"singular_transform"|"unconstrained"|"not_a_boundary"|"not_a_disk"|"boundary_conflict"|"key_conflict"|"skin_mismatch"|"not_positive_definite"|"memory_limit"|"unsupported"|"no_display"|"internal" Its code. Default: "invalid_argument".
+---@field elements? table A lissom.Elements: the elements concerned. Default: none.
+---@field file? string The input file concerned. Default: none.
+---@field line? integer The line of that file. Default: none.
+---@field level? integer Whose line is the error's place: 1 for this call, 2 for the call of the function that it is in. Default: 1.
+
+---Raises an error object, as every function of lissom that fails.
+---@param options lissom.ErrorOptions
+function lissom.error(options) end
 
 return lissom

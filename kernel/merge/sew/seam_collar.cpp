@@ -36,6 +36,10 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
+// Points of a seam may lie as good as upon one another: edges beside them are not to become as
+// short, but at least this share of the seam's mean edge.
+constexpr double kShortest = 0.1;
+
 // The length that edges should have around one seam: that of the seam's edges on it, growing with
 // the distance up to that of the side. Points of the seam in their order, in a tree of boxes.
 class SeamSizes {
@@ -43,10 +47,14 @@ class SeamSizes {
     SeamSizes(std::vector<Vec3> seam, double greatest)
         : seam_(std::move(seam)), greatest_(greatest) {
         const std::size_t n = seam_.size();
+        double sum = 0.0;
         for (std::size_t k = 0; k < n; ++k) {
             length_.push_back(0.5 * ((seam_[(k + 1) % n] - seam_[k]).norm() +
                                      (seam_[(k + n - 1) % n] - seam_[k]).norm()));
+            sum += length_.back();
         }
+        const double shortest = kShortest * sum / static_cast<double>(n);
+        for (double& length : length_) length = std::max(length, shortest);
         build(0, n);
     }
 

@@ -127,7 +127,8 @@ struct Document {
             case 2:
                 return transform(mesh, Affine{Mat3::Identity(), Vec3::UnitX()}, context);
             case 3:
-                return append(mesh, make_sphere({}, context), context);
+                append(mesh, make_sphere({}, context), context);
+                return;
             default: {
                 Attribute more{"more", Domain::vertex, 9, ScalarType::float32, {}};
                 more.values.resize(9 * at(mesh.vertex_count()));
