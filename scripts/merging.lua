@@ -202,15 +202,18 @@ function merging.part(mesh, cut)
     return kept, lines[1], lines.report.warnings
 end
 
---- Calls a function; the message of its error begins with the name of what it works on.
-function merging.named(name, f, ...)
-    local results = table.pack(lissom.try(f, ...))
-    local problem = results[1] == nil and results[2]
-    if type(problem) == "table" and problem.code then
+-- The results of `lissom.try`; raises its error under a name.
+local function handed_on(name, first, problem, ...)
+    if first == nil and type(problem) == "table" and problem.code then
         problem.message = name .. ": " .. problem.message
         error(problem, 0)
     end
-    return table.unpack(results, 1, results.n)
+    return first, problem, ...
+end
+
+--- Calls a function; the message of its error begins with the name of what it works on.
+function merging.named(name, f, ...)
+    return handed_on(name, lissom.try(f, ...))
 end
 
 -- ---- Joining

@@ -5,7 +5,7 @@
 
 #include "kernel/core/memory_error.h"
 #include "kernel/deform/deformer_state.h"
-#include "kernel/deform/holds/mirror_residual.h"
+#include "kernel/deform/mirror_residual.h"
 
 namespace lissom {
 

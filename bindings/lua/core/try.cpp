@@ -96,7 +96,7 @@ std::vector<Record> error_records() {
              "Raised by everything that fails. tostring gives the message, and so does `..`; two "
              "are equal only if they are the same.",
              {{"string", "message", "What is wrong and what helps, a sentence."},
-              {"string", "code", "Its [code](errors.md): \"file_not_found\", ..."},
+              {"string", "code", "Its [code](codes.md): \"file_not_found\", ..."},
               {"lissom.Elements?", "elements", "The elements concerned."},
               {"string?", "file", "The file that was to be read or written."},
               {"integer?", "line", "The line of that file."},

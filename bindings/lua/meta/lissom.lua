@@ -172,7 +172,7 @@
 ---Raised by everything that fails. tostring gives the message, and so does `..`; two are equal only if they are the same.
 ---@class lissom.Error
 ---@field message string What is wrong and what helps, a sentence.
----@field code string Its [code](errors.md): "file_not_found", ...
+---@field code string Its [code](codes.md): "file_not_found", ...
 ---@field elements lissom.Elements? The elements concerned.
 ---@field file string? The file that was to be read or written.
 ---@field line integer? The line of that file.

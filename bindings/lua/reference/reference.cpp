@@ -327,7 +327,7 @@ void add_conventions(std::string& text) {
         "in "
         "the mesh's own unit.\n"
         "- Everything that fails raises an error object: `tostring(e)` is its message, `e.code` "
-        "its [code](errors.md), `e.elements` is nil or `{kind=, count=, ids=}` (at most a hundred "
+        "its [code](codes.md), `e.elements` is nil or `{kind=, count=, ids=}` (at most a hundred "
         "ids, pairs of vertices for edges), `e.file` and `e.line` are those of an input file, "
         "`e.place` is the line of the script.\n"
         "- `lissom.try(f, ...)` returns what `f` returns, or `nil, error`; `pcall` works as with "

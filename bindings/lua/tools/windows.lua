@@ -132,7 +132,7 @@ local function mesh_in_hand(scene)
         local info, object = scene:info(name), scene:get(name)
         local mesh = info.kind == "mesh" and object or info.kind == "deformation" and object:mesh() or nil
         if mesh and info.visible and not seen[mesh] then
-            local selected = mesh:region("selected")
+            local selected = try(mesh.region, mesh, "selected")
             if selected and #selected > 0 then return mesh, name, info.transform end
             seen[mesh], count, found = true, count + 1, found or { mesh, name, info.transform }
         end

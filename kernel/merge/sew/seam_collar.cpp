@@ -475,14 +475,14 @@ double volume_below(const Mesh& mesh, std::span<const Index> faces, const Vec3& 
     return sum;
 }
 
-// Whether the faces made enclose another volume than those that they replace.
+// Returns whether the faces made enclose less than those that they replace.
 bool bites(const Sewn& old, std::span<const Index> faces, std::size_t seam, const Remade& remade) {
     const std::vector<Index>& loop = old.seams[seam];
     const Vec3& apex = old.mesh.position(loop.front());
     const double change =
         volume_below(remade.shape(), remade.made(), apex) - volume_below(old.mesh, faces, apex);
     const double radius = loop_radius(old.mesh, loop);
-    return std::abs(change) > kCollarBite * radius * radius * radius;
+    return change < -kCollarBite * radius * radius * radius;
 }
 
 // The smallest angle of the triangles made that touch a seam.

@@ -1,4 +1,4 @@
-#include "kernel/deform/holds/mirror_residual.h"
+#include "kernel/deform/mirror_residual.h"
 
 #include <algorithm>
 #include <cstdio>
