@@ -39,7 +39,6 @@ inline bool has_avx512() {
 
 // Declares NAME: an array of numbers, aligned as a whole. clang forgets the alignment of an alias
 // declaration, and gcc that of a const typedef. NOLINTBEGIN(bugprone-macro-parentheses)
-// NOLINTBEGIN(bugprone-macro-parentheses)
 #if defined(__clang__)
 #define LISSOM_NUMBERS(Real, NAME, count) \
     typedef Real NAME                     \

@@ -99,7 +99,7 @@ constexpr const char* kMove = "move, turn or shrink the part";
 constexpr const char* kFair = "use the seam \"fair\"";
 constexpr const char* kTransition = "use a transition";
 constexpr const char* kSmooth = "smooth more";
-constexpr const char* kCoarse = "subdivide the coarser side";
+constexpr const char* kSubdivide = "subdivide the coarser side";
 constexpr const char* kCut = "cut the parts where they are smoother and of like size";
 
 std::string remedy_of_crossings(CrossingPlace place, const OpenOptions& open) {
@@ -172,7 +172,7 @@ void judge_folds(const MergeReport& report, Index j, const OpenOptions& open, Re
                        text_of("the surface folds back beside the seam%s, along %.2f of its "
                                "radius (%.2f before)",
                                at_join(report, j).c_str(), band.folded, band.rest_folded),
-                       remedy_of({{true, kCut}, {open.keys, kKeys}, {true, kCoarse}})});
+                       remedy_of({{true, kCut}, {open.keys, kKeys}, {true, kSubdivide}})});
 }
 
 void judge_roughness(const MergeReport& report, Index j, const OpenOptions& open,
@@ -236,7 +236,7 @@ void note_seam(double turn, double limit, const std::string& text, const OpenOpt
                        remedy_of({{open.fair, kFair},
                                   {open.transition, kTransition},
                                   {open.smooth, kSmooth},
-                                  {true, kCoarse}})});
+                                  {true, kSubdivide}})});
 }
 
 // All of the seams together: at their steepest edge, else in the mean.
@@ -285,7 +285,7 @@ void judge_slivers(const MergeReport& report, const OpenOptions& open, Reasons& 
     reasons.push_back(
         {MergeFault::slivers, kNoIndex, seam.smallest_angle, thinnest,
          "triangles at the seam have angles down to " + angle_text(seam.smallest_angle),
-         remedy_of({{open.collar, "leave the collar on"}, {true, kCoarse}})});
+         remedy_of({{open.collar, "leave the collar on"}, {true, kSubdivide}})});
 }
 
 void judge_bite(const MergeReport& report, const OpenOptions& open, Reasons& reasons) {

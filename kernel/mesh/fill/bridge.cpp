@@ -31,7 +31,10 @@ struct Rim {
     Index vertex(Index k) const { return vertices[at(k % size())]; }
     const Vec3& point(Index k) const { return points[at(k % size())]; }
     // Grows by 1 with each round.
-    double fraction(Index k) const { return fractions[at(k % size())] + k / size(); }
+    double fraction(Index k) const {
+        const Index rounds = k / size();
+        return fractions[at(k % size())] + rounds;
+    }
 
     Vec3 point_at(double fraction) const {
         const double t = fraction - std::floor(fraction);
@@ -58,7 +61,7 @@ Rim rim_of(const Mesh& mesh, std::vector<Index> loop) {
 }
 
 // The boundary with the surface on its left, from its smallest vertex.
-const std::vector<Index>& loop_of(const Mesh& mesh, const Path& path) {
+const std::vector<Index>& rim_loop(const Mesh& mesh, const Path& path) {
     if (path.on_mesh()) require_same_topology(mesh, path.topology(), "the boundary");
     if (path.is_boundary()) {
         const Index smallest = *std::min_element(path.vertices().begin(), path.vertices().end());
@@ -284,8 +287,8 @@ void add_strip(const Rim& a, const Rim& b, const std::vector<char>& steps, Index
 }  // namespace
 
 BridgeReport bridge(Mesh& mesh, const Path& a, const Path& b, const Context& context) {
-    const std::vector<Index>& first = loop_of(mesh, a);
-    const std::vector<Index>& second = loop_of(mesh, b);
+    const std::vector<Index>& first = rim_loop(mesh, a);
+    const std::vector<Index>& second = rim_loop(mesh, b);
     if (first[0] == second[0]) {
         throw Error(ErrorCode::boundary_conflict,
                     "a boundary cannot be bridged to itself; take two of the mesh, or fill it",
