@@ -91,16 +91,16 @@ Content read_content(const fs::path& in, const fs::path& out, const ConversionOp
     return load_mesh(in, options.load, context);
 }
 
-void write(const Mesh& mesh, Conversion& conversion, const ConversionOptions& options,
-           const Context& context) {
+void write_file(const Mesh& mesh, Conversion& conversion, const ConversionOptions& options,
+                const Context& context) {
     conversion.origin = save_mesh(mesh, conversion.out, options.save, context).origin;
     conversion.vertices = mesh.vertex_count();
     conversion.faces = mesh.face_count();
     conversion.report = mesh.report();
 }
 
-void write(const Strands& strands, Conversion& conversion, const ConversionOptions& options,
-           const Context& context) {
+void write_file(const Strands& strands, Conversion& conversion, const ConversionOptions& options,
+                const Context& context) {
     if (!options.mesh_only.empty()) {
         throw Error(ErrorCode::invalid_argument,
                     display_name(conversion.in) + ": " + options.mesh_only.front() +
@@ -146,7 +146,7 @@ Conversion convert_file(Program& program, const fs::path& in, const fs::path& ou
     log.is_saving = is_scene_path(in);
     const Content content = read_content(in, out, options, program.context());
     log.is_saving = true;
-    std::visit([&](const auto& held) { write(held, conversion, options, program.context()); },
+    std::visit([&](const auto& held) { write_file(held, conversion, options, program.context()); },
                content);
     conversion.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     conversion.lost = std::move(log.warnings);
