@@ -38,8 +38,7 @@ struct Verdict {
 /// - within half a radius it is at most 1.4 times as rough as both sides were, or turns by less
 ///   than 8 degrees an edge;
 /// - each part keeps three fifths of its volume at its scale;
-/// - planes fitted to either side of the seam differ by at most 25 degrees in the mean and 50 at
-/// one
+/// - planes fitted to either side of the seam differ by at most 25 degrees in the mean, 50 at one
 ///   place, and by the crease of a paste, or 1.3 times as much as they did beside the boundaries;
 /// - the surface turns by no more than 30 degrees at an edge of the seam and 20 in the mean (two
 ///   thirds of the crease of a paste), or by no more than at edges beside the boundaries;
