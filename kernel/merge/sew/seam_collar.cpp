@@ -462,8 +462,8 @@ bool is_kept(const Sewn& old, const SeamQuality& before, Remade& remade, const C
            !adds_crossings(old.mesh, remade.shape(), map, remade.made(), context);
 }
 
-// Collars that take away or add more than this many cubes of the seam's radius bite edges of the
-// side.
+// Collars that take away more than this many cubes of the seam's radius bite edges of the side.
+// They may add: faces towards a finer loop enclose more than those they replace.
 constexpr double kCollarBite = 0.03;
 
 double volume_below(const Mesh& mesh, std::span<const Index> faces, const Vec3& apex) {
