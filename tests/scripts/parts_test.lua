@@ -166,7 +166,7 @@ test("sharp edges of a box stay under scattered parts, and the report says what 
             for k = 0, 40 do
                 local z = -1 + k / 20
                 for _, p in ipairs{ { x, y, z }, { y, z, x }, { z, x, y } } do
-                    local found = mesh:nearest(table.unpack(p))
+                    local found = mesh:nearest(p[1], p[2], p[3])
                     if found.distance > 0.01 then gone = gone + 1 end
                 end
             end
