@@ -13,7 +13,7 @@ function(lissom_copy_headers source folder headers users)
         file(READ "${source}/${header}" text)
         string(REGEX REPLACE "#include \"(kernel|bindings/c|bindings/engine|bindings)/([^\"\n]*)\""
                              "#include \"lissom/\\2\"" text "${text}")
-        string(REPLACE "#include \"viewer/" "#include \"lissom/viewer/" text "${text}")
+        string(REPLACE "#include \"viewer/render/" "#include \"lissom/viewer/" text "${text}")
         lissom_write_header(${folder}/${name} "${text}")
     endforeach()
 endfunction()
@@ -21,6 +21,7 @@ endfunction()
 # lissom_header_name(HEADER NAME): what users include for a header of the source tree.
 function(lissom_header_name header name)
     string(REGEX REPLACE "^(kernel|bindings/c|bindings/engine|bindings)/" "" short ${header})
+    string(REPLACE "viewer/render/" "viewer/" short ${short})
     set(${name} lissom/${short} PARENT_SCOPE)
 endfunction()
 

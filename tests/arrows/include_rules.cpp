@@ -55,6 +55,7 @@ const std::vector<Rule>& rules() {
         {"viewer",
          {"kernel", "bindings", "viewer"},
          {"Eigen", "Lua", "OpenGL", "CLI11", "JSON", "stb", "printing", "platform"}},
+        {"viewer/render", {"kernel", "viewer/render"}, {"Eigen", "OpenGL", "stb", "platform"}},
         {"viewer/window",
          {"kernel", "bindings", "viewer"},
          {"Eigen", "Lua", "OpenGL", "CLI11", "JSON", "printing", "platform"}},
@@ -108,9 +109,10 @@ const std::vector<Names>& room_orders() {
          "bindings/lua/sketch", "bindings/lua/tools", "bindings/lua/reference"},
         {"bindings/cli/terminal", "bindings/cli/process", "bindings/cli/test/picture_check",
          "bindings/cli", "bindings/cli/test"},
-        {"viewer/draw/image", "viewer/draw", "viewer/strands", "viewer/gl", "viewer", "viewer/lua",
-         "viewer/window/screen", "viewer/window/session", "viewer/window/makers",
-         "viewer/window/panel", "viewer/window/app", "viewer/window", "viewer/main"},
+        {"viewer/render/draw/image", "viewer/render/draw", "viewer/render/strands",
+         "viewer/render/gl", "viewer/render", "viewer/lua", "viewer/window/screen",
+         "viewer/window/session", "viewer/window/makers", "viewer/window/panel",
+         "viewer/window/app", "viewer/window", "viewer/main"},
     };
     return orders;
 }

@@ -104,8 +104,8 @@ TEST_CASE("an arrow that runs back is found") {
     CHECK(count("kernel/mesh/a.cpp", "#include \"kernel/deform/deformer.h\"\n") == 1);
     CHECK(count("kernel/deform/a.cpp", "#include \"kernel/io/load.h\"\n") == 1);
     CHECK(count("kernel/io/a.cpp", "#include \"bindings/lua/module.h\"\n") == 1);
-    CHECK(count("bindings/lua/a.cpp", "#include \"viewer/renderer.h\"\n") == 1);
-    CHECK(count("kernel/core/a.cpp", "  #  include \"viewer/renderer.h\"\n") == 1);
+    CHECK(count("bindings/lua/a.cpp", "#include \"viewer/render/renderer.h\"\n") == 1);
+    CHECK(count("kernel/core/a.cpp", "  #  include \"viewer/render/renderer.h\"\n") == 1);
     CHECK(count("kernel/core/a.cpp", "#include \"kernel/corex/a.h\"\n") == 1);
     CHECK(count("kernel/core/a.cpp", "#include \"context.h\"\n") == 1);
     CHECK(count("kernel/core/a.cpp", "#include \"../core/context.h\"\n") == 1);
@@ -121,7 +121,7 @@ TEST_CASE("an arrow between rooms that runs back is found") {
                 kOpening + std::string("#include \"kernel/deform/deformer.h\"\n")) == 1);
     CHECK(count("kernel/io/ply/a.cpp", "#include \"kernel/io/mesh_file.h\"\n") == 1);
     CHECK(count("viewer/main.cpp", "#include \"viewer/lua/render_verb.h\"\n") == 0);
-    CHECK(count("viewer/renderer.cpp", "#include \"viewer/lua/render_verb.h\"\n") == 1);
+    CHECK(count("viewer/render/renderer.cpp", "#include \"viewer/lua/render_verb.h\"\n") == 1);
 }
 
 TEST_CASE("a library outside the folders that own it is found") {
@@ -155,6 +155,6 @@ TEST_CASE("a header without its opening is found") {
 TEST_CASE("what is allowed is left alone") {
     CHECK(count("kernel/io/a.cpp", "#include \"kernel/mesh/mesh.h\"\n#include <vector>\n") == 0);
     CHECK(count("viewer/a.cpp", "#include \"bindings/lua/module.h\"\n#include <lua.hpp>\n") == 0);
-    CHECK(count("kernel/core/a.cpp", "/// #include \"viewer/renderer.h\"\n") == 0);
+    CHECK(count("kernel/core/a.cpp", "/// #include \"viewer/render/renderer.h\"\n") == 0);
     CHECK(count("elsewhere/a.cpp", "") == 1);
 }

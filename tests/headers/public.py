@@ -17,7 +17,8 @@ LIBRARIES = re.compile(r"Eigen/|lua\.h$|lauxlib\.h$|lualib\.h$|std\w+\.h$|math\.
 
 def installed_name(header):
     """The path below include/, as cmake/LissomHeaders.cmake makes it."""
-    return "lissom/" + re.sub(r"^(kernel|bindings/c|bindings/engine|bindings)/", "", header)
+    short = re.sub(r"^(kernel|bindings/c|bindings/engine|bindings)/", "", header)
+    return "lissom/" + short.replace("viewer/render/", "viewer/")
 
 
 def read_list(root, folder):

@@ -5,7 +5,7 @@
 
 #include "bindings/lua/mesh/mesh_object.h"
 #include "kernel/core/error.h"
-#include "viewer/draw/image/color.h"
+#include "viewer/render/draw/image/color.h"
 
 namespace lissom {
 namespace {

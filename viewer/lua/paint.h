@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "viewer/picture.h"
+#include "viewer/render/picture.h"
 
 namespace lissom {
 

@@ -5,8 +5,8 @@
 
 #include "kernel/core/error.h"
 #include "kernel/io/stream/file.h"
-#include "viewer/draw/image/image_difference.h"
 #include "viewer/lua/png_file.h"
+#include "viewer/render/draw/image/image_difference.h"
 
 namespace lissom::cli {
 namespace {

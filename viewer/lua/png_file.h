@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "kernel/core/context.h"
-#include "viewer/draw/image/image.h"
+#include "viewer/render/draw/image/image.h"
 
 namespace lissom {
 

@@ -15,12 +15,12 @@
 #include "bindings/lua/sketch/camera_object.h"
 #include "kernel/hair/strands/strand_place.h"
 #include "kernel/io/stream/file.h"
-#include "viewer/draw/region_colors.h"
-#include "viewer/draw/scene_drawing.h"
-#include "viewer/draw/style_marks.h"
 #include "viewer/lua/paint.h"
 #include "viewer/lua/png_file.h"
 #include "viewer/lua/viewer_library.h"
+#include "viewer/render/draw/region_colors.h"
+#include "viewer/render/draw/scene_drawing.h"
+#include "viewer/render/draw/style_marks.h"
 
 namespace lissom::lua {
 namespace {

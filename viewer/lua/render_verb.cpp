@@ -14,9 +14,9 @@
 #include "kernel/io/mesh_file.h"
 #include "kernel/io/strand_file.h"
 #include "kernel/io/stream/file.h"
-#include "viewer/draw/scene_drawing.h"
 #include "viewer/lua/paint.h"
 #include "viewer/lua/png_file.h"
+#include "viewer/render/draw/scene_drawing.h"
 
 namespace lissom::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/scene/scene_object.h"
 #include "kernel/hair/strands/strand_place.h"
-#include "viewer/draw/scene_drawing.h"
+#include "viewer/render/draw/scene_drawing.h"
 
 namespace lissom::lua {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bindings/lua/core/compat.h"
-#include "viewer/picture.h"
+#include "viewer/render/picture.h"
 
 namespace lissom::lua {
 

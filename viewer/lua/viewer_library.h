@@ -5,7 +5,7 @@
 #include <functional>
 #include "bindings/lua/core/compat.h"
 #include "bindings/lua/core/registry.h"
-#include "viewer/picture.h"
+#include "viewer/render/picture.h"
 
 namespace lissom::lua {
 

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "tests/unit/engine/basis_scene.h"
-#include "viewer/gl/gl_objects.h"
-#include "viewer/gl/platform.h"
+#include "viewer/render/gl/gl_objects.h"
+#include "viewer/render/gl/platform.h"
 
 using namespace lissom;
 using namespace lissom::test;

@@ -11,7 +11,7 @@
 
 #include "kernel/mesh/mesh.h"
 #include "tests/unit/support.h"
-#include "viewer/renderer.h"
+#include "viewer/render/renderer.h"
 
 namespace lissom::test {
 

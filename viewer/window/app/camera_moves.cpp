@@ -1,7 +1,7 @@
 #include "viewer/window/app/camera_moves.h"
 
 #include "kernel/sketch/navigation.h"
-#include "viewer/draw/projection.h"
+#include "viewer/render/draw/projection.h"
 
 namespace lissom::window {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "kernel/core/error.h"
-#include "viewer/draw/projection.h"
+#include "viewer/render/draw/projection.h"
 
 namespace lissom::window {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "kernel/mesh/measure/distortion.h"
-#include "viewer/draw/region_colors.h"
+#include "viewer/render/draw/region_colors.h"
 
 namespace lissom::window {
 namespace {

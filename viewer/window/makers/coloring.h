@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "viewer/picture.h"
+#include "viewer/render/picture.h"
 
 namespace lissom::window {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
-#include "viewer/strands/view_strands.h"
+#include "viewer/render/strands/view_strands.h"
 
 namespace lissom::window {
 namespace {

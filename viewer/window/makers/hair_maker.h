@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "viewer/draw/snapshot.h"
-#include "viewer/gl/gpu_hair.h"
+#include "viewer/render/draw/snapshot.h"
+#include "viewer/render/gl/gpu_hair.h"
 #include "viewer/window/session/worker.h"
 
 namespace lissom::window {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "kernel/core/context.h"
-#include "viewer/picture.h"
+#include "viewer/render/picture.h"
 #include "viewer/window/session/worker.h"
 
 namespace lissom::window {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "viewer/gl/gpu_scene.h"
+#include "viewer/render/gl/gpu_scene.h"
 #include "viewer/window/session/worker.h"
 
 namespace lissom::window {

@@ -11,7 +11,7 @@
 
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/sketch/camera.h"
-#include "viewer/gl/gl_objects.h"
+#include "viewer/render/gl/gl_objects.h"
 #include "viewer/window/makers/coloring.h"
 #include "viewer/window/panel/drawn_lists.h"
 #include "viewer/window/panel/tool_panel.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "viewer/picture.h"
+#include "viewer/render/picture.h"
 
 namespace lissom::window {
 

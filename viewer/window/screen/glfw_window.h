@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "viewer/gl/gl_objects.h"
+#include "viewer/render/gl/gl_objects.h"
 #include "viewer/window/screen/input.h"
 #include "viewer/window/screen/pixel_scale.h"
 

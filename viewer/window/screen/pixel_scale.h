@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/core/geometry.h"
-#include "viewer/gl/gl_objects.h"
+#include "viewer/render/gl/gl_objects.h"
 
 namespace lissom::window {
 

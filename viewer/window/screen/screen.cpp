@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kernel/core/clock.h"
-#include "viewer/draw/image/overlay.h"
+#include "viewer/render/draw/image/overlay.h"
 
 namespace lissom::window {
 namespace {

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "kernel/sketch/camera.h"
-#include "viewer/draw/image/image.h"
-#include "viewer/draw/legend.h"
-#include "viewer/draw/snapshot.h"
-#include "viewer/gl/gl_objects.h"
-#include "viewer/gl/gpu_hair.h"
-#include "viewer/gl/gpu_scene.h"
-#include "viewer/scene_drawer.h"
+#include "viewer/render/draw/image/image.h"
+#include "viewer/render/draw/legend.h"
+#include "viewer/render/draw/snapshot.h"
+#include "viewer/render/gl/gl_objects.h"
+#include "viewer/render/gl/gpu_hair.h"
+#include "viewer/render/gl/gpu_scene.h"
+#include "viewer/render/scene_drawer.h"
 #include "viewer/window/screen/canvas.h"
 #include "viewer/window/screen/fill.h"
 

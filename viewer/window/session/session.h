@@ -19,7 +19,7 @@
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/core/clock.h"
 #include "kernel/io/mesh_file.h"
-#include "viewer/picture.h"
+#include "viewer/render/picture.h"
 #include "viewer/window/session/snapshot_bounds.h"
 #include "viewer/window/session/tool_bench.h"
 #include "viewer/window/session/worker.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
-#include "viewer/draw/snapshot.h"
+#include "viewer/render/draw/snapshot.h"
 
 namespace lissom::window {
 

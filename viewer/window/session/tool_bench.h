@@ -11,7 +11,7 @@
 #include "bindings/cli/script.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/io/mesh_file.h"
-#include "viewer/picture.h"
+#include "viewer/render/picture.h"
 #include "viewer/window/session/tool_input.h"
 
 namespace lissom::window {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernel/sketch/camera.h"
-#include "viewer/gl/gl_objects.h"
+#include "viewer/render/gl/gl_objects.h"
 #include "viewer/window/screen/input.h"
 
 namespace lissom::window {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/draw/drawing.h"
+#include "viewer/render/draw/drawing.h"
 
 namespace lissom::window {
 

@@ -4,7 +4,7 @@
 #include <mutex>
 
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/viewer/strands/strand_support.h"
+#include "tests/unit/viewer/render/strands/strand_support.h"
 
 using namespace lissom;
 using namespace lissom::window;

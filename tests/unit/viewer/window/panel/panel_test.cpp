@@ -3,8 +3,8 @@
 #include "viewer/window/panel/panel.h"
 
 #include "tests/unit/viewer/viewer_support.h"
-#include "viewer/gl/platform.h"
-#include "viewer/scene_drawer.h"
+#include "viewer/render/gl/platform.h"
+#include "viewer/render/scene_drawer.h"
 
 using namespace lissom;
 using namespace lissom::window;

@@ -6,9 +6,9 @@
 
 #include "kernel/hair/strands/strand_random.h"
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/viewer/strands/strand_support.h"
-#include "viewer/draw/projection.h"
-#include "viewer/gl/platform.h"
+#include "tests/unit/viewer/render/strands/strand_support.h"
+#include "viewer/render/draw/projection.h"
+#include "viewer/render/gl/platform.h"
 #include "viewer/window/screen/screen.h"
 
 using namespace lissom;

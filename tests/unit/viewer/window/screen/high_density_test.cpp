@@ -6,7 +6,7 @@
 #include "kernel/mesh/shapes/shapes.h"
 #include "kernel/sketch/picking.h"
 #include "tests/unit/viewer/viewer_support.h"
-#include "viewer/gl/platform.h"
+#include "viewer/render/gl/platform.h"
 #include "viewer/window/panel/panel.h"
 #include "viewer/window/screen/display.h"
 #include "viewer/window/screen/screen.h"

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/viewer/gl/mock_gl.h"
-#include "viewer/draw/quick_vertices.h"
+#include "tests/unit/viewer/render/gl/mock_gl.h"
+#include "viewer/render/draw/quick_vertices.h"
 #include "viewer/window/screen/display.h"
 #include "viewer/window/screen/screen.h"
 

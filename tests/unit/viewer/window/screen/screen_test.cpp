@@ -2,7 +2,7 @@
 
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/viewer/viewer_support.h"
-#include "viewer/gl/platform.h"
+#include "viewer/render/gl/platform.h"
 #include "viewer/window/screen/display.h"
 
 using namespace lissom;

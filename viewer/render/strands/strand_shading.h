@@ -1,0 +1,43 @@
+/// How a point of a strand is lit: Kajiya and Kay's model with two shifted reflections, as
+/// Marschner et al. (2003) found in real hair. View space: x right, y up, z towards the viewer.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "viewer/render/draw/strand_style.h"
+
+namespace lissom {
+
+/// Light that reaches a point through the hair, each 0 (none) to 1.
+struct StrandLight {
+    float key = 1.0f;
+    float rim = 1.0f;
+    /// Light from all around.
+    float ambient = 1.0f;
+};
+
+/// A point of a strand. Directions have unit length; a tangent without length is not lit.
+struct StrandPoint {
+    /// Unit tangent towards the tip.
+    Eigen::Vector3f tangent = Eigen::Vector3f::Zero();
+    Eigen::Vector3f to_viewer = Eigen::Vector3f::UnitZ();
+    /// Linear colour.
+    Eigen::Array3f color = Eigen::Array3f::Zero();
+    /// Added to the shift of both lobes, radians.
+    float shift = 0.0f;
+    StrandLight light = {};
+};
+
+/// Kajiya and Kay's diffuse term: the sine of the angle between the strand and the light.
+float strand_diffuse(const Eigen::Vector3f& tangent, const Eigen::Vector3f& to_light);
+
+/// Returns their reflection: light that arrives at an angle from the plane across the strand leaves
+/// on the cone of the same angle on the other side, rotated by the lobe's shift and `shift`. 1 on
+/// that cone, less beside it.
+float strand_reflection(const HairLobe& lobe, float shift, const Eigen::Vector3f& tangent,
+                        const Eigen::Vector3f& to_light, const Eigen::Vector3f& to_viewer);
+
+/// Returns the colour that is seen at `point`, linear, of all lights of the studio.
+Eigen::Array3f shade_strand(const StrandStyle& style, const StrandPoint& point);
+
+}  // namespace lissom
