@@ -124,33 +124,16 @@ class CollarSide {
         return sum / seam_.size();
     }
 
-    // The median edge of the first two rings beside the seam; where these have no edges, of those
+    // The median edge of the first two rings beside the seam; if these have no edges, of those
     // to the seam.
     double side_edge() const {
-        const std::set<Index> on(seam_.begin(), seam_.end());
-        std::set<Index> near;
-        std::vector<double> inner, outer;
-        std::vector<Index> front(on.begin(), on.end());
-        for (int ring = 0; ring < 2; ++ring) {
-            std::vector<Index> next;
-            for (const Index v : front) {
-                for (const Index f : side_faces(v)) {
-                    for (const Index w : mesh_.topology().face(f)) {
-                        if (!on.contains(w) && near.insert(w).second) next.push_back(w);
-                    }
-                }
-            }
-            front = std::move(next);
-        }
-        for (const Index v : near) {
-            for (const Index w : mesh_.topology().neighbors(v)) {
-                if (near.contains(w) && v < w) inner.push_back(distance(v, w));
-                if (on.contains(w)) outer.push_back(distance(v, w));
-            }
-        }
-        if (!inner.empty()) return median(std::move(inner));
-        return outer.empty() ? 0.0 : median(std::move(outer));
+        const RingEdges edges = ring_edges();
+        return edges.inner.empty() ? to_seam(edges) : median(edges.inner);
     }
+
+    // The median edge between the seam and the first ring beside it. Needles that stand on the
+    // seam have it long and the ring's own edges short.
+    double edge_to_seam() const { return to_seam(ring_edges()); }
 
     // The faces of the side that touch the seam, or hang together with those that do by vertices
     // where edges should be shorter than the side's.
@@ -192,6 +175,46 @@ class CollarSide {
     }
 
   private:
+    // Lengths of edges between vertices of the first two rings, and of those from there to the
+    // seam.
+    struct RingEdges {
+        std::vector<double> inner, outer;
+    };
+
+    static double to_seam(const RingEdges& edges) {
+        return edges.outer.empty() ? 0.0 : median(edges.outer);
+    }
+
+    RingEdges ring_edges() const {
+        const std::set<Index> on(seam_.begin(), seam_.end());
+        const std::set<Index> near = first_rings(on);
+        RingEdges edges;
+        for (const Index v : near) {
+            for (const Index w : mesh_.topology().neighbors(v)) {
+                if (near.contains(w) && v < w) edges.inner.push_back(distance(v, w));
+                if (on.contains(w)) edges.outer.push_back(distance(v, w));
+            }
+        }
+        return edges;
+    }
+
+    std::set<Index> first_rings(const std::set<Index>& on) const {
+        std::set<Index> near;
+        std::vector<Index> front(on.begin(), on.end());
+        for (int ring = 0; ring < 2; ++ring) {
+            std::vector<Index> next;
+            for (const Index v : front) {
+                for (const Index f : side_faces(v)) {
+                    for (const Index w : mesh_.topology().face(f)) {
+                        if (!on.contains(w) && near.insert(w).second) next.push_back(w);
+                    }
+                }
+            }
+            front = std::move(next);
+        }
+        return near;
+    }
+
     double distance(Index a, Index b) const {
         return (mesh_.position(a) - mesh_.position(b)).norm();
     }
@@ -508,9 +531,12 @@ void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& con
     const CollarSide at(sewn, seam, side);
     const double seam_edge = at.seam_edge();
     // A side may have no edges but the seam's, and slivers beside it.
-    const double side_edge = std::max(at.side_edge(), seam_edge);
+    double side_edge = std::max(at.side_edge(), seam_edge);
     const bool sparse = side_edge > kClearlyLonger * kSparse * seam_edge;
     if (!sparse && !(at.smallest_angle() < kSliver)) return;
+    // Needles would become thousands of triangles each if none were to be longer than they are
+    // wide.
+    side_edge = std::max(side_edge, at.edge_to_seam());
     const SeamSizes sizes(at.points(), side_edge);
     const std::vector<Index> faces = at.faces(sizes, side_edge);
     const SeamQuality now = seam_quality(sewn.mesh, sewn.seams);
