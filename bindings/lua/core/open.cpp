@@ -285,6 +285,9 @@ void make_metatable(lua_State* L, const Registry& registry, const Type& type, in
     luaL_newmetatable(L, type.name.c_str());
     lua_pushstring(L, type.name.c_str());
     lua_setfield(L, -2, "__name");
+    // Scripts cannot put a finalizer of their own there.
+    lua_pushstring(L, type.name.c_str());
+    lua_setfield(L, -2, "__metatable");
     for (const Operator& op : type.operators) {
         if (op.name == "__index" || op.name == "__tostring") continue;
         push_closure(L, op.name == "__eq" ? equal_objects : dispatch_operator, &op, box, &type);

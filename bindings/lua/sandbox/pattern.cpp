@@ -114,6 +114,7 @@ std::size_t Matcher::match(std::size_t s, std::size_t p) {
             continue;
         }
         const std::size_t after = item_end(p);
+        tick(after - p);
         const char suffix = after < pattern_.size() ? pattern_[after] : '\0';
         if (suffix == '*' || suffix == '+') {
             result = longest(s, p, after, suffix == '+');
@@ -232,8 +233,13 @@ std::size_t Matcher::set_end(std::size_t p) const {
     return p + 1;
 }
 
+// Sets may be as long as the text.
+void Matcher::tick(std::size_t characters) {
+    stop_.tick(ticks_, static_cast<unsigned>(std::min<std::size_t>(characters, kLongest)));
+}
+
 bool Matcher::fits(std::size_t s, std::size_t p, std::size_t after) {
-    stop_.tick(ticks_);
+    tick(after - p);
     if (s >= text_.size()) return false;
     const unsigned char c = byte_of(text_[s]);
     switch (pattern_[p]) {

@@ -42,6 +42,9 @@ class Matcher {
     const Capture& capture(int i) const;
 
   private:
+    static constexpr std::size_t kLongest = 1 << 20;
+
+    void tick(std::size_t characters);
     std::size_t match(std::size_t s, std::size_t p);
     std::size_t open(std::size_t s, std::size_t p, std::size_t length);
     std::size_t close(std::size_t s, std::size_t p);

@@ -1,4 +1,4 @@
-// Lua's base library, tables and require without what reaches out of the sandbox, and ended when
+// Lua's base library and require without what reaches out of the sandbox, and ended when
 // the script has to.
 #include <cctype>
 #include <filesystem>
@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Elements that one call of a table function may pass over.
-constexpr lua_Integer kMostElements = 10'000'000;
+// Longest format of os.date.
+constexpr std::size_t kMostDate = 4096;
 
 void end_in_time(lua_State* L) {
     if (stop_of(L).asked()) raise_stopped(L);
@@ -29,6 +29,25 @@ int call_in_time(lua_State* L) {
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_insert(L, 1);
     lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+    return lua_gettop(L);
+}
+
+std::size_t string_bytes(lua_State* L, int first, int last) {
+    std::size_t bytes = 0;
+    for (int i = first; i <= last; ++i) {
+        if (lua_type(L, i) == LUA_TSTRING) bytes += raw_length(L, i);
+    }
+    return bytes;
+}
+
+// Upvalue 1: the function.
+int call_counted(lua_State* L) {
+    const int given = lua_gettop(L);
+    charge_bytes(L, string_bytes(L, 1, given));
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, given, LUA_MULTRET);
+    charge_bytes(L, string_bytes(L, 1, lua_gettop(L)));
     return lua_gettop(L);
 }
 
@@ -56,17 +75,60 @@ void keep_fields(lua_State* L, const char* name, std::initializer_list<const cha
     lua_setglobal(L, name);
 }
 
+// A text that the compiler reads in pieces, so that it ends with the script.
+struct ReadText {
+    std::string_view left;
+};
+
+const char* read_piece(lua_State* L, void* data, std::size_t* size) {
+    constexpr std::size_t kPiece = 4096;
+    std::string_view& left = static_cast<ReadText*>(data)->left;
+    charge_bytes(L, kPiece);
+    const std::string_view piece = left.substr(0, kPiece);
+    left.remove_prefix(piece.size());
+    *size = piece.size();
+    return piece.data();
+}
+
+int load_string(lua_State* L, bool has_environment) {
+    std::size_t size = 0;
+    const char* text = lua_tolstring(L, 1, &size);
+    ReadText source{{text, size}};
+    const char* name = luaL_optstring(L, 2, text);
+    const int status = lua_load(L, read_piece, &source, name, "t");
+    end_in_time(L);
+    if (status != LUA_OK) {
+        lua_pushnil(L);
+        lua_insert(L, -2);
+        return 2;
+    }
+    if (has_environment) {
+        lua_pushvalue(L, 4);
+        if (lua_setupvalue(L, -2, 1) == nullptr) lua_pop(L, 1);
+    }
+    return 1;
+}
+
 // load(chunk, name, mode, env): of text only. Upvalue 1: Lua's.
 int load_text(lua_State* L) {
     end_in_time(L);
     const int given = lua_gettop(L);
     lua_settop(L, given < 3 ? 3 : given > 4 ? 4 : given);
+    if (lua_type(L, 1) == LUA_TSTRING) return load_string(L, given >= 4);
     lua_pushliteral(L, "t");
     lua_replace(L, 3);
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_insert(L, 1);
     lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
     return lua_gettop(L);
+}
+
+// Upvalue 1: Lua's.
+int format_date(lua_State* L) {
+    std::size_t size = 0;
+    luaL_optlstring(L, 1, "%c", &size);
+    if (size > kMostDate) return luaL_error(L, "too long a format for a date in a sandbox");
+    return call_in_time(L);
 }
 
 // Finalizers run where no limit is looked at. Upvalue 1: Lua's.
@@ -126,29 +188,8 @@ void replace_global(lua_State* L, const char* name, lua_CFunction with) {
 // ---- Coroutines. One that a hook's error has ended keeps its hooks off: what it has to close must
 // not be called then.
 
-// Upvalue 1: the coroutine. Its results, or its error with the place of the call.
-int resume_wrapped(lua_State* L) {
-    lua_State* thread = lua_tothread(L, lua_upvalueindex(1));
-    const int given = lua_gettop(L);
-    if (!lua_checkstack(thread, given)) return luaL_error(L, "too many arguments to resume");
-    if (lua_status(thread) == LUA_OK && lua_gettop(thread) == 0) {
-        return luaL_error(L, "cannot resume dead coroutine");
-    }
-    lua_xmove(L, thread, given);
-    int count = 0;
-    const int status = lua_resume(thread, L, given, &count);
-    if (status == LUA_OK || status == LUA_YIELD) {
-        if (!lua_checkstack(L, count + 1)) {
-            lua_pop(thread, count);
-            return luaL_error(L, "too many results to resume");
-        }
-        lua_xmove(thread, L, count);
-        return count;
-    }
-    end_in_time(L);
-    const int closed = lua_resetthread(thread);
-    lua_xmove(thread, L, closed == LUA_OK ? 0 : 1);
-    if (closed == LUA_OK) lua_pushnil(L);
+// Raises the error on top of the stack with the place of the call, as Lua's wrap does.
+int raise_at_call(lua_State* L, int status) {
     if (status != LUA_ERRMEM && lua_type(L, -1) == LUA_TSTRING) {
         luaL_where(L, 1);
         lua_insert(L, -2);
@@ -157,62 +198,56 @@ int resume_wrapped(lua_State* L) {
     return lua_error(L);
 }
 
+// Closes a coroutine that an error has ended, and leaves its error on top of `L`. One that cannot
+// be resumed, for it runs or has ended, is not touched.
+int close_failed(lua_State* L, lua_State* thread) {
+    const int status = lua_status(thread);
+    if (status == LUA_OK || status == LUA_YIELD) {
+        lua_xmove(thread, L, 1);
+        return status;
+    }
+    end_in_time(L);
+    const int closed = lua_resetthread(thread);
+    lua_xmove(thread, L, 1);
+    return closed;
+}
+
+// Upvalue 1: the coroutine. Its results, or its error with the place of the call.
+int resume_wrapped(lua_State* L) {
+    lua_State* thread = lua_tothread(L, lua_upvalueindex(1));
+    const int given = lua_gettop(L);
+    if (!lua_checkstack(thread, given)) return luaL_error(L, "too many arguments to resume");
+    lua_xmove(L, thread, given);
+    int count = 0;
+    const int status = lua_resume(thread, L, given, &count);
+    if (status != LUA_OK && status != LUA_YIELD) {
+        return raise_at_call(L, close_failed(L, thread));
+    }
+    if (!lua_checkstack(L, count + 1)) {
+        lua_pop(thread, count);
+        return luaL_error(L, "too many results to resume");
+    }
+    lua_xmove(thread, L, count);
+    return count;
+}
+
+// Instructions that a coroutine may run before its own count is looked at.
+constexpr std::size_t kUncounted = 20;
+
+// Upvalue 1: Lua's.
+int create_coroutine(lua_State* L) {
+    charge(L, kUncounted);
+    return call_in_time(L);
+}
+
 int wrap_coroutine(lua_State* L) {
     luaL_checktype(L, 1, LUA_TFUNCTION);
+    charge(L, kUncounted);
     lua_State* thread = lua_newthread(L);
     lua_pushvalue(L, 1);
     lua_xmove(L, thread, 1);
     lua_pushcclosure(L, resume_wrapped, 1);
     return 1;
-}
-
-// The length that a table function asks for again must be the same.
-void require_own_length(lua_State* L) {
-    luaL_checktype(L, 1, LUA_TTABLE);
-    if (luaL_getmetafield(L, 1, "__len") != LUA_TNIL) {
-        luaL_error(L, "a table with __len is not for this function in a sandbox");
-    }
-}
-
-int call_with_own_length(lua_State* L) {
-    require_own_length(L);
-    return call_in_time(L);
-}
-
-// The range first..last of arguments, whose defaults are set.
-void require_range(lua_State* L, lua_Integer first, lua_Integer last) {
-    if (last < first) return;
-    const auto count = static_cast<lua_Unsigned>(last) - static_cast<lua_Unsigned>(first);
-    if (count >= static_cast<lua_Unsigned>(kMostElements)) {
-        luaL_error(L, "too many elements for one call in a sandbox");
-    }
-}
-
-int concatenate(lua_State* L) {
-    lua_settop(L, 4);
-    const lua_Integer first = luaL_optinteger(L, 3, 1);
-    const lua_Integer last = lua_isnoneornil(L, 4) ? luaL_len(L, 1) : luaL_checkinteger(L, 4);
-    require_range(L, first, last);
-    lua_pushinteger(L, first);
-    lua_replace(L, 3);
-    lua_pushinteger(L, last);
-    lua_replace(L, 4);
-    return call_in_time(L);
-}
-
-int unpack(lua_State* L) {
-    const lua_Integer first = luaL_optinteger(L, 2, 1);
-    const lua_Integer last = lua_isnoneornil(L, 3) ? luaL_len(L, 1) : luaL_checkinteger(L, 3);
-    require_range(L, first, last);
-    lua_settop(L, 1);
-    lua_pushinteger(L, first);
-    lua_pushinteger(L, last);
-    return call_in_time(L);
-}
-
-int move(lua_State* L) {
-    require_range(L, luaL_checkinteger(L, 2), luaL_checkinteger(L, 3));
-    return call_in_time(L);
 }
 
 void replace_field(lua_State* L, const char* name, lua_CFunction with) {
@@ -333,7 +368,7 @@ void wrap_costly(lua_State* L, const char* library, std::initializer_list<const 
     lua_getglobal(L, library);
     for (const char* name : names) {
         lua_getfield(L, -1, name);
-        lua_pushcclosure(L, call_in_time, 1);
+        lua_pushcclosure(L, call_counted, 1);
         lua_setfield(L, -2, name);
     }
     lua_pop(L, 1);
@@ -350,26 +385,17 @@ void make_base_safe(lua_State* L) {
     lua_getglobal(L, LUA_OSLIBNAME);
     lua_pushcfunction(L, refuse_exit);
     lua_setfield(L, -2, "exit");
+    replace_field(L, "date", format_date);
     lua_pop(L, 1);
     keep_fields(L, LUA_DBLIBNAME, {"traceback"});
     replace_global(L, "xpcall", call_with_handler);
     lua_getglobal(L, LUA_COLIBNAME);
     lua_pushcfunction(L, wrap_coroutine);
     lua_setfield(L, -2, "wrap");
+    replace_field(L, "create", create_coroutine);
+    replace_field(L, "close", call_in_time);
     lua_pop(L, 1);
-    wrap_costly(L, LUA_COLIBNAME, {"close"});
     wrap_costly(L, LUA_UTF8LIBNAME, {"len", "offset", "codepoint"});
-}
-
-void make_tables_safe(lua_State* L) {
-    lua_getglobal(L, LUA_TABLIBNAME);
-    replace_field(L, "concat", concatenate);
-    replace_field(L, "unpack", unpack);
-    replace_field(L, "move", move);
-    for (const char* name : {"insert", "remove", "sort"}) {
-        replace_field(L, name, call_with_own_length);
-    }
-    lua_pop(L, 1);
 }
 
 void make_require_safe(lua_State* L) {

@@ -1,4 +1,4 @@
-// find, match, gmatch and gsub of strings, which end when the script has to.
+// Functions of strings that end when the script has to.
 #include <cctype>
 #include <cstdio>
 #include <string_view>
@@ -8,6 +8,11 @@
 
 namespace lissom::lua {
 namespace {
+
+// Characters of a replacement that are added between two looks at the limits.
+constexpr std::size_t kPiece = 4096;
+// Longest text that %q may have.
+constexpr std::size_t kMostQuoted = std::size_t{1} << 20;
 
 std::string_view text_at(lua_State* L, int index) {
     std::size_t size = 0;
@@ -166,7 +171,9 @@ int gmatch(lua_State* L) {
 void add_text(lua_State* L, luaL_Buffer* buffer, const Matcher& matcher, std::string_view text,
               const Match& match) {
     const std::string_view with = text_at(L, 3);
+    charge_bytes(L, with.size());
     for (std::size_t i = 0; i < with.size(); ++i) {
+        if (i % kPiece == kPiece - 1) charge_bytes(L, 0);
         if (with[i] != '%') {
             luaL_addchar(buffer, with[i]);
             continue;
@@ -244,6 +251,48 @@ int gsub(lua_State* L) {
     return 2;
 }
 
+// Upvalue 1: Lua's, which counts to n even where it repeats nothing.
+int repeat(lua_State* L) {
+    const std::size_t size = text_at(L, 1).size();
+    const lua_Integer times = luaL_checkinteger(L, 2);
+    const std::size_t between = lua_isnoneornil(L, 3) ? 0 : text_at(L, 3).size();
+    if (size + between == 0 || times <= 0) {
+        lua_pushliteral(L, "");
+        return 1;
+    }
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, lua_gettop(L) - 1, 1);
+    charge_bytes(L, text_at(L, -1).size());
+    return 1;
+}
+
+// Upvalue 1: Lua's. One text alone may keep %q busy for seconds.
+int format(lua_State* L) {
+    const bool quotes = text_at(L, 1).find("%q") != std::string_view::npos;
+    const int given = lua_gettop(L);
+    std::size_t bytes = text_at(L, 1).size();
+    for (int i = 2; i <= given; ++i) {
+        if (lua_type(L, i) != LUA_TSTRING) continue;
+        bytes += raw_length(L, i);
+        if (quotes && raw_length(L, i) > kMostQuoted) {
+            return luaL_error(L, "too long a string for '%%q' in a sandbox");
+        }
+    }
+    charge_bytes(L, bytes);
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, given, 1);
+    charge_bytes(L, raw_length(L, -1));
+    return 1;
+}
+
+void wrap(lua_State* L, const char* name, lua_CFunction with) {
+    lua_getfield(L, -1, name);
+    lua_pushcclosure(L, with, 1);
+    lua_setfield(L, -2, name);
+}
+
 }  // namespace
 
 void make_strings_safe(lua_State* L) {
@@ -251,10 +300,13 @@ void make_strings_safe(lua_State* L) {
     const luaL_Reg functions[] = {
         {"find", find}, {"match", match}, {"gmatch", gmatch}, {"gsub", gsub}, {nullptr, nullptr}};
     luaL_setfuncs(L, functions, 0);
+    wrap(L, "rep", repeat);
+    wrap(L, "format", format);
     lua_pushnil(L);
     lua_setfield(L, -2, "dump");
     lua_pop(L, 1);
-    wrap_costly(L, LUA_STRLIBNAME, {"rep", "upper", "lower", "reverse", "sub", "byte", "format"});
+    wrap_costly(L, LUA_STRLIBNAME,
+                {"upper", "lower", "reverse", "sub", "byte", "pack", "unpack", "packsize"});
 }
 
 }  // namespace lissom::lua

@@ -18,11 +18,13 @@ namespace lissom::lua {
 namespace {
 
 // Instructions between two looks at the limits. Any count takes Lua's loops off their fast path; so
-// few keep short what a script does between them by calls of C functions.
-constexpr int kInstructions = 100;
-
-// Lua's registry has the sandbox under this address.
-const char kSandboxKey = 0;
+// few keep short what a script does between them by operators on long strings. Calls are looked at
+// as well: each may be of a C function that takes its time, or begin a coroutine, whose own count
+// begins anew.
+constexpr int kInstructions = 20;
+constexpr int kLooks = LUA_MASKCOUNT | LUA_MASKCALL;
+// Bytes that a C function passes over in the time of an instruction, about.
+constexpr std::size_t kBytesAnInstruction = 64;
 
 // Asks for a stop when the time is over, unless it is gone before.
 class Watch {
@@ -76,17 +78,17 @@ struct Sandbox::Parts {
 
 namespace {
 
-void look_at_limits(lua_State* L, lua_Debug*) {
+void look_at_limits(lua_State* L, lua_Debug* event) {
     const Sandbox& sandbox = sandbox_of(L);
     Sandbox::Parts& parts = sandbox.parts();
-    parts.instructions += lua_gethookcount(L);
+    if (event->event == LUA_HOOKCOUNT) parts.instructions += lua_gethookcount(L);
     if (parts.limits.instructions != 0 && parts.instructions > parts.limits.instructions) {
         parts.ask(SandboxEnd::instructions);
     }
     if (sandbox.state().context.cancelled()) parts.ask(SandboxEnd::cancelled);
     if (!parts.stop.asked()) return;
     // A script that catches the error gets it again at once: it cannot go on.
-    lua_sethook(L, look_at_limits, LUA_MASKCOUNT, 1);
+    lua_sethook(L, look_at_limits, kLooks, 1);
     raise_stopped(L);
 }
 
@@ -122,8 +124,6 @@ void open_libraries(lua_State* L) {
 // Protected: argument 1 is the sandbox.
 int prepare_sandbox(lua_State* L) {
     auto* sandbox = static_cast<Sandbox*>(lua_touserdata(L, 1));
-    lua_pushlightuserdata(L, sandbox);
-    raw_set_pointer(L, LUA_REGISTRYINDEX, &kSandboxKey);
     open_libraries(L);
     make_base_safe(L);
     make_tables_safe(L);
@@ -165,11 +165,21 @@ void require_limits(const SandboxLimits& limits) {
 
 }  // namespace
 
+// New coroutines have the extra space of the state that the sandbox has opened.
 Sandbox& sandbox_of(lua_State* L) {
-    raw_get_pointer(L, LUA_REGISTRYINDEX, &kSandboxKey);
-    auto* sandbox = static_cast<Sandbox*>(lua_touserdata(L, -1));
-    lua_pop(L, 1);
-    return *sandbox;
+    return **static_cast<Sandbox**>(lua_getextraspace(L));
+}
+
+void charge(lua_State* L, std::size_t instructions) {
+    Sandbox::Parts& parts = sandbox_of(L).parts();
+    const std::int64_t limit = parts.limits.instructions;
+    parts.instructions += static_cast<std::int64_t>(instructions);
+    if (limit != 0 && parts.instructions > limit) parts.ask(SandboxEnd::instructions);
+    if (parts.stop.asked()) raise_stopped(L);
+}
+
+void charge_bytes(lua_State* L, std::size_t bytes) {
+    charge(L, bytes / kBytesAnInstruction);
 }
 
 const Stop& stop_of(lua_State* L) {
@@ -216,6 +226,7 @@ Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
     parts.L = lua_newstate(allocate_counted, parts.account.get());
     bool opened = false;
     if (parts.L) {
+        *static_cast<Sandbox**>(lua_getextraspace(parts.L)) = this;
         lua_pushcfunction(parts.L, prepare_sandbox);
         lua_pushlightuserdata(parts.L, this);
         opened = lua_pcall(parts.L, 1, 0, 0) == LUA_OK;
@@ -226,7 +237,6 @@ Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
         if (parts.L) lua_close(parts.L);
         throw Error(ErrorCode::memory_limit, "the sandbox cannot be opened: " + why);
     }
-    lua_sethook(parts.L, look_at_limits, LUA_MASKCOUNT, kInstructions);
 }
 
 Sandbox::~Sandbox() {
@@ -255,7 +265,7 @@ int Sandbox::call(int arguments, int results, int handler) {
     parts.end = SandboxEnd::none;
     parts.stop.clear();
     parts.instructions = 0;
-    lua_sethook(parts.L, look_at_limits, LUA_MASKCOUNT, kInstructions);
+    lua_sethook(parts.L, look_at_limits, kLooks, kInstructions);
     int status = LUA_OK;
     {
         const Watch watch(parts.limits.seconds, [&parts, &context] {
@@ -264,6 +274,8 @@ int Sandbox::call(int arguments, int results, int handler) {
         });
         status = lua_pcall(parts.L, arguments, results, handler);
     }
+    // The host reads results and messages by calls that nothing protects.
+    lua_sethook(parts.L, nullptr, 0, 0);
     // What asked for this is the limit, not the host.
     if (parts.end == SandboxEnd::seconds) context.clear_cancel();
     return status;

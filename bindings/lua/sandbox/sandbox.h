@@ -20,7 +20,8 @@ namespace lissom::lua {
 struct SandboxLimits {
     /// Wall time; 0: as long as it takes.
     double seconds = 10.0;
-    /// Of Lua's virtual machine, counted in hundreds; 0: any number.
+    /// Instructions of Lua's virtual machine, counted in twenties; what functions of its libraries
+    /// do counts as one per 64 bytes or table element. 0: any number.
     std::int64_t instructions = 0;
     /// What Lua takes, and what the library takes for the script's objects and for its work,
     /// together. 0: as much as there is.

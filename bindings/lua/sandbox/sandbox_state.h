@@ -1,6 +1,7 @@
 /// What the parts of a sandbox know of it; private to bindings/lua/sandbox.
 #pragma once
 
+#include <cstddef>
 #include <initializer_list>
 
 #include "bindings/lua/core/compat.h"
@@ -17,8 +18,13 @@ const std::vector<std::filesystem::path>& module_folders_of(const Sandbox& sandb
 /// Raises the error that ends the script.
 [[noreturn]] void raise_stopped(lua_State* L);
 
-/// Replaces functions of a library, each of which may take some milliseconds without a step of
-/// Lua's, by ones that end a script first whose time is over.
+/// Counts the work of a C function as this many instructions, and ends the script if a limit is
+/// reached.
+void charge(lua_State* L, std::size_t instructions);
+/// Counts bytes that a C function has passed over.
+void charge_bytes(lua_State* L, std::size_t bytes);
+
+/// Replaces functions of a library by ones that count the strings they take and return.
 void wrap_costly(lua_State* L, const char* library, std::initializer_list<const char*> names);
 
 /// Each replaces what is in the globals.

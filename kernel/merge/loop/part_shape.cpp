@@ -18,8 +18,16 @@
 namespace lissom {
 namespace {
 
-// Vertices that are mirrored to judge a plane.
+// Vertices that are mirrored to judge a plane, and the share of them that screens the first planes
+// and fits the best.
 constexpr Index kProbes = 400;
+constexpr std::size_t kScreening = 4;
+// First planes are judged by all vertices if the screening finds them this near to the best: well
+// beyond kClearlyFlatter and kClearlyLess, so that the sample does not decide.
+constexpr double kNearBest = 1.7, kNearlyBest = 0.04;
+// Planes that are fitted, and first planes that a thread judges in one go.
+constexpr std::size_t kFitted = 3;
+constexpr Index kPlaneGrain = 10;
 // Planes along the boundary's axis that are tried.
 constexpr int kPlanes = 36;
 // Times that a plane is fitted to what it mirrors.
@@ -76,16 +84,18 @@ class MirrorSearch {
         return Eigen::SelfAdjointEigenSolver<Mat3>(sum).eigenvectors();
     }
 
-    // What lies nearest to the mirror images of the probes, found faster from what was nearest for
-    // another plane.
-    std::vector<MirrorImage> images(const Plane& plane, std::span<const MirrorImage> before) const {
+    // Finds the nearest surface points of the mirror images of every `step`-th probe, faster from
+    // the nearest ones of another plane.
+    std::vector<MirrorImage> images(const Plane& plane, std::size_t step,
+                                    std::span<const MirrorImage> before) const {
         std::vector<MirrorImage> result;
-        result.reserve(probes_.size());
-        for (std::size_t i = 0; i < probes_.size(); ++i) {
+        result.reserve(probes_.size() / step + 1);
+        for (std::size_t i = 0; i < probes_.size(); i += step) {
             const Vec3 p = plane.mirrored(probes_[i]);
             std::optional<SurfacePoint> found;
-            if (i < before.size()) {
-                found = tree_.nearest_within(p, kSurely * (before[i].position - p).norm());
+            if (!before.empty()) {
+                const Vec3& last = before[result.size()].position;
+                found = tree_.nearest_within(p, kSurely * (last - p).norm());
             }
             if (!found) found = tree_.nearest(p);
             result.push_back({found->position, found->distance});
@@ -106,20 +116,20 @@ class MirrorSearch {
     double asymmetry(std::span<const MirrorImage> images) const {
         double squares = 0.0;
         for (const MirrorImage& image : images) squares += square(image.distance);
-        return std::sqrt(squares / probes_.size()) / size_;
+        return std::sqrt(squares / std::ssize(images)) / size_;
     }
 
-    // The plane between points and what lies nearest to their mirror images.
-    Plane fitted(std::span<const MirrorImage> images) const {
+    // The plane between every `step`-th probe and the nearest points of their mirror images.
+    Plane fitted(std::span<const MirrorImage> images, std::size_t step) const {
         Vec3 middle = Vec3::Zero();
-        for (std::size_t i = 0; i < probes_.size(); ++i) {
-            middle += 0.5 * (probes_[i] + images[i].position) / count_of(probes_);
+        for (std::size_t k = 0; k < images.size(); ++k) {
+            middle += 0.5 * (probes_[k * step] + images[k].position) / count_of(images);
         }
         // Of the mirrored points about the middle, and the points: the least squares of
         // p' - mirror(p) over unit normals is an eigenvector.
         Mat3 products = Mat3::Zero();
-        for (std::size_t i = 0; i < probes_.size(); ++i) {
-            const Vec3 a = probes_[i] - middle, b = images[i].position - middle;
+        for (std::size_t k = 0; k < images.size(); ++k) {
+            const Vec3 a = probes_[k * step] - middle, b = images[k].position - middle;
             products += a * b.transpose() + b * a.transpose();
         }
         return {middle, Eigen::SelfAdjointEigenSolver<Mat3>(products).eigenvectors().col(0)};
@@ -178,43 +188,74 @@ struct JudgedPlane {
     double asymmetry = std::numeric_limits<double>::infinity();
 };
 
-JudgedPlane judged(const MirrorSearch& search, const Plane& plane,
+JudgedPlane judged(const MirrorSearch& search, const Plane& plane, std::size_t step,
                    std::span<const MirrorImage> before) {
-    std::vector<MirrorImage> images = search.images(plane, before);
+    std::vector<MirrorImage> images = search.images(plane, step, before);
     const double asymmetry = search.asymmetry(images);
     return {plane, std::move(images), asymmetry};
 }
 
-// All first planes with their asymmetry; the best and the best of a different angle also fitted.
+void sort_by_asymmetry(std::vector<JudgedPlane>& planes) {
+    std::stable_sort(planes.begin(), planes.end(),
+                     [](const auto& a, const auto& b) { return a.asymmetry < b.asymmetry; });
+}
+
+// The first planes judged by some of the probes, the best first.
+std::vector<JudgedPlane> screened_planes(const MirrorSearch& search, const Loop& loop,
+                                         const Context& context) {
+    const std::vector<Plane> first = first_planes(search, loop);
+    std::vector<JudgedPlane> planes(first.size());
+    context.parallel_for(0, count_of(first), kPlaneGrain, [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+            context.checkpoint();
+            std::span<const MirrorImage> before;
+            if (i > begin) before = planes[at(i - 1)].images;
+            planes[at(i)] = judged(search, first[at(i)], kScreening, before);
+        }
+    });
+    sort_by_asymmetry(planes);
+    return planes;
+}
+
+// Fits a plane to some of the probes, and judges it by all of them.
+JudgedPlane fitted_plane(const MirrorSearch& search, JudgedPlane plane) {
+    for (int round = 0; round < kFits; ++round) {
+        JudgedPlane next =
+            judged(search, search.fitted(plane.images, kScreening), kScreening, plane.images);
+        if (!(next.asymmetry < plane.asymmetry)) break;
+        plane = std::move(next);
+    }
+    return judged(search, plane.plane, 1, {});
+}
+
+// The first planes that may be the best, or nearly as good, with their asymmetry; the best and the
+// best of other angles are also fitted. The best first.
 std::vector<JudgedPlane> judged_planes(const MirrorSearch& search, const Loop& loop,
                                        const Context& context) {
-    std::vector<JudgedPlane> planes;
-    for (const Plane& plane : first_planes(search, loop)) {
-        context.checkpoint();
-        std::span<const MirrorImage> before;
-        if (!planes.empty()) before = planes.back().images;
-        planes.push_back(judged(search, plane, before));
-    }
-    const auto better = [](const JudgedPlane& a, const JudgedPlane& b) {
-        return a.asymmetry < b.asymmetry;
-    };
-    std::stable_sort(planes.begin(), planes.end(), better);
-    std::vector<Vec3> fitted;
-    for (std::size_t i = 0; i < planes.size() && fitted.size() < 3; ++i) {
-        const Vec3 normal = planes[i].plane.normal;
-        const bool again = std::any_of(fitted.begin(), fitted.end(), [&](const Vec3& other) {
+    std::vector<JudgedPlane> planes = screened_planes(search, loop, context);
+    const double least = planes.front().asymmetry;
+    const double near = std::max(kNearBest * least, least + kNearlyBest);
+    std::vector<char> is_fitted(planes.size(), 0);
+    std::vector<Vec3> normals;
+    for (std::size_t i = 0; i < planes.size() && normals.size() < kFitted; ++i) {
+        const Vec3& normal = planes[i].plane.normal;
+        is_fitted[i] = std::none_of(normals.begin(), normals.end(), [&](const Vec3& other) {
             return angle_between_planes(other, normal) < kOtherPlane;
         });
-        if (again) continue;
-        fitted.push_back(normal);
-        for (int step = 0; step < kFits; ++step) {
-            JudgedPlane next = judged(search, search.fitted(planes[i].images), planes[i].images);
-            if (!(next.asymmetry < planes[i].asymmetry)) break;
-            planes[i] = std::move(next);
-        }
+        if (is_fitted[i]) normals.push_back(normal);
     }
-    std::stable_sort(planes.begin(), planes.end(), better);
-    return planes;
+    std::vector<JudgedPlane> judged_ones(planes.size());
+    context.parallel_for(0, count_of(planes), 1, [&](Index begin, Index) {
+        context.checkpoint();
+        const JudgedPlane& plane = planes[at(begin)];
+        if (is_fitted[at(begin)]) {
+            judged_ones[at(begin)] = fitted_plane(search, plane);
+        } else if (plane.asymmetry <= near) {
+            judged_ones[at(begin)] = judged(search, plane.plane, 1, {});
+        }
+    });
+    sort_by_asymmetry(judged_ones);
+    return judged_ones;
 }
 
 // Whether no turn of several moves the surface off itself.

@@ -238,7 +238,7 @@ TEST_CASE("a listener cannot call the binding") {
 
 TEST_CASE("what a listener collects by hand lives until the operation has ended") {
     LuaState lua;
-    CHECK(lua.run("sphere = lissom.shapes.sphere() collect, heard = getmetatable(sphere).__gc, 0 "
+    CHECK(lua.run("sphere = lissom.shapes.sphere() collect, heard = debug.getmetatable(sphere).__gc, 0 "
                   "lissom.listen{ progress = function() "
                   "  heard = heard + 1 collect(sphere) collectgarbage() "
                   "end } "

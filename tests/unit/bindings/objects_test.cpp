@@ -54,9 +54,15 @@ TEST_CASE("dependents keep their mesh alive") {
     CHECK(lua.eval("rawequal(top:mesh(), top:mesh())") == "true");
 }
 
+TEST_CASE("the metatable of an object shows its type alone") {
+    LuaState lua;
+    CHECK(lua.eval("getmetatable(lissom.shapes.box())") == "lissom.Mesh");
+    CHECK(lua.run("setmetatable(lissom.shapes.box(), {})") != "");
+}
+
 TEST_CASE("finalizers called by hand do no harm") {
     LuaState lua;
-    CHECK(lua.run("local mesh = lissom.shapes.box() local gc = getmetatable(mesh).__gc "
+    CHECK(lua.run("local mesh = lissom.shapes.box() local gc = debug.getmetatable(mesh).__gc "
                   "gc(mesh) gc(mesh) gc({}) gc(io.stdout) pcall(gc)") == "");
 }
 
@@ -64,7 +70,7 @@ TEST_CASE("a metatable that a script has set on an object of another type is an 
     LuaState lua;
     CHECK(lua.run("mesh = lissom.shapes.box() region = mesh:region('top') "
                   "area, grow = mesh.area, region.grow "
-                  "debug.setmetatable(region, getmetatable(mesh))") == "");
+                  "debug.setmetatable(region, debug.getmetatable(mesh))") == "");
     CHECK(lua.run("region:area()") ==
           "test:1: bad argument #1 to 'area' (lissom.Mesh expected, got lissom.Region) "
           "[invalid_argument]");
@@ -81,7 +87,7 @@ TEST_CASE("a metatable that a script has set on an object of another type is an 
 
 TEST_CASE("our metatables on foreign userdata do no harm") {
     LuaState lua;
-    CHECK(lua.run("mesh = lissom.shapes.box() meta = getmetatable(mesh)") == "");
+    CHECK(lua.run("mesh = lissom.shapes.box() meta = debug.getmetatable(mesh)") == "");
     // A file of Lua's, and one of our own values that is no object.
     lua_newuserdata(lua.get(), 256);
     lua_setglobal(lua.get(), "large");
@@ -103,7 +109,7 @@ TEST_CASE("our metatables on foreign userdata do no harm") {
 
 TEST_CASE("an object without its metatable is still what it is") {
     LuaState lua;
-    CHECK(lua.run("mesh = lissom.shapes.box() area, meta = mesh.area, getmetatable(mesh) "
+    CHECK(lua.run("mesh = lissom.shapes.box() area, meta = mesh.area, debug.getmetatable(mesh) "
                   "debug.setmetatable(mesh, nil)") == "");
     CHECK(lua.eval("area(mesh)") == "6.0");
     // Without one Lua would never free it.

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -40,6 +41,20 @@ Mesh swollen_bowl(Index count) {
     return moved(swollen_dome(count), over);
 }
 
+// A dome whose outline is an egg, pointed along x.
+Mesh egg_dome(Index count) {
+    Mesh dome = swollen_dome(count, 1.3);
+    for (Vec3& p : dome.edit_positions()) p.y() *= 1.0 - 0.35 * p.x() / 1.3;
+    return dome;
+}
+
+bool is_told_of_wrong_way(const MergeResult& result) {
+    const std::vector<std::string>& warnings = result.report.warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+        return warning.find("it may look the wrong way") != std::string::npos;
+    });
+}
+
 MergeResult placed(const Mesh& source, const Mesh& target, const MergeOptions& options = {},
                    std::vector<KeyPair> keys = {}) {
     const Mesh* targets[] = {&target};
@@ -74,6 +89,24 @@ TEST_CASE("without keys a part is turned least from how it lies") {
             CHECK(join.certainty == 1.0);
             CHECK((join.turn + tilt * Vec3(1, 2, 0).normalized()).norm() < 0.01);
         }
+    }
+}
+
+TEST_CASE("a part that lies turned from how the shapes suggest is told of") {
+    Affine under = rotation(Vec3::UnitX(), kPi, Vec3::Zero());
+    under.linear *= 2.0;
+    const Mesh bowl = moved(egg_dome(56), under), dome = egg_dome(40);
+    for (const double degrees : {0.0, 40.0, -60.0}) {
+        CAPTURE(degrees);
+        const Affine about = rotation(Vec3::UnitZ(), degrees * kDegree, Vec3::Zero());
+        CHECK(!is_told_of_wrong_way(placed(moved(dome, about), bowl)));
+    }
+    for (const double degrees : {120.0, 180.0, -140.0}) {
+        CAPTURE(degrees);
+        const Affine about = rotation(Vec3::UnitZ(), degrees * kDegree, Vec3::Zero());
+        const MergeResult result = placed(moved(dome, about), bowl);
+        CHECK(is_told_of_wrong_way(result));
+        CHECK(result.report.joins[0].placed == Placing::as_placed);
     }
 }
 

@@ -94,6 +94,54 @@ std::vector<HostileScript> endless() {
          "local u = setmetatable({}, { __newindex = type }) "
          "while true do table.move(t, 1, 9e6, 1, u) end",
          time},
+        {"empty strings repeated", "return (''):rep(math.maxinteger, '') == ''", harmless},
+        {"sort of long strings",
+         "local long, t = {}, {} for i = 1, 7 do long[i] = ('a'):rep(1000000) .. i end "
+         "for i = 1, 200000 do t[i] = long[i % 7 + 1] end table.sort(t)",
+         time},
+        {"bodies of coroutines shorter than a look",
+         "while true do coroutine.wrap(function() return 1 end)() end", time},
+        {"bodies of created coroutines",
+         "while true do coroutine.resume(coroutine.create(function() return 1 end)) end", time},
+        {"moved through a chain of indices",
+         "local t = {} for i = 1, 1900 do t = setmetatable({}, { __index = t }) end "
+         "table.move(t, 1, 9000000, 1, {})",
+         error, "too many elements"},
+        {"moved into a chain of indices",
+         "local t = {} for i = 1, 1900 do t = setmetatable({}, { __newindex = t }) end "
+         "table.move({}, 1, 9000000, 1, t)",
+         error, "too many elements"},
+        {"moved through a short chain again and again",
+         "local t = {} for i = 1, 1900 do t = setmetatable({}, { __index = t }) end "
+         "while true do table.move(t, 1, 9000, 1, {}) end",
+         time},
+        {"concat through a chain of indices",
+         "local t = setmetatable({}, { __index = function() return '' end }) "
+         "for i = 1, 100 do t = setmetatable({}, { __index = t }) end "
+         "while true do pcall(table.concat, t, '', 1, 9000) end",
+         time},
+        {"unpack through a chain of indices",
+         "local t = {} for i = 1, 1900 do t = setmetatable({}, { __index = t }) end "
+         "while true do table.unpack(t, 1, 200) end",
+         time},
+        {"insert at the front for ever",
+         "local t = {} for i = 1, 1e5 do t[i] = 0 end while true do table.insert(t, 1, 1) end",
+         time},
+        {"numbers of many digits for ever",
+         "local s = ('9'):rep(5000000) while true do tonumber(s, 10) end", time},
+        {"sizes of long formats for ever",
+         "local f = ('x'):rep(5000000) while true do string.packsize(f) end", time},
+        {"unpacked bytes for ever",
+         "local f, s = ('x'):rep(5000000), ('y'):rep(5000000) while true do string.unpack(f, s) "
+         "end",
+         time},
+        {"date of a long format", "return os.date(('%c'):rep(1000000))", error,
+         "too long a format"},
+        {"quoted again and again",
+         "local s = ('\\0'):rep(1000000) while true do string.format('%q', s) end", any},
+        {"quoted at once", "return string.format('%q', ('\\0'):rep(5000000))", error, "too long"},
+        {"source of megabytes", "local s = ('x = 1 '):rep(2000000) while true do load(s) end",
+         time},
         {"modules for ever", "while true do pcall(require, 'none') end", time},
         {"assert for ever", "while true do pcall(assert, false) end", time},
         {"meshes for ever",
@@ -131,6 +179,11 @@ std::vector<HostileScript> patterns() {
         {"the original by the metatable of strings",
          "local find = getmetatable('').__index.find return find(('a'):rep(300), 'a*a*a*a*a*b')",
          time},
+        {"long set", "return ('a'):rep(1000000):find('[' .. ('b'):rep(10000000) .. ']')", time},
+        {"long set, repeated",
+         "return ('a'):rep(1000000):gsub('[' .. ('b'):rep(10000000) .. ']*', '')", time},
+        {"replacement of many captures", "return ('a'):rep(10000):gsub('a', ('%0'):rep(100000))",
+         any},
         {"deep captures", "return ('x'):find(('('):rep(300) .. 'x')", error, "captures"},
         {"deep pattern", "return ('x'):rep(1000):find(('x?'):rep(1000))", error, "too complex"},
         {"no end of a set", "return ('x'):find('[a')", error, "missing ']'"},
@@ -341,9 +394,25 @@ std::vector<HostileScript> ways_out() {
          "getmetatable('').__index = nil return pcall(function() return ('x').find end) == false",
          harmless},
         {"metatable of a mesh",
-         "local m = require('lissom').shapes.box() local t = getmetatable(m) "
-         "if type(t) == 'table' and t.__gc then t.__gc(m) pcall(t.__gc, {}) pcall(t.__gc) end "
-         "pcall(function() return m:vertex_count() end) return true",
+         "local l = require('lissom') "
+         "for _, x in ipairs{ l.shapes.box(), l.shapes.box():region('top'), l.scene() } do "
+         "assert(type(getmetatable(x)) == 'string' and not pcall(setmetatable, x, {})) end "
+         "return true",
+         harmless},
+        {"coroutine that resumes itself",
+         "local c c = coroutine.wrap(function() return (('aaa'):gsub('a', function() "
+         "local done, why = pcall(c) assert(not done and why:find('non%-suspended')) return 'b' "
+         "end)) end) return c() == 'bbb'",
+         harmless},
+        {"coroutine that resumes itself by its thread",
+         "local c c = coroutine.create(function() return (('aaa'):gsub('a', function() "
+         "assert(not coroutine.resume(c)) assert(not pcall(coroutine.close, c)) return 'b' end)) "
+         "end) return select(2, coroutine.resume(c)) == 'bbb'",
+         harmless},
+        {"coroutine that resumes the one that resumed it",
+         "local a, b a = coroutine.wrap(function() return b() end) "
+         "b = coroutine.wrap(function() local done = pcall(a) return done end) "
+         "return a() == false",
          harmless},
         {"methods on other things",
          "local m = require('lissom').shapes.box() "

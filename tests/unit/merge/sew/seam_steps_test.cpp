@@ -245,6 +245,18 @@ TEST_CASE("with collars a merge is the same wherever its source lies, symmetric 
     }
 }
 
+TEST_CASE("a collar makes no more triangles of needles than edges that grow through them need") {
+    // One ring of needles stands on the seam: their edges of the next ring are as short as its own.
+    for (const Index needles : {100, 200, 400}) {
+        CAPTURE(needles);
+        SewScene scene{make_tube(24, -2.0, 2.0), make_tube(needles, 0.0, 2.0, 1.0, 1), {}};
+        add_join(scene, boundary_towards(scene.target, 1.0), boundary_towards(scene.source, -1.0),
+                 Vec3(1.0, 0.0, 1e-3));
+        const Sewn sewn = sewn_tubes(scene, {.smooth = 0, .collar = true});
+        CHECK(sewn.report.collar_added < 30 * needles);
+    }
+}
+
 TEST_CASE("edges grow evenly through a collar") {
     const SewScene scene = two_tubes(8, 300);
     const Sewn sewn = sewn_tubes(scene, {.smooth = 0, .collar = true});
