@@ -159,8 +159,8 @@ end
 
 local function type_of(value)
     if type(value) ~= "userdata" then return type(value) end
-    local meta = debug and debug.getmetatable(value) or getmetatable(value)
-    return type(meta) == "table" and meta.__name or "userdata"
+    local meta = getmetatable(value)
+    return type(meta) == "string" and meta or "userdata"
 end
 
 local in_scenes = set_of{ "lissom.Mesh", "lissom.Deformation", "lissom.Strands", "lissom.Hairstyle",
