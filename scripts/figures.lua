@@ -221,14 +221,14 @@ function figures.deformed(rest, options, handles, preview)
     local mesh, chosen = rest:copy(), {}
     for key, value in pairs(options) do chosen[key] = value end
     if chosen.region then chosen.region = mesh:region(chosen.region) end
-    local edit = lissom.deform(mesh, chosen)
+    local deformer = lissom.deformer(mesh, chosen)
     -- In the order of their names, so that a run repeats another to the bit.
     local names = {}
     for name in pairs(handles) do table.insert(names, name) end
     table.sort(names)
-    for _, name in ipairs(names) do handles[name](edit:handle(mesh:region(name))) end
-    assert(preview and edit:preview() or not preview and edit:solve())
-    return mesh, edit
+    for _, name in ipairs(names) do handles[name](deformer:add_handle(mesh:region(name))) end
+    assert(preview and deformer:preview() or not preview and deformer:solve())
+    return mesh, deformer
 end
 
 --- For handles that keep their place.

@@ -95,7 +95,8 @@ end
 -- direction of the tie (`azimuth`, `elevation`), how far it is above the head (`lift`), the `length` of the
 -- tail, its `radius`, and the length over which it bends (`droop`); lengths are in metres.
 function hairdo.tail_spine(scalp, tail)
-    local at, normal = scalp:at{ azimuth = tail.azimuth, elevation = tail.elevation, lift = tail.lift }
+    local tie = { azimuth = tail.azimuth, elevation = tail.elevation, lift = tail.lift }
+    local at, normal = scalp:at(tie), scalp:normal_at(tie)
     local from, to = scalp:to_metres(at), {}
     for k = 1, 3 do to[k] = at[k] + normal[k] * scalp:scale() end
     to = scalp:to_metres(to)
@@ -129,8 +130,8 @@ local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
 -- Returns the place of a tie: its center in metres, the direction to it, and its distance from the center of
 -- the head.
 local function tie_of(scalp, tail)
-    local center = scalp:to_metres((scalp:at{ azimuth = tail.azimuth, elevation = tail.elevation,
-        lift = tail.lift }))
+    local center = scalp:to_metres(scalp:at{ azimuth = tail.azimuth, elevation = tail.elevation,
+        lift = tail.lift })
     return { center = center, out = direction_of(tail.azimuth, tail.elevation),
         radius = math.sqrt(dot(center, center)) }
 end
@@ -181,7 +182,7 @@ local function lead_into(style, tail, tie, places, name)
     local length = math.sqrt(dot(inward, inward))
     for k = 1, 3 do inward[k] = tie.center[k] + 0.5 * tail.radius * inward[k] / length end
     points[#points + 1] = scalp:from_metres(inward)
-    style:stream{ points = points, stop = false, name = name }
+    style:add_stream{ points = points, stop = false, name = name }
 end
 
 -- Streams from all around a tie into it, close over the head: `count` of them. `low` is their height over the
@@ -244,7 +245,8 @@ end
 
 -- The ring of a tie, for pictures: a mesh around the first cross section of a tail.
 function hairdo.ring(scalp, tail)
-    local center, normal = scalp:at{ azimuth = tail.azimuth, elevation = tail.elevation, lift = tail.lift }
+    local tie = { azimuth = tail.azimuth, elevation = tail.elevation, lift = tail.lift }
+    local center, normal = scalp:at(tie), scalp:normal_at(tie)
     local size = scalp:scale()
     local ring = lissom.shapes.torus{ radius = tail.radius * 0.95 * size, tube_radius = 0.0045 * size }
     -- From +y to the normal.

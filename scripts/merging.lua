@@ -220,8 +220,8 @@ end
 
 local direction_options = { "source_up", "source_front", "target_up", "target_front" }
 local merge_options = { "configuration", "place", "fixed", "reach", "frames", "seam", "smooth", "collar",
-    "transition", "trim", "greatest_turn", "refine", "intersections", "fidelity", "source_up", "source_front",
-    "target_up", "target_front" }
+    "transition", "trim", "greatest_turn", "subdivide", "intersections", "fidelity", "source_up",
+    "source_front", "target_up", "target_front" }
 
 --- The values of a recipe's parameters (`schema` as of lissom.params), those given or else the defaults,
 -- and a table of the given options that are lissom.merge's own. Any other name is an error at the caller of

@@ -4,7 +4,7 @@
 --     local strokes = require "strokes"
 --     local by, to = strokes.by, strokes.to
 --     local route = strokes.route(style)
---     style:stream{ points = route{ { 20, 45, 10 }, { 72, 8, 20 }, by(4, -50, -4), to(80, -115, -20) } }
+--     style:add_stream{ points = route{ { 20, 45, 10 }, { 72, 8, 20 }, by(4, -50, -4), to(80, -115, -20) } }
 --
 -- { azimuth, elevation, lift }: over the head in that direction, in degrees and millimetres.
 -- by(x, y, z): as far from the point before. to(x, y, z): as far from the center of the head.
@@ -26,7 +26,7 @@ function strokes.route(style)
             return scalp:from_metres(from[1] + place.by[1] / 1000, from[2] + place.by[2] / 1000,
                 from[3] + place.by[3] / 1000)
         end
-        return (style:at{ azimuth = place[1], elevation = place[2], lift = (place[3] or 0) / 1000 })
+        return style:at{ azimuth = place[1], elevation = place[2], lift = (place[3] or 0) / 1000 }
     end
     return function(places)
         local points = {}

@@ -12,6 +12,7 @@ ProgramParts kernel_parts() {
         {"inspect", "FILE...", "Describes the contents of meshes, hair and scenes.", inspect},
         {"convert", "IN OUT", "Writes meshes and hair in another format.", convert},
         {"new", "tool NAME", "Writes a tool to begin with.", make_new},
+        {"migrate", "FILE...", "Rewrites old names in scripts.", migrate_scripts},
         {"repl", "", "Runs Lua line by line.", repl},
         {"help", "NAME", "Describes a verb or a Lua function.", help},
         {"explain", "[CODE]", "Explains an error code.", explain}};

@@ -15,6 +15,7 @@ int convert(Program& program, const std::vector<std::string>& words);
 int repl(Program& program, const std::vector<std::string>& words);
 int help(Program& program, const std::vector<std::string>& words);
 int make_new(Program& program, const std::vector<std::string>& words);
+int migrate_scripts(Program& program, const std::vector<std::string>& words);
 int explain(Program& program, const std::vector<std::string>& words);
 
 }  // namespace lissom::cli

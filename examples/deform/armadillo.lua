@@ -37,20 +37,20 @@ rest:set_region("right_hand", ball(at(0.05, 0.86, 0.87), 0.36))
 rest:set_region("head", ball(at(0.52, 0.82, 0.75), 0.4))
 
 local mesh = rest:copy()
-local edit = lissom.deform(mesh, { region = mesh:region("movable") })
+local deformer = lissom.deformer(mesh, { region = mesh:region("movable") })
 
 -- Arms turn about the shoulders, the head about the neck.
-edit:handle(mesh:region("left_hand")):rotate{ axis = "z", angle = params.raise, about = at(0.70, 0.72, 0.5) }
-edit:handle(mesh:region("right_hand")):rotate{ axis = "z", angle = params.raise, about = at(0.30, 0.72, 0.5) }
-edit:handle(mesh:region("head")):rotate{ axis = "y", angle = params.turn, about = at(0.5, 0.8, 0.5) }
+deformer:add_handle(mesh:region("left_hand")):rotate("z", params.raise, { about = at(0.70, 0.72, 0.5) })
+deformer:add_handle(mesh:region("right_hand")):rotate("z", params.raise, { about = at(0.30, 0.72, 0.5) })
+deformer:add_handle(mesh:region("head")):rotate("y", params.turn, { about = at(0.5, 0.8, 0.5) })
 
-edit:solve()
+deformer:solve()
 
 local file = before_after.write{
     name = "armadillo", out = params.out, before = rest, after = mesh,
     view = "front", region = "movable", handles = { "left_hand", "right_hand", "head" }, size = { 1200, 720 },
 }
-local stats = edit:stats()
+local stats = deformer:stats()
 print(string.format("%d vertices, %d of them free, prepared in %.2f s: %s, .ply, .png", mesh:vertex_count(),
     stats.free_vertices, stats.assemble_seconds + stats.first_factor_seconds + stats.second_factor_seconds,
     file))

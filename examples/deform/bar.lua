@@ -29,16 +29,16 @@ rest:set_region("movable", rest:region{ all = true })
 
 -- Without a region the whole mesh may move. The lower handle is not moved: it holds its place.
 local mesh = rest:copy()
-local edit = lissom.deform(mesh)
-edit:handle(mesh:region("bottom"))
-local top = edit:handle(mesh:region("top"))
+local deformer = lissom.deformer(mesh)
+deformer:add_handle(mesh:region("bottom"))
+local top = deformer:add_handle(mesh:region("top"))
 
 -- Moves add up in the order of the calls: first the twist about the bar's axis, then the turn about a
 -- point beside the bar's middle.
 top:rotate{ axis = "y", angle = params.twist }
 top:rotate{ axis = "z", angle = -params.bend, about = { 2 * width, 0, 0 } }
 
-edit:solve()
+deformer:solve()
 
 -- Before and after, with the faces' edges: the handles in purple.
 local file = before_after.write{
@@ -46,4 +46,4 @@ local file = before_after.write{
     wire = true, region = "movable", handles = { "bottom", "top" },
 }
 print(string.format("%d vertices, %d of them free: %s, .ply, .png",
-    mesh:vertex_count(), edit:stats().free_vertices, file))
+    mesh:vertex_count(), deformer:stats().free_vertices, file))

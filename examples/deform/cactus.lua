@@ -25,22 +25,22 @@ rest:set_region("movable", rest:region{ plane = { point = { 0, 0.15 * height, 0 
 
 -- A copy has the same vertices and the same names.
 local mesh = rest:copy()
-local edit = lissom.deform(mesh, { region = mesh:region("movable") })
+local deformer = lissom.deformer(mesh, { region = mesh:region("movable") })
 
 -- A handle takes its vertices along and turns the surface there; the part between the handles follows. Turned
 -- about a point of the trunk, the tip moves along an arc.
-local tip = edit:handle(mesh:region("tip"))
+local tip = deformer:add_handle(mesh:region("tip"))
 tip:rotate{ axis = "z", angle = -params.bend, about = { 0, 0.6 * height, 0 } }
 
 -- The arms open about their elbows: `side` is the sign of x.
 local function open_arm(name, side)
-    local arm = edit:handle(mesh:region(name))
+    local arm = deformer:add_handle(mesh:region(name))
     arm:rotate{ axis = "z", angle = -side * params.open, about = { side * 0.2 * height, 0.45 * height, 0 } }
 end
 open_arm("left_tip", -1)
 open_arm("right_tip", 1)
 
-edit:solve()
+deformer:solve()
 
 -- Before and after, side by side: the region in blue, the handles in purple.
 local file = before_after.write{
@@ -48,4 +48,4 @@ local file = before_after.write{
     view = "front", region = "movable", handles = { "tip", "left_tip", "right_tip" }, size = { 960, 520 },
 }
 print(string.format("%d vertices, %d of them free: %s, .ply, .png",
-    mesh:vertex_count(), edit:stats().free_vertices, file))
+    mesh:vertex_count(), deformer:stats().free_vertices, file))

@@ -1,4 +1,4 @@
--- If a few vertices hold a detailed region, the deformation works on a surface that is refined along them
+-- If a few vertices hold a detailed region, the deformation works on a surface that is subdivided along them
 -- (section 2.5 of the thesis), and the mesh keeps its faces. A tube with bumps is held at its ends, which are
 -- triangles.
 --
@@ -73,13 +73,13 @@ local handles = {
     end,
 }
 
-local coarse = figures.deformed(rest, { refine_borders = false }, handles)
-local refined, edit = figures.deformed(rest, {}, handles)
-local dense = edit:refined_mesh()
+local coarse = figures.deformed(rest, { subdivide_borders = false }, handles)
+local refined, deformer = figures.deformed(rest, {}, handles)
+local dense = deformer:subdivided_mesh()
 
 -- Limit of both: the refined surface at rest, each of its triangles divided by four.
 local still = select(2, figures.deformed(rest, {}, { low = figures.hold, high = figures.hold }))
-local limit = figures.deformed(still:refined_mesh():subdivide(1), { refine_borders = false }, handles)
+local limit = figures.deformed(still:subdivided_mesh():subdivide(1), { subdivide_borders = false }, handles)
 
 -- Root mean square distance between the vertices of the rings, in sizes of the tube.
 local function difference(a, b)
@@ -88,7 +88,8 @@ local function difference(a, b)
     return math.sqrt(squares / (sides * rings)) / rest:size()
 end
 
-print(string.format("%d vertices, and %d inserted along the borders", #rest, edit:stats().refined_vertices))
+print(string.format("%d vertices, and %d inserted along the borders", #rest,
+    deformer:stats().subdivided_vertices))
 figures.row("border", "%14s", "from the limit")
 local without, with = difference(coarse, limit), difference(refined, limit)
 figures.row("as it is", "%14.4f", without)
@@ -100,6 +101,6 @@ figures.write{
     panels = { { rest, "at rest" }, { coarse, "coarse borders" }, { refined, "refined borders" },
         { dense, "the refined mesh" } },
 }
-figures.claim(edit:stats().refined_vertices > 0, "a coarse border is refined")
+figures.claim(deformer:stats().subdivided_vertices > 0, "a coarse border is refined")
 figures.claim(#refined == #rest, "the mesh keeps its vertices")
 figures.claim(with < without, "refined borders are nearer to the limit")

@@ -51,7 +51,7 @@ local handles = {
 }
 
 local keep = figures.deformed(rest, { local_size = "keep" }, handles)
-local scale, edit = figures.deformed(rest, { local_size = "scale" }, handles)
+local scale, deformer = figures.deformed(rest, { local_size = "scale" }, handles)
 
 -- Measures the surface between the handles: its area, how far triangles are from their shape, and how many
 -- edges are folded.
@@ -61,7 +61,7 @@ local function measure(mesh)
     return after:area() / before:area(), shape.p50, shape.p99, select(2, figures.roughness(after))
 end
 print(string.format("%d vertices, %d of them free; the handles come %.0f %% closer", #rest,
-    edit:stats().free_vertices, 100 * params.closer))
+    deformer:stats().free_vertices, 100 * params.closer))
 figures.row("between the handles", "%8s %8s %8s %8s", "area", "median", "99 %", "folds")
 local found = {}
 for i, row in ipairs{ { "local_size = keep", keep }, { "local_size = scale", scale }, { "at rest", rest } } do

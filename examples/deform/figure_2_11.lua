@@ -85,10 +85,10 @@ local handles = {
     end,
 }
 
-local bent, edit = figures.deformed(rest, {}, handles)
+local bent, deformer = figures.deformed(rest, {}, handles)
 local naive = figures.deformed(rest, { method = "naive" }, handles)
 local genus = rest:genus()
-print(string.format("%d vertices, %d of them free, genus %d", #rest, edit:stats().free_vertices, genus))
+print(string.format("%d vertices, %d of them free, genus %d", #rest, deformer:stats().free_vertices, genus))
 figures.row("method", "%8s %8s %8s %8s", "median", "99 %", "worst", "volume")
 local found, volume = {}, {}
 for i, row in ipairs{ { "implicit", bent }, { "naive", naive } } do

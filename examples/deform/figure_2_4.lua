@@ -66,14 +66,14 @@ local handles = {
 -- Deforming the displaced plane as if it were the rest shape leaves the displacement in.
 local bumpy = displaced(plane)
 local kept = figures.deformed(bumpy, { flat = "displaced" }, handles, true)
-local uniform, edit = figures.deformed(plane, { flat = "displaced", weights = "uniform" }, handles, true)
+local uniform, deformer = figures.deformed(plane, { flat = "displaced", weights = "uniform" }, handles, true)
 local cotangent = figures.deformed(plane, { flat = "displaced" }, handles, true)
 -- Laplacian coordinates in the least squares sense (Eq 2.10).
 local second = figures.deformed(plane, { flat = "displaced", second = "laplacian" }, handles)
 local second_uniform = figures.deformed(plane,
     { flat = "displaced", second = "laplacian", weights = "uniform" }, handles)
-print(string.format("%d vertices, %d of %d free ones displaced", #plane, edit:stats().displaced_vertices,
-    edit:stats().free_vertices))
+print(string.format("%d vertices, %d of %d free ones displaced", #plane, deformer:stats().displaced_vertices,
+    deformer:stats().free_vertices))
 
 local panels = {
     { plane, "(a) plane, rim and middle held" },

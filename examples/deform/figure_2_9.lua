@@ -74,8 +74,9 @@ local names = {}
 for name in pairs(handles) do table.insert(names, name) end
 
 local sheared = figures.deformed(rest, {}, handles, true)
-local posed, edit = figures.deformed(rest, {}, handles)
-print(string.format("%d vertices, %d of them free, %d handles", #rest, edit:stats().free_vertices, #names))
+local posed, deformer = figures.deformed(rest, {}, handles)
+print(string.format("%d vertices, %d of them free, %d handles", #rest, deformer:stats().free_vertices,
+    #names))
 figures.row("anisotropy of triangles", "%8s %8s %8s", "median", "99 %", "worst")
 local found = {}
 for i, row in ipairs{ { "without shear removal", sheared }, { "with shear removal", posed } } do

@@ -18,10 +18,10 @@ local params = lissom.params{
 }
 
 local cactus = lissom.shapes.cactus{ vertices = params.vertices }
-local edit = lissom.deform(cactus)
-edit:handle(cactus:region("base"))
-local tip = edit:handle(cactus:region("tip"))
-local arm = edit:handle(cactus:region("left_tip"))
+local deformer = lissom.deformer(cactus)
+deformer:add_handle(cactus:region("base"))
+local tip = deformer:add_handle(cactus:region("tip"))
+local arm = deformer:add_handle(cactus:region("left_tip"))
 
 -- The function places the handles for one moment. They end in their first places.
 local function pose(time)
@@ -30,15 +30,15 @@ local function pose(time)
     arm:set{ rotate = { axis = "z", angle = params.swing * math.sin(phase - 0.6), about = { 0, 0.5, 0 } } }
 end
 
-local sway = edit:bake{ pose = pose, duration = params.duration, fps = params.fps, name = "sway" }
+local sway = deformer:bake{ pose = pose, duration = params.duration, fps = params.fps, name = "sway" }
 sway:save(params.out .. "/cactus_sway.glb")
 
 -- Handles are called as the regions that they are made of: "base", "tip", "left_tip".
-edit:save_basis(params.out .. "/cactus.basis")
+deformer:save_basis(params.out .. "/cactus.basis")
 
 -- Files for engines repeat vertices at seams of texture coordinates: each carries its row of the basis.
 local rows = {}
-for i, vertex in ipairs(edit:region():vertices()) do rows[vertex] = i - 1 end -- rows count from 0
+for i, vertex in ipairs(deformer:region():vertices()) do rows[vertex] = i - 1 end -- rows count from 0
 for vertex = 1, #cactus do rows[vertex] = rows[vertex] or -1 end
 cactus:add_attribute{ name = "BASIS_ROW", domain = "vertex", width = 1, values = rows }
 cactus:save(params.out .. "/cactus.glb")

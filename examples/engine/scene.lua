@@ -9,19 +9,19 @@ local params = lissom.params{
 }
 
 local cactus = lissom.shapes.cactus{ vertices = params.vertices }
-local edit = lissom.deform(cactus)
-for _, name in ipairs{ "base", "tip", "left_tip" } do edit:handle(cactus:region(name)) end
+local deformer = lissom.deformer(cactus)
+for _, name in ipairs{ "base", "tip", "left_tip" } do deformer:add_handle(cactus:region(name)) end
 
 local head = lissom.shapes.head{ vertices = 8000 }
 local style = lissom.hairstyle(head, { resolution = 30000 })
 for _, side in ipairs{ -1, 1 } do
-    style:stream{ points = {
+    style:add_stream{ points = {
         style:at{ azimuth = 10 * side, elevation = 60, lift = 0.5 * params.lift },
         style:at{ azimuth = 75 * side, elevation = 35, lift = params.lift },
-        (style:at{ azimuth = 90 * side, elevation = -20, lift = params.lift }),
+        style:at{ azimuth = 90 * side, elevation = -20, lift = params.lift },
     } }
 end
-style:dividing{ points = { style:at{ azimuth = 0, elevation = 40 },
-    (style:at{ azimuth = 0, elevation = 80 }) } }
+style:add_dividing{ points = { style:at{ azimuth = 0, elevation = 40 },
+    style:at{ azimuth = 0, elevation = 80 } } }
 
-return cactus, edit, head, style
+return cactus, deformer, head, style

@@ -21,7 +21,7 @@ local route = strokes.route(style)
 strokes.both_sides({
     { { 20, 46, 14 }, { 52, 34, 18 }, { 78, 8, 18 }, by(4, -50, -4) },
     { { 150, 70, 12 }, { 150, 35, 20 }, { 150, -5, 22 }, by(0, -50, 0) },
-}, function(places) style:stream{ points = route(places) } end)
+}, function(places) style:add_stream{ points = route(places) } end)
 
 -- Hair that keeps out of the head by the field alone, and its strands that are more than a millimetre inside.
 local function grown(what)

@@ -26,28 +26,28 @@ strokes.both_sides({
     { { 124, 20, 8 }, { 122, -5, 20 }, to(70, -80, -66), to(54, -130, -84), to(46, -190, -108),
       to(44, -360, -114) },
     { { 156, 2, 8 }, { 154, -28, 18 }, to(34, -130, -88), to(30, -200, -108), to(28, -360, -114) },
-}, function(places) style:stream{ points = route(places) } end)
-style:stream{ points = route{ { 180, -4, 10 }, { 180, -30, 18 }, to(0, -130, -92), to(0, -200, -110),
+}, function(places) style:add_stream{ points = route(places) } end)
+style:add_stream{ points = route{ { 180, -4, 10 }, { 180, -30, 18 }, to(0, -130, -92), to(0, -200, -110),
     to(0, -360, -116) } }
 
 -- Above, it is drawn to the tie: the streams lead into it and do not stop.
 strokes.both_sides({ { { 20, 54, 5 }, { 66, 58, 7 }, { 122, 48, 8 }, { 166, 35, 14 } } },
-    function(places) style:stream{ points = route(places), stop = false } end)
+    function(places) style:add_stream{ points = route(places), stop = false } end)
 
-style:dividing{ points = route{ { 0, 36 }, { 0, 52 }, { 0, 66 } }, tilt = { 25, 60 }, name = "middle" }
+style:add_dividing{ points = route{ { 0, 36 }, { 0, 52 }, { 0, 66 } }, tilt = { 25, 60 }, name = "middle" }
 for _, side in ipairs{ 1, -1 } do
     local places = { { 44, 34 }, { 62, 33 }, { 88, 34 }, { 116, 28 }, { 138, 21 } }
     if side < 0 then places = strokes.mirrored(places) end
     -- Seen along the curve from outside, the hair above it is at the left on the head's left side.
     local above, below = { 80, 50 }, { 15, 10 }
-    style:dividing{ points = route(places), left = side > 0 and above or below,
+    style:add_dividing{ points = route(places), left = side > 0 and above or below,
         right = side > 0 and below or above, height = 0, gap = 0,
         name = side > 0 and "left side" or "right side" }
 end
-style:dividing{ points = route{ { 142, 20 }, { 180, 15 }, { -142, 20 } }, height = 0, gap = 0, name = "back" }
+style:add_dividing(route{ { 142, 20 }, { 180, 15 }, { -142, 20 } }, { height = 0, gap = 0, name = "back" })
 
 local tail = { azimuth = 180, elevation = 26, lift = 0.02, length = 0.27, droop = 0.012, radius = 0.018 }
-style:ponytail{
+style:add_ponytail{
     spine = hairdo.tail_spine(style:scalp(), tail),
     radius = tail.radius,
     tightness = literal and 0.6 or 1,
@@ -59,7 +59,7 @@ if not literal then
         { { 35, 60, 6 }, { 120, 66, 8 }, { 172, 36, 14 } },
         { { 75, 44, 6 }, { 130, 44, 8 }, { 168, 30, 14 } },
         { { 115, 35, 6 }, { 148, 32, 8 }, { 170, 27, 14 } },
-    }, function(places) style:stream{ points = route(places), stop = false } end)
+    }, function(places) style:add_stream{ points = route(places), stop = false } end)
 end
 
 local hair = hairdo.grow(style, params, {

@@ -28,7 +28,7 @@ local streams = {
     { { -165, 80, 12 }, { -168, 55, 18 }, { -170, 15, 22 }, { -170, -20, 22 }, by(0, -90, 8) },
 }
 for i, places in ipairs(streams) do
-    style:stream{ points = route(places), name = "stream " .. i }
+    style:add_stream{ points = route(places), name = "stream " .. i }
 end
 
 local hair = hairdo.grow(style, params, {

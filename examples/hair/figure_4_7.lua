@@ -14,7 +14,7 @@ local head = hairdo.head(params)
 local style = hairdo.style(head, params, { fidelity = params.fidelity })
 local route = strokes.route(style)
 
-style:dividing{
+style:add_dividing{
     points = route{ { -22, 37 }, { -28, 52 }, { -42, 68 }, { -70, 76 } },
     tilt = { 15, 0 },
     name = "parting",
@@ -30,7 +30,7 @@ local streams = {
     { { -130, 68, 12 }, { -126, 32, 20 }, { -126, -5, 22 }, by(-2, -50, 0), by(2, -60, 0) },
 }
 for i, places in ipairs(streams) do
-    style:stream{ points = route(places), name = "stream " .. i }
+    style:add_stream{ points = route(places), name = "stream " .. i }
 end
 
 local hair = hairdo.grow(style, params, {

@@ -17,7 +17,7 @@ local rings = {}
 for i, side in ipairs{ 1, -1 } do
     local tail = { azimuth = 118 * side, elevation = 14, lift = 0.02, length = 0.25, droop = 0.04,
         radius = 0.017 }
-    style:ponytail{
+    style:add_ponytail{
         spine = hairdo.tail_spine(style:scalp(), tail),
         radius = tail.radius,
         fullness = 0.7,
@@ -29,7 +29,7 @@ end
 strokes.both_sides({
     { { 6, 39, 4 }, { 32, 52, 8 }, { 72, 44, 9 }, { 98, 28, 10 }, { 113, 16, 18 } },
     { { 172, -30, 4 }, { 163, -8, 7 }, { 145, 8, 10 }, { 125, 14, 18 } },
-}, function(places) style:stream{ points = route(places), stop = false } end)
+}, function(places) style:add_stream{ points = route(places), stop = false } end)
 
 local hair = hairdo.grow(style, params, { length = 0.5, layer = 0.008 })
 hairdo.finish(style, hair, params, rings)

@@ -140,28 +140,28 @@ end
 local function grown(head)
     local style = lissom.hairstyle(head, { resolution = 30000 })
     for _, side in ipairs{ -1, 1 } do
-        style:stream{ points = {
+        style:add_stream{ points = {
             style:at{ azimuth = 10 * side, elevation = 60, lift = 0.01 },
             style:at{ azimuth = 75 * side, elevation = 35, lift = 0.02 },
-            (style:at{ azimuth = 90 * side, elevation = -20, lift = 0.02 }),
+            style:at{ azimuth = 90 * side, elevation = -20, lift = 0.02 },
         } }
     end
-    style:dividing{ points = { style:at{ azimuth = 0, elevation = 40 },
-        (style:at{ azimuth = 0, elevation = 80 }) } }
+    style:add_dividing{ points = { style:at{ azimuth = 0, elevation = 40 },
+        style:at{ azimuth = 0, elevation = 80 } } }
     return style:grow{ count = 6000, length = 0.25 }
 end
 
 -- ---- The game
 
-local bar, edit, tip, shapes, shaders
+local bar, deformer, tip, shapes, shaders
 
 function love.load()
     shaders = { surface = love.graphics.newShader(surface_shader),
         strands = love.graphics.newShader(strand_shader) }
     bar = lissom.shapes.bar{ across = 12, along = 100 }
-    edit = lissom.deform(bar)
-    edit:handle(bar:region("bottom"))
-    tip = edit:handle(bar:region("top"))
+    deformer = lissom.deformer(bar)
+    deformer:add_handle(bar:region("bottom"))
+    tip = deformer:add_handle(bar:region("top"))
     local head = lissom.shapes.head{ vertices = 8000 }
     shapes = { bar = surface(bar), head = surface(head), hair = strands(grown(head)) }
     love.graphics.setDepthMode("lequal", true)
@@ -173,7 +173,7 @@ local time = 0
 function love.update(seconds)
     time = time + seconds
     tip:reset():rotate{ axis = { 0, 0, 1 }, angle = 80 * math.sin(time), about = { 0, 0, 0 } }
-    edit:solve()
+    deformer:solve()
     shapes.bar.update()
 end
 

@@ -67,17 +67,17 @@ figures.claim(worst < 0.01, "the part follows by the handle's similarity")
 
 -- The same boundary condition given to the deformation: a handle that is moved by the similarity.
 local whole = cactus:copy()
-local edit = lissom.deform(whole, { local_size = "scale" })
+local deformer = lissom.deformer(whole, { local_size = "scale" })
 local foot = whole:region{ where = function(v)
     local n = cut.normal
     local x, y, z = cactus:position(v)
     return (x - cut.point[1]) * n[1] + (y - cut.point[2]) * n[2] + (z - cut.point[3]) * n[3] < 0
 end }
 local origin = { 0, 0, 0 }
-edit:handle(foot):scale(params.scale, { about = origin })
+deformer:add_handle(foot):scale(params.scale, { about = origin })
     :rotate{ axis = similarity.rotate.axis, angle = params.turn, about = origin }
     :translate(table.unpack(similarity.translate))
-edit:solve()
+deformer:solve()
 local exact = figures.difference(cactus:copy():transform(similarity), whole)
 print(string.format("a handle moved by the similarity: the rest off by %.1e of the size", exact))
 figures.claim(exact < 1e-9, "the whole cactus follows a handle's similarity")

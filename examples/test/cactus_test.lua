@@ -3,10 +3,10 @@ local lissom = require "lissom"
 
 local function bent(angle)
     local mesh = lissom.shapes.cactus{ vertices = 3000 }
-    local edit = lissom.deform(mesh, { region = mesh:region{ all = true } })
-    edit:handle(mesh:region("base"))
-    edit:handle(mesh:region("tip")):rotate{ axis = { 0, 0, 1 }, angle = angle }
-    edit:solve()
+    local deformer = lissom.deformer(mesh, { region = mesh:region{ all = true } })
+    deformer:add_handle(mesh:region("base"))
+    deformer:add_handle(mesh:region("tip")):rotate{ axis = { 0, 0, 1 }, angle = angle }
+    deformer:solve()
     return mesh
 end
 

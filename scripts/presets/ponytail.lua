@@ -117,7 +117,7 @@ function ponytail.style(head, values, options)
     if values.height > 5 then
         hairdo.lead(style, tie, { routes = on_both_sides(from_nape, 180), low = low })
     end
-    style:ponytail{
+    style:add_ponytail{
         spine = spine,
         radius = tie.radius,
         fullness = values.fullness,

@@ -76,22 +76,22 @@ local function add_handle(self, scene)
     local region = one and meshes.selection(one.mesh)
     if not region or #region == 0 then error("nothing is selected: drag over the surface first", 0) end
     local params, size = self.params, one.mesh:size()
-    local edit = handles.deformation(scene, one, region, params.reach * size)
+    local deformer = handles.deformation(scene, one, region, params.reach * size)
     if not params.through then region = meshes.without_specks(region) end
     region = meshes.without_pinholes(region)
-    for _, other in ipairs(edit:handles()) do region = region:minus(other:region()) end
+    for _, other in ipairs(deformer:handles()) do region = region:minus(other:region()) end
     local normal = axes[params.mirror]
     local mirror = normal
         and { point = one.mesh:bounds().center, normal = normal } or nil
     meshes.select(one.mesh, one.mesh:region{ vertices = {} })
-    return edit:handle(region, { falloff = params.falloff * size, mirror = mirror,
+    return deformer:add_handle(region, { falloff = params.falloff * size, mirror = mirror,
         weight = params.softness > 0 and 1 / params.softness or nil })
 end
 
 -- Solves for where the handle is now, and says what that did to the surface.
 local function finish(self, one)
-    one.edit:solve()
-    local report = one.edit:report()
+    one.deformer:solve()
+    local report = one.deformer:report()
     local words = { string.format("stretch %.2f", report.stretch) }
     if report.volume_change then
         table.insert(words, string.format("volume %+.0f %%", 100 * report.volume_change))

@@ -32,7 +32,7 @@ local function paint(self, one)
     local params = self.params
     if params.kind == "parting" then
         if #self.points < 2 then error("a parting is drawn as a line", 0) end
-        return one.style:dividing{ points = self.points, gap = 2 * params.radius, name = "parting" }
+        return one.style:add_dividing{ points = self.points, gap = 2 * params.radius, name = "parting" }
     end
     return one.style:mask{ kind = params.kind, points = self.points, value = params.value,
         radius = params.radius, softness = params.softness }

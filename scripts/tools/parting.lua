@@ -37,7 +37,7 @@ function slides.separation(length) return math.max(0, math.min(1, (length - rise
 local function create(self, one, points)
     local options = curve_handles.options(self.params, "parting")
     options.points, options.name = points, "parting"
-    return one.style:dividing(options)
+    return one.style:add_dividing(options)
 end
 
 local function readings(self, ev, one, curve)

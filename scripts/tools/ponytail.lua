@@ -16,7 +16,7 @@ local tail = require "tools.support.tail"
 local function create(self, one, spine)
     local options = curve_handles.options(self.params, "ponytail")
     options.spine, options.name = spine, "ponytail"
-    return one.style:ponytail(options)
+    return one.style:add_ponytail(options)
 end
 
 local function new_tail(self, ev, one, in_middle)

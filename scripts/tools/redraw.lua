@@ -27,27 +27,27 @@ local function deformation(self, one)
         if i > 1 then length = length + vectors.length(vectors.plus(point.at, self.line[i - 1].at, -1)) end
     end
     local around = { from = { vertices = from }, radius = self.params.reach * length }
-    return lissom.deform(one.mesh, { region = one.mesh:region{ geodesic = around } })
+    return lissom.deformer(one.mesh, { region = one.mesh:region{ geodesic = around } })
 end
 
 local function follow(self, ev, pixels)
     local one = meshes.find(ev.scene, self.mesh)
     if not one or #pixels < 2 then return nil end
-    if not self.edit then
+    if not self.deformer then
         meshes.end_deformation(ev.scene, one.mesh)
-        self.edit = deformation(self, one)
+        self.deformer = deformation(self, one)
     end
     local back = matrices.inverse(one.place)
     for i, pixel in ipairs(drawn_line.targets(self.line, pixels)) do
         local hit = self.line[i].hit
         local there = ev.camera:unproject(pixel[1], pixel[2], hit.depth, ev.size)
-        self.edit:constrain{ face = hit.face, triangle = hit.triangle, bary = hit.bary,
+        self.deformer:constrain{ face = hit.face, triangle = hit.triangle, bary = hit.bary,
             position = matrices.point(back, there), weight = 100 }
     end
-    return self.edit
+    return self.deformer
 end
 
-local function forget(self) self.pixels, self.line, self.mesh, self.edit = nil, nil, nil, nil end
+local function forget(self) self.pixels, self.line, self.mesh, self.deformer = nil, nil, nil, nil end
 
 local function stroke(self, ev)
     return ev.camera:stroke{ points = self.pixels, size = ev.size, spacing = 10 }.pixels
@@ -60,12 +60,12 @@ return lissom.tool{
         reach = { type = "number", default = 0.35, min = 0.05, max = 3, unit = "lengths of the line",
             help = "How far around the line the surface follows." },
     },
-    press = function(self, ev) self.pixels, self.edit = { { ev.x, ev.y } }, nil end,
+    press = function(self, ev) self.pixels, self.deformer = { { ev.x, ev.y } }, nil end,
     drag = function(self, ev)
         if not self.pixels then return end
         table.insert(self.pixels, { ev.x, ev.y })
-        local edit = self.line and #self.pixels > 3 and follow(self, ev, stroke(self, ev))
-        if edit then edit:preview() end
+        local deformer = self.line and #self.pixels > 3 and follow(self, ev, stroke(self, ev))
+        if deformer then deformer:preview() end
     end,
     release = function(self, ev)
         if not self.pixels or #self.pixels < 3 then return forget(self) end
@@ -75,8 +75,8 @@ return lissom.tool{
             self.pixels = nil
             return
         end
-        local edit = follow(self, ev, pixels)
-        if edit then edit:solve() end
+        local deformer = follow(self, ev, pixels)
+        if deformer then deformer:solve() end
         forget(self)
     end,
     draw = function(self, view)

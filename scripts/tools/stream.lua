@@ -34,13 +34,13 @@ local keys = {
         curve:remove()
     end,
     m = function(self, one, curve)
-        self.curve = one.style:stream{ points = curves.mirrored(one.scalp, curve:points()) }
+        self.curve = one.style:add_stream{ points = curves.mirrored(one.scalp, curve:points()) }
     end,
     c = function(self, one, curve, ev)
         local hit = ev.x and one.scalp:head():pick(hair.camera(ev.camera, one):ray(ev.x, ev.y, ev.size))
         if not hit then error("press c with the cursor where the copy's root shall be", 0) end
         local points = curves.copied(one.scalp, curve:points(), hit.position)
-        self.curve = one.style:stream{ points = points }
+        self.curve = one.style:add_stream{ points = points }
     end,
 }
 

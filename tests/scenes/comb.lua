@@ -13,7 +13,7 @@ local function seen_from(azimuth)
 end
 
 local function over(azimuth, elevation, lift)
-    return (style:at{ azimuth = azimuth, elevation = elevation, lift = lift or 0 })
+    return style:at{ azimuth = azimuth, elevation = elevation, lift = lift or 0 }
 end
 
 -- Seen from its left: a head with hair that falls down its left side.
@@ -21,7 +21,7 @@ local function begin(tool)
     head = lissom.shapes.head{ vertices = 6000 }
     style = lissom.hairstyle(head, { resolution = 8000 })
     for _, azimuth in ipairs{ -90, 60, 90, 120 } do
-        style:stream{ points = { over(azimuth, 65, 0.01), over(azimuth, 35, 0.02), over(azimuth, 0, 0.03),
+        style:add_stream{ points = { over(azimuth, 65, 0.01), over(azimuth, 35, 0.02), over(azimuth, 0, 0.03),
             over(azimuth, -30, 0.03) } }
     end
     h = hand.new(tool, { style = style }, seen_from(90))

@@ -17,13 +17,13 @@ local function look(azimuth, elevation, high)
 end
 
 local function over(azimuth, elevation, lift)
-    return (style:at{ azimuth = azimuth, elevation = elevation, lift = lift or 0 })
+    return style:at{ azimuth = azimuth, elevation = elevation, lift = lift or 0 }
 end
 
 -- A hand with the stream tool and a stream on the left of the head.
 test.before(function()
     style = lissom.hairstyle(head, { resolution = 8000 })
-    style:stream{ points = { over(90, 60, 0.01), over(92, 30, 0.02), over(94, 0, 0.03),
+    style:add_stream{ points = { over(90, 60, 0.01), over(92, 30, 0.02), over(94, 0, 0.03),
         over(94, -25, 0.03) } }
     h = hand.new("stream", { head = head, style = style })
     h.host:set{ strands = 300 }
@@ -206,8 +206,8 @@ test("of several curves under the cursor Tab takes the next", function()
     local first = style:curves()[1]
     local points = {}
     for i, point in ipairs(first:points()) do points[i] = { point[1] + 0.001, point[2], point[3] } end
-    local second = style:stream{ points = points }
-    style:stream{ points = { over(0, 60, 0.01), over(0, 20, 0.02) } }
+    local second = style:add_stream{ points = points }
+    style:add_stream{ points = { over(0, 60, 0.01), over(0, 20, 0.02) } }
     hover(place(first, 0.5))
     press(place(first, 0.5))
     h.host:release{ x = place(first, 0.5)[1], y = place(first, 0.5)[2] }

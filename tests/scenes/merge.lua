@@ -258,7 +258,8 @@ end)
 
 test("deformations are merged as their meshes", function()
     local small, large = cup(1, -2, 1, 10), cup(-1, 2, 1.5, 12)
-    h = hand.new("merge", { small = lissom.deform(small), large = lissom.deform(large) }, { ortho = 19.2 })
+    h = hand.new("merge", { small = lissom.deformer(small), large = lissom.deformer(large) },
+        { ortho = 19.2 })
     click_loops()
     h:key("enter")
     expect.truthy(h.scene:get("merged"):is_closed())

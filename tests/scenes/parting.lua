@@ -9,7 +9,7 @@ local head = lissom.shapes.head{ vertices = 6000 }
 local scalp = lissom.scalp(head)
 local h, style
 
-local function on_head(azimuth, elevation) return (scalp:at{ azimuth = azimuth, elevation = elevation }) end
+local function on_head(azimuth, elevation) return scalp:at{ azimuth = azimuth, elevation = elevation } end
 
 -- A hand over a head, seen from above and in front; `place` is where the head stands.
 local function begin(place)

@@ -33,7 +33,7 @@ local function look(azimuth)
 end
 
 local function over(azimuth, elevation, lift)
-    return (style:at{ azimuth = azimuth, elevation = elevation, lift = lift or 0 })
+    return style:at{ azimuth = azimuth, elevation = elevation, lift = lift or 0 }
 end
 
 -- A stroke down the left side of the face, seen from in front.
@@ -288,7 +288,7 @@ test("on a head alone the first stroke begins a hairstyle, in its own step", fun
     h.host:set{ strands = 100 }
     h.scene:clear_history()
     local before, other = h.scene:hash(), lissom.hairstyle(head, { resolution = 2000 })
-    local x, y = h.camera:project((other:at{ azimuth = 20, elevation = 62 }), { 1280, 960 })
+    local x, y = h.camera:project(other:at{ azimuth = 20, elevation = 62 }, { 1280, 960 })
     draw{ { x, y }, { x + 90, y + 40 }, { x + 120, y + 200 } }
     expect.equal(h.scene:names(), { "person", "person style", "person style hair" })
     expect.equal(#h.scene:get("person style"):curves(), 1)
@@ -339,7 +339,7 @@ end)
 
 test("a picture that changes its size lets go of the stroke", function()
     local before = h.scene:hash()
-    local x, y = h.camera:project((style:at{ azimuth = 20, elevation = 62 }), { 1280, 960 })
+    local x, y = h.camera:project(style:at{ azimuth = 20, elevation = 62 }, { 1280, 960 })
     h.host:press{ x = x, y = y }
     h.host:move{ x = x + 60, y = y + 40 }
     h.host:move{ x = x + 90, y = y + 100 }
@@ -354,15 +354,16 @@ end)
 
 test("a stream that ends at a tie goes into it, as does its mirror image; hair goes on there", function()
     begin(90)
-    local tie, out = style:at{ azimuth = 115, elevation = 20, lift = 0.018 }
+    local place = { azimuth = 115, elevation = 20, lift = 0.018 }
+    local tie, out = style:at(place), style:normal_at(place)
     local spine, metre = { tie }, style:scalp():scale()
     for i = 1, 8 do
         spine[i + 1] = { tie[1] + 0.012 * i * out[1] * metre, tie[2] - 0.003 * i * i * metre,
             tie[3] + 0.012 * i * out[3] * metre }
     end
-    local tails = { style:ponytail{ spine = spine, radius = 0.02 } }
+    local tails = { style:add_ponytail{ spine = spine, radius = 0.02 } }
     for _, point in ipairs(spine) do point[1] = 2 * style:scalp():center()[1] - point[1] end
-    tails[2] = style:ponytail{ spine = spine, radius = 0.02 }
+    tails[2] = style:add_ponytail{ spine = spine, radius = 0.02 }
     local end_of = tails[1]:tie().center
     h.host:set{ symmetric = true }
     draw{ pixel(over(40, 55)), pixel(over(80, 45)), at(tails[1], 0, -22, -14) }

@@ -125,7 +125,7 @@ end)
 
 test("a deformation without its mesh is moved as a whole", function()
     local box = lissom.shapes.box{ segments = { 2, 2, 2 } }
-    h = hand.new("transform", { bend = lissom.deform(box), other = lissom.shapes.box() },
+    h = hand.new("transform", { bend = lissom.deformer(box), other = lissom.shapes.box() },
         { places = { other = { { 1, 0, 0, 3 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 0, 1 } } } })
     h:click{ 0, 0, 0.5 }
     h:drag{ { 0.6, 0, 0 }, { 1.1, 0, 0 } }

@@ -12,10 +12,10 @@ end
 
 local function deformed(mesh, shift, move)
     mesh = mesh:copy()
-    local edit = lissom.deform(mesh)
-    edit:handle(mesh:region("bottom"))
-    move(edit:handle(mesh:region("top")), shift, edit)
-    assert(edit:solve())
+    local deformer = lissom.deformer(mesh)
+    deformer:add_handle(mesh:region("bottom"))
+    move(deformer:add_handle(mesh:region("top")), shift, deformer)
+    assert(deformer:solve())
     return mesh
 end
 
@@ -50,9 +50,9 @@ test("deform_far", function()
         local x, y = shift[1], shift[2]
         h:set_matrix{ { 0, -1, 0, x + y }, { 1, 0, 0, y - x }, { 0, 0, 1, 0.25 }, { 0, 0, 0, 1 } }
     end)
-    compare(function(h, shift, edit)
-        local v = edit:mesh():region("top"):vertices()[1]
-        edit:constrain{ vertex = v - 1, position = at(shift, 0.4, 2.5, 0.1) }
+    compare(function(h, shift, deformer)
+        local v = deformer:mesh():region("top"):vertices()[1]
+        deformer:constrain{ vertex = v - 1, position = at(shift, 0.4, 2.5, 0.1) }
         h:translate(0.1, 0, 0)
     end)
 end)
@@ -60,18 +60,18 @@ end)
 test("there and back is rest, to the bit; a translation adds its offset", function()
     local mesh = shifted(rest, 1)
     local before = mesh:hash()
-    local edit = lissom.deform(mesh)
-    edit:handle(mesh:region("bottom"))
-    local top = edit:handle(mesh:region("top"))
+    local deformer = lissom.deformer(mesh)
+    deformer:add_handle(mesh:region("bottom"))
+    local top = deformer:add_handle(mesh:region("top"))
     top:rotate{ axis = { 1, 1, 0 }, angle = 35 }
-    edit:solve()
+    deformer:solve()
     expect.truthy(mesh:hash() ~= before)
     top:rotate{ axis = { 1, 1, 0 }, angle = -35 }
-    edit:solve()
+    deformer:solve()
     expect.equal(mesh:hash(), before)
     local v = mesh:region("top"):vertices()[1]
     local x, y, z = mesh:position(v)
     top:translate(0.125, 0.3, -0.7)
-    edit:solve()
+    deformer:solve()
     expect.near({ mesh:position(v) }, { x + 0.125, y + 0.3, z - 0.7 }, 0)
 end)

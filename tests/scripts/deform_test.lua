@@ -3,38 +3,38 @@ local models = require "models"
 
 local function bar()
     local mesh = lissom.shapes.bar{ across = 2, along = 16 }
-    local edit = lissom.deform(mesh)
-    return mesh, edit, edit:handle(mesh:region("bottom")), edit:handle(mesh:region("top"))
+    local deformer = lissom.deformer(mesh)
+    return mesh, deformer, deformer:add_handle(mesh:region("bottom")), deformer:add_handle(mesh:region("top"))
 end
 
 test("nothing moves without a reason, to the bit", function()
-    local mesh, edit = bar()
+    local mesh, deformer = bar()
     local rest = mesh:hash()
-    expect.truthy(rawequal(edit:solve(), mesh))
+    expect.truthy(rawequal(deformer:solve(), mesh))
     expect.equal(mesh:hash(), rest)
-    expect.truthy(rawequal(edit:preview(), mesh))
+    expect.truthy(rawequal(deformer:preview(), mesh))
     expect.equal(mesh:hash(), rest)
 end)
 
 test("handles are exact, the rest follows; there and back is rest", function()
-    local mesh, edit, _, top = bar()
+    local mesh, deformer, _, top = bar()
     local rest = mesh:hash()
     top:translate(0, 1, 0)
-    edit:solve()
+    deformer:solve()
     expect.near(mesh:region("top"):center(), { 0, 3.5, 0 }, 1e-12)
     expect.near(mesh:region("bottom"):center(), { 0, -2.5, 0 }, 1e-12)
     top:translate(0, -1, 0)
-    edit:solve()
+    deformer:solve()
     expect.equal(mesh:hash(), rest)
 end)
 
 test("a global similarity is reproduced", function()
-    local mesh, edit = bar()
-    for _, handle in ipairs(edit:handles()) do
+    local mesh, deformer = bar()
+    for _, handle in ipairs(deformer:handles()) do
         handle:set{ rotate = { axis = "z", angle = 90, about = { 0, 0, 0 } }, translate = { 1, 2, 3 } }
     end
     local wanted = mesh:copy():transform{ rotate = { axis = "z", angle = 90 }, translate = { 1, 2, 3 } }
-    edit:solve()
+    deformer:solve()
     local a, b = mesh:positions(), wanted:positions()
     for i = 1, #a do expect.near(a[i], b[i], 1e-9) end
 end)
@@ -59,39 +59,39 @@ test("moves accumulate about the handle's present center; set is absolute; degre
 end)
 
 test("reset to the bit, constraints included", function()
-    local mesh, edit, _, top = bar()
+    local mesh, deformer, _, top = bar()
     local rest = mesh:hash()
     top:translate(5, 0, 0)
     local v = mesh:nearest(0.5, 0, 0).vertex
-    edit:constrain{ vertex = v, position = { 1, 0, 0 } }
-    edit:solve()
+    deformer:constrain{ vertex = v, position = { 1, 0, 0 } }
+    deformer:solve()
     expect.near({ mesh:position(v) }, { 1, 0, 0 }, 0)
-    expect.truthy(rawequal(edit:reset(), edit))
+    expect.truthy(rawequal(deformer:reset(), deformer))
     expect.equal(mesh:hash(), rest)
-    edit:constrain{ vertex = v, gradient = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }
-    edit:constrain{ vertex = v }
+    deformer:constrain{ vertex = v, gradient = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }
+    deformer:constrain{ vertex = v }
 end)
 
 test("handles: equality, removal, closing", function()
-    local mesh, edit, _, top = bar()
-    expect.truthy(edit:handles()[2] == top and edit:handles()[1] ~= top)
+    local mesh, deformer, _, top = bar()
+    expect.truthy(deformer:handles()[2] == top and deformer:handles()[1] ~= top)
     expect.truthy(top:region() == mesh:region("top"))
-    local stats = edit:stats()
+    local stats = deformer:stats()
     expect.equal(stats.region_vertices, #mesh)
     top:remove()
     expect.error(function() top:translate(1, 0, 0) end, "[handle_removed]")
-    expect.equal(#edit:handles(), 1)
+    expect.equal(#deformer:handles(), 1)
 end)
 
 test("outside the region nothing moves", function()
     local mesh = lissom.shapes.cactus{ vertices = 2000 }
     local region = mesh:region("left_arm"):grow(2)
-    local edit = lissom.deform(mesh, { region = region, local_size = "scale", second = "poisson" })
-    edit:handle(region:minus(region:shrink(1)))
-    edit:handle(mesh:region("left_tip")):rotate{ axis = "x", angle = 40 }
+    local deformer = lissom.deformer(mesh, { region = region, local_size = "scale", second = "poisson" })
+    deformer:add_handle(region:minus(region:shrink(1)))
+    deformer:add_handle(mesh:region("left_tip")):rotate{ axis = "x", angle = 40 }
     local outside = region:invert():vertices()
     local before = mesh:copy()
-    edit:solve()
+    deformer:solve()
     for _, i in ipairs(outside) do
         expect.near({ mesh:position(i) }, { before:position(i) }, 0)
     end
@@ -99,10 +99,10 @@ test("outside the region nothing moves", function()
 end)
 
 test("the basis gives the preview", function()
-    local mesh, edit, _, top = bar()
+    local mesh, deformer, _, top = bar()
     top:translate(0.3, 0.2, 0.1):rotate{ axis = "x", angle = 30 }
-    edit:preview()
-    local basis = edit:basis()
+    deformer:preview()
+    local basis = deformer:basis()
     local i = basis.vertices[100]
     local x, y, z = basis.fixed:get(100)
     for h, handle in ipairs(basis.handles) do
@@ -123,10 +123,10 @@ test("every value of every option works", function()
         { fidelity = "thesis", second = "blend" },
     } do
         local mesh = lissom.shapes.bar{ across = 2, along = 8 }
-        local edit = lissom.deform(mesh, options)
-        edit:handle(mesh:region("bottom"))
-        edit:handle(mesh:region("top"), { gradient = false }):translate(0.5, 0, 0)
-        expect.truthy(edit:solve())
+        local deformer = lissom.deformer(mesh, options)
+        deformer:add_handle(mesh:region("bottom"))
+        deformer:add_handle(mesh:region("top"), { gradient = false }):translate(0.5, 0, 0)
+        expect.truthy(deformer:solve())
     end
 end)
 
@@ -135,127 +135,128 @@ test("comparison methods: exact handles, preview as solve, no basis", function()
     for _, method in ipairs{ "naive", "rotation_estimate", "similarity", "geodesic", "harmonic", "frames" } do
         mesh = lissom.shapes.bar{ across = 2, along = 16 }
         local rest = mesh:hash()
-        local edit = lissom.deform(mesh, { method = method })
-        edit:handle(mesh:region("bottom"))
-        local top = edit:handle(mesh:region("top")):rotate{ axis = "z", angle = 40 }:translate(0.5, 0, 0)
-        edit:solve()
+        local deformer = lissom.deformer(mesh, { method = method })
+        deformer:add_handle(mesh:region("bottom"))
+        local top = deformer:add_handle(mesh:region("top")):rotate("z", 40):translate(0.5, 0, 0)
+        deformer:solve()
         local solved = mesh:hash()
         expect.near(mesh:region("top"):center(), { 0.5, 2.5, 0 }, 1e-12)
-        edit:preview()
+        deformer:preview()
         expect.equal(mesh:hash(), solved)
         top:reset()
-        edit:solve()
+        deformer:solve()
         expect.equal(mesh:hash(), rest)
-        expect.truthy(expect.failure("unsupported", edit.basis, edit).message:find(method, 1, true))
+        expect.truthy(expect.failure("unsupported", deformer.basis, deformer).message:find(method, 1, true))
         for name, value in pairs{ local_size = "keep", second = "blend", coherence = 1, displacement = 0.2,
             degenerate_threshold = 1e4, fidelity = "thesis", refine = 1 } do
             expect.error(function()
-                lissom.deform(mesh, { method = method, [name] = value })
+                lissom.deformer(mesh, { method = method, [name] = value })
             end, name .. "' does not apply to method '" .. method)
         end
     end
-    lissom.deform(mesh, { method = "harmonic", weights = "uniform" })
-    expect.error(function() lissom.deform(mesh, { method = "geodesic", weights = "uniform" }) end, "weights")
+    lissom.deformer(mesh, { method = "harmonic", weights = "uniform" })
+    expect.error(function() lissom.deformer(mesh, { method = "geodesic", weights = "uniform" }) end,
+        "weights")
 end)
 
 test("misuse", function()
-    local mesh, edit, _, top = bar()
-    expect.error(function() edit:handle(mesh:region("top"):grow()) end, "[handle_overlap]")
+    local mesh, deformer, _, top = bar()
+    expect.error(function() deformer:add_handle(mesh:region("top"):grow()) end, "[handle_overlap]")
     do -- which handles meet is said, by their numbers
         local stick = lissom.shapes.bar()
-        local three = lissom.deform(stick)
-        three:handle(stick:region("bottom"))
-        three:handle(stick:region("top"))
+        local three = lissom.deformer(stick)
+        three:add_handle(stick:region("bottom"))
+        three:add_handle(stick:region("top"))
         local count = #stick:region("top")
         expect.error(function()
-            three:handle(stick:region("top"):grow())
+            three:add_handle(stick:region("top"):grow())
         end, "handle 3 (" .. #stick:region("top"):grow() .. " vertices)")
         expect.error(function()
-            three:handle(stick:region("top"):grow())
+            three:add_handle(stick:region("top"):grow())
         end, "handle 2 (" .. count .. " vertices)")
     end
     do -- every part that nothing holds is named, by one vertex
         local parts = lissom.shapes.box()
         parts:append(lissom.shapes.box():transform{ translate = { 5, 0, 0 } })
         parts:append(lissom.shapes.box():transform{ translate = { 9, 0, 0 } })
-        local loose = lissom.deform(parts)
+        local loose = lissom.deformer(parts)
         local first = parts:region{ fraction = { max = { 0.2 } } }
-        loose:handle(first)
+        loose:add_handle(first)
         local problem = expect.failure("unconstrained", loose.solve, loose)
         expect.truthy(problem.message:find("2 connected parts, those of vertices 9 and 17", 1, true))
         expect.near(problem.elements.ids, { 9, 17 })
         -- A handle that holds a vertex of each takes them along.
-        loose = lissom.deform(parts)
-        loose:handle(first:union(parts:region{ vertices = { 9, 17 } })):translate(0, 1, 0)
+        loose = lissom.deformer(parts)
+        loose:add_handle(first:union(parts:region{ vertices = { 9, 17 } })):translate(0, 1, 0)
         assert(loose:solve())
         expect.near(parts:bounds().min[2], lissom.shapes.box():bounds().min[2] + 1, 1e-9)
     end
-    expect.error(function() edit:handle(mesh:region{ vertices = {} }) end, "[region_empty]")
+    expect.error(function() deformer:add_handle(mesh:region{ vertices = {} }) end, "[region_empty]")
     expect.error(function() top:scale(0) end, "[singular_transform]")
-    expect.error(function() lissom.deform(mesh, { coherence = 3 }) end, "integer from 1 to 2 expected")
+    expect.error(function() lissom.deformer(mesh, { coherence = 3 }) end, "integer from 1 to 2 expected")
     expect.error(function()
-        lissom.deform(mesh, { methods = "x" })
-    end, "unknown option 'methods' of 'deform'")
+        lissom.deformer(mesh, { methods = "x" })
+    end, "unknown option 'methods' of 'deformer'")
     expect.error(function()
-        edit:handle(mesh:region("top"), { strength = 1 })
-    end, "unknown option 'strength' of 'handle'")
+        deformer:add_handle(mesh:region("top"), { strength = 1 })
+    end, "unknown option 'strength' of 'add_handle'")
     expect.error(function()
-        edit:constrain{ vertex = 1, faces = 1 }
+        deformer:constrain{ vertex = 1, faces = 1 }
     end, "unknown option 'faces' of 'constrain'")
-    expect.error(function() edit:aply() end, "no method 'aply'")
-    local part = lissom.deform(mesh, { region = mesh:region("top") })
-    expect.error(function() part:handle(mesh:region("bottom")) end, "[handle_outside_region]")
+    expect.error(function() deformer:aply() end, "no method 'aply'")
+    local part = lissom.deformer(mesh, { region = mesh:region("top") })
+    expect.error(function() part:add_handle(mesh:region("bottom")) end, "[handle_outside_region]")
     local other = lissom.shapes.bar{ across = 2, along = 16 }
-    expect.error(function() edit:handle(other:region("top")) end, "[topology_mismatch]")
+    expect.error(function() deformer:add_handle(other:region("top")) end, "[topology_mismatch]")
 end)
 
 test("data that cannot be solved", function()
     local mesh = lissom.shapes.bar{ across = 2, along = 8 }
-    local edit = lissom.deform(mesh)
-    expect.failure("unconstrained", edit.solve, edit)
+    local deformer = lissom.deformer(mesh)
+    expect.failure("unconstrained", deformer.solve, deformer)
 end)
 
 test("an older topology", function()
-    local mesh, edit, _, top = bar()
+    local mesh, deformer, _, top = bar()
     mesh:triangulate()
-    expect.error(function() edit:solve() end, "[topology_mismatch]")
+    expect.error(function() deformer:solve() end, "[topology_mismatch]")
     expect.error(function() top:translate(1, 0, 0) end, "[topology_mismatch]")
 end)
 
 test("a mesh that was moved around the region: the result would tear, so nothing is written", function()
     local mesh = lissom.shapes.bar{ across = 2, along = 16 }
-    local edit = lissom.deform(mesh, { region = mesh:region{ fraction = { min = { nil, 0.5, nil } } } })
-    local top = edit:handle(mesh:region("top"))
+    local deformer = lissom.deformer(mesh, { region = mesh:region{ fraction = { min = { nil, 0.5, nil } } } })
+    local top = deformer:add_handle(mesh:region("top"))
     top:translate(0, 1, 0)
-    edit:solve()
+    deformer:solve()
     mesh:transform{ translate = { 3, 0, 0 } }
     local moved = mesh:hash()
-    for _, name in ipairs{ "solve", "preview", "reset", "apply" } do
+    for _, name in ipairs{ "solve", "preview", "reset", "rebase" } do
         expect.error(function()
-            local result = edit[name](edit)
+            local result = deformer[name](deformer)
             return result
         end, "the mesh has changed around the region")
     end
-    expect.error(function() edit:bake{ times = { 0 }, pose = function() end } end, "[topology_mismatch]")
-    expect.error(function() edit:refined_mesh() end, "[topology_mismatch]")
+    expect.error(function() deformer:bake{ times = { 0 }, pose = function() end } end, "[topology_mismatch]")
+    expect.error(function() deformer:subdivided_mesh() end, "[topology_mismatch]")
     expect.equal(mesh:hash(), moved)
     mesh:transform{ translate = { -3, 0, 0 } }
-    expect.truthy(edit:solve())
+    expect.truthy(deformer:solve())
 end)
 
 test("a matrix tells how far a handle has turned, also to another handle and after a reset", function()
     for _, angle in ipairs{ 30, 180, 200, 360, 540, -400 } do
-        local _, edit, _, top = bar()
+        local _, deformer, _, top = bar()
         top:rotate{ axis = "y", angle = angle }
-        local matrix, solved = top:matrix(), edit:solve():hash()
+        local matrix, solved = top:matrix(), deformer:solve():hash()
         expect.near(matrix.turn, { 0, angle, 0 })
         top:set_matrix(top:matrix())
         expect.near(top:matrix().turn, { 0, angle, 0 })
         top:reset()
-        edit:solve()
+        deformer:solve()
         top:set_matrix(matrix)
         expect.near(top:matrix().turn, { 0, angle, 0 })
-        expect.equal(edit:solve():hash(), solved)
+        expect.equal(deformer:solve():hash(), solved)
         matrix.turn = nil
         top:reset():set_matrix(matrix)
         expect.truthy(math.abs(top:matrix().turn[2]) <= 180 + 1e-9)
@@ -271,10 +272,10 @@ end)
 test("every threshold of degenerate vertices works", function()
     for _, threshold in ipairs{ 1.01, 10, 100, 1000 } do
         local mesh = lissom.shapes.bar{ across = 4, along = 16 }
-        local edit = lissom.deform(mesh, { degenerate_threshold = threshold })
-        edit:handle(mesh:region("bottom"))
-        edit:handle(mesh:region("top")):rotate{ axis = "z", angle = 60 }
-        expect.truthy(edit:solve())
+        local deformer = lissom.deformer(mesh, { degenerate_threshold = threshold })
+        deformer:add_handle(mesh:region("bottom"))
+        deformer:add_handle(mesh:region("top")):rotate{ axis = "z", angle = 60 }
+        expect.truthy(deformer:solve())
     end
 end)
 
@@ -283,10 +284,10 @@ test("a scanned mesh", function()
     local box = scan:bounds()
     local foot = scan:region{ box = { max = { 1 / 0, box.min[2] + 0.1 * box.diagonal, 1 / 0 } } }
     local head = scan:region{ box = { min = { -1 / 0, box.max[2] - 0.1 * box.diagonal, -1 / 0 } } }
-    local edit = lissom.deform(scan)
-    edit:handle(foot)
-    edit:handle(head):rotate{ axis = "y", angle = 45 }
-    expect.truthy(edit:solve())
+    local deformer = lissom.deformer(scan)
+    deformer:add_handle(foot)
+    deformer:add_handle(head):rotate{ axis = "y", angle = 45 }
+    expect.truthy(deformer:solve())
     expect.truthy(scan:check().zero_area_faces)
 end)
 
@@ -315,19 +316,19 @@ test("what is flat stays flat when it is bent within its plane", function()
     for _, refine in ipairs{ 0, 1, 2 } do
         for _, angle in ipairs{ 10, 45, 90, 180 } do
             local mesh, first, last = strip()
-            local edit = lissom.deform(mesh, { refine = refine })
-            edit:handle(first)
-            edit:handle(last):rotate{ axis = "z", angle = angle, about = { 2, 0.2, 0 } }
-            edit:solve()
+            local deformer = lissom.deformer(mesh, { refine = refine })
+            deformer:add_handle(first)
+            deformer:add_handle(last):rotate{ axis = "z", angle = angle, about = { 2, 0.2, 0 } }
+            deformer:solve()
             expect.truthy(off_plane(mesh) < 1e-9)
-            expect.truthy(edit:stats().extended_vertices > 0)
+            expect.truthy(deformer:stats().extended_vertices > 0)
         end
     end
     local mesh, first, last = strip()
-    local edit = lissom.deform(mesh, { flat = "displaced" })
-    edit:handle(first)
-    edit:handle(last):rotate{ axis = "z", angle = 90, about = { 2, 0.2, 0 } }
-    edit:solve()
+    local deformer = lissom.deformer(mesh, { flat = "displaced" })
+    deformer:add_handle(first)
+    deformer:add_handle(last):rotate{ axis = "z", angle = 90, about = { 2, 0.2, 0 } }
+    deformer:solve()
     expect.truthy(off_plane(mesh) > 1e-4)
 end)
 
@@ -342,11 +343,11 @@ test("parts that nothing holds: an error, they stay, or they follow", function()
     end
     local function bent(loose)
         local mesh, count = dressed()
-        local edit = lissom.deform(mesh, { loose = loose })
-        edit:handle(mesh:region{ box = { max = { nil, -2, nil } } })
-        edit:handle(mesh:region{ box = { min = { nil, 2, nil } } }):rotate{ axis = "z", angle = 60 }
+        local deformer = lissom.deformer(mesh, { loose = loose })
+        deformer:add_handle(mesh:region{ box = { max = { nil, -2, nil } } })
+        deformer:add_handle(mesh:region{ box = { min = { nil, 2, nil } } }):rotate{ axis = "z", angle = 60 }
         local before = { mesh:position(count + 1) }
-        local done, problem = lissom.try(edit.solve, edit)
+        local done, problem = lissom.try(deformer.solve, deformer)
         return done, problem, before, { mesh:position(count + 1) }
     end
     local done, problem = bent(nil)
@@ -364,11 +365,11 @@ test("a report says what a result did, and handles that nearly touch tear", func
         mesh:region{ box = { min = { nil, 0.1, nil } } }
     local stretch = {}
     for _, rings in ipairs{ 0, 3 } do
-        local edit = lissom.deform(mesh, { free_rings = rings })
-        edit:handle(low)
-        edit:handle(high):rotate{ axis = "y", angle = 90 }
-        edit:solve()
-        local report = edit:report{ crossings = true }
+        local deformer = lissom.deformer(mesh, { free_rings = rings })
+        deformer:add_handle(low)
+        deformer:add_handle(high):rotate{ axis = "y", angle = 90 }
+        deformer:solve()
+        local report = deformer:report{ crossings = true }
         stretch[rings] = report.stretch
         expect.equal(#report.warnings > 0, rings == 0)
         if rings == 0 then
@@ -379,8 +380,8 @@ test("a report says what a result did, and handles that nearly touch tear", func
         expect.equal(#report.tears > 0, rings == 0)
         expect.equal(report.crossings, 0)
         expect.truthy(math.abs(report.volume_change) < 0.5)
-        expect.equal(edit:report().crossings, nil)
-        edit:reset()
+        expect.equal(deformer:report().crossings, nil)
+        deformer:reset()
     end
     expect.truthy(stretch[3] < 0.6 * stretch[0])
 end)
@@ -390,13 +391,70 @@ test("loose parts of a real model follow, beside quads with one diagonal, and ha
     local box = mesh:bounds()
     local height = box.max[2] - box.min[2]
     for _, refine in ipairs{ 0, 2 } do
-        local edit = lissom.deform(mesh, { loose = "follow", refine = refine })
-        edit:handle(mesh:region{ box = { max = { nil, box.min[2] + 0.15 * height, nil } } })
-        edit:handle(mesh:region{ box = { min = { nil, box.max[2] - 0.15 * height, nil } } })
+        local deformer = lissom.deformer(mesh, { loose = "follow", refine = refine })
+        deformer:add_handle(mesh:region{ box = { max = { nil, box.min[2] + 0.15 * height, nil } } })
+        deformer:add_handle(mesh:region{ box = { min = { nil, box.max[2] - 0.15 * height, nil } } })
             :rotate{ axis = "x", angle = 30 }
-        assert(edit:solve())
-        expect.truthy(edit:report().stretch < 2)
-        expect.equal(#assert(edit:basis()).weights, 2)
-        edit:reset()
+        assert(deformer:solve())
+        expect.truthy(deformer:report().stretch < 2)
+        expect.equal(#assert(deformer:basis()).weights, 2)
+        deformer:reset()
     end
+end)
+
+test("lissom.deform deforms once and returns the mesh", function()
+    local mesh = lissom.shapes.bar()
+    local bent = lissom.deform(mesh, {
+        second = "laplacian", pin = mesh:region("bottom"),
+        handles = { { region = mesh:region("top"), rotate = { axis = "z", angle = 60 },
+            translate = { 1, 0, 0 }, scale = 1.2, about = { 0, 2.5, 0 } } },
+    })
+    expect.truthy(rawequal(bent, mesh))
+    local other = lissom.shapes.bar()
+    local deformer = lissom.deformer(other, { second = "laplacian" }):pin(other:region("bottom"))
+    deformer:add_handle(other:region("top")):set{ rotate = { axis = "z", angle = 60 },
+        translate = { 1, 0, 0 }, scale = 1.2, about = { 0, 2.5, 0 } }
+    expect.equal(deformer:solve():hash(), mesh:hash())
+    -- Several regions may stay, and several move.
+    local third = lissom.shapes.bar()
+    lissom.deform(third, { pin = { third:region("bottom") }, handles = {
+        { region = third:region("top"), rotate = { axis = "z", angle = 380 } } } })
+    expect.truthy(third:hash() ~= mesh:hash())
+end)
+
+test("lissom.deform changes nothing if a handle is refused, and says which", function()
+    local mesh = lissom.shapes.bar()
+    local before, top = mesh:hash(), mesh:region("top")
+    local function deform(handles) return function() lissom.deform(mesh, { handles = handles }) end end
+    expect.error(deform(nil), "lissom.deformer(mesh, {...})")
+    expect.error(deform{}, "list of")
+    expect.error(deform{ { region = top, rotat = 1 } }, "handles[1]")
+    expect.error(deform{ { region = top }, { scale = 2 } }, "handles[2]")
+    expect.error(deform{ { region = top }, { region = top } }, "[handle_overlap]")
+    expect.error(deform{ { region = top, scale = 0 } }, "[singular_transform]")
+    expect.equal(mesh:hash(), before)
+end)
+
+test("a pinned region stays; handles turn by an axis and an angle or by a table", function()
+    local mesh = lissom.shapes.bar()
+    local bottom, top = mesh:region("bottom"), mesh:region("top")
+    local v = bottom:vertices()[1]
+    local before = { mesh:position(v) }
+    local deformer = lissom.deformer(mesh)
+    expect.truthy(rawequal(deformer:pin(bottom), deformer))
+    local handle = deformer:add_handle(top)
+    handle:rotate("z", 60)
+    local by_position = handle:matrix()
+    handle:reset():rotate{ axis = "z", angle = 60 }
+    expect.near(handle:matrix()[1], by_position[1], 0)
+    handle:reset():rotate({ 0, 0, 2 }, 60, { about = { 0, 0, 0 } })
+    expect.near(handle:matrix()[1], { 0.5, -math.sqrt(0.75), 0, 0 }, 1e-12)
+    deformer:solve()
+    expect.near({ mesh:position(v) }, before, 0)
+    expect.error(function() handle:rotate("z") end, "angle")
+    expect.error(function() handle:rotate{ axis = "z" } end, "angle")
+    expect.error(function() handle:rotate("z", 60, { axis = "z" }) end, "axis")
+    expect.error(function() handle:rotate("z", { angle = 5, abuot = 1 }) end, "did you mean 'about'")
+    expect.error(function() handle:rotate() end, "axis")
+    expect.error(function() deformer:pin(bottom) end, "[handle_overlap]")
 end)

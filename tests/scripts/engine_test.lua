@@ -2,8 +2,8 @@ local lissom = require "lissom"
 
 local function bar()
     local mesh = lissom.shapes.bar{ across = 2, along = 16 }
-    local edit = lissom.deform(mesh)
-    return mesh, edit, edit:handle(mesh:region("bottom")), edit:handle(mesh:region("top"))
+    local deformer = lissom.deformer(mesh)
+    return mesh, deformer, deformer:add_handle(mesh:region("bottom")), deformer:add_handle(mesh:region("top"))
 end
 
 local function read_bytes(path)
@@ -13,14 +13,14 @@ local function read_bytes(path)
     return bytes
 end
 
-local mesh, edit, bottom, top
+local mesh, deformer, bottom, top
 -- How the handle and the mesh stand before every test.
 local matrix, before
 
 test.before(function()
-    mesh, edit, bottom, top = bar()
+    mesh, deformer, bottom, top = bar()
     top:translate(0.25, 0, 0)
-    edit:preview()
+    deformer:preview()
     matrix, before = top:matrix(), mesh:hash()
 end)
 
@@ -35,20 +35,20 @@ end
 
 test("save_basis writes the handles' weights, their names and the topology's size", function()
     local path = test.file("bar.basis")
-    expect.truthy(rawequal(edit:save_basis(path), edit))
+    expect.truthy(rawequal(deformer:save_basis(path), deformer))
     local bytes = read_bytes(path)
     expect.equal(bytes:sub(1, 8), "LSMBASIS")
     expect.equal(#bytes, 64 + 16 * 2 + 16 * #mesh + 16 * 2 * #mesh + #"bottom" + #"top" + 2)
     expect.equal(bytes:sub(-11), "bottom\0top\0")
-    assert(edit:save_basis(path, { names = { "foot" } }))
+    assert(deformer:save_basis(path, { names = { "foot" } }))
     expect.equal(read_bytes(path):sub(-6), "foot\0\0")
     expect.error(function()
-        edit:save_basis(path, { names = { "a", "b", "c" } })
+        deformer:save_basis(path, { names = { "a", "b", "c" } })
     end, "3 names for 2 handles")
-    expect.failure("file_write_failed", edit.save_basis, edit, "no/such/folder/a.basis")
+    expect.failure("file_write_failed", deformer.save_basis, deformer, "no/such/folder/a.basis")
     bottom:remove()
     top:remove()
-    expect.failure("unconstrained", edit.save_basis, edit, path)
+    expect.failure("unconstrained", deformer.save_basis, deformer, path)
 end)
 
 test("bake: shapes at the keys are those of solve, to the digits of a file", function()
@@ -63,16 +63,16 @@ test("bake: shapes at the keys are those of solve, to the digits of a file", fun
     end
     local glb = test.file("bar.glb")
     for _, options in ipairs{ {}, { preview = true } } do
-        local baked = edit:bake{ pose = pose, times = { 0, 0.5, 2 }, preview = options.preview }
+        local baked = deformer:bake{ pose = pose, times = { 0, 0.5, 2 }, preview = options.preview }
         expect.equal(mesh:hash(), before)
         expect.near(top:matrix()[1], matrix[1], 0)
         expect.truthy(rawequal(baked:save(glb), baked))
         local read = assert(lissom.load(glb))
         for target, time in pairs{ [0] = 0, 0.5, 2 } do
             local wanted = lissom.shapes.bar{ across = 2, along = 16 }
-            local other = lissom.deform(wanted)
-            other:handle(wanted:region("bottom"))
-            local handle = other:handle(wanted:region("top"))
+            local other = lissom.deformer(wanted)
+            other:add_handle(wanted:region("bottom"))
+            local handle = other:add_handle(wanted:region("top"))
             handle:set{ rotate = { axis = "z", angle = 50 * time }, translate = { time, 0, 0 } }
             if options.preview then other:preview() else other:solve() end
             local a, b = shape_at(read, target):positions(), wanted:positions()
@@ -83,7 +83,7 @@ end)
 
 test("bake: every frame starts from where the handles stand, and has its time and number", function()
     local calls = {}
-    local baked = edit:bake{ duration = 1, fps = 4, pose = function(time, frame)
+    local baked = deformer:bake{ duration = 1, fps = 4, pose = function(time, frame)
         calls[#calls + 1] = { time, frame, top:matrix()[1][4] }
         top:translate(1, 0, 0)
     end }
@@ -92,24 +92,24 @@ test("bake: every frame starts from where the handles stand, and has its time an
     expect.truthy(baked:attribute("morph.1.position"))
     expect.failure("out_of_range", baked.attribute, baked, "morph.2.position")
     expect.truthy(baked:attribute("morph.1.normal"))
-    baked = edit:bake{ times = { 0 }, pose = pose, normals = false, interpolation = "step", name = "x" }
+    baked = deformer:bake{ times = { 0 }, pose = pose, normals = false, interpolation = "step", name = "x" }
     expect.failure("out_of_range", baked.attribute, baked, "normal")
 end)
 
 test("bake: whatever the function does, handles and mesh are as they were", function()
     expect.error(function()
-        edit:bake{ duration = 1, fps = 4, pose = function(time)
+        deformer:bake{ duration = 1, fps = 4, pose = function(time)
             top:translate(1, 0, 0)
             if time > 0.4 then error("no more") end
         end }
     end, "no more")
     expect_unchanged()
     local thrown = {}
-    local ok, got = pcall(edit.bake, edit, { duration = 1, pose = function() error(thrown) end })
+    local ok, got = pcall(deformer.bake, deformer, { duration = 1, pose = function() error(thrown) end })
     expect.truthy(not ok and rawequal(got, thrown))
-    edit:bake{ duration = 1, fps = 2, pose = function()
+    deformer:bake{ duration = 1, fps = 2, pose = function()
         top:translate(0, 1, 0)
-        edit:solve()
+        deformer:solve()
     end }
     expect_unchanged()
 end)
@@ -120,48 +120,48 @@ test("bake: what `apply` takes afterwards is what was shown, and not the last po
     for i = 1, #shape do normals[3 * i - 2], normals[3 * i - 1], normals[3 * i] = shape:normal(i) end
     tip:rotate{ axis = "z", angle = 60 }
     deformation:solve()
-    deformation:handle(shape:region{ box = { min = { nil, -0.2, nil }, max = { nil, 0.2, nil } } })
+    deformation:add_handle(shape:region{ box = { min = { nil, -0.2, nil }, max = { nil, 0.2, nil } } })
     local shown = shape:hash()
     assert(deformation:bake{ times = { 0 }, pose = function() tip:translate(1, 0, 0) end })
     expect.equal(shape:hash(), shown)
-    deformation:apply()
+    deformation:rebase()
     expect.equal(shape:hash(), shown)
 end)
 
 test("bake: misuse", function()
-    expect.error(function() edit:bake{ pose = pose } end, "'bake' needs either 'duration' or 'times'")
+    expect.error(function() deformer:bake{ pose = pose } end, "'bake' needs either 'duration' or 'times'")
     expect.error(function()
-        edit:bake{ pose = pose, times = { 0 }, duration = 1 }
+        deformer:bake{ pose = pose, times = { 0 }, duration = 1 }
     end, "'bake' needs either 'duration' or 'times'")
-    expect.error(function() edit:bake{ pose = pose, duration = 1e9 } end, "more than 10000 frames")
-    expect.error(function() edit:bake{ pose = pose, times = { 1, 0.5 } } end, "ascending")
-    expect.error(function() edit:bake{ pose = pose, times = {} } end, "[invalid_argument]")
-    expect.error(function() edit:bake{ duration = 1 } end, "pose")
+    expect.error(function() deformer:bake{ pose = pose, duration = 1e9 } end, "more than 10000 frames")
+    expect.error(function() deformer:bake{ pose = pose, times = { 1, 0.5 } } end, "ascending")
+    expect.error(function() deformer:bake{ pose = pose, times = {} } end, "[invalid_argument]")
+    expect.error(function() deformer:bake{ duration = 1 } end, "pose")
     expect_unchanged()
 end)
 
 test("bake: a pose without a solution, a cancel and a handle that goes", function()
-    local extra = edit:handle(mesh:region{ where = function(_, _, y) return math.abs(y) < 0.2 end })
-    assert(edit:bake{ times = { 0, 1 }, pose = function(time) if time == 0 then extra:remove() end end })
-    expect.equal(#edit:handles(), 2)
+    local extra = deformer:add_handle(mesh:region{ where = function(_, _, y) return math.abs(y) < 0.2 end })
+    assert(deformer:bake{ times = { 0, 1 }, pose = function(time) if time == 0 then extra:remove() end end })
+    expect.equal(#deformer:handles(), 2)
     lissom.listen{ progress = function() return false end }
-    local handle = edit:handle(mesh:region{ where = function(_, _, y) return math.abs(y) < 0.2 end })
-    expect.failure("cancelled", edit.bake, edit, { duration = 1, pose = pose })
+    local handle = deformer:add_handle(mesh:region{ where = function(_, _, y) return math.abs(y) < 0.2 end })
+    expect.failure("cancelled", deformer.bake, deformer, { duration = 1, pose = pose })
     lissom.listen{}
     handle:remove()
     expect_unchanged()
     lissom.listen{ progress = function() error("in a listener") end }
     expect.error(function()
-        edit:bake{ duration = 1, pose = function(time)
+        deformer:bake{ duration = 1, pose = function(time)
             pose(time)
             bottom:translate(0, 0, 0)
-            edit:handle(mesh:region{ where = function(_, _, y) return math.abs(y - time) < 0.2 end })
+            deformer:add_handle(mesh:region{ where = function(_, _, y) return math.abs(y - time) < 0.2 end })
         end }
     end, "in a listener")
     lissom.listen{}
     expect_unchanged()
     expect.error(function()
-        edit:bake{ duration = 1, pose = function() edit:close() end }
+        deformer:bake{ duration = 1, pose = function() deformer:close() end }
     end, "[handle_removed]")
     expect.equal(mesh:hash(), before)
 end)

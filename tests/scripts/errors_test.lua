@@ -122,7 +122,7 @@ test("no function returns nil and a message", function()
         return done and first == nil and type(second) == "string"
     end
     local objects = { box, box:region{ all = true }, box:positions(), lissom.scene{},
-        lissom.camera{ eye = { 0, 0, 5 } }, lissom.deform(box), lissom.shapes.grid():boundaries()[1] }
+        lissom.camera{ eye = { 0, 0, 5 } }, lissom.deformer(box), lissom.shapes.grid():boundaries()[1] }
     for _, object in ipairs(objects) do
         for _, name in ipairs{ "save", "load", "region", "attribute", "get", "info", "remove", "select",
             "solve", "preview", "basis", "bake", "cut", "fill", "trim", "save_basis", "hash" } do
@@ -143,4 +143,30 @@ test("no function returns nil and a message", function()
             expect.truthy(type(problem) == "table" and type(problem.code) == "string")
         end
     end
+end)
+
+test("a name of version 0.1 is an error that says what to write instead", function()
+    local mesh = lissom.shapes.bar()
+    local deformer = lissom.deformer(mesh)
+    local head = lissom.shapes.sphere{ segments = 6 }
+    local scalp = lissom.scalp(head, { up = "y", front = "z", region = head:region{ all = true } })
+    local style = lissom.hairstyle(head, { resolution = 1000, scalp = scalp })
+    local cup = head:cut{ plane = { point = { 0, 0, 0 }, normal = { 0, 1, 0 } } }
+    -- In brackets, for lissom migrate rewrites the others.
+    for advice, call in pairs{
+        ["lissom.deformer(mesh, {...})"] = function() lissom.deform(mesh, {}) end,
+        ["lissom.merger(source, target, {...})"] = function() return lissom["merging"] end,
+        ["deformer:add_handle(region)"] = function() return deformer["handle"] end,
+        ["deformer:rebase()"] = function() return deformer["apply"] end,
+        ["deformer:subdivided_mesh()"] = function() return deformer["refined_mesh"] end,
+        ["subdivide_borders = false"] = function() lissom.deformer(mesh, { ["refine_borders"] = false }) end,
+        ["style:add_stream(points)"] = function() return style["stream"] end,
+        ["style:add_dividing(points)"] = function() return style["dividing"] end,
+        ["style:add_ponytail(spine)"] = function() return style["ponytail"] end,
+        ["subdivide = false"] = function() lissom.merge{ ["refine"] = false } end,
+        ["fidelity = \"default\""] = function() lissom.merge(cup, cup, { ["fidelity"] = "lissom" }) end,
+    } do
+        expect.error(call, advice)
+    end
+    expect.error(function() cup:fill(cup:boundaries()[1], { ["refine"] = true }) end, "subdivide")
 end)

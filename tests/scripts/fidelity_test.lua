@@ -10,16 +10,17 @@ end
 
 -- A stream at a side, a parting, and a tail that falls behind.
 local function with_curves(style, tail)
-    style:stream{ points = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 },
-        (style:at{ azimuth = 70, elevation = 10, lift = 0.02 }) } }
-    style:dividing{ tilt = { 10, 30 }, points = { style:at{ azimuth = 0, elevation = 45 },
-        (style:at{ azimuth = 0, elevation = 80 }) } }
-    local tie, out = style:at{ azimuth = 180, elevation = 25, lift = 0.02 }
+    style:add_stream{ points = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 },
+        style:at{ azimuth = 70, elevation = 10, lift = 0.02 } } }
+    style:add_dividing{ tilt = { 10, 30 }, points = { style:at{ azimuth = 0, elevation = 45 },
+        style:at{ azimuth = 0, elevation = 80 } } }
+    local behind = { azimuth = 180, elevation = 25, lift = 0.02 }
+    local tie, out = style:at(behind), style:normal_at(behind)
     local spine = { tie }
     for i = 1, 3 do spine[i + 1] = { tie[1], tie[2] - 0.01 * i * i, tie[3] + 0.03 * i * out[3] } end
     tail = tail or {}
     tail.spine, tail.name = spine, "tail"
-    style:ponytail(tail)
+    style:add_ponytail(tail)
     return style, tie
 end
 
@@ -74,7 +75,7 @@ test("options count before what the fidelity says", function()
     expect.equal(kinds_of(style).gather, wide.gather)
     local function field_of(options)
         local one = with_curves(style_of(options))
-        return one:field((one:at{ azimuth = 100, elevation = 30, lift = 0.05 }))
+        return one:field(one:at{ azimuth = 100, elevation = 30, lift = 0.05 })
     end
     local plain = field_of{ fidelity = "thesis" }
     expect.near(field_of{ fidelity = "thesis", tension = 0, boundary = "thesis" }, plain, 0)
@@ -95,7 +96,7 @@ test("hair of the thesis takes options of growth too, and refuses what has no ef
     for _, option in ipairs{ "clearance", "layer", "ramp" } do
         expect.error(function() style:grow{ count = 300, [option] = 0.01 } end, "avoid = true")
     end
-    expect.error(function() style:stream{ fidelity = "thesis" } end, "fidelity")
+    expect.error(function() style:add_stream{ fidelity = "thesis" } end, "fidelity")
     expect.error(function() style_of{ fidelity = "literal" } end, "thesis")
 end)
 

@@ -94,3 +94,42 @@ test("a mesh that is inside out is told, with the call that turns it", function(
     expect.error(function() lissom.load("") end, "the path is empty")
     expect.error(function() box:save("") end, "the path is empty")
 end)
+
+-- The lines of the documents, with files in the folder of the test.
+local ten_lines = [[
+local lissom, head, body, points = ...
+local mesh = lissom.load "scan.ply"          -- raises
+local d = lissom.deformer(mesh)
+d:pin(mesh:region "base")
+local tip = d:add_handle(mesh:region "tip")
+tip:rotate("z", 60)
+d:solve()
+mesh:save "bent.obj"
+local out = lissom.merge(head, body)          -- nearest boundaries
+local style = lissom.hairstyle(head)
+style:add_stream(points); style:grow(200):save "hair.usda"
+return mesh, out, style
+]]
+
+test("the ten lines that users write run as they are written", function()
+    local folder = test.folder() .. "/"
+    local scan = lissom.shapes.cactus{ vertices = 2000 }
+    scan:save(folder .. "scan.ply")
+    local bald = lissom.shapes.head{ vertices = 3000 }
+    local low = bald:bounds().min[2] + 0.1 * bald:bounds().diagonal
+    local head = bald:cut{ plane = { point = { 0, low, 0 }, normal = { 0, 1, 0 } } }
+    local body = lissom.shapes.cylinder{ radius = 0.06, height = 0.3, segments = 40, caps = false }
+        :transform{ translate = { 0, low - 0.2, 0 } }
+    local style = lissom.hairstyle(head)
+    local points = { style:at{ azimuth = 80, elevation = 50, lift = 0.01 },
+        style:at{ azimuth = 90, elevation = 10, lift = 0.02 } }
+    local text = ten_lines:gsub(' "([%w]+%.%w+)"', function(name) return ' "' .. folder .. name .. '"' end)
+    local mesh, out, made = assert(load(text, "=ten lines"))(lissom, head, body, points)
+    local tip = mesh:region("tip"):center()
+    local angle = math.abs(math.atan(tip[1] - scan:region("tip"):center()[1], tip[2] - scan:bounds().min[2]))
+    expect.truthy(mesh:hash() ~= scan:hash() and angle < math.pi)
+    expect.equal(#lissom.load(folder .. "bent.obj"), #mesh)
+    expect.equal(#out:boundaries(), 1)
+    expect.equal(#made:curves(), 1)
+    expect.equal(#lissom.load_strands(folder .. "hair.usda"), 200)
+end)

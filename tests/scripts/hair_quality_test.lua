@@ -35,12 +35,12 @@ local settings = {
 local function parted(head)
     local style = lissom.hairstyle(head)
     local route, by = strokes.route(style), strokes.by
-    style:dividing{ points = route{ { 0, 37 }, { 0, 55 }, { 0, 76 } } }
+    style:add_dividing{ points = route{ { 0, 37 }, { 0, 55 }, { 0, 76 } } }
     strokes.both_sides({
         { { 20, 46, 14 }, { 52, 34, 18 }, { 71, 8, 18 }, by(4, -50, -4), by(-4, -60, -4) },
         { { 30, 72, 14 }, { 70, 50, 18 }, { 92, 5, 22 }, by(5, -50, 0), by(-4, -60, 0) },
         { { 130, 68, 12 }, { 126, 32, 20 }, { 126, -5, 22 }, by(2, -50, 0), by(-2, -60, 0) },
-    }, function(places) style:stream{ points = route(places) } end)
+    }, function(places) style:add_stream{ points = route(places) } end)
     return style
 end
 
@@ -98,7 +98,7 @@ local function widest_gap(style, hair, tie)
     local scalp, depths = style:scalp(), {}
     local unit = scalp:unit()
     local place = { azimuth = tie.azimuth, elevation = tie.elevation, lift = tie.lift }
-    local top = scalp:to_metres((scalp:at(place)))
+    local top = scalp:to_metres(scalp:at(place))
     for i = 1, #hair do
         local strand, last = hair:strand(i), nil
         for k = 1, strand:count() do

@@ -2,7 +2,7 @@ local lissom = require "lissom"
 
 local head = lissom.shapes.head{ vertices = 3000 }
 local scalp = lissom.scalp(head)
-local on, normal = scalp:at{ azimuth = 90, elevation = 30 }
+local on, normal = scalp:at{ azimuth = 90, elevation = 30 }, scalp:normal_at{ azimuth = 90, elevation = 30 }
 
 local function bald_style()
     return lissom.hairstyle(head, { scalp = scalp, resolution = 6000 })
@@ -12,17 +12,17 @@ end
 local style, stream, parting, pony
 
 local function at(azimuth, elevation, lift)
-    return (style:at{ azimuth = azimuth, elevation = elevation, lift = lift or 0 })
+    return style:at{ azimuth = azimuth, elevation = elevation, lift = lift or 0 }
 end
 
 test.before(function()
     style = bald_style()
     local side = { at(20, 50, 0.01), at(70, 25, 0.02), at(85, -15, 0.02) }
-    stream = style:stream{ points = side, name = "side" }
+    stream = style:add_stream{ points = side, name = "side" }
     local middle = { at(0, 45), at(0, 65), at(0, 85) }
-    parting = style:dividing{ points = middle, tilt = { 10, 30 }, gap = 0.01 }
+    parting = style:add_dividing{ points = middle, tilt = { 10, 30 }, gap = 0.01 }
     local tie = at(180, 25, 0.02)
-    pony = style:ponytail{
+    pony = style:add_ponytail{
         spine = { tie, { tie[1], tie[2], tie[3] - 0.04 }, { tie[1], tie[2] - 0.15, tie[3] - 0.06 } },
         name = "pony",
         enabled = false,
@@ -68,7 +68,7 @@ end)
 test("growing without curves is a mistake of the script, as a stream without points is", function()
     local bald = bald_style()
     expect.error(function() bald:grow{ count = 10 } end, "add a curve")
-    expect.error(function() bald:stream{ points = {} } end, "two points")
+    expect.error(function() bald:add_stream{ points = { { 0, 0, 0 } } } end, "two points")
 end)
 
 test("curves keep their identity", function()
@@ -86,21 +86,21 @@ test("curves keep their identity", function()
 end)
 
 test("wrong curves are refused by name, and change nothing", function()
-    expect.error(function() style:stream{ points = stream:points(), tightness = 1 } end, "tightness")
+    expect.error(function() style:add_stream{ points = stream:points(), tightness = 1 } end, "tightness")
     expect.error(function() stream:set{ tightness = 1 } end, "tightness")
-    expect.error(function() style:stream{ points = { at(0, 90) } } end, "differ")
+    expect.error(function() style:add_stream{ points = { at(0, 90) } } end, "differ")
     expect.error(function() parting:set{ tilt = { 1 } } end, "two angles")
     expect.error(function() pony:set{ profiles = { 1, 2 } } end, "profiles")
-    expect.error(function() style:stream{ points = { { 9, 9, 9 }, { 9, 8, 9 } } } end, "outside")
+    expect.error(function() style:add_stream{ points = { { 9, 9, 9 }, { 9, 8, 9 } } } end, "outside")
     expect.error(function()
-        style:dividing{ points = { { 0, 0.2, 0.2 }, { 0, 0.2, 0.1 } } }
+        style:add_dividing{ points = { { 0, 0.2, 0.2 }, { 0, 0.2, 0.1 } } }
     end, "from the head")
     expect.equal(#style:curves(), 3)
 end)
 
 test("hints beside a parting are its tilt, until that is set by numbers", function()
     local own = bald_style()
-    local line = own:dividing{ points = parting:points(), tilt = { 5, 10 } }
+    local line = own:add_dividing{ points = parting:points(), tilt = { 5, 10 } }
     expect.near({ line:tilt().left.start, line:tilt().right.finish }, { 5, 10 }, 1e-9)
     expect.equal(line:tilt().left.pieces, 0)
     local hint = { at(10, 58), at(20, 66) }
@@ -138,13 +138,15 @@ test("the options of a curve are those that act, and go back into set", function
     end
 end)
 
-test("the normal that comes with a point is no point", function()
-    local function with_normal()
-        style:stream{ points = { at(20, 50), style:at{ azimuth = 70, elevation = 10 } } }
-    end
-    expect.error(with_normal, "write (style:at{...})")
-    expect.error(function() stream:set_points{ style:at{ azimuth = 70, elevation = 10 } } end, "normal")
-    expect.equal(#style:curves(), 3)
+test("at returns a point alone, so that its calls fill lists of points; normal_at the normal", function()
+    local place = { azimuth = 70, elevation = 10 }
+    local points = { at(20, 50), style:at(place) }
+    expect.equal(#points, 2)
+    local curve = style:add_stream(points, { name = "from calls" })
+    expect.near(curve:points()[2], style:at(place), 1e-9)
+    expect.near(style:normal_at(place), style:scalp():normal_at(place), 0)
+    expect.equal(select("#", style:normal_at(place)), 1)
+    curve:remove()
 end)
 
 test("the field follows the curves", function()
@@ -237,7 +239,7 @@ test("ponytails name their group", function()
     pony:enable()
     for _, azimuth in ipairs{ 50, 90, 130, -50, -90, -130 } do
         local points = { at(azimuth, 45, 0.01), at(180, 40, 0.012), at(180, 26, 0.02) }
-        style:stream{ points = points, stop = false }
+        style:add_stream{ points = points, stop = false }
     end
     local tail = style:grow{ count = 400, length = 0.4 }
     expect.equal(table.concat(tail:groups()), "pony")

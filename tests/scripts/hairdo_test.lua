@@ -12,7 +12,7 @@ test("a head whose unit nobody can guess gets it from the parameters, and nothin
     for i, place in ipairs{ { 30, 0.02 }, { 20, 0.1 }, { 0, 0.15 } } do
         spine[i] = style:at{ azimuth = 180, elevation = place[1], lift = place[2] }
     end
-    style:ponytail{ spine = spine, name = "tail" }
+    style:add_ponytail{ spine = spine, name = "tail" }
     local params = { out = test.folder(), name = "hair", format = "usda", detail = true }
     hairdo.finish(style, style:grow{ count = 500, length = 0.2 }, params)
     expect.equal(table.concat(told, "\n"), "")

@@ -158,8 +158,8 @@ test("every option is taken, and every way to sew closes the seam", function()
     end
     for _, options in ipairs{
         { transition = { source = 0.3, target = 0.9 } },
-        { refine = false }, { trim = false }, { collar = false },
-        { greatest_turn = 5 }, { fidelity = "thesis" }, { fidelity = "lissom", smooth = 10 },
+        { subdivide = false }, { trim = false }, { collar = false },
+        { greatest_turn = 5 }, { fidelity = "thesis" }, { fidelity = "default", smooth = 10 },
     } do
         options.joins = { join{ { from, to } } }
         expect.truthy(lissom.merge(options):is_closed())
@@ -180,7 +180,8 @@ test("fidelity: section 3.3 to the letter, and options that are given count befo
     for _, name in ipairs{ "first_solve_seconds", "polar_seconds", "second_solve_seconds" } do
         expect.truthy(literal[name] >= 0, name)
     end
-    local asked = report_of{ fidelity = "thesis", seam = "conform", smooth = 1, trim = true, refine = true }
+    local asked = report_of{ fidelity = "thesis", seam = "conform", smooth = 1, trim = true,
+        subdivide = true }
     expect.equal(asked.seam.band_removed, 0)
     expect.truthy(asked.seam.inserted_into_target > 0)
     expect.equal(asked.seam.smoothed, 1)
@@ -280,19 +281,19 @@ test("several joins, on several targets", function()
 end)
 
 test("solved again after a key moved", function()
-    local merging = lissom.merging{ joins = { join{ { from, to } } } }
-    same(merging:solve(), mesh, 0)
+    local merger = lissom.merger{ joins = { join{ { from, to } } } }
+    same(merger:solve(), mesh, 0)
     local other = rim(bowl):vertices()[5]
-    merging:set_keys(1, { { from, other } })
-    local turned = merging:solve()
+    merger:set_keys(1, { { from, other } })
+    local turned = merger:solve()
     same(turned, lissom.merge{ joins = { join{ { from, other } } } }, 1e-9)
-    expect.error(function() merging:set_keys(2, {}) end, "[out_of_range]")
-    expect.error(function() merging:set_keys(1, { { from } }) end, "keys")
+    expect.error(function() merger:set_keys(2, {}) end, "[out_of_range]")
+    expect.error(function() merger:set_keys(1, { { from } }) end, "keys")
     -- Keys are checked when they are set; those of before stay.
-    expect.failure("key_conflict", merging.set_keys, merging, 1, { { #cap + 1, other } })
-    same(merging:solve(), turned, 0)
-    merging:close()
-    expect.error(function() merging:solve() end, "closed")
+    expect.failure("key_conflict", merger.set_keys, merger, 1, { { #cap + 1, other } })
+    same(merger:solve(), turned, 0)
+    merger:close()
+    expect.error(function() merger:solve() end, "closed")
 end)
 
 test("directions that belong together decide where round rims meet, and one without the", function()
@@ -744,7 +745,7 @@ test("a thin outline that is to meet a round one is told before anything is solv
         for v = 1, #stretched do
             stretched:set_position(v, aspect * points[3 * v - 2], points[3 * v - 1], points[3 * v])
         end
-        return lissom.merging{ joins = { { source = rim(stretched), target = rim(bowl) } } }
+        return lissom.merger{ joins = { { source = rim(stretched), target = rim(bowl) } } }
     end
     expect.equal(#thin(1.5):warnings(), 0)
     local told = thin(6):warnings()
@@ -789,4 +790,31 @@ test("loops of thousands of vertices, with faces much longer than wide, are join
     expect.near(bounds.min[1], 0, 1e-9)
     expect.near(bounds.max[1], 4.2, 1e-9)
     expect.truthy(bounds.max[2] < 1.2 and bounds.min[2] > -1.2)
+end)
+
+test("without joins the nearest boundaries meet", function()
+    local whole, of_whole = lissom.merge(cap, bowl)
+    expect.truthy(whole:is_closed())
+    same(whole, lissom.merge{ joins = { join() } }, 0)
+    same(lissom.merge{ source = cap, target = bowl }, whole, 0)
+    expect.equal(#of_whole.joins, 1)
+    -- Of a tube that is open at both ends the end that is nearer to each cap.
+    local pipe = lissom.shapes.cylinder{ radius = 1, height = 4, segments = 24, rings = 8, caps = false }
+    local upper = half(ball()):transform{ translate = { 0, 2.3, 0 } }
+    local lower = half(ball(), 0, { 0, -1, 0 }):transform{ translate = { 0, -2.2, 0 } }
+    local with_cap = lissom.merge(upper, pipe)
+    expect.equal(#with_cap:boundaries(), 1)
+    expect.truthy(with_cap:boundaries()[1]:points()[1][2] < 0)
+    expect.truthy(lissom.merge(lower, with_cap, { smooth = 0 }):is_closed())
+    -- A tube between two targets has one join with each.
+    local both, of_both = lissom.merge(pipe, { upper, lower })
+    expect.equal(#of_both.joins, 2)
+    expect.truthy(both:is_closed())
+    expect.failure("not_a_boundary", lissom.merge, ball(), bowl)
+    expect.error(function() lissom.merge(cap) end, "a source and a target")
+    expect.error(function() lissom.merge{} end, "a source and a target")
+    expect.error(function() lissom.merge(cap, bowl, { source = cap }) end, "source")
+    expect.truthy(lissom.merger(cap, bowl):solve():is_closed())
+    -- Within one mesh the two boundaries that are nearest to each other.
+    expect.equal(lissom.merge(pipe, pipe):genus(), 1)
 end)

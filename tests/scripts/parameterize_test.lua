@@ -111,7 +111,7 @@ test.group("fill", function()
         local tube = lissom.shapes.cylinder{ caps = false }
         local vertices = #tube
         for _ = 1, 2 do
-            local _, report = tube:fill(tube:boundaries()[1], { method = "area", refine = false })
+            local _, report = tube:fill(tube:boundaries()[1], { method = "area", subdivide = false })
             expect.equal(report.vertex_count, 0)
             expect.equal(report.face_count, report.loop_size - 2)
         end
@@ -138,7 +138,7 @@ test.group("fill", function()
                 local x, y, z = bowl:position(i)
                 bowl:set_position(i, x, y + 0.4 * x * x - 0.4 * z * z, z)
             end
-            bowl:fill(bowl:boundaries()[1], { method = method, refine = false, fair = false })
+            bowl:fill(bowl:boundaries()[1], { method = method, subdivide = false, fair = false })
             areas[method] = bowl:area()
         end
         expect.truthy(areas.area <= areas.angle + 1e-9)

@@ -96,12 +96,12 @@ end)
 test("a deformation is picked by its mesh, and a style by its curves", function()
     local scene = lissom.scene{}
     local bar = lissom.shapes.box{ segments = { 4, 4, 4 } }
-    scene:add("edit", lissom.deform(bar, { region = bar:region{ all = true } }))
+    scene:add("edit", lissom.deformer(bar, { region = bar:region{ all = true } }))
     expect.equal(camera:pick(at(0.1, 0.1, { scene = scene })).object, "edit")
     scene:add("bar", bar)
     expect.equal(#camera:pick_all(at(0.1, 0.1, { scene = scene, through = true })), 2)
     local style = lissom.hairstyle(lissom.shapes.head{})
-    local curve = style:stream{ points = { { 0, 0.2, 0.1 }, { 0, 0.3, 0 }, { 0, 0.2, -0.1 } } }
+    local curve = style:add_stream{ points = { { 0, 0.2, 0.1 }, { 0, 0.3, 0 }, { 0, 0.2, -0.1 } } }
     scene:add("style", style)
     local top = curve:points()[2]
     local view = lissom.camera{ eye = { top[1], top[2] + 2, top[3] + 0.01 }, target = top }
@@ -197,8 +197,8 @@ end)
 test("hair in metres is picked where it is drawn on a head of another unit", function()
     local head = lissom.shapes.head{ vertices = 3000 }:transform{ scale = 100 }
     local style = lissom.hairstyle(head, { resolution = 4000 })
-    style:stream{ points = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 },
-        (style:at{ azimuth = 80, elevation = 0, lift = 0.02 }) } }
+    style:add_stream{ points = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 },
+        style:at{ azimuth = 80, elevation = 0, lift = 0.02 } } }
     local hair = style:grow{ count = 200, length = 0.2 }
     local scene = lissom.scene{}
     scene:add("head", head)

@@ -1,15 +1,15 @@
 local lissom = require "lissom"
 
 -- A scene of one deformation for each test.
-local scene, bar, rest, edit, top, before
+local scene, bar, rest, deformer, top, before
 
 test.before(function()
     scene = lissom.scene{}
     bar = lissom.shapes.bar()
     rest = bar:hash()
-    edit = scene:add("bend", lissom.deform(bar))
-    edit:handle(bar:region("bottom"))
-    top = edit:handle(bar:region("top"))
+    deformer = scene:add("bend", lissom.deformer(bar))
+    deformer:add_handle(bar:region("bottom"))
+    top = deformer:add_handle(bar:region("top"))
     before = scene:hash()
 end)
 
@@ -17,14 +17,14 @@ local function drag()
     scene:begin("drag")
     for angle = 20, 60, 20 do
         top:set{ rotate = { axis = "z", angle = angle } }
-        edit:solve{ draft = angle < 60 }
+        deformer:solve{ draft = angle < 60 }
     end
     scene:commit()
     return bar:hash()
 end
 
 test("a deformation brings its mesh along; handles stay the same objects", function()
-    expect.truthy(rawequal(scene:get("bend"), edit))
+    expect.truthy(rawequal(scene:get("bend"), deformer))
     expect.equal(scene:info("bend").kind, "deformation")
 
     local bent, matrix = drag(), top:matrix()
@@ -34,21 +34,21 @@ test("a deformation brings its mesh along; handles stay the same objects", funct
     expect.equal(scene:redo(), "drag")
     expect.equal(bar:hash(), bent)
     for row = 1, 4 do expect.near(top:matrix()[row], matrix[row], 0) end
-    edit:solve()
+    deformer:solve()
     expect.equal(bar:hash(), bent)
 end)
 
 test("what a script changed between two steps is found, and a handle that was added is gone", function()
     local bent = drag()
-    edit:handle({ bar:nearest(0.5, 0, 0) })
-    expect.equal(#edit:handles(), 3)
+    deformer:add_handle({ bar:nearest(0.5, 0, 0) })
+    expect.equal(#deformer:handles(), 3)
     expect.equal(scene:undo(), "edited")
-    expect.equal(#edit:handles(), 2)
-    edit:apply()
-    edit:reset()
+    expect.equal(#deformer:handles(), 2)
+    deformer:rebase()
+    deformer:reset()
     expect.equal(bar:hash(), bent)
     expect.equal(scene:undo(), "edited")
-    edit:reset()
+    deformer:reset()
     expect.equal(bar:hash(), rest)
 end)
 
@@ -57,7 +57,7 @@ test("the mesh has a name as well, and both show the same", function()
     local both = scene:hash()
     scene:step("turn", function()
         top:rotate{ axis = "z", angle = 30 }
-        edit:solve()
+        deformer:solve()
     end)
     scene:undo()
     expect.equal(scene:hash(), both)
@@ -68,7 +68,7 @@ test("after an error in the middle of a bend everything is as it was", function(
     expect.error(function()
         scene:step("fail", function()
             top:rotate{ axis = "z", angle = 30 }
-            edit:solve()
+            deformer:solve()
             error("stop")
         end)
     end, "stop")
@@ -77,14 +77,14 @@ end)
 
 test("what bake moves is put back, and no edit", function()
     scene:clear_history()
-    assert(edit:bake{ duration = 0.2, fps = 10, pose = function(t)
+    assert(deformer:bake{ duration = 0.2, fps = 10, pose = function(t)
         top:rotate{ axis = "z", angle = 90 * t }
     end })
     expect.equal(scene:undo(), nil)
 end)
 
 test("a scene keeps what a script closes", function()
-    edit:close()
+    deformer:close()
     local kept = scene:get("bend")
     expect.equal(#kept:handles(), 2)
     kept:handles()[2]:translate(1, 0, 0)
@@ -113,11 +113,11 @@ test("a hairstyle with its curves", function()
     local style = scene:add("style", lissom.hairstyle(head, { resolution = 4000 }))
     local empty = scene:hash()
     local function at(azimuth, elevation)
-        return (style:at{ azimuth = azimuth, elevation = elevation, lift = 0.01 })
+        return style:at{ azimuth = azimuth, elevation = elevation, lift = 0.01 }
     end
     local curve
     scene:step("draw", function()
-        curve = style:stream{ points = { at(10, 60), at(75, 35), at(90, -10) } }
+        curve = style:add_stream{ points = { at(10, 60), at(75, 35), at(90, -10) } }
     end)
     local drawn = scene:hash()
     local grown = style:grow{ count = 40 }:hash()
@@ -151,7 +151,7 @@ test("a scene is saved and loaded to the bit, and goes on", function()
     local style = scene:add("style", lissom.hairstyle(head, { resolution = 4000 }))
     local root = style:at{ azimuth = 10, elevation = 60, lift = 0.01 }
     local tip = style:at{ azimuth = 75, elevation = 35, lift = 0.01 }
-    style:stream{ points = { root, tip } }
+    style:add_stream{ points = { root, tip } }
     scene:add("hair", style:grow{ count = 50 })
     scene:add("line", lissom.polyline{ points = { { 0, 0, 0 }, { 1, 0.1, 0 } }, closed = true })
 
@@ -168,7 +168,7 @@ test("a scene is saved and loaded to the bit, and goes on", function()
     local other = again:get("bend")
     expect.equal(other:mesh():hash(), bar:hash())
     expect.truthy(rawequal(again:get("bend"), other))
-    for _, one in ipairs{ edit, other } do
+    for _, one in ipairs{ deformer, other } do
         one:handles()[2]:rotate{ axis = "z", angle = 10 }
         assert(one:solve())
     end
@@ -183,7 +183,7 @@ test("a scene comes back from a folder, with its parameters and its history", fu
     for i = 1, 3 do
         scene:step("turn " .. i, function()
             top:rotate{ axis = "z", angle = 10 }
-            assert(edit:solve())
+            assert(deformer:solve())
         end)
     end
     scene:undo()
@@ -240,4 +240,18 @@ test("a scene that is closed in a step, or loses an object while it is asked for
             error("closed")
         end)
     end, "closed")
+end)
+
+test("a scene and a style of version 0.1 load, and their objects have the present names", function()
+    local here = package.searchpath("models", package.path):match("^(.*/)")
+    local old = here .. "../scenes/golden/version_0_1/"
+    local saved = lissom.load_scene(old .. "scene")
+    expect.equal(saved:get("bar"):hash(), "134de93d9b818fc1")
+    expect.equal(#saved:get("bend"):handles(), 2)
+    saved:get("bend"):handles()[2]:rotate("z", 10)
+    expect.truthy(saved:get("bend"):solve())
+    expect.equal(#saved:get("style"):curves(), 2)
+    expect.equal(#saved:get("hair"), 10)
+    expect.equal(#lissom.load_style(old .. "style.json", saved:get("head"),
+        { scalp = saved:get("style"):scalp() }):curves(), 2)
 end)

@@ -23,10 +23,10 @@ test("undo puts the content back into them, whatever holds them: regions, buffer
     local top, count = bar:region("top"), #bar
     local buffer = bar:positions()
     scene:step("bend", function()
-        local edit = lissom.deform(bar)
-        edit:handle(bar:region("bottom"))
-        edit:handle(top):rotate{ axis = "z", angle = 60 }
-        edit:solve()
+        local deformer = lissom.deformer(bar)
+        deformer:add_handle(bar:region("bottom"))
+        deformer:add_handle(top):rotate{ axis = "z", angle = 60 }
+        deformer:solve()
     end)
     local bent, x = bar:hash(), buffer[1]
     scene:step("refine", function() bar:append(lissom.shapes.box()) end)

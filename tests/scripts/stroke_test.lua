@@ -7,7 +7,7 @@ local front = lissom.frame(head, { view = "front", size = size, margin = 0.2 })
 
 -- A bow on the picture, from above the forehead down beside the face.
 local function bow(side)
-    local x, y = front:project((scalp:at{ azimuth = 20 * side, elevation = 60 }), size)
+    local x, y = front:project(scalp:at{ azimuth = 20 * side, elevation = 60 }, size)
     local points = {}
     for i = 0, 60 do
         local t = i / 60
@@ -27,7 +27,7 @@ test("a stroke over a head becomes a stream that hair follows", function()
         for i = 20, #drawn.points do
             expect.truthy(head:nearest(drawn.points[i]).distance > 0.0049 * scalp:scale())
         end
-        style:stream{ points = drawn.points }
+        style:add_stream{ points = drawn.points }
     end
     local hair = style:grow{ count = 300 }
     expect.equal(#hair, 300)

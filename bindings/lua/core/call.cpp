@@ -138,6 +138,12 @@ void Call::select_item(const char* path, const char* key) {
     }
 }
 
+void Call::select_item(const char* path, int place) {
+    for (const Entry::Slot& slot : entry_->slots) {
+        if (slot.path == path) return Parser(*this).read_item(slot, value(path).stack, place);
+    }
+}
+
 void Call::raise(const char* text) const {
     raise_misuse(L_, text);
 }

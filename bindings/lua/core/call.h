@@ -124,6 +124,8 @@ class Call {
     /// until the next one is selected, which drops what was pushed since. Raises a Lua error for
     /// bad ones.
     void select_item(const char* path, const char* key);
+    /// The same for the table at `place`, from 1, of a list of option tables.
+    void select_item(const char* path, int place);
 
     /// The object whose method this is, or operand `index` of a metamethod.
     template <typename T>

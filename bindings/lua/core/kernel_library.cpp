@@ -89,12 +89,11 @@ Library kernel_library() {
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
     add(library.functions, error_functions());
-    library.types = {
-        whole_mesh_type(),  region_type(),  whole_path_type(),      buffer_type(),
-        deformation_type(), handle_type(),  merging_type(),         provenance_type(),
-        paste_type(),       scalp_type(),   whole_hairstyle_type(), whole_curve_type(),
-        strands_type(),     scene_type(),   polyline_type(),        whole_camera_type(),
-        gizmo_type(),       support_type(), parameters_type()};
+    library.types = {whole_mesh_type(), region_type(),  whole_path_type(),      buffer_type(),
+                     deformer_type(),   handle_type(),  merger_type(),          provenance_type(),
+                     paste_type(),      scalp_type(),   whole_hairstyle_type(), whole_curve_type(),
+                     strands_type(),    scene_type(),   polyline_type(),        whole_camera_type(),
+                     gizmo_type(),      support_type(), parameters_type()};
     library.records = kernel_records();
     add(library.records, error_records());
     add(library.records, cut_records());
@@ -242,7 +241,7 @@ std::vector<Record> kernel_records() {
           {"integer", "displaced_vertices", "Degenerate vertices displaced."},
           {"integer", "extended_vertices", "Flat vertices with an unknown beside them."},
           {"integer", "inserted_vertices", "Vertices inserted at corners of the boundary."},
-          {"integer", "refined_vertices", "Vertices that a refinement of coarse borders added."},
+          {"integer", "subdivided_vertices", "Vertices that a refinement of coarse borders added."},
           {"integer", "zero_area_faces", "Faces without area."},
           {"integer", "first_nonzeros", "Entries of the first system's factor."},
           {"integer", "second_nonzeros", "Entries of the second system's factor."},

@@ -30,12 +30,12 @@ std::vector<Record> cut_records();
 Type buffer_type();
 std::vector<Function> buffer_methods_of_mesh();
 
-Type deformation_type();
+Type deformer_type();
 std::vector<Function> deform_engine_methods();
 Type handle_type();
 std::vector<Function> deform_functions();
 
-Type merging_type();
+Type merger_type();
 Type provenance_type();
 Type paste_type();
 std::vector<Function> merge_functions();

@@ -5,6 +5,7 @@
 
 #include "bindings/lua/core/call.h"
 #include "bindings/lua/core/error_object.h"
+#include "bindings/lua/core/old_names.h"
 #include "kernel/core/nearest.h"
 
 namespace lissom::lua {
@@ -142,6 +143,8 @@ std::string call_with_option(const Type& type, std::string_view name) {
 }
 
 std::string missing_method_text(const Type& type, const char* name) {
+    const std::string old = old_name_hint(OldKind::method, type.name, name);
+    if (!old.empty()) return type.name + ": no method '" + name + "'" + old;
     const std::string call = call_with_option(type, name);
     if (!call.empty()) return type.name + ": no method '" + name + "'; write " + call;
     std::vector<std::string_view> names{"close"};
@@ -163,6 +166,8 @@ std::string missing_function_text(const Registry& registry, const std::string& p
         for (const Function& function : library->functions) add(function.name);
     }
     const std::string table = "lissom" + (prefix.empty() ? "" : "." + prefix);
+    const std::string old = old_name_hint(OldKind::function, table, name);
+    if (!old.empty()) return table + ": no function '" + name + "'" + old;
     return table.substr(0, table.size() - (prefix.empty() ? 0 : 1)) + ": no function '" + name +
            "'" + name_hint(name, names);
 }

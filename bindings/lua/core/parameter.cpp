@@ -175,6 +175,11 @@ Parameter option_map(std::string name, std::vector<Parameter> fields, std::strin
     parameter.kind = Kind::option_map;
     return parameter;
 }
+Parameter option_list(std::string name, std::vector<Parameter> fields, std::string help) {
+    Parameter parameter = options(std::move(name), std::move(fields), std::move(help));
+    parameter.kind = Kind::option_list;
+    return parameter;
+}
 Parameter table(std::string name, std::string help) {
     return make(std::move(name), Kind::table, std::move(help));
 }

@@ -60,6 +60,8 @@ enum class Kind {
     /// A table of tables, each under a name and with the keys `fields`; read with
     /// Call::select_item.
     option_map,
+    /// A list of tables with the keys `fields`; read with Call::select_item.
+    option_list,
     /// A table whose content the function reads itself.
     table,
     /// One of `alternatives`, told apart by the Lua type of the value.
@@ -148,6 +150,7 @@ Parameter objects(std::string name, std::string type_name, std::string help);
 Parameter function(std::string name, std::string signature, std::string help);
 Parameter options(std::string name, std::vector<Parameter> fields, std::string help);
 Parameter option_map(std::string name, std::vector<Parameter> fields, std::string help);
+Parameter option_list(std::string name, std::vector<Parameter> fields, std::string help);
 Parameter table(std::string name, std::string help);
 /// Alternatives must differ in Lua type, kind or object type: a number, a string, a list, a type
 /// each.

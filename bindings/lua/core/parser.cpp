@@ -7,6 +7,7 @@
 #include <limits>
 #include <variant>
 
+#include "bindings/lua/core/old_names.h"
 #include "bindings/lua/core/registry.h"
 #include "kernel/core/nearest.h"
 
@@ -106,27 +107,12 @@ void set_axis(const char* name, Value& value) noexcept {
     for (int k = 0; k < 3; ++k) value.xyz[k] = name[0] - 'x' == k ? sign : 0.0;
 }
 
-constexpr const char* kNormalTypeName = "lissom.Normal";
-
 }  // namespace
 
 std::string plain_number(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.14g", value);
     return text;
-}
-
-void mark_normal(lua_State* L) {
-    luaL_newmetatable(L, kNormalTypeName);
-    lua_setmetatable(L, -2);
-}
-
-bool is_normal(lua_State* L, int index) {
-    if (!lua_istable(L, index) || !lua_getmetatable(L, index)) return false;
-    luaL_getmetatable(L, kNormalTypeName);
-    const bool same = lua_rawequal(L, -1, -2) != 0;
-    lua_pop(L, 2);
-    return same;
 }
 
 std::string expectation(const Parameter& p) {
@@ -181,6 +167,8 @@ std::string expectation(const Parameter& p) {
             return p.flag ? "table of options or true" : "table of options";
         case Kind::option_map:
             return "table of tables of options";
+        case Kind::option_list:
+            return "list of tables of options";
         case Kind::table:
             return "table";
         case Kind::either:
@@ -201,6 +189,7 @@ void Parser::run() {
     }
     for (int slot = 0; slot < entry_.arguments; ++slot) index = read_argument(slot, index, given);
     read_options(index, given);
+    if (entry_.function->named_arguments) require_arguments();
 }
 
 void Parser::check_self() {
@@ -225,14 +214,15 @@ int Parser::read_argument(int slot, int index, int given) {
     Value& value = call_.values_[slot];
     const Place place{index - (entry_.type ? 1 : 0), p.name.c_str(), 0};
     if (index > given || lua_isnil(L_, index)) {
-        if (p.required) mismatch(p, index, place);
+        if (p.required && !entry_.function->named_arguments) mismatch(p, index, place);
         fill_default(p, value);
         return index + 1;
     }
-    if (!p.required && index == given && is_option_table(p, index)) {
+    if (is_left_out(p, index, given)) {
         fill_default(p, value);
         return index;
     }
+    by_position_ = slot + 1;
     if (p.kind != Kind::vector || lua_type(L_, index) != LUA_TNUMBER) {
         read(p, index, value, place);
         return index + 1;
@@ -246,14 +236,37 @@ int Parser::read_argument(int slot, int index, int given) {
     return index + 3;
 }
 
-// Whether the last argument is the option table, given where an optional argument could be.
+// Returns whether the option table stands in the place of the argument `p`.
+bool Parser::is_left_out(const Parameter& p, int index, int given) const {
+    const bool named = entry_.function->named_arguments;
+    return index == given && (named || !p.required) && is_option_table(p, index);
+}
+
+// Returns whether a table is the option table and not an argument. Lists are arguments.
 bool Parser::is_option_table(const Parameter& p, int index) const {
-    return entry_.options_last > entry_.options_first && lua_type(L_, index) == LUA_TTABLE &&
-           !fits(p, index);
+    const bool named = entry_.function->named_arguments;
+    if (lua_type(L_, index) != LUA_TTABLE) return false;
+    if (!named && entry_.options_last == entry_.options_first) return false;
+    return !fits(p, index) || (named && raw_length(L_, index) == 0);
+}
+
+// Arguments without a default that were given neither by position nor by name are errors.
+void Parser::require_arguments() {
+    for (int slot = 0; slot < entry_.arguments; ++slot) {
+        const Parameter& p = *entry_.slots[slot].parameter;
+        if (!p.required || call_.values_[slot].present) continue;
+        char text[kTextSize];
+        compose_text(text, [&] {
+            return "missing argument '" + p.name + "' of '" + call_.name_ + "' (" + expectation(p) +
+                   " expected)";
+        });
+        call_.raise(text);
+    }
 }
 
 void Parser::read_options(int index, int given) {
-    const bool takes_options = entry_.options_last > entry_.options_first;
+    const bool named = entry_.function->named_arguments;
+    const bool takes_options = named || entry_.options_last > entry_.options_first;
     const bool has_options = takes_options && index <= given && !lua_isnil(L_, index);
     const int argument = index - (entry_.type ? 1 : 0);
     // What stands where the options belong says more than what follows it.
@@ -267,7 +280,9 @@ void Parser::read_options(int index, int given) {
                push_description(L_, extra, ""));
     }
     if (!takes_options) return;
-    if (has_options) {
+    if (has_options && named) {
+        read_named_table(index);
+    } else if (has_options) {
         read_table(index, entry_.options_first, entry_.options_last);
     } else {
         fill_defaults(entry_.options_first, entry_.options_last);
@@ -281,6 +296,23 @@ void Parser::read_table(int index, int first, int last) {
         lua_pop(L_, 1);
         check_key(first, last);
     }
+    read_fields(index, first, last);
+}
+
+// The option table of a function whose arguments may be given by name.
+void Parser::read_named_table(int index) {
+    const int first = entry_.options_first, last = entry_.options_last;
+    lua_pushnil(L_);
+    while (lua_next(L_, index)) {
+        lua_pop(L_, 1);
+        const char* key = lua_type(L_, -1) == LUA_TSTRING ? lua_tostring(L_, -1) : nullptr;
+        if (!key || !knows_key(key, by_position_, entry_.arguments)) check_key(first, last);
+    }
+    read_fields(index, by_position_, entry_.arguments);
+    read_fields(index, first, last);
+}
+
+void Parser::read_fields(int index, int first, int last) {
     for (int slot = first; slot < last; ++slot) {
         const Parameter& p = *entry_.slots[slot].parameter;
         lua_pushstring(L_, p.name.c_str());
@@ -311,13 +343,32 @@ void Parser::read_table(int index, int first, int last) {
 }
 
 void Parser::read_item(const Entry::Slot& slot, int table, const char* key) {
-    if (call_.item_top_ == 0) call_.item_top_ = lua_gettop(L_);
-    lua_settop(L_, call_.item_top_);
-    luaL_checkstack(L_, LUA_MINSTACK + 3 * (slot.last - slot.first), "too many options");
+    drop_item(slot);
     const char* name = call_.name_;
     call_.name_ = lua_pushfstring(L_, "%s: %s", name, key);
     lua_pushstring(L_, key);
     lua_rawget(L_, table);
+    read_top_item(slot, name, key);
+}
+
+void Parser::read_item(const Entry::Slot& slot, int table, int place) {
+    drop_item(slot);
+    const char* name = call_.name_;
+    const char* key = lua_pushfstring(L_, "%s[%d]", slot.path.c_str(), place);
+    call_.name_ = lua_pushfstring(L_, "%s: %s", name, key);
+    lua_rawgeti(L_, table, place);
+    read_top_item(slot, name, key);
+}
+
+// Drops all that the item before has pushed.
+void Parser::drop_item(const Entry::Slot& slot) {
+    if (call_.item_top_ == 0) call_.item_top_ = lua_gettop(L_);
+    lua_settop(L_, call_.item_top_);
+    luaL_checkstack(L_, LUA_MINSTACK + 3 * (slot.last - slot.first), "too many options");
+}
+
+// Reads the item on top of the stack; the call gets its own `name` back afterwards.
+void Parser::read_top_item(const Entry::Slot& slot, const char* name, const char* key) {
     const int item = lua_gettop(L_);
     if (lua_type(L_, item) != LUA_TTABLE) {
         refuse({0, key, 0}, "table of options", push_description(L_, item, ""));
@@ -327,20 +378,35 @@ void Parser::read_item(const Entry::Slot& slot, int table, const char* key) {
     call_.name_ = name;
 }
 
+bool Parser::knows_key(const char* key, int first, int last) const {
+    for (int slot = first; slot < last; ++slot) {
+        if (entry_.slots[slot].parameter->name == key) return true;
+    }
+    return false;
+}
+
 // Looks at the key on top of the stack.
 void Parser::check_key(int first, int last) {
     const char* key = lua_type(L_, -1) == LUA_TSTRING ? lua_tostring(L_, -1) : nullptr;
-    for (int slot = first; key && slot < last; ++slot) {
-        if (entry_.slots[slot].parameter->name == key) return;
-    }
+    if (key && knows_key(key, first, last)) return;
+    refuse_key(key ? key : push_description(L_, lua_gettop(L_), ""), first, last);
+}
+
+void Parser::refuse_key(const char* key, int first, int last) {
     char text[kTextSize];
-    const char* shown = key ? key : push_description(L_, lua_gettop(L_), "");
     compose_text(text, [&] {
-        const std::string& path = entry_.slots[first].path;
+        const std::string path = first < last ? entry_.slots[first].path : "";
         const std::string table = path.substr(0, path.rfind('.') + 1);
-        const auto names = slot_names(entry_, first, last);
-        return "unknown option '" + table + shown + "' of '" + call_.name_ + "'" +
-               name_hint(shown, names);
+        const std::string unknown =
+            "unknown option '" + table + key + "' of '" + std::string(call_.name_) + "'";
+        const std::string old = old_name_hint(OldKind::option, call_.name_, key);
+        if (!old.empty()) return unknown + old;
+        auto names = slot_names(entry_, first, last);
+        if (first == entry_.options_first && entry_.function->named_arguments) {
+            const auto arguments = slot_names(entry_, by_position_, entry_.arguments);
+            names.insert(names.begin(), arguments.begin(), arguments.end());
+        }
+        return unknown + name_hint(key, names);
     });
     call_.raise(text);
 }
@@ -448,6 +514,7 @@ void Parser::read(const Parameter& p, int index, Value& value, const Place& plac
             return;
         case Kind::options:
         case Kind::option_map:
+        case Kind::option_list:
         case Kind::table:
             if (lua_type(L_, index) != LUA_TTABLE) mismatch(p, index, place);
             return;
@@ -596,7 +663,6 @@ void Parser::read_list(const Parameter& p, int index, Value& value, const Place&
         case Kind::points: {
             auto* xyz = call_.scratch<double>(3 * size);
             for_each_item(index, size, place, [&](int at, std::size_t i, const Place& item) {
-                if (is_normal(L_, at)) refuse(item, "point", kNormalAmongPoints);
                 read_vector(p, at, xyz + 3 * i, item);
             });
             value.data = xyz;
@@ -742,6 +808,9 @@ void Parser::mismatch(const Parameter& p, int index, const Place& place) {
     const char* given = lua_tostring(L_, index);
     compose_text(hinted, [&] {
         const std::vector<std::string_view> names(p.choices.begin(), p.choices.end());
+        const std::string old =
+            old_name_hint(OldKind::value, std::string(call_.name_) + "." + place.path, given);
+        if (!old.empty()) return std::string(got) + old;
         const std::string_view nearest = nearest_name(given, names);
         return std::string(got) +
                (nearest.empty() ? "" : ", did you mean \"" + std::string(nearest) + "\"?");

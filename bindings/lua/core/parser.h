@@ -9,15 +9,6 @@ namespace lissom::lua {
 /// z}".
 std::string expectation(const Parameter& parameter);
 
-/// Marks the table on top of the stack as a normal that came beside a point: lists of points refuse
-/// it, for `{ style:at{...} }` holds both.
-void mark_normal(lua_State* L);
-bool is_normal(lua_State* L, int index);
-
-/// What lists of points say of it.
-inline constexpr const char* kNormalAmongPoints =
-    "the normal that comes second from at{...}; write (style:at{...}) for the point alone";
-
 class Parser {
   public:
     explicit Parser(Call& call) : call_(call), L_(call.L_), entry_(*call.entry_) {}
@@ -26,6 +17,8 @@ class Parser {
     void run();
     /// Fills the values of an option map's fields from the table under `key`.
     void read_item(const Entry::Slot& slot, int table, const char* key);
+    /// Fills the values of an option list's fields from its table at `place`, from 1.
+    void read_item(const Entry::Slot& slot, int table, int place);
 
   private:
     // Where a value stands in the call, for messages.
@@ -39,9 +32,17 @@ class Parser {
     void check_self();
     int read_argument(int slot, int index, int given);
     bool is_option_table(const Parameter& p, int index) const;
+    bool is_left_out(const Parameter& p, int index, int given) const;
     void read_options(int index, int given);
+    void require_arguments();
     void read_table(int index, int first, int last);
+    void read_named_table(int index);
+    void read_fields(int index, int first, int last);
+    bool knows_key(const char* key, int first, int last) const;
     void check_key(int first, int last);
+    [[noreturn]] void refuse_key(const char* key, int first, int last);
+    void drop_item(const Entry::Slot& slot);
+    void read_top_item(const Entry::Slot& slot, const char* name, const char* key);
     void require_one_option();
     void fill_default(const Parameter& p, Value& value);
     void fill_defaults(int first, int last);
@@ -74,6 +75,8 @@ class Parser {
     Call& call_;
     lua_State* L_;
     const Entry& entry_;
+    // Arguments that were given by position.
+    int by_position_ = 0;
 };
 
 /// A number as people write it: without trailing zeros.

@@ -40,12 +40,22 @@ void check_parameters(const std::string& where, const std::vector<Parameter>& pa
     }
 }
 
+bool has_name(const std::vector<Parameter>& parameters, const std::string& name) {
+    return std::any_of(parameters.begin(), parameters.end(),
+                       [&](const Parameter& p) { return p.name == name; });
+}
+
 void check_function(const std::string& where, const Function& function) {
     if (!function.body) inconsistent(where, "there is no body");
     if (function.summary.empty()) inconsistent(where, "there is no summary");
     if (function.example.empty()) inconsistent(where, "there is no example");
     check_parameters(where, function.arguments);
     check_parameters(where, function.options);
+    for (const Parameter& p : function.arguments) {
+        if (function.named_arguments && has_name(function.options, p.name)) {
+            inconsistent(where, "'" + p.name + "' is an argument and an option");
+        }
+    }
     bool optional_seen = false;
     for (const Parameter& p : function.arguments) {
         if (p.required && optional_seen) {

@@ -49,6 +49,9 @@ struct Function {
     std::string summary = {};
     /// Arguments by position, without the object of a method.
     std::vector<Parameter> arguments = {};
+    /// Arguments may also be given by name among the options: `handle:rotate{ axis = "z", angle =
+    /// 60 }` for `handle:rotate("z", 60)`.
+    bool named_arguments = false;
     /// Any values may follow the arguments; the body reads them from the stack.
     bool more_arguments = false;
     /// Keys of the option table that follows them. It may be left out where no key is required, and
@@ -116,8 +119,7 @@ struct Library {
 /// A function with what calls need at hand: its place and the flat list of its values.
 struct Entry {
     /// One value that a call reads: a positional argument, an option ("sphere") or a field of an
-    /// option
-    /// ("sphere.radius").
+    /// option ("sphere.radius").
     struct Slot {
         std::string path;
         const Parameter* parameter;

@@ -1,6 +1,7 @@
-// lissom.deform: Deformation.
+// lissom.deformer: Deformer.
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/deform/deform_object.h"
+#include "bindings/lua/deform/deform_options.h"
 #include "bindings/lua/deform/deform_points.h"
 #include "bindings/lua/deform/deform_texts.h"
 #include "bindings/lua/mesh/buffer.h"
@@ -16,79 +17,26 @@ std::size_t DeformObject::memory_bytes() const {
 
 Deformer& DeformObject::deformer() {
     if (!content) {
-        throw Error(ErrorCode::handle_removed, "the deformation was closed; make a new one");
+        throw Error(ErrorCode::handle_removed, "the deformer was closed; make a new one");
     }
-    require_current(*mesh, topology, "the deformation");
+    require_current(*mesh, topology, "the deformer");
     return *content;
 }
 
 namespace {
 
-// ---- lissom.deform
-
-template <typename Enum>
-void take_choice(const Call& call, const char* path, Enum& target) {
-    if (call.has(path)) target = call.choice<Enum>(path);
-}
-
-void take_number(const Call& call, const char* path, double& target) {
-    if (call.has(path)) target = call.number(path);
-}
-
-// Options given together with a method that has no use for them.
-void refuse_options(const Call& call, DeformMethod method) {
-    if (method == DeformMethod::implicit) return;
-    const auto refuse = [&](const std::string& option) {
-        throw Error(ErrorCode::invalid_argument,
-                    "option '" + option + "' does not apply to method '" +
-                        std::string(method_name(method)) + "'; leave one of them out");
-    };
-    for (const char* option :
-         {"local_size", "second", "coherence", "displacement", "degenerate_threshold", "refine",
-          "refine_borders", "flat", "free_rings"}) {
-        if (call.has(option)) refuse(option);
-    }
-    if (call.integer("fidelity") == 1) refuse("fidelity");
-    if (method == DeformMethod::geodesic && call.has("weights")) refuse("weights");
-}
-
-DeformOptions deform_options(const Call& call) {
-    const bool thesis = call.integer("fidelity") == 1;
-    DeformOptions options = thesis ? DeformOptions::thesis() : DeformOptions{};
-    take_choice(call, "method", options.method);
-    take_choice(call, "second", options.second);
-    take_choice(call, "local_size", options.local_size);
-    take_choice(call, "weights", options.weights);
-    if (call.has("coherence")) options.coherence = call.integer("coherence");
-    if (call.has("refine")) options.refine = call.integer("refine");
-    if (call.has("refine_borders")) options.refine_borders = call.boolean("refine_borders");
-    take_choice(call, "flat", options.flat);
-    options.loose = call.choice<UnheldParts>("loose");
-    if (call.has("free_rings")) options.free_rings = call.integer("free_rings");
-    take_number(call, "displacement", options.displacement);
-    options.transition = call.number("transition");
-    take_number(call, "degenerate_threshold", options.degenerate_threshold);
-    return options;
-}
-
-int deform_mesh(Call& call) {
+int new_deformer(Call& call) {
     const auto mesh = call.object<MeshObject>("mesh");
-    const bool whole = !call.has("region");
-    const auto region = call.object<RegionObject>("region");
-    const DeformOptions options = deform_options(call);
     const auto result = call.create<DeformObject>();
     const bool done = call.attempt([&] {
-        refuse_options(call, options.method);
-        const Region all = whole ? Region::all(mesh->mesh.shared_topology()) : region->current();
-        result.set(std::make_shared<DeformObject>(
-            mesh.share(), Deformer(mesh->mesh, all, options, call.context())));
+        result.set(std::make_shared<DeformObject>(mesh.share(), made_deformer(call, *mesh)));
     });
     if (!done) return call.fail();
     call.charge(result);
     return 1;
 }
 
-// ---- Deformation
+// ---- Deformer
 
 std::vector<MeshPoint> mesh_points(const DeformObject& edit, std::span<const PointSpec> specs) {
     std::vector<MeshPoint> points;
@@ -137,6 +85,13 @@ int add_handle(Call& call) {
         result.set(std::make_shared<HandleObject>(HandleObject{edit.share(), id}));
     });
     return done ? 1 : call.fail();
+}
+
+int pin(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const auto region = call.object<RegionObject>("region");
+    const bool done = call.attempt([&] { edit->deformer().add_handle(region->current()); });
+    return done ? call.push_argument() : call.fail();
 }
 
 int constrain(Call& call) {
@@ -203,7 +158,7 @@ int rebase(Call& call) {
     return results == 1 ? call.push_argument() : results;
 }
 
-int refined_mesh(Call& call) {
+int subdivided_mesh(Call& call) {
     const auto edit = call.self<DeformObject>();
     return new_mesh(
         call, [&] { return edit->deformer().refined_mesh(edit->mesh->mesh, call.context()); });
@@ -223,7 +178,7 @@ int stats(Call& call) {
                   {"displaced_vertices", at(s.displaced_vertices)},
                   {"extended_vertices", at(s.extended_vertices)},
                   {"inserted_vertices", at(s.inserted_vertices)},
-                  {"refined_vertices", at(s.refined_vertices)},
+                  {"subdivided_vertices", at(s.refined_vertices)},
                   {"zero_area_faces", at(s.zero_area_faces)},
                   {"first_nonzeros", s.first_nonzeros},
                   {"second_nonzeros", s.second_nonzeros},
@@ -350,11 +305,11 @@ int basis(Call& call) {
     return 1;
 }
 
-int deformation_mesh(Call& call) {
+int deformer_mesh(Call& call) {
     return push_owner(call, call.self<DeformObject>()->mesh);
 }
 
-int deformation_region(Call& call) {
+int deformer_region(Call& call) {
     const auto edit = call.self<DeformObject>();
     const auto result = call.create<RegionObject>();
     const bool done = call.attempt_quick(
@@ -362,15 +317,15 @@ int deformation_region(Call& call) {
     return done ? 1 : call.fail();
 }
 
-int deformation_text(Call& call) {
+int deformer_text(Call& call) {
     const auto edit = call.self<DeformObject>();
     int vertices = 0, count = 0;
     const bool current = call.attempt_quick([&] {
         vertices = edit->deformer().region().size();
         count = count_of(edit->deformer().handles());
     });
-    if (!current) return call.push("lissom.Deformation (of an older topology)");
-    lua_pushfstring(call.lua(), "lissom.Deformation: %d vertices, %d handles", vertices, count);
+    if (!current) return call.push("lissom.Deformer (of an older topology)");
+    lua_pushfstring(call.lua(), "lissom.Deformer: %d vertices, %d handles", vertices, count);
     return 1;
 }
 
@@ -410,7 +365,7 @@ std::vector<Function> solving_methods() {
              "to follow a drag, with some shear.",
          .results = mesh,
          .errors = kSolveErrors,
-         .example = kBar + "top:translate(1, 0, 0)\nedit:preview()"},
+         .example = kBar + "top:translate(1, 0, 0)\ndeformer:preview()"},
         {.name = "solve",
          .body = solve,
          .summary =
@@ -424,51 +379,51 @@ std::vector<Function> solving_methods() {
                          .defaults(false)},
          .results = mesh,
          .errors = kSolveErrors,
-         .example = kBar + "top:rotate{ axis = 'z', angle = 60 }\nassert(edit:solve() == bar)"},
+         .example = kBar + "top:rotate{ axis = 'z', angle = 60 }\nassert(deformer:solve() == bar)"},
         {.name = "reset",
          .body = reset_all,
          .summary =
              "Handles and mesh go back to the rest shape, to the bit; vertex constraints go.",
-         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
-         .errors = kEditErrors,
+         .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
+         .errors = kDeformerErrors,
          .example = kBar + R"(local before = bar:hash()
 top:translate(1, 0, 0)
-edit:solve()
-edit:reset()
+deformer:solve()
+deformer:reset()
 assert(bar:hash() == before))"},
-        {.name = "refined_mesh",
-         .body = refined_mesh,
+        {.name = "subdivided_mesh",
+         .body = subdivided_mesh,
          .summary =
              "The deformed mesh with the vertices that the deformation worked on where the border "
              "of what is held is coarse beside the region: behind the mesh's own, on faces that "
              "become triangles. Without such vertices it is a copy.",
-         .results = {{"lissom.Mesh", "refined", "A new mesh."}},
-         .errors = kEditErrors,
+         .results = {{"lissom.Mesh", "fine", "A new mesh."}},
+         .errors = kDeformerErrors,
          .example = kBar + R"(top:translate(1, 0, 0)
-edit:solve()
-local refined = edit:refined_mesh()
-assert(refined:vertex_count() == bar:vertex_count() + edit:stats().refined_vertices))"},
-        {.name = "apply",
+deformer:solve()
+local fine = deformer:subdivided_mesh()
+assert(fine:vertex_count() == bar:vertex_count() + deformer:stats().subdivided_vertices))"},
+        {.name = "rebase",
          .body = rebase,
          .summary =
              "Takes the last result as the new rest shape. Handles keep their vertices and hold "
              "where they are now, with the identity as transform; constraints hold where their "
              "points are now. Factors are rebuilt at the next solve, and reset returns to this "
              "shape.",
-         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
-         .errors = kEditErrors,
+         .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
+         .errors = kDeformerErrors,
          .example = kBar + R"(top:translate(1, 0, 0)
-edit:solve()
-edit:apply()
+deformer:solve()
+deformer:rebase()
 assert(top:matrix()[1][4] == 0)
 top:translate(1, 0, 0)
-edit:solve())"},
+deformer:solve())"},
         {.name = "stats",
          .body = stats,
          .summary = "Sizes and times of the last preparation.",
          .results = {{"lissom.DeformStats", "stats", "Times are in seconds, sizes in bytes."}},
-         .errors = kEditErrors,
-         .example = kBar + "edit:solve()\nassert(edit:stats().handles == 2)"},
+         .errors = kDeformerErrors,
+         .example = kBar + "deformer:solve()\nassert(deformer:stats().handles == 2)"},
         {.name = "report",
          .body = report,
          .summary =
@@ -480,10 +435,10 @@ edit:solve())"},
                              "to solve.")
                          .defaults(false)},
          .results = {{"lissom.DeformReport", "report", "Measures, and warnings with remedies."}},
-         .errors = kEditErrors,
+         .errors = kDeformerErrors,
          .example = kBar + R"(top:rotate{ axis = "z", angle = 60 }
-edit:solve()
-local report = edit:report{ crossings = true }
+deformer:solve()
+local report = deformer:report{ crossings = true }
 assert(report.stretch < 2 and #report.flipped == 0 and report.crossings == 0)
 assert(#report.warnings == 0))"},
         {.name = "basis",
@@ -493,116 +448,22 @@ assert(#report.warnings == 0))"},
              "needs to follow a drag by itself.",
          .results = {{"lissom.HandleBasis", "basis", "Weights of every vertex for every handle."}},
          .errors = kBasisErrors,
-         .example = kBar + "assert(edit:basis().weights[1]:width() == 4)"}};
-}
-
-std::vector<Parameter> deform_parameters() {
-    const DeformOptions defaults;
-    const auto shown = [](double value) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%g", value);
-        return std::string(text);
-    };
-    return {
-        object("region", "lissom.Region", "What may move. Outside nothing does.").optional("all"),
-        choice(
-            "method",
-            {"implicit", "naive", "rotation_estimate", "similarity", "geodesic", "harmonic",
-             "frames"},
-            "implicit is this kernel's own method. The others are for comparison: Laplacian "
-            "coordinates as they are; turned by rotations estimated from that (Lipman 2004); by "
-            "similarities implicit in the positions (Sorkine 2004); handle rotations propagated "
-            "by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-"
-            "invariant coordinates (Lipman 2005). Of the other options they take `weights` only, "
-            "and geodesic not even that; they have no basis, and preview is as solve.")
-            .optional("\"implicit\""),
-        choice("local_size", {"keep", "scale"},
-               "Whether details keep their size or scale with the surface around them.")
-            .optional("\"keep\""),
-        choice(
-            "second", {"blend", "laplacian", "poisson"},
-            "The system that makes the shape from the rotations: blend is smooth at handles with "
-            "little distortion, laplacian is the thesis's, poisson has the least distortion. Keep "
-            "blend unless something asks for another: laplacian where the surface has to be as "
-            "smooth as can be and may stretch, poisson where it may crease at handles, as along an "
-            "edge of the part. Compared in examples/deform/second.png.")
-            .optional("\"blend\"")
-            .thesis("2.4.4", "\"laplacian\""),
-        integer("coherence", "Rings of neighbours that turn alike.")
-            .between(1, 2)
-            .optional(std::to_string(defaults.coherence))
-            .thesis("2.4.2", "2"),
-        choice("weights", {"cotangent", "uniform"}, "Weights of the Laplacian coordinates.")
-            .optional("\"cotangent\""),
-        integer(
-            "refine",
-            "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
-            "less distortion for half a frame each. For bars and limbs that bend and twist. "
-            "Where it would fold, cross or stretch the surface more than without, it is taken back "
-            "as far as that, but a draft does not look. Beside handles "
-            "that change their size it fades to nothing. Compared in "
-            "examples/deform/refine.png.")
-            .at_least(0)
-            .optional(std::to_string(defaults.refine)),
-        choice("loose", {"error", "stay", "follow"},
-               "What becomes of separate parts that no handle holds, as buttons and eyes: an error "
-               "that names them; they stay; or each follows the surface nearest to it, as a rigid "
-               "piece; in a basis as an affine one.")
-            .defaults("error"),
-        integer("free_rings",
-                "Rings of vertices that handles give up where they nearly touch another, at most "
-                "two edges apart, so that the surface between has room: handles that go different "
-                "ways would tear it. report says how many help.")
-            .between(0, 10)
-            .optional("0"),
-        boolean("refine_borders",
-                "Works on a surface that is refined where the border of what is held is coarse "
-                "beside the region; the mesh keeps its faces.")
-            .optional("true"),
-        choice("flat", {"extended", "displaced"},
-               "How a vertex whose surroundings are flat knows how it turns: extended, by an "
-               "unknown of its own beside it, so that a flat part that is moved within its plane "
-               "stays flat; displaced, by moving it out of the plane while solving.")
-            .optional("\"extended\"")
-            .thesis("2.4.3", "\"displaced\""),
-        number("displacement",
-               "How far degenerate vertices are displaced, and how far beside flat ones their "
-               "unknown lies.")
-            .above(0)
-            .in("mean lengths of their edges")
-            .optional(shown(defaults.displacement)),
-        number("degenerate_threshold",
-               "Condition number from which a vertex counts as degenerate and is displaced. Below "
-               "about 100 that is nearly every vertex.")
-            .above(1)
-            .optional(shown(defaults.degenerate_threshold))
-            .thesis("2.4.3", "200000"),
-        number("transition",
-               "Within this geodesic distance of the region's outline the deformation fades into "
-               "what stays.")
-            .at_least(0)
-            .in("mesh units")
-            .defaults(0.0),
-        choice("fidelity", {"default", "thesis"},
-               "thesis: coherence 2, second laplacian, and the weights and threshold of the thesis "
-               "where no other option says otherwise; the page thesis.md of the reference names "
-               "all of it.")
-            .defaults("default")};
+         .example = kBar + "assert(deformer:basis().weights[1]:width() == 4)"}};
 }
 
 }  // namespace
 
-Type deformation_type() {
+Type deformer_type() {
     Type type{
-        .name = "lissom.Deformation",
+        .name = "lissom.Deformer",
         .summary =
             "Deforms a region of a mesh by handles. Its rest shape is the mesh as it was when "
             "the deformation was made; its factors are kept, so that moving a handle costs "
             "no factorisation.",
         .close = [](void* object) { static_cast<DeformObject*>(object)->content.reset(); }};
-    type.operators = {{"__tostring", deformation_text, "tostring(edit)", "its size"}};
+    type.operators = {{"__tostring", deformer_text, "tostring(deformer)", "its size"}};
     type.methods = {
-        {.name = "handle",
+        {.name = "add_handle",
          .body = add_handle,
          .summary =
              "Makes a handle of some vertices of the region, of a path, or of points of faces and "
@@ -643,23 +504,37 @@ Type deformation_type() {
          .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
                     ErrorCode::handle_outside_region, ErrorCode::handle_overlap,
                     ErrorCode::invalid_argument, ErrorCode::out_of_range, ErrorCode::mesh_empty},
-         .example = kBar + R"(local side = edit:handle({ bar:nearest(0.5, 0, 0) }, { weight = 2 })
+         .example =
+             kBar + R"(local side = deformer:add_handle({ bar:nearest(0.5, 0, 0) }, { weight = 2 })
 side:translate(0.5, 0, 0)
-edit:solve())"},
+deformer:solve())"},
+        {.name = "pin",
+         .body = pin,
+         .summary =
+             "Holds a region where it is: a handle with the identity as transform. Returns the "
+             "deformer.",
+         .arguments = {object("region", "lissom.Region", "The vertices that stay.")},
+         .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
+         .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
+                    ErrorCode::handle_outside_region, ErrorCode::handle_overlap},
+         .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
+local deformer = lissom.deformer(bar):pin(bar:region("bottom"))
+deformer:add_handle(bar:region("top")):rotate("z", 60)
+deformer:solve())"},
         {.name = "constrain",
          .body = constrain,
          .summary =
              "Holds one vertex, or a point of an edge or face, in place of an earlier constraint; "
              "without position and gradient it is free again. Returns the deformation.",
          .options = constraint_fields(),
-         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
          .errors = {ErrorCode::out_of_range, ErrorCode::handle_outside_region,
                     ErrorCode::handle_overlap, ErrorCode::invalid_argument,
                     ErrorCode::topology_mismatch},
          .example = kBar + R"(local v = bar:nearest(0.5, 0, 0).vertex
-edit:constrain{ vertex = v, position = { 1, 0, 0 } }
-edit:constrain{ face = 1, bary = { 0.4, 0.3, 0.2, 0.1 }, position = { 1, -2, 0 }, weight = 10 }
-edit:solve())"},
+deformer:constrain{ vertex = v, position = { 1, 0, 0 } }
+deformer:constrain{ face = 1, bary = { 0.4, 0.3, 0.2, 0.1 }, position = { 1, -2, 0 }, weight = 10 }
+deformer:solve())"},
         {.name = "stiffness",
          .body = set_stiffness,
          .summary =
@@ -667,46 +542,50 @@ edit:solve())"},
              "move rigidly, soft ones take the bend.",
          .arguments = {object("region", "lissom.Region", "The part."),
                        number("factor", "1 is as usual.").between(1e-4, 1e5)},
-         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
          .errors = {ErrorCode::handle_outside_region, ErrorCode::topology_mismatch},
          .example =
              kBar +
-             R"(edit:stiffness(bar:region{ sphere = { center = { 0, 0, 0 }, radius = 0.8 } }, 100)
+             R"(deformer:stiffness(bar:region{ sphere = { center = { 0, 0, 0 }, radius = 0.8 } }, 100)
 top:rotate{ axis = "z", angle = 60 }
-edit:solve())"},
+deformer:solve())"},
         {.name = "handles",
          .body = handles,
          .summary = "Its handles.",
          .results = {{"lissom.Handle[]", "handles", "In the order they were made."}},
-         .errors = kEditErrors,
-         .example = kBar + "assert(edit:handles()[2] == top)"},
+         .errors = kDeformerErrors,
+         .example = kBar + "assert(deformer:handles()[2] == top)"},
         {.name = "region",
-         .body = deformation_region,
+         .body = deformer_region,
          .summary = "The region that may move.",
          .results = {{"lissom.Region", "region", "The region."}},
-         .errors = kEditErrors,
-         .example = kBar + "assert(#edit:region() == #bar)"},
+         .errors = kDeformerErrors,
+         .example = kBar + "assert(#deformer:region() == #bar)"},
         {.name = "mesh",
-         .body = deformation_mesh,
+         .body = deformer_mesh,
          .summary = "The mesh that it deforms.",
          .results = {{"lissom.Mesh", "mesh", "The mesh."}},
-         .example = kBar + "assert(edit:mesh() == bar)"}};
+         .example = kBar + "assert(deformer:mesh() == bar)"}};
     for (Function& method : solving_methods()) type.methods.push_back(std::move(method));
     for (Function& method : deform_engine_methods()) type.methods.push_back(std::move(method));
     return type;
 }
 
 std::vector<Function> deform_functions() {
-    return {{.name = "deform",
-             .body = deform_mesh,
-             .summary = "Prepares the deformation of a mesh, or of a region of it, by handles.",
-             .arguments = {object("mesh", "lissom.Mesh", "The mesh, in its rest shape.")},
-             .options = deform_parameters(),
-             .results = {{"lissom.Deformation", "edit", "Give it handles, move them, solve."}},
-             .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
-                        ErrorCode::invalid_argument, ErrorCode::cancelled},
-             .example = kBar + R"(top:rotate{ axis = "z", angle = 60 }:translate(1, -0.5, 0)
-edit:solve())"}};
+    std::vector<Function> functions = {deform_function()};
+    functions.push_back(
+        {.name = "deformer",
+         .body = new_deformer,
+         .summary = "Makes a deformer of a mesh, or of a region of it: give it handles, move "
+                    "them, solve. `lissom.deform` deforms once.",
+         .arguments = {object("mesh", "lissom.Mesh", "The mesh, in its rest shape.")},
+         .options = deform_parameters(),
+         .results = {{"lissom.Deformer", "deformer", "Give it handles, move them, solve."}},
+         .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
+                    ErrorCode::invalid_argument, ErrorCode::cancelled},
+         .example = kBar + R"(top:rotate{ axis = "z", angle = 60 }:translate(1, -0.5, 0)
+deformer:solve())"});
+    return functions;
 }
 
 }  // namespace lissom::lua

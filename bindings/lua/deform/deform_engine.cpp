@@ -1,4 +1,4 @@
-// What leaves a deformation for engines: edit:save_basis and edit:bake.
+// What leaves a deformation for engines: deformer:save_basis and deformer:bake.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -49,7 +49,7 @@ int save_basis_file(Call& call) {
     return call.push_argument();
 }
 
-// ---- edit:bake
+// ---- deformer:bake
 
 constexpr int kMaximumFrames = 10000;
 
@@ -217,21 +217,21 @@ std::vector<Function> deform_engine_methods() {
              "header, describes the file and gives what preview gives.",
          .arguments = {string("path", "The file.")},
          .options = {strings("names",
-                             "Names of the handles, in the order of edit:handles(): a program "
+                             "Names of the handles, in the order of deformer:handles(): a program "
                              "finds them by these.")
                          .optional("that of the mesh's region with the same vertices")},
-         .results = {{"lissom.Deformation", "edit", "The deformation itself."}},
+         .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
          .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
                     ErrorCode::not_positive_definite, ErrorCode::memory_limit,
                     ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
                     ErrorCode::unsupported, ErrorCode::not_finite, ErrorCode::file_write_failed,
                     ErrorCode::file_is_directory, ErrorCode::cancelled},
          .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
-local edit = lissom.deform(bar)
-edit:handle(bar:region("bottom"))
-edit:handle(bar:region("top"))
+local deformer = lissom.deformer(bar)
+deformer:add_handle(bar:region("bottom"))
+deformer:add_handle(bar:region("top"))
 local path = os.tmpname()
-assert(edit:save_basis(path, { names = { "foot", "head" } }))
+assert(deformer:save_basis(path, { names = { "foot", "head" } }))
 os.remove(path))"},
         {.name = "bake",
          .body = bake,
@@ -271,10 +271,10 @@ os.remove(path))"},
                     ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
                     ErrorCode::handle_removed, ErrorCode::unsupported, ErrorCode::cancelled},
          .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
-local edit = lissom.deform(bar)
-edit:handle(bar:region("bottom"))
-local top = edit:handle(bar:region("top"))
-local wave = edit:bake{ duration = 1, fps = 8, pose = function(time)
+local deformer = lissom.deformer(bar)
+deformer:add_handle(bar:region("bottom"))
+local top = deformer:add_handle(bar:region("top"))
+local wave = deformer:bake{ duration = 1, fps = 8, pose = function(time)
     top:set{ rotate = { axis = "z", angle = 60 * math.sin(2 * math.pi * time) } }
 end }
 local path = os.tmpname() .. ".glb"

@@ -10,7 +10,7 @@
 namespace lissom::lua {
 
 struct DeformObject {
-    static constexpr const char* kTypeName = "lissom.Deformation";
+    static constexpr const char* kTypeName = "lissom.Deformer";
 
     DeformObject(std::shared_ptr<MeshObject> owner, Deformer made)
         : DeformObject(std::move(owner), std::make_shared<Deformer>(std::move(made))) {}

@@ -9,14 +9,14 @@
 namespace lissom::lua {
 
 /// What any call of a deformation or handle may fail with.
-inline const std::vector<ErrorCode> kEditErrors = {ErrorCode::handle_removed,
-                                                   ErrorCode::topology_mismatch};
+inline const std::vector<ErrorCode> kDeformerErrors = {ErrorCode::handle_removed,
+                                                       ErrorCode::topology_mismatch};
 
 /// The start of every example: a bar whose top bends over.
 inline const std::string kBar = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
-local edit = lissom.deform(bar)
-edit:handle(bar:region("bottom"))
-local top = edit:handle(bar:region("top"))
+local deformer = lissom.deformer(bar)
+deformer:add_handle(bar:region("bottom"))
+local top = deformer:add_handle(bar:region("top"))
 )";
 
 }  // namespace lissom::lua

@@ -205,6 +205,14 @@ int handle_text(Call& call) {
 
 const std::vector<ErrorCode> kHandleErrors = {
     ErrorCode::handle_removed, ErrorCode::singular_transform, ErrorCode::topology_mismatch};
+
+// The axis and the angle of rotation_fields.
+std::vector<Parameter> rotation_arguments() {
+    std::vector<Parameter> fields = rotation_fields("");
+    fields.pop_back();
+    return fields;
+}
+
 std::vector<Function> handle_moves() {
     const std::vector<Result> self = {{"lissom.Handle", "handle", "The handle itself."}};
     const std::string center = "the handle's center where it is now";
@@ -218,10 +226,13 @@ std::vector<Function> handle_moves() {
             {.name = "rotate",
              .body = rotate_handle,
              .summary = "Turns the handle on.",
-             .options = rotation_fields(center),
+             .arguments = rotation_arguments(),
+             .named_arguments = true,
+             .options = {vector("about", "A point on the axis.").optional(center)},
              .results = self,
              .errors = kHandleErrors,
-             .example = kBar + "top:rotate{ axis = 'z', angle = 45 }"},
+             .example = kBar + R"(top:rotate("z", 45)
+top:rotate{ axis = { 1, 0, 0 }, angle = 10, about = { 0, 0, 0 } })"},
             {.name = "scale",
              .body = scale_handle,
              .summary = "Scales the handle on.",
@@ -275,33 +286,33 @@ Type handle_type() {
          .results = {{"number[][]", "matrix",
                       "Rows of a 4 x 4 matrix; its field `turn` is the rotation as {x, y, z}, axis "
                       "times angle in degrees, counting full turns."}},
-         .errors = kEditErrors,
+         .errors = kDeformerErrors,
          .example = kBar + "assert(top:matrix()[1][1] == 1)"},
         {.name = "center",
          .body = handle_center,
          .summary = "The handle's center where it is now.",
          .results = {{"lissom.Vector", "center", "{x, y, z}."}},
-         .errors = kEditErrors,
+         .errors = kDeformerErrors,
          .example =
              kBar + "top:translate(0, 1, 0)\nassert(math.abs(top:center()[2] - 3.5) < 1e-12)"},
         {.name = "region",
          .body = handle_region,
          .summary = "The handle's vertices.",
          .results = {{"lissom.Region", "region", "The region."}},
-         .errors = kEditErrors,
+         .errors = kDeformerErrors,
          .example = kBar + "assert(top:region() == bar:region('top'))"},
         {.name = "mirrored",
          .body = mirrored_handle,
          .summary = "Its mirror image, which moves along, or nil.",
          .results = {{"lissom.Handle?", "image", "The other handle."}},
-         .errors = kEditErrors,
+         .errors = kDeformerErrors,
          .example =
              kBar +
              R"(local side = bar:region{ box = { min = { 0.4, -0.5, -1 }, max = { 1, 0.5, 1 } } }
-local right = edit:handle(side, { mirror = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } })
+local right = deformer:add_handle(side, { mirror = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } })
 right:translate(0.5, 0, 0)
 assert(right:mirrored():matrix()[1][4] == -0.5)
-edit:solve())"},
+deformer:solve())"},
         {.name = "mirror_residual",
          .body = mirror_residual,
          .summary = "Measures how well both sides of the rest shape match where the handle has a "
@@ -314,7 +325,7 @@ edit:solve())"},
          .example =
              kBar +
              R"(local side = bar:region{ box = { min = { 0.4, -0.5, -1 }, max = { 1, 0.5, 1 } } }
-local right = edit:handle(side, { mirror = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } })
+local right = deformer:add_handle(side, { mirror = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } })
 assert(right:mirror_residual().max < 1e-9))"},
         {.name = "set_region",
          .body = set_handle_region,
@@ -330,8 +341,8 @@ assert(right:mirror_residual().max < 1e-9))"},
         {.name = "remove",
          .body = remove_handle,
          .summary = "Takes the handle out of the deformation; it cannot be used any more.",
-         .errors = kEditErrors,
-         .example = kBar + "top:remove()\nassert(#edit:handles() == 1)"}};
+         .errors = kDeformerErrors,
+         .example = kBar + "top:remove()\nassert(#deformer:handles() == 1)"}};
     for (const Function& query : queries) type.methods.push_back(query);
     return type;
 }

@@ -10,15 +10,15 @@ namespace lissom::lua {
 const std::string kStyle = R"(local head = lissom.shapes.head{ vertices = 3000 }
 local style = lissom.hairstyle(head, { resolution = 5000 })
 local points = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 },
-                 (style:at{ azimuth = 70, elevation = 10, lift = 0.02 }) }
-local curve = style:stream{ points = points, name = "side" }
+                 style:at{ azimuth = 70, elevation = 10, lift = 0.02 } }
+local curve = style:add_stream{ points = points, name = "side" }
 )";
 
 const std::string kParting = kStyle + R"(local line = {}
 for i, elevation in ipairs{ 40, 60, 80 } do
     line[i] = style:at{ azimuth = 0, elevation = elevation }
 end
-local parting = style:dividing{ points = line }
+local parting = style:add_dividing{ points = line }
 )";
 
 namespace {
@@ -248,7 +248,6 @@ void CurveReader::read_profiles() {
         lua_insert(L, -2);
         for (int i = 0; i < count; ++i) {
             lua_rawgeti(L, -1, i + 1);
-            if (is_normal(L, -1)) call_.reject("profiles", kNormalAmongPoints);
             lua_pop(L, 1);
             if (!read_point(L, i + 1, list[i])) {
                 call_.reject("profiles", "two lists of {x, y, z} expected");

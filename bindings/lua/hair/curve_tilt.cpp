@@ -93,8 +93,8 @@ int remove_hints(Call& call) {
 // ---- Descriptions
 
 std::string hint_example() {
-    return kParting + R"(local hint = { (style:at{ azimuth = 10, elevation = 60 }),
-               (style:at{ azimuth = 20, elevation = 66 }) }
+    return kParting + R"(local hint = { style:at{ azimuth = 10, elevation = 60 },
+               style:at{ azimuth = 20, elevation = 66 } }
 )";
 }
 const std::vector<ErrorCode> kTiltErrors = {ErrorCode::invalid_argument, ErrorCode::handle_removed};

@@ -139,7 +139,7 @@ int curve_profiles(Call& call) {
 
 std::string tail_example() {
     return kStyle + R"(local tie = style:at{ azimuth = 180, elevation = 25, lift = 0.02 }
-local tail = style:ponytail{ spine = { tie, { tie[1], tie[2] - 0.1, tie[3] - 0.05 } } }
+local tail = style:add_ponytail{ spine = { tie, { tie[1], tie[2] - 0.1, tie[3] - 0.05 } } }
 )";
 }
 

@@ -97,9 +97,12 @@ std::vector<Parameter> curve_fields();
 
 /// {azimuth=, elevation=, lift=} over a head, and what becomes of it.
 std::vector<Parameter> direction_fields();
-std::vector<Result> direction_results();
-/// Pushes the point and the normal of these options.
+/// Pushes the point of these options, or the normal of the head below it.
 int push_point_at(Call& call, const Scalp& scalp);
+int push_normal_at(Call& call, const Scalp& scalp);
+/// The descriptions of `at` and `normal_at`.
+Function point_at_method(Body body, const std::string& example);
+Function normal_at_method(Body body, const std::string& example);
 
 /// Start of examples: a style with one stream curve on the generated head.
 extern const std::string kStyle;

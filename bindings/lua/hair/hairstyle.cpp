@@ -385,6 +385,13 @@ int style_at(Call& call) {
     return push_point_at(call, *scalp);
 }
 
+int style_normal_at(Call& call) {
+    const auto style = call.self<HairstyleObject>();
+    const Scalp* scalp = nullptr;
+    if (!call.attempt_quick([&] { scalp = &style->style().scalp(); })) return call.fail();
+    return push_normal_at(call, *scalp);
+}
+
 int style_scalp(Call& call) {
     const auto style = call.self<HairstyleObject>();
     const auto result = call.create<ScalpObject>();
@@ -449,41 +456,55 @@ const std::vector<ErrorCode> kFieldErrors = {ErrorCode::not_positive_definite,
                                              ErrorCode::cancelled};
 const std::vector<Result> kSelfStyle = {{"lissom.Hairstyle", "style", "The hairstyle itself."}};
 
+// The points of a curve, which are an argument, and its options.
+std::vector<Parameter> first_of(const std::vector<Parameter>& fields) {
+    return {fields.front()};
+}
+std::vector<Parameter> rest_of(const std::vector<Parameter>& fields) {
+    return {fields.begin() + 1, fields.end()};
+}
+
 std::vector<Function> adding_methods() {
     const std::vector<Result> curve = {{"lissom.Curve", "curve", "The curve, behind all others."}};
     return {
-        {.name = "stream",
+        {.name = "add_stream",
          .body = add_stream,
          .summary = "Adds a stream curve: hair flows along it.",
-         .options = stream_fields(),
+         .arguments = first_of(stream_fields()),
+         .named_arguments = true,
+         .options = rest_of(stream_fields()),
          .results = curve,
          .errors = kAddErrors,
          .example = kStyle},
-        {.name = "dividing",
+        {.name = "add_dividing",
          .body = add_dividing,
          .summary = "Adds a dividing curve: hair parts along it. In a grid of more points the same "
                     "lengths in metres mean the same style; the defaults follow the grid.",
-         .options = dividing_fields(),
+         .arguments = first_of(dividing_fields()),
+         .named_arguments = true,
+         .options = rest_of(dividing_fields()),
          .results = curve,
          .errors = kAddErrors,
          .example = kStyle + R"(local parting = {}
 for i, elevation in ipairs{ 40, 60, 80 } do
     parting[i] = style:at{ azimuth = 0, elevation = elevation }
 end
-style:dividing{ points = parting, tilt = { 20, 40 } })"},
-        {.name = "ponytail",
+style:add_dividing{ points = parting, tilt = { 20, 40 } })"},
+        {.name = "add_ponytail",
          .body = add_ponytail,
          .summary = "Adds a ponytail: hair is drawn into a tie and goes on along a spine.",
-         .options = ponytail_fields(),
+         .arguments = first_of(ponytail_fields()),
+         .named_arguments = true,
+         .options = rest_of(ponytail_fields()),
          .results = curve,
          .errors = kAddErrors,
-         .example =
-             kStyle + R"(local tie, out = style:at{ azimuth = 180, elevation = 25, lift = 0.02 }
+         .example = kStyle + R"(local behind = { azimuth = 180, elevation = 25, lift = 0.02 }
+local tie, out = style:at(behind), style:normal_at(behind)
 local spine = { tie }
 for i = 1, 3 do
     spine[i + 1] = { tie[1], tie[2] - 0.02 * i * i, tie[3] + 0.04 * i * out[3] }
 end
-style:ponytail{ spine = spine, radius = 0.016 })"}};
+style:add_ponytail{ spine = spine, radius = 0.016 })"}};
 }
 
 std::vector<Function> field_methods() {
@@ -565,9 +586,6 @@ std::vector<Parameter> growth_fields() {
         " For the vertices of the head: a list, the name of an attribute, or function(vertex, x, "
         "y, z), asked with the vertex's number and its place in mesh units.";
     return {
-        integer("count", "How many strands; the first n of more are the same.")
-            .defaults(100000)
-            .between(0, kMaximumRoots),
         integer("seed", "Another seed gives other roots and other chance.").defaults(1).at_least(0),
         either(
             "length",
@@ -639,6 +657,10 @@ std::vector<Function> growth_methods() {
                  "Grows hair that follows the field from its roots on the scalp. Lengths are those "
                  "of a style, in metres of an average head. Strands that pass through the tie of "
                  "a ponytail are in the group of its name.",
+             .arguments = {integer("count", "How many strands; the first n of more are the same.")
+                               .defaults(100000)
+                               .between(0, kMaximumRoots)},
+             .named_arguments = true,
              .options = growth_fields(),
              .results = {{"lissom.Strands", "hair", "The strands."}},
              .errors = {ErrorCode::invalid_argument, ErrorCode::region_empty,
@@ -650,16 +672,9 @@ std::vector<Function> growth_methods() {
 
 std::vector<Function> plain_methods() {
     return {
-        {.name = "at",
-         .body = style_at,
-         .summary =
-             "A point over the head, in a direction from the center of its frame. At the end "
-             "of a list of points write (style:at{...}), which is the point alone; lists of points "
-             "refuse the normal.",
-         .options = direction_fields(),
-         .results = direction_results(),
-         .errors = {ErrorCode::out_of_range, ErrorCode::handle_removed},
-         .example = kStyle + "local p, n = style:at{ azimuth = 90, elevation = 30 }"},
+        point_at_method(style_at, kStyle + "local p = style:at{ azimuth = 90, elevation = 30 }"),
+        normal_at_method(style_normal_at,
+                         kStyle + "local n = style:normal_at{ azimuth = 90, elevation = 30 }"),
         {.name = "curves",
          .body = style_curves,
          .summary = "Its curves in their order.",

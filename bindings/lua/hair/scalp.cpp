@@ -29,6 +29,9 @@ int make_scalp(Call& call) {
 int scalp_at(Call& call) {
     return push_point_at(call, scalp_of(call));
 }
+int scalp_normal_at(Call& call) {
+    return push_normal_at(call, scalp_of(call));
+}
 
 int scalp_region(Call& call) {
     const auto scalp = call.self<ScalpObject>();
@@ -94,16 +97,9 @@ local scalp = lissom.scalp(head)
 std::vector<Function> scalp_methods() {
     const std::vector<Result> direction = {{"number[]", "direction", "{x, y, z}, of length 1."}};
     return {
-        {.name = "at",
-         .body = scalp_at,
-         .summary =
-             "A point over the head, in a direction from the center of its frame. At the end "
-             "of a list of points write (scalp:at{...}), which is the point alone; lists of points "
-             "refuse the normal.",
-         .options = direction_fields(),
-         .results = direction_results(),
-         .errors = {ErrorCode::out_of_range},
-         .example = kScalp + "local p, n = scalp:at{ azimuth = 90, elevation = 30 }"},
+        point_at_method(scalp_at, kScalp + "local p = scalp:at{ azimuth = 90, elevation = 30 }"),
+        normal_at_method(scalp_normal_at,
+                         kScalp + "local n = scalp:normal_at{ azimuth = 90, elevation = 30 }"),
         {.name = "region",
          .body = scalp_region,
          .summary = "Where hair grows.",
@@ -195,22 +191,50 @@ std::vector<Parameter> direction_fields() {
             number("lift", "How far above the head.").in("metres").defaults(0.0)};
 }
 
-std::vector<Result> direction_results() {
-    return {{"number[]", "point", "{x, y, z}, in mesh units."},
-            {"number[]", "normal", "Of the head, outward, of length 1."}};
+Function point_at_method(Body body, const std::string& example) {
+    return {.name = "at",
+            .body = body,
+            .summary =
+                "Returns a point over the head, in a direction from the center of its "
+                "frame.",
+            .options = direction_fields(),
+            .results = {{"number[]", "point", "{x, y, z}, in mesh units."}},
+            .errors = {ErrorCode::out_of_range, ErrorCode::handle_removed},
+            .example = example};
 }
 
-int push_point_at(Call& call, const Scalp& scalp) {
+Function normal_at_method(Body body, const std::string& example) {
+    return {.name = "normal_at",
+            .body = body,
+            .summary = "Returns the normal of the head below the point that `at` returns.",
+            .options = direction_fields(),
+            .results = {{"number[]", "normal", "{x, y, z}, outward, of length 1."}},
+            .errors = {ErrorCode::out_of_range, ErrorCode::handle_removed},
+            .example = example};
+}
+
+namespace {
+
+// Finds the point of the call's direction; null if there is none.
+const ScalpPoint* point_at(Call& call, const Scalp& scalp) {
     const ScalpDirection direction{call.number("azimuth") * kDegree,
                                    call.number("elevation") * kDegree};
     ScalpPoint* found = call.scratch<ScalpPoint>(1);
-    if (!call.attempt_quick([&] { *found = scalp.at(direction, call.number("lift")); })) {
-        return call.fail();
-    }
-    call.push_vector(found->position);
-    call.push_vector(found->normal);
-    mark_normal(call.lua());
-    return 2;
+    const bool done =
+        call.attempt_quick([&] { *found = scalp.at(direction, call.number("lift")); });
+    return done ? found : nullptr;
+}
+
+}  // namespace
+
+int push_point_at(Call& call, const Scalp& scalp) {
+    const ScalpPoint* found = point_at(call, scalp);
+    return found ? call.push_vector(found->position) : call.fail();
+}
+
+int push_normal_at(Call& call, const Scalp& scalp) {
+    const ScalpPoint* found = point_at(call, scalp);
+    return found ? call.push_vector(found->normal) : call.fail();
 }
 
 Type scalp_type() {

@@ -122,7 +122,7 @@ Parameter mask_kind() {
 
 std::string mask_example() {
     return kStyle + R"(style:mask{ kind = "length", value = 0.3, radius = 0.03,
-    points = { (style:at{ azimuth = 0, elevation = 60 }) } }
+    points = { style:at{ azimuth = 0, elevation = 60 } } }
 )";
 }
 
@@ -199,8 +199,8 @@ Function comb_method() {
                    ErrorCode::not_positive_definite, ErrorCode::memory_limit,
                    ErrorCode::handle_removed, ErrorCode::cancelled},
         .example = kStyle + R"(local report = style:comb{ points = {
-    (style:at{ azimuth = 90, elevation = 30, lift = 0.02 }),
-    (style:at{ azimuth = 140, elevation = 20, lift = 0.02 }) } }
+    style:at{ azimuth = 90, elevation = 30, lift = 0.02 },
+    style:at{ azimuth = 140, elevation = 20, lift = 0.02 } } }
 assert(report.after < report.before))"};
 }
 

@@ -1,14 +1,15 @@
-// lissom.merge: Merging.
+// lissom.merge and lissom.merger.
 #include <algorithm>
 
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/merge/merge_object.h"
+#include "kernel/merge/merge_once.h"
 #include "kernel/merge/merge_within.h"
 
 namespace lissom::lua {
 
-Merge& MergingObject::merge() {
-    if (!content) throw Error(ErrorCode::handle_removed, "the merge was closed; make a new one");
+Merge& MergerObject::merger() {
+    if (!content) throw Error(ErrorCode::handle_removed, "the merger was closed; make a new one");
     return *content;
 }
 
@@ -42,7 +43,7 @@ void read_steps(const Call& call, MergeOptions& options) {
     if (call.has("seam")) options.seam = call.choice<SeamKind>("seam");
     if (call.has("collar")) options.collar = call.boolean("collar");
     if (call.has("trim")) options.trim = call.boolean("trim");
-    if (call.has("refine")) options.refine = call.boolean("refine");
+    if (call.has("subdivide")) options.refine = call.boolean("subdivide");
     // The thesis smooths seams without a transition only.
     if (options.thesis && call.has("transition")) options.smooth = 0;
     if (call.has("smooth")) options.smooth = call.integer("smooth");
@@ -71,7 +72,17 @@ MeshObject& mesh_of(Holder* holder) {
     return *Ref<PathObject>(holder)->mesh;
 }
 
-// The meshes that boundaries of joins belong to.
+// What a call of lissom.merge or lissom.merger asks for, as plain data.
+struct MergeCall {
+    std::span<const JoinSpec> joins;
+    MeshObject* source;
+    MeshObject* const* targets;
+    std::size_t target_count;
+    const RegionObject* const* fixed;
+    std::size_t fixed_count;
+};
+
+// The meshes of a merge: those that the boundaries of its joins belong to.
 struct MeshesOfJoins {
     MeshObject* source = nullptr;
     std::vector<MeshObject*> targets;
@@ -82,9 +93,14 @@ struct MeshesOfJoins {
     }
 };
 
-MeshesOfJoins meshes_of(std::span<const JoinSpec> joins) {
+MeshesOfJoins meshes_of(const MergeCall& asked) {
     MeshesOfJoins meshes;
-    for (const JoinSpec& join : joins) {
+    if (asked.joins.empty()) {
+        meshes.source = asked.source;
+        meshes.targets.assign(asked.targets, asked.targets + asked.target_count);
+        return meshes;
+    }
+    for (const JoinSpec& join : asked.joins) {
         MeshObject& source = mesh_of(join.source);
         if (meshes.source && meshes.source != &source) {
             throw Error(ErrorCode::invalid_argument,
@@ -109,9 +125,21 @@ void require_named(const MeshObject* named, const std::vector<MeshObject*>& used
                     "; take boundaries from this mesh, or leave the option out");
 }
 
-std::vector<Join> joins_of(std::span<const JoinSpec> specs, const MeshesOfJoins& meshes) {
+// Without joins each target meets the source at their nearest boundaries.
+std::vector<Join> nearest_joins(const MeshesOfJoins& meshes, const Context& context) {
     std::vector<Join> joins;
-    for (const JoinSpec& spec : specs) {
+    for (std::size_t i = 0; i < meshes.targets.size(); ++i) {
+        joins.push_back(nearest_join(meshes.source->mesh, meshes.targets[i]->mesh, context));
+        joins.back().target_mesh = index_of(i);
+    }
+    return joins;
+}
+
+std::vector<Join> joins_of(const MergeCall& asked, const MeshesOfJoins& meshes,
+                           const Context& context) {
+    if (asked.joins.empty()) return nearest_joins(meshes, context);
+    std::vector<Join> joins;
+    for (const JoinSpec& spec : asked.joins) {
         joins.push_back({Ref<PathObject>(spec.source)->current(),
                          Ref<PathObject>(spec.target)->current(), meshes.target_of(spec.target),
                          spec.key_pairs()});
@@ -119,29 +147,23 @@ std::vector<Join> joins_of(std::span<const JoinSpec> specs, const MeshesOfJoins&
     return joins;
 }
 
-// What a call of lissom.merge or lissom.merging asks for, as plain data.
-struct MergeCall {
-    std::span<const JoinSpec> joins;
-    const MeshObject* source;
-    const MeshObject* const* targets;
-    std::size_t target_count;
-    const RegionObject* const* fixed;
-    std::size_t fixed_count;
-};
-
 MergeCall read_merge(const Call& call) {
     check_directions(call);
-    MergeCall asked{read_joins(call, "joins"), nullptr, nullptr, 0, nullptr, 0};
+    MergeCall asked{{}, nullptr, nullptr, 0, nullptr, 0};
+    if (call.has("joins")) asked.joins = read_joins(call, "joins");
     if (call.has("source")) asked.source = call.object<MeshObject>("source").get();
     if (call.has("target")) {
         const bool list = call.kind("target") == Kind::objects;
         asked.target_count = list ? call.object_count("target") : 1;
-        auto* targets = call.scratch<const MeshObject*>(asked.target_count + 1);
+        auto* targets = call.scratch<MeshObject*>(asked.target_count + 1);
         for (std::size_t i = 0; i < asked.target_count; ++i) {
             targets[i] = list ? call.object_at<MeshObject>("target", i).get()
                               : call.object<MeshObject>("target").get();
         }
         asked.targets = targets;
+    }
+    if (!call.has("joins") && !(asked.source && asked.targets)) {
+        call.raise("a merge needs a source and a target, as in lissom.merge(head, body), or joins");
     }
     if (call.has("fixed")) {
         asked.fixed_count = call.object_count("fixed");
@@ -154,11 +176,11 @@ MergeCall read_merge(const Call& call) {
     return asked;
 }
 
-std::shared_ptr<MergingObject> make_merging(const Call& call, const MergeCall& asked) {
+std::shared_ptr<MergerObject> make_merger(const Call& call, const MergeCall& asked) {
     MergeOptions options = merge_options(call);
     options.directions = given_directions(call);
     if (call.has("reach")) options.reach = call.number("reach");
-    const MeshesOfJoins meshes = meshes_of(asked.joins);
+    const MeshesOfJoins meshes = meshes_of(asked);
     require_named(asked.source, {meshes.source}, "source");
     for (std::size_t i = 0; i < asked.target_count; ++i) {
         require_named(asked.targets[i], meshes.targets, "target");
@@ -166,18 +188,17 @@ std::shared_ptr<MergingObject> make_merging(const Call& call, const MergeCall& a
     for (std::size_t i = 0; i < asked.fixed_count; ++i) {
         options.fixed.push_back(asked.fixed[i]->current());
     }
-    const auto merging = std::make_shared<MergingObject>();
+    const auto merger = std::make_shared<MergerObject>();
     std::vector<const Mesh*> targets;
     for (const MeshObject* target : meshes.targets) targets.push_back(&target->mesh);
-    merging->content.emplace(meshes.source->mesh, targets, joins_of(asked.joins, meshes), options,
-                             call.context());
+    merger->content.emplace(meshes.source->mesh, targets, joins_of(asked, meshes, call.context()),
+                            options, call.context());
     targets.push_back(&meshes.source->mesh);
     for (const Mesh* mesh : targets) {
-        merging->inputs.vertices.push_back(mesh->vertex_count());
-        merging->inputs.faces.push_back(mesh->face_count());
+        merger->inputs.vertices.push_back(mesh->vertex_count());
+        merger->inputs.faces.push_back(mesh->face_count());
     }
-    merging->joins = count_of(asked.joins);
-    return merging;
+    return merger;
 }
 
 // Boundaries of one mesh are bridged: what says how a source is deformed and sewn does not apply.
@@ -185,7 +206,7 @@ void require_bridge_options(const Call& call) {
     constexpr const char* kDeforming[] = {"source_up", "target_up", "source_front", "target_front",
                                           "fixed",     "features",  "reach",        "frames",
                                           "seam",      "smooth",    "collar",       "transition",
-                                          "trim",      "refine"};
+                                          "trim",      "subdivide"};
     const auto refuse = [](const std::string& name) {
         throw Error(ErrorCode::invalid_argument,
                     name +
@@ -203,7 +224,7 @@ void require_bridge_options(const Call& call) {
 
 // The one mesh that all boundaries lie on, or null.
 MeshObject* mesh_within(const MergeCall& asked) {
-    const MeshesOfJoins meshes = meshes_of(asked.joins);
+    const MeshesOfJoins meshes = meshes_of(asked);
     const bool one = meshes.targets.size() == 1 && meshes.targets.front() == meshes.source;
     return one ? meshes.source : nullptr;
 }
@@ -211,64 +232,64 @@ MeshObject* mesh_within(const MergeCall& asked) {
 MergeResult merged_within(const Call& call, const MergeCall& asked, const Mesh& mesh,
                           MergeInputs& inputs) {
     require_bridge_options(call);
-    const MeshesOfJoins meshes = meshes_of(asked.joins);
+    const MeshesOfJoins meshes = meshes_of(asked);
     require_named(asked.source, {meshes.source}, "source");
     for (std::size_t i = 0; i < asked.target_count; ++i) {
         require_named(asked.targets[i], meshes.targets, "target");
     }
     inputs = {{mesh.vertex_count(), mesh.vertex_count()}, {mesh.face_count(), mesh.face_count()}};
-    return merge_within(mesh, joins_of(asked.joins, meshes), call.boolean("intersections"),
-                        call.context());
+    return merge_within(mesh, joins_of(asked, meshes, call.context()),
+                        call.boolean("intersections"), call.context());
 }
 
 int merge_meshes(Call& call) {
     const MergeCall asked = read_merge(call);
     auto& inputs = call.hold<MergeInputs>();
-    auto& merging = call.hold<std::shared_ptr<MergingObject>>();
+    auto& merger = call.hold<std::shared_ptr<MergerObject>>();
     auto& result = call.hold<std::unique_ptr<MergeResult>>();
     const bool done = call.attempt([&] {
         if (const MeshObject* mesh = mesh_within(asked)) {
             result = std::make_unique<MergeResult>(merged_within(call, asked, mesh->mesh, inputs));
             return;
         }
-        merging = make_merging(call, asked);
-        inputs = merging->inputs;
-        result = std::make_unique<MergeResult>(merging->merge().solve(call.context()));
+        merger = make_merger(call, asked);
+        inputs = merger->inputs;
+        result = std::make_unique<MergeResult>(merger->merger().solve(call.context()));
     });
     return done ? push_merge_result(call, *result, inputs) : call.fail();
 }
 
-int new_merging(Call& call) {
+int new_merger(Call& call) {
     const MergeCall asked = read_merge(call);
-    const auto result = call.create<MergingObject>();
-    if (!call.attempt([&] { result.set(make_merging(call, asked)); })) return call.fail();
+    const auto result = call.create<MergerObject>();
+    if (!call.attempt([&] { result.set(make_merger(call, asked)); })) return call.fail();
     call.charge(result);
     return 1;
 }
 
-// ---- Merging
+// ---- Merger
 
-int set_merging_keys(Call& call) {
-    const auto merging = call.self<MergingObject>();
+int set_merger_keys(Call& call) {
+    const auto merger = call.self<MergerObject>();
     const Index join = call.id("join");
     const JoinSpec keys = read_keys(call, "keys");
     const bool done =
-        call.attempt_quick([&] { merging->merge().set_keys(join, keys.key_pairs()); });
+        call.attempt_quick([&] { merger->merger().set_keys(join, keys.key_pairs()); });
     return done ? call.push_argument() : call.fail();
 }
 
-int solve_merging(Call& call) {
-    const auto merging = call.self<MergingObject>();
+int solve_merger(Call& call) {
+    const auto merger = call.self<MergerObject>();
     auto& result = call.hold<std::unique_ptr<MergeResult>>();
     const bool done = call.attempt(
-        [&] { result = std::make_unique<MergeResult>(merging->merge().solve(call.context())); });
-    return done ? push_merge_result(call, *result, merging->inputs) : call.fail();
+        [&] { result = std::make_unique<MergeResult>(merger->merger().solve(call.context())); });
+    return done ? push_merge_result(call, *result, merger->inputs) : call.fail();
 }
 
-int merging_warnings(Call& call) {
-    const auto merging = call.self<MergingObject>();
+int merger_warnings(Call& call) {
+    const auto merger = call.self<MergerObject>();
     auto& warnings = call.hold<std::vector<std::string>>();
-    if (!call.attempt_quick([&] { warnings = merging->merge().warnings(); })) return call.fail();
+    if (!call.attempt_quick([&] { warnings = merger->merger().warnings(); })) return call.fail();
     lua_createtable(call.lua(), count_of(warnings), 0);
     for (std::size_t i = 0; i < warnings.size(); ++i) {
         call.push(warnings[i]);
@@ -277,11 +298,20 @@ int merging_warnings(Call& call) {
     return 1;
 }
 
-void close_merging(void* object) {
-    static_cast<MergingObject*>(object)->content.reset();
+void close_merger(void* object) {
+    static_cast<MergerObject*>(object)->content.reset();
 }
 
 // ---- Descriptions
+
+std::vector<Parameter> merge_arguments() {
+    return {object("source", "lissom.Mesh", "The mesh that is deformed.")
+                .optional("the mesh of the joins' sources"),
+            either("target",
+                   {object("target", "lissom.Mesh", ""), objects("target", "lissom.Mesh", "")},
+                   "The mesh, or the meshes, that stay.")
+                .optional("the meshes of the joins' targets")};
+}
 
 // A merge that is dragged leaves out what a frame has no time for.
 std::vector<Parameter> merge_parameters(bool intersections) {
@@ -292,13 +322,9 @@ std::vector<Parameter> merge_parameters(bool intersections) {
               "z} on them, the source's first. Between keys arc length decides. Without keys the "
               "directions below decide, or else `place`; the report says which turn was taken and "
               "how certain it is. All sources lie on one mesh; targets may lie on several, and "
-              "each boundary is in one join."),
-        object("source", "lissom.Mesh", "The mesh that is deformed.")
-            .optional("the mesh of the joins' sources"),
-        either("target",
-               {object("target", "lissom.Mesh", ""), objects("target", "lissom.Mesh", "")},
-               "The mesh, or the meshes, that stay.")
-            .optional("the meshes of the joins' targets"),
+              "each boundary is in one join.")
+            .optional("the boundaries of source and target that lie nearest to each other, one "
+                      "join for each target"),
         choice("place", {"as placed", "shape"},
                "How joins without keys and directions are turned about the axis of the boundary. "
                "as placed: least from how the source lies beside the target, so that a part that "
@@ -389,7 +415,7 @@ std::vector<Parameter> merge_parameters(bool intersections) {
             .between(0, 180)
             .in("degrees")
             .defaults(20.0),
-        boolean("refine",
+        boolean("subdivide",
                 "Faces of the source at a boundary are split once where its edges are "
                 "more than 1.5 times as long as those they meet. Where they are more than 3 times "
                 "as long as edges inside the source, they are split until they are not, and those "
@@ -399,10 +425,10 @@ std::vector<Parameter> merge_parameters(bool intersections) {
         boolean("intersections",
                 "Looks for faces that run through one another and did not before, for the report.")
             .defaults(intersections),
-        choice("fidelity", {"lissom", "thesis"},
+        choice("fidelity", {"default", "thesis"},
                "thesis: section 3.3 to the letter, for comparison, where no other option says "
                "otherwise; the page thesis.md of the reference names all of it.")
-            .defaults("lissom")};
+            .defaults("default")};
 }
 
 std::vector<ErrorCode> merge_errors() {
@@ -419,46 +445,46 @@ local bowl = half:copy():transform{ rotate = { axis = "x", angle = 180 }, scale 
 
 }  // namespace
 
-Type merging_type() {
+Type merger_type() {
     const std::string halves = kHalves;
-    const std::string made = halves + R"(local merging = lissom.merging{
+    const std::string made = halves + R"(local merger = lissom.merger{
     joins = { { source = half:boundaries()[1], target = bowl:boundaries()[1] } },
 }
 )";
     return {
-        .name = "lissom.Merging",
+        .name = "lissom.Merger",
         .summary =
             "A merge that is solved again, without factoring again, after its keys have "
             "moved: what a tool keeps while the user drags a key.",
         .methods = {{.name = "set_keys",
-                     .body = set_merging_keys,
+                     .body = set_merger_keys,
                      .summary =
                          "Replaces the keys of one join, and returns the merge. Keys that do "
                          "not fit are an error at once, and those of before stay.",
                      .arguments = {id("join", "Number of the join, from 1."),
                                    table("keys", "List of { s, t }, as in lissom.merge.")},
-                     .results = {{"lissom.Merging", "merging", "The same merge."}},
+                     .results = {{"lissom.Merger", "merger", "The same merger."}},
                      .errors = {ErrorCode::out_of_range, ErrorCode::key_conflict,
                                 ErrorCode::handle_removed},
                      .example = made + R"(local s, t = half:boundaries()[1], bowl:boundaries()[1]
-merging:set_keys(1, { { s:vertices()[1], t:vertices()[5] } })
-assert(merging:solve():is_closed()))"},
+merger:set_keys(1, { { s:vertices()[1], t:vertices()[5] } })
+assert(merger:solve():is_closed()))"},
                     {.name = "solve",
-                     .body = solve_merging,
+                     .body = solve_merger,
                      .summary = "Merges, and returns a new mesh and what was done.",
                      .results = {{"lissom.Mesh", "mesh", "The merged mesh."},
                                  {"lissom.MergeReport", "report", "What was found and done."}},
                      .errors = merge_errors(),
-                     .example = made + R"(local mesh, report = merging:solve()
+                     .example = made + R"(local mesh, report = merger:solve()
 assert(mesh:is_closed() and report.free_vertices > 0))"},
                     {.name = "warnings",
-                     .body = merging_warnings,
+                     .body = merger_warnings,
                      .summary = "Returns what was found before anything is solved, such as a thin "
                                 "outline that is to meet a round one; the report has it as well.",
                      .results = {{"string[]", "warnings", "In plain words."}},
                      .errors = {ErrorCode::handle_removed},
-                     .example = made + "assert(#merging:warnings() == 0)"}},
-        .close = close_merging};
+                     .example = made + "assert(#merger:warnings() == 0)"}},
+        .close = close_merger};
 }
 
 std::vector<Function> merge_functions() {
@@ -475,29 +501,27 @@ std::vector<Function> merge_functions() {
              "coordinates they are 0, 0, and a warning says so. If source and target are one mesh, "
              "two of its boundaries are joined by a bridge of triangles, and nothing moves: "
              "options that say how a source is deformed are refused.",
+         .arguments = merge_arguments(),
+         .named_arguments = true,
          .options = merge_parameters(true),
          .results = {{"lissom.Mesh", "mesh", "The merged mesh."},
                      {"lissom.MergeReport", "report", "What was found and done."}},
          .errors = merge_errors(),
-         .example = halves + R"(local mesh, report = lissom.merge{
-    source = half,
-    target = bowl,
-    joins = { { source = half:boundaries()[1], target = bowl:boundaries()[1] } },
-}
+         .example = halves + R"(local mesh, report = lissom.merge(half, bowl)
 assert(mesh:is_closed() and mesh:genus() == 0)
 assert(math.abs(report.joins[1].scale - 3) < 1e-6)
 if not report.ok then print(report.verdict) end)"},
-        {.name = "merging",
-         .body = new_merging,
+        {.name = "merger",
+         .body = new_merger,
          .summary = "As lissom.merge, but returns an object that keeps what was prepared, so that "
                     "a moved key costs a fraction of the first merge.",
+         .arguments = merge_arguments(),
+         .named_arguments = true,
          .options = merge_parameters(false),
-         .results = {{"lissom.Merging", "merging", "The merge, not solved yet."}},
+         .results = {{"lissom.Merger", "merger", "The merger, not solved yet."}},
          .errors = merge_errors(),
-         .example = halves + R"(local merging = lissom.merging{
-    joins = { { source = half:boundaries()[1], target = bowl:boundaries()[1] } },
-}
-assert(merging:solve():is_closed()))"}};
+         .example = halves + R"(local merger = lissom.merger(half, bowl)
+assert(merger:solve():is_closed()))"}};
 }
 
 }  // namespace lissom::lua

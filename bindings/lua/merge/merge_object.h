@@ -1,4 +1,4 @@
-/// A merge of a script, and where the elements of its result come from.
+/// A merger of a script, and where the elements of its result come from.
 #pragma once
 
 #include <memory>
@@ -18,18 +18,17 @@ struct MergeInputs {
     std::vector<Index> vertices, faces;
 };
 
-struct MergingObject {
-    static constexpr const char* kTypeName = "lissom.Merging";
+struct MergerObject {
+    static constexpr const char* kTypeName = "lissom.Merger";
 
     /// Empty once it was closed.
     std::optional<Merge> content;
     MergeInputs inputs;
-    Index joins = 0;
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const { return content ? content->memory_bytes() : 0; }
     /// Throws handle_removed where it was closed.
-    Merge& merge();
+    Merge& merger();
 };
 
 /// Where the elements of one merged mesh come from.

@@ -150,8 +150,8 @@ void push_join(const Call& call, const JoinReport& join) {
     call.set_field("target_turn", call.push(kDegrees * join.target_turn));
     call.set_field("source_trimmed", call.push(join.source_trimmed));
     call.set_field("target_trimmed", call.push(join.target_trimmed));
-    call.set_field("refined", call.push(join.refined));
-    call.set_field("target_refined", call.push(join.target_refined));
+    call.set_field("subdivided", call.push(join.refined));
+    call.set_field("target_subdivided", call.push(join.target_refined));
     call.set_field("fits", call.push(join.fits));
     call.set_field("same_side", call.push(join.same_side));
     push_band_quality(call, join.band);
@@ -495,13 +495,13 @@ std::vector<Record> merge_records() {
           {"number", "target_turn", "The same of the target's."},
           {"boolean", "source_trimmed", "It was jagged and has been trimmed."},
           {"boolean", "target_trimmed", "The same of the target's."},
-          {"boolean", "refined", "Faces of the source were split there."},
-          {"boolean", "target_refined", "Faces of the target were split there."},
+          {"boolean", "subdivided", "Faces of the source were split there."},
+          {"boolean", "target_subdivided", "Faces of the target were split there."},
           {"boolean", "fits",
            "The boundaries are one curve, as they lie or, in the free configuration, up to a "
            "similarity, and the surface goes on across it: all vertices are kept there, and "
            "nothing "
-           "is smoothed, trimmed or refined."},
+           "is smoothed, trimmed or subdivided."},
           {"boolean", "same_side",
            "In the fixed configuration: both parts lie on the same side of the boundary, so that "
            "the source turns over."},

@@ -73,7 +73,7 @@ int fill_boundary(Call& call) {
     const auto boundary = call.object<PathObject>("boundary");
     FillOptions options;
     options.method = call.choice<FillMethod>("method");
-    options.refine = call.boolean("refine");
+    options.refine = call.boolean("subdivide");
     options.density = call.number("density");
     options.fair = call.boolean("fair");
     options.continuity = call.choice<FairContinuity>("continuity");
@@ -331,7 +331,7 @@ assert(#path == 11))"},
                                 "Begins with the triangles whose greatest angle to one another and "
                                 "to the mesh is least, or with those of the least area, a lid.")
                              .defaults("angle"),
-                         boolean("refine", "Makes the patch as dense as the mesh around it.")
+                         boolean("subdivide", "Makes the patch as dense as the mesh around it.")
                              .defaults(fill_defaults.refine),
                          number("density",
                                 "How dense, over the mesh around it; more than 1 lets a patch bend "
@@ -344,7 +344,7 @@ assert(#path == 11))"},
                                 "What of the surface a faired patch continues. With curvature a "
                                 "large patch in a round surface is round.")
                              .defaults("tangents"),
-                         integer("maximum_vertices", "Vertices that refinement may insert.")
+                         integer("maximum_vertices", "Vertices that `subdivide` may insert.")
                              .defaults(fill_defaults.maximum_vertices)
                              .at_least(0)},
              .results = {{"lissom.Mesh", "mesh", "The mesh itself."},

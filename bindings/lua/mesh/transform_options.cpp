@@ -1,11 +1,31 @@
 #include "bindings/lua/mesh/transform_options.h"
 
+#include <array>
+#include <cstdio>
+
 #include "bindings/lua/core/kernel_library.h"
 
 namespace lissom::lua {
 namespace {
 
 constexpr double kRadians = kPi / 180.0;
+
+// Paths of options behind a prefix, without memory of its own: a Lua error may skip destructors.
+class OptionPath {
+  public:
+    using Text = std::array<char, 64>;
+
+    explicit OptionPath(const char* prefix) : prefix_(prefix) {}
+
+    Text operator()(const char* name) const {
+        Text text{};
+        std::snprintf(text.data(), text.size(), "%s%s", prefix_, name);
+        return text;
+    }
+
+  private:
+    const char* prefix_;
+};
 
 }  // namespace
 
@@ -17,9 +37,11 @@ std::vector<Parameter> transform_fields(const std::string& about_default) {
             vector("about", "The point that scale and rotation keep.").optional(about_default)};
 }
 
-TransformOptions TransformOptions::read(const Call& call) {
-    const auto vector_or = [&](const char* path, const Vec3& otherwise) {
-        return call.has(path) ? call.vector(path) : otherwise;
+TransformOptions TransformOptions::read(const Call& call, const char* prefix) {
+    const OptionPath path(prefix);
+    const auto vector_or = [&](const char* name, const Vec3& otherwise) {
+        const OptionPath::Text full = path(name);
+        return call.has(full.data()) ? call.vector(full.data()) : otherwise;
     };
     TransformOptions options;
     options.translate = vector_or("translate", Vec3::Zero());
@@ -27,9 +49,10 @@ TransformOptions TransformOptions::read(const Call& call) {
     options.about = vector_or("about", Vec3::Zero());
     options.axis = vector_or("rotate.axis", Vec3::UnitY());
     options.rotate_about = vector_or("rotate.about", options.about);
-    options.angle = call.has("rotate.angle") ? call.number("rotate.angle") * kRadians : 0.0;
-    options.has_about = call.has("about");
-    options.has_rotate_about = options.has_about || call.has("rotate.about");
+    const OptionPath::Text angle = path("rotate.angle");
+    options.angle = call.has(angle.data()) ? call.number(angle.data()) * kRadians : 0.0;
+    options.has_about = call.has(path("about").data());
+    options.has_rotate_about = options.has_about || call.has(path("rotate.about").data());
     return options;
 }
 

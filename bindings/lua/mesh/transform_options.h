@@ -14,7 +14,8 @@ struct TransformOptions {
     double angle;
     bool has_about, has_rotate_about;
 
-    static TransformOptions read(const Call& call);
+    /// `prefix` stands before the names: "handles." for fields of the option `handles`.
+    static TransformOptions read(const Call& call, const char* prefix = "");
     /// The same for coordinates relative to `origin`.
     TransformOptions relative_to(const Vec3& origin) const;
     /// Scales, then rotates, then translates; about `center` where the script named no point.

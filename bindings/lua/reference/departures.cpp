@@ -15,7 +15,7 @@ namespace {
 void add_option_departures(std::vector<Departure>& list, const Function& function,
                            const std::string& call) {
     // One changes what was made and has no defaults; the other has those of lissom.merge.
-    if (function.name == "set" || function.name == "merging") return;
+    if (function.name == "set" || function.name == "merger" || function.name == "deform") return;
     for (const Parameter& p : function.options) {
         if (p.thesis_text.empty()) continue;
         list.push_back({p.thesis_section, "`" + p.name + "` of `" + call + "`", p.default_text,
@@ -47,8 +47,8 @@ std::vector<Departure> merge_departures() {
         {"3.3.1", "How much local features grow, |M| of (2.11)",
          "a harmonic field with the factors at the boundaries", "|M| / sqrt 3", kByFidelity},
         {"3.3.1", "Systems of the deformation",
-         "as `lissom.deform` by default, with the second system blend",
-         "as `lissom.deform` of the thesis, on the surface brought to unit size", kByFidelity},
+         "as `lissom.deformer` by default, with the second system blend",
+         "as `lissom.deformer` of the thesis, on the surface brought to unit size", kByFidelity},
         {"3.3.1", "Umbrella steps at the seam: `smooth` of `lissom.merge`",
          "3, none of which may fold it; slivers are flipped away; also before a transition",
          "several, of seam and neighbours here; none with a transition", kByFidelity},

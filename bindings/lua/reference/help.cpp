@@ -40,13 +40,17 @@ std::string standard_text(const Parameter& p) {
     return p.default_text.empty() ? "optional" : "default: " + p.default_text;
 }
 
+const char* separator_of(const Parameter& p) {
+    if (p.kind == Kind::option_map) return ".*.";
+    return p.kind == Kind::option_list ? "[i]." : ".";
+}
+
 void add_parameter_help(std::string& text, const std::vector<Parameter>& parameters,
                         const std::string& prefix) {
     for (const Parameter& p : parameters) {
         text += wrapped(prefix + p.name + " (" + expectation(p) + "; " + standard_text(p) + ")", 2);
         text += wrapped(p.help + (p.unit.empty() ? "" : " In " + p.unit + "."), 6);
-        add_parameter_help(text, p.fields,
-                           prefix + p.name + (p.kind == Kind::option_map ? ".*." : "."));
+        add_parameter_help(text, p.fields, prefix + p.name + separator_of(p));
     }
 }
 

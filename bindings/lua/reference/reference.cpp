@@ -75,6 +75,7 @@ std::string field_type(const Parameter& p, const std::string& owner) {
     if (p.kind == Kind::option_map) {
         return "table<string, " + owner + "." + capitalized(p.name) + ">";
     }
+    if (p.kind == Kind::option_list) return owner + "." + capitalized(p.name) + "[]";
     return annotation_type(p);
 }
 
@@ -117,8 +118,18 @@ std::string spread_parameters(const Function& function, const std::string& class
 
 // Whether the table of options may stand in the place of the first argument.
 bool takes_options_instead(const Function& function) {
+    if (function.named_arguments) return true;
     return !function.options.empty() && !function.arguments.empty() &&
            !function.arguments.front().required;
+}
+
+// The keys of a function's option table: its arguments too, if they may be given by name.
+std::vector<Parameter> options_of(const Function& function) {
+    std::vector<Parameter> all = function.options;
+    if (function.named_arguments) {
+        for (const Parameter& p : function.arguments) all.push_back(p.optional(p.default_text));
+    }
+    return all;
 }
 
 // Adds ---@param lines and returns the names.
@@ -136,7 +147,8 @@ std::vector<std::string> add_parameters(std::string& text, const Function& funct
     }
     if (function.options.empty()) return names;
     names.push_back("options");
-    const bool instead = function.one_option && !function.arguments.empty();
+    const bool instead =
+        function.named_arguments || (function.one_option && !function.arguments.empty());
     const bool required = (has_required(function.options) || function.one_option) && !instead;
     text += "---@param options" + std::string(required ? " " : "? ") + class_name + "\n";
     return names;
@@ -173,7 +185,7 @@ void add_function(std::string& text, const Function& function, const std::string
         if (!p.fields.empty())
             add_option_class(text, p.fields, class_name + "." + capitalized(p.name));
     }
-    if (!function.options.empty()) add_option_class(text, function.options, class_name);
+    if (!options_of(function).empty()) add_option_class(text, options_of(function), class_name);
     text += "---" + function.summary + "\n";
     const std::vector<std::string> names = add_parameters(text, function, class_name);
     add_results(text, function);
@@ -212,6 +224,12 @@ void add_common_types(std::string& text) {
 
 // ---- The page
 
+// Between the name of a parameter and those of its fields.
+std::string field_separator(const Parameter& p) {
+    if (p.kind == Kind::option_map) return ".*.";
+    return p.kind == Kind::option_list ? "[i]." : ".";
+}
+
 std::string table_cell(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
         text.insert(at, "\\");
@@ -228,8 +246,7 @@ void add_rows(std::string& text, const std::vector<Parameter>& parameters,
         const std::string standard = p.required ? "required" : default_text(p);
         text += "| `" + prefix + p.name + "` | " + table_cell(accepted) + " | " +
                 table_cell(standard) + " | " + table_cell(meaning) + " |\n";
-        const bool is_map = p.kind == Kind::option_map;
-        add_rows(text, p.fields, prefix + p.name + (is_map ? ".*." : "."));
+        add_rows(text, p.fields, prefix + p.name + field_separator(p));
     }
 }
 
@@ -262,6 +279,13 @@ std::string content_line(const std::string& name, const std::string& place,
     return "- [`" + name + "`](" + place + "): " + first_sentence(summary) + "\n";
 }
 
+// " axis = ..., angle = ... ".
+std::string named_words(const Function& function) {
+    std::vector<std::string> words;
+    for (const Parameter& p : function.arguments) words.push_back(p.name + " = ...");
+    return " " + joined(words, ", ") + " ";
+}
+
 void add_function_section(std::string& text, const Function& function, const std::string& call) {
     text += "<a id=\"" + anchor(function) + "\"></a>\n\n### `" + signature(function, call) +
             "`\n\n" + function.summary + "\n\n";
@@ -270,6 +294,9 @@ void add_function_section(std::string& text, const Function& function, const std
         add_rows(text, function.arguments, "");
         add_rows(text, function.options, "");
         text += "\n";
+    }
+    if (function.named_arguments) {
+        text += "- arguments may be given by name: `" + call + "{" + named_words(function) + "}`\n";
     }
     for (const Result& r : function.results) {
         text += "- returns `" + r.name + "` (" + r.type + ")" +
@@ -454,6 +481,7 @@ std::string annotation_type(const Parameter& p) {
             return p.type_name;
         case Kind::options:
         case Kind::option_map:
+        case Kind::option_list:
         case Kind::table:
             return "table";
         case Kind::either: {

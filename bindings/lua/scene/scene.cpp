@@ -470,10 +470,10 @@ std::vector<Function> scene_functions() {
              .results = {{"lissom.Scene", "scene", "Give it objects by add."}},
              .errors = {ErrorCode::memory_limit},
              .example = kBarScene + R"(scene:step("bend", function()
-    local edit = lissom.deform(bar)
-    edit:handle(bar:region("bottom"))
-    edit:handle(bar:region("top")):rotate{ axis = "z", angle = 60 }
-    edit:solve()
+    local deformer = lissom.deformer(bar)
+    deformer:add_handle(bar:region("bottom"))
+    deformer:add_handle(bar:region("top")):rotate{ axis = "z", angle = 60 }
+    deformer:solve()
 end)
 assert(scene:undo() == "bend"))"}};
 }

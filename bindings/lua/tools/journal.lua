@@ -2,12 +2,12 @@
 
 -- Methods that change something and do not return the object that they are called on.
 local changing = {
-    ["lissom.Deformation"] = set_of{ "handle", "constrain", "stiffness", "preview", "solve", "reset",
-        "apply" },
+    ["lissom.Deformer"] = set_of{ "add_handle", "constrain", "stiffness", "preview", "solve", "reset",
+        "rebase" },
     ["lissom.Handle"] = set_of{ "remove" },
     ["lissom.Scene"] = set_of{ "add" },
     ["lissom.Mesh"] = set_of{ "fill", "remove_region", "remove_attribute", "add_attribute" },
-    ["lissom.Hairstyle"] = set_of{ "stream", "dividing", "ponytail", "solve", "grow",
+    ["lissom.Hairstyle"] = set_of{ "add_stream", "add_dividing", "add_ponytail", "solve", "grow",
         "comb" },
     ["lissom.Curve"] = set_of{ "remove", "cut", "concatenate", "insert", "add_hint" },
 }
@@ -22,7 +22,7 @@ local shaping = { ["lissom.Paste"] = set_of{ "optimize", "move" } }
 -- Calls whose result does not depend on what the same call on the same thing did before.
 local replacing = {
     ["lissom.Handle"] = set_of{ "set_matrix", "reset" },
-    ["lissom.Deformation"] = set_of{ "preview", "solve" },
+    ["lissom.Deformer"] = set_of{ "preview", "solve" },
     ["lissom.Mesh"] = set_of{ "set_region", "remove_region", "set_position" },
 }
 local Untold = {}
@@ -71,7 +71,7 @@ local function origin(scene, object)
     for _, name in ipairs(scene:names()) do
         local held = scene:get(name)
         if rawequal(held, object) then return { name = name } end
-        if kind == "lissom.Handle" and type_of(held) == "lissom.Deformation" then
+        if kind == "lissom.Handle" and type_of(held) == "lissom.Deformer" then
             for i, handle in ipairs(held:handles()) do
                 if handle == object then return { handle = held, index = i } end
             end
@@ -116,7 +116,7 @@ function Journal:after(kind, name, ...)
     self.pending = nil
     local results = { ... }
     local first = type(call.given[1]) == "userdata" and self:same(call.given[1])
-    local itself = kind and first and rawequal(first, self:same((...)))
+    local itself = first and rawequal(first, self:same((...)))
     call.shapes = shaping[kind] and shaping[kind][name] and first or nil
     call.changes = not call.shapes and (itself or (changing[kind] and changing[kind][name])) or false
     local makes = see_objects(results, function() end, 0)
@@ -169,7 +169,7 @@ local function target(call)
     local set = replacing[call.kind]
     if not (set and set[call.name]) then return nil end
     if call.kind == "lissom.Handle" then return call.arguments[1] end
-    if call.kind == "lissom.Deformation" then return call.arguments[1] end
+    if call.kind == "lissom.Deformer" then return call.arguments[1] end
     return part_of(call.arguments[1], call.name:match("region$") or call.name, call.arguments[2])
 end
 

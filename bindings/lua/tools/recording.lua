@@ -163,7 +163,7 @@ local function type_of(value)
     return type(meta) == "string" and meta or "userdata"
 end
 
-local in_scenes = set_of{ "lissom.Mesh", "lissom.Deformation", "lissom.Strands", "lissom.Hairstyle",
+local in_scenes = set_of{ "lissom.Mesh", "lissom.Deformer", "lissom.Strands", "lissom.Hairstyle",
     "lissom.Polyline" }
 
 -- Adds what a scene can hold, also from tables within tables, under the keys that it has there.

@@ -59,7 +59,7 @@ Function sketch_method_of_hairstyle() {
 -- Of the tools that come with the program: tool = "stream", or "parting", "ponytail", "comb", ...
 local flow = lissom.tool{ name = "flow", release = function(self, ev)
     local to = { azimuth = -70, elevation = 10, lift = 0.02 }
-    style:stream{ points = { (style:at{ azimuth = -20, elevation = 60 }), (style:at(to)) } }
+    style:add_stream{ points = { style:at{ azimuth = -20, elevation = 60 }, style:at(to) } }
 end }
 local done = style:sketch({ { tool = flow, points = { { 600, 300 }, { 640, 480 } } } },
     { camera = camera })

@@ -5,19 +5,19 @@ local meshes = require "tools.support.meshes"
 
 local handles = {}
 
---- All handles on visible meshes: a list of { handle =, edit =, name =, mesh =, place =, at =, pinned = }:
+--- All handles on visible meshes: { handle =, deformer =, name =, mesh =, place =, at =, pinned = } for each:
 -- name of the deformation in the scene, the matrix from the mesh's own space to the world, the handle's
 -- middle there, whether it only holds its place.
 function handles.list(scene)
     local list = {}
     for _, one in ipairs(meshes.visible(scene)) do
-        local name, edit = meshes.deformation(scene, one.mesh)
+        local name, deformer = meshes.deformation(scene, one.mesh)
         local pinned = meshes.region(one.mesh, "pinned")
-        for _, handle in ipairs(edit and edit:handles() or {}) do
+        for _, handle in ipairs(deformer and deformer:handles() or {}) do
             local at = matrices.point(one.place, handle:center())
             table.insert(list,
-                { handle = handle, edit = edit, name = name, mesh = one.mesh, place = one.place, at = at,
-                    pinned = pinned and #handle:region():minus(pinned) == 0 })
+                { handle = handle, deformer = deformer, name = name, mesh = one.mesh, place = one.place,
+                    at = at, pinned = pinned and #handle:region():minus(pinned) == 0 })
         end
     end
     return list
@@ -56,12 +56,12 @@ end
 --- The deformation of a mesh that is in the scene, else a new one: of what is within a distance around a
 -- region; of the parts of the mesh that it lies on, where the distance is 0.
 function handles.deformation(scene, one, region, reach)
-    local _, edit = meshes.deformation(scene, one.mesh)
-    if edit then return edit end
+    local _, deformer = meshes.deformation(scene, one.mesh)
+    if deformer then return deformer end
     local movable = meshes.parts(region)
     if reach > 0 then movable = one.mesh:region{ geodesic = { from = region, radius = reach } } end
     local name = meshes.unused_name(scene, one.name .. " deformation")
-    return scene:add(name, lissom.deform(one.mesh, { region = movable }), { visible = false })
+    return scene:add(name, lissom.deformer(one.mesh, { region = movable }), { visible = false })
 end
 
 --- Moves a handle by a motion of the world, from where its matrix was before.
@@ -80,19 +80,19 @@ local most_exact = 60000
 
 --- What a drag shows of a deformation: its preview "always", "never", or for "large meshes".
 function handles.preview(one, of)
-    local quick = of == "always" or of == "large meshes" and #one.edit:region() > most_exact
-    if quick then return one.edit:preview() end
-    return one.edit:solve{ draft = true }
+    local quick = of == "always" or of == "large meshes" and #one.deformer:region() > most_exact
+    if quick then return one.deformer:preview() end
+    return one.deformer:solve{ draft = true }
 end
 
 --- Takes a handle away. Without any the mesh keeps its shape, and the next one begins from there.
 function handles.remove(scene, one)
     unpin(one.handle)
-    if #one.edit:handles() == (one.handle:mirrored() and 2 or 1) then
+    if #one.deformer:handles() == (one.handle:mirrored() and 2 or 1) then
         meshes.end_deformation(scene, one.mesh)
     else
         one.handle:remove()
-        one.edit:solve()
+        one.deformer:solve()
     end
 end
 

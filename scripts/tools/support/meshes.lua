@@ -108,9 +108,9 @@ end
 -- before faces of the mesh changed.
 function meshes.deformation(scene, mesh)
     for _, name in ipairs(scene:names()) do
-        local edit = scene:get(name)
-        if scene:info(name).kind == "deformation" and rawequal(edit:mesh(), mesh)
-            and pcall(edit.handles, edit) then return name, edit end
+        local deformer = scene:get(name)
+        if scene:info(name).kind == "deformation" and rawequal(deformer:mesh(), mesh)
+            and pcall(deformer.handles, deformer) then return name, deformer end
     end
     return nil
 end

@@ -31,7 +31,7 @@ local function add_streams(self, one, points, camera, size)
     end
     self.drafts = {}
     for i, list in ipairs(lists) do
-        self.drafts[i] = one.style:stream{ points = list, stop = not into and self.params.stop }
+        self.drafts[i] = one.style:add_stream{ points = list, stop = not into and self.params.stop }
     end
     return into ~= nil
 end

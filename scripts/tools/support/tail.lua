@@ -299,7 +299,7 @@ local function direction_of(scalp, tie)
     local p = scalp:to_metres(tie.center)
     local far = vectors.length(p)
     local place = { azimuth = math.deg(atan2(p[1], p[3])), elevation = math.deg(math.asin(p[2] / far)) }
-    place.lift = far - vectors.length(scalp:to_metres((scalp:at(place))))
+    place.lift = far - vectors.length(scalp:to_metres(scalp:at(place)))
     place.radius = tie.radius / scalp:scale()
     return place
 end

@@ -40,7 +40,7 @@ const char* const kValues[] = {"nil",
                                "closed",
                                "box:positions()",
                                "grid:boundaries()[1]",
-                               "edit",
+                               "deformer",
                                "handle",
                                "params",
                                "strands",
@@ -57,21 +57,21 @@ head = lissom.shapes.sphere{ segments = 8 }
 scalp = lissom.scalp(head, { up = "y", front = "z", region = head:region{ all = true } })
 style = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 })
 -- The style has no curve, or each call of grow would make much hair.
-curve = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 }):stream{
+curve = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 }):add_stream{
     points = { { 0, 1, 0 }, { 0, 1.2, 0 } } }
 support = curve:support{ camera = lissom.camera{ eye = { 0, 0, 5 } } }
 ball = lissom.shapes.sphere{ segments = 2 }
 cap, rest = ball:cut{ plane = { point = { 0, 0.1, 0 }, normal = { 0, 1, 0 } } }
-merging = lissom.merging{
+merger = lissom.merger{
     joins = { { source = cap:boundaries()[1], target = rest:boundaries()[1] } } }
-provenance = select(2, merging:solve()).provenance
+provenance = select(2, merger:solve()).provenance
 local globe = lissom.shapes.sphere{ segments = 8 }
 paste = lissom.paste{ source = globe, target = globe:copy(), placement = { at = { 0, 1, 0 }, scale = 0.5 },
     region = globe:region{ plane = { point = { 0, 0, 0 }, normal = { 0, 1, 0 } } } }
 function fresh()
     box = lissom.shapes.box()
-    edit = lissom.deform(box)
-    handle = edit:handle(box:region("top"))
+    deformer = lissom.deformer(box)
+    handle = deformer:add_handle(box:region("top"))
     strands = lissom.strands{ points = { { 0, 0, 0 }, { 0, 1, 0 } }, counts = { 2 } }
     scene = lissom.scene{}
     scene:add("box", box)
@@ -80,9 +80,9 @@ function fresh()
     gizmo:begin("move-x", camera, 100, 50, 50)
     objects = { ["lissom.Mesh"] = box, ["lissom.Region"] = box:region("top"),
         ["lissom.Path"] = grid:boundaries()[1], ["lissom.Buffer"] = box:positions(),
-        ["lissom.Deformation"] = edit, ["lissom.Handle"] = handle, ["lissom.Params"] = params,
+        ["lissom.Deformer"] = deformer, ["lissom.Handle"] = handle, ["lissom.Params"] = params,
         ["lissom.Strands"] = strands, ["lissom.Scalp"] = scalp, ["lissom.Hairstyle"] = style,
-        ["lissom.Curve"] = curve, ["lissom.Merging"] = merging, ["lissom.Provenance"] = provenance,
+        ["lissom.Curve"] = curve, ["lissom.Merger"] = merger, ["lissom.Provenance"] = provenance,
         ["lissom.Paste"] = paste,
         ["lissom.Scene"] = scene, ["lissom.Camera"] = camera, ["lissom.Gizmo"] = gizmo,
         ["lissom.Support"] = support,

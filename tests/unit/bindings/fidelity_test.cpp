@@ -21,7 +21,7 @@ void note(Names& names, const char* name, bool differs) {
     if (differs) names.insert(name);
 }
 
-Names of_deformation() {
+Names of_deformer() {
     const auto& [method, second, size, weights, refine, coherence, coherence_weight, threshold,
                  flat, loose, free_rings, borders, displacement, scale_free, transition] =
         DeformOptions{};
@@ -38,7 +38,7 @@ Names of_deformation() {
     note(names, "flat", flat != t.flat);
     note(names, "loose", loose != t.loose);
     note(names, "free_rings", free_rings != t.free_rings);
-    note(names, "refine_borders", borders != t.refine_borders);
+    note(names, "subdivide_borders", borders != t.refine_borders);
     note(names, "displacement", displacement != t.displacement);
     note(names, "transition", transition != t.transition);
     // A matter without an option.
@@ -68,7 +68,7 @@ Names of_merge() {
     note(names, "weight", weight != t.transition_weight);
     note(names, "trim", trim != t.trim);
     note(names, "greatest_turn", turn != t.greatest_turn);
-    note(names, "refine", refine != t.refine);
+    note(names, "subdivide", refine != t.refine);
     note(names, "intersections", intersections != t.find_intersections);
     CHECK(directions.size() == t.directions.size());
     CHECK(thesis != t.thesis);
@@ -187,7 +187,7 @@ Names of_growth() {
     return names;
 }
 
-// What the table has of a function: "`ring` of `hairstyle:ponytail`".
+// What the table has of a function: "`ring` of `hairstyle:add_ponytail`".
 Names told_of(const std::vector<Departure>& all, const std::string& call) {
     Names names;
     for (const Departure& one : all) {
@@ -203,12 +203,12 @@ Names told_of(const std::vector<Departure>& all, const std::string& call) {
 
 TEST_CASE("the table of what differs from the thesis names every option that fidelity changes") {
     const std::vector<Departure> all = departures(kernel_registry());
-    CHECK(told_of(all, "lissom.deform") == of_deformation());
+    CHECK(told_of(all, "lissom.deformer") == of_deformer());
     CHECK(told_of(all, "lissom.merge") == of_merge());
     CHECK(told_of(all, "lissom.hairstyle") == of_style());
-    CHECK(told_of(all, "hairstyle:stream") == of_stream());
-    CHECK(told_of(all, "hairstyle:dividing") == of_dividing());
-    CHECK(told_of(all, "hairstyle:ponytail") == of_ponytail());
+    CHECK(told_of(all, "hairstyle:add_stream") == of_stream());
+    CHECK(told_of(all, "hairstyle:add_dividing") == of_dividing());
+    CHECK(told_of(all, "hairstyle:add_ponytail") == of_ponytail());
     CHECK(told_of(all, "hairstyle:grow") == of_growth());
     std::string section = "2";
     for (const Departure& one : all) {

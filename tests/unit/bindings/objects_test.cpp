@@ -25,14 +25,14 @@ TEST_CASE("objects close once and for all") {
     CHECK(lua.run("return buffer[1]").find("the mesh of the buffer was closed") !=
           std::string::npos);
     CHECK(lua.run("region:mesh()").find("the mesh was closed") != std::string::npos);
-    CHECK(lua.run("lissom.deform(mesh)").find("a closed lissom.Mesh") != std::string::npos);
+    CHECK(lua.run("lissom.deformer(mesh)").find("a closed lissom.Mesh") != std::string::npos);
     CHECK(lua.eval("mesh == mesh:close()") == "false");
 }
 
 TEST_CASE("a closed deformation frees its handles") {
     LuaState lua;
-    CHECK(lua.run("box = lissom.shapes.box() edit = lissom.deform(box) "
-                  "handle = edit:handle(box:region('top')) edit:close()") == "");
+    CHECK(lua.run("box = lissom.shapes.box() deformer = lissom.deformer(box) "
+                  "handle = deformer:add_handle(box:region('top')) deformer:close()") == "");
     CHECK(lua.run("handle:translate(1, 0, 0)").find("[handle_removed]") != std::string::npos);
     CHECK(lua.eval("tostring(handle)") == "lissom.Handle (removed)");
 }
@@ -75,7 +75,7 @@ TEST_CASE("a metatable that a script has set on an object of another type is an 
           "test:1: bad argument #1 to 'area' (lissom.Mesh expected, got lissom.Region) "
           "[invalid_argument]");
     CHECK(lua.run("return #region").find("lissom.Mesh expected") != std::string::npos);
-    CHECK(lua.run("lissom.deform(region)").find("got lissom.Region") != std::string::npos);
+    CHECK(lua.run("lissom.deformer(region)").find("got lissom.Region") != std::string::npos);
     CHECK(lua.run("return region == mesh") == "");
     CHECK(lua.eval("tostring(region)") == "lissom.Mesh");
     // What it is, it still is.
@@ -193,7 +193,7 @@ TEST_CASE("an object made in a state outlives its context's operations") {
     for (int i = 0; i < 10; ++i) {
         LuaState lua;
         CHECK(lua.run("keep = {} for i = 1, 20 do keep[i] = lissom.shapes.box():region('top') end "
-                      "edit = lissom.deform(keep[1]:mesh())") == "");
+                      "deformer = lissom.deformer(keep[1]:mesh())") == "");
     }
 }
 

@@ -75,13 +75,13 @@ TEST_CASE("help says how a function is called, under all its names") {
     CHECK(help_for(registry, "lissom").find("\n  Bounds: ") != std::string::npos);
     CHECK(help_for(registry, "sav") == "");
     // Under the names that examples give to objects.
-    const std::string report = help_for(registry, "deformation.report");
-    CHECK(report.find("deformation:report{...}\n") == 0);
-    for (const char* name : {"edit.report", "edit:report", "Deformation:report"}) {
+    const std::string report = help_for(registry, "deformer.report");
+    CHECK(report.find("deformer:report{...}\n") == 0);
+    for (const char* name : {"deformer:report", "Deformer.report", "Deformer:report"}) {
         CHECK_MESSAGE(help_for(registry, name) == report, name);
     }
-    CHECK(help_for(registry, "edit").find("lissom.Deformation\n") == 0);
-    CHECK(help_for(registry, "dit.report") == "");
+    CHECK(help_for(registry, "deformer").find("lissom.Deformer\n") == 0);
+    CHECK(help_for(registry, "eformer.report") == "");
     for (const std::string& name : help_names(registry)) {
         CHECK_MESSAGE(help_for(registry, name) != "", name);
     }

@@ -70,7 +70,7 @@ TEST_CASE("regions, deformations, hairstyles and strands of C work in calls") {
     CHECK(lissom_region_is_valid(host, {shrunk[0]["object"].get<std::uint64_t>()}));
     lissom_deformer deformer{};
     REQUIRE(lissom_deformer_create(host, bar, all, nullptr, &deformer) == LISSOM_OK);
-    CHECK(call(host, "Deformation.stats", Json::array({object(deformer.id)}))[0].is_object());
+    CHECK(call(host, "Deformer.stats", Json::array({object(deformer.id)}))[0].is_object());
     // Other kinds stay objects of Lua.
     const Json scalp =
         call(host, "scalp", Json::array({call(host, "shapes.head", Json::array())[0]}));

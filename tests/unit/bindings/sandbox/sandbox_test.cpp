@@ -66,10 +66,10 @@ TEST_CASE("sandbox: memory is Lua's and the kernel's together") {
                    "local lissom = require 'lissom' "
                    "local bar = lissom.shapes.bar{ across = 40, along = 400 } "
                    "local _, problem = lissom.try(function() "
-                   "local edit = lissom.deform(bar) "
-                   "edit:handle(bar:region('bottom')) "
-                   "edit:handle(bar:region('top')):rotate{ axis = 'y', angle = 90 } "
-                   "return edit:solve() end) return problem.code") == LUA_OK);
+                   "local deformer = lissom.deformer(bar) "
+                   "deformer:add_handle(bar:region('bottom')) "
+                   "deformer:add_handle(bar:region('top')):rotate{ axis = 'y', angle = 90 } "
+                   "return deformer:solve() end) return problem.code") == LUA_OK);
     CHECK(std::string(lua_tostring(sandbox.lua(), -1)) == "memory_limit");
 }
 
@@ -119,10 +119,10 @@ TEST_CASE("sandbox: several at once, each with limits of its own") {
 constexpr const char* kThreeChapters = R"(
 local lissom = require "lissom"
 local bar = lissom.shapes.bar{ across = 6, along = 40 }
-local edit = lissom.deform(bar)
-edit:handle(bar:region("bottom"))
-edit:handle(bar:region("top")):rotate{ axis = "z", angle = 60 }
-assert(edit:solve())
+local deformer = lissom.deformer(bar)
+deformer:add_handle(bar:region("bottom"))
+deformer:add_handle(bar:region("top")):rotate{ axis = "z", angle = 60 }
+assert(deformer:solve())
 local lower = lissom.shapes.cylinder{ segments = 30, rings = 20, caps = false }
 local upper = lower:copy():transform{ translate = { 0.1, 2.5, 0 } }
 local join = { source = upper:boundaries()[1], target = lower:boundaries()[2] }
@@ -130,9 +130,9 @@ local merged = assert(lissom.merge{ source = upper, target = lower, joins = { jo
 local style = assert(lissom.hairstyle(lissom.shapes.head{ vertices = 3000 }, { resolution = 6000 }))
 local points = {}
 for i, at in ipairs{ { 20, 50 }, { 70, 25 }, { 85, -15 } } do
-    points[i] = (style:at{ azimuth = at[1], elevation = at[2], lift = 0.01 })
+    points[i] = style:at{ azimuth = at[1], elevation = at[2], lift = 0.01 }
 end
-style:stream{ points = points }
+style:add_stream{ points = points }
 local hair = assert(style:grow{ count = 2000, length = 0.15 })
 return bar:hash() .. " " .. merged:hash() .. " " .. hair:hash()
 )";

@@ -1,0 +1,160 @@
+// The options of lissom.deformer and lissom.deform.
+#include "bindings/lua/deform/deform_options.h"
+
+#include <string>
+
+#include "bindings/lua/core/kernel_library.h"
+
+namespace lissom::lua {
+namespace {
+
+template <typename Enum>
+void take_choice(const Call& call, const char* path, Enum& target) {
+    if (call.has(path)) target = call.choice<Enum>(path);
+}
+
+void take_number(const Call& call, const char* path, double& target) {
+    if (call.has(path)) target = call.number(path);
+}
+
+// Options given together with a method that has no use for them.
+void refuse_options(const Call& call, DeformMethod method) {
+    if (method == DeformMethod::implicit) return;
+    const auto refuse = [&](const std::string& option) {
+        throw Error(ErrorCode::invalid_argument,
+                    "option '" + option + "' does not apply to method '" +
+                        std::string(method_name(method)) + "'; leave one of them out");
+    };
+    for (const char* option :
+         {"local_size", "second", "coherence", "displacement", "degenerate_threshold", "refine",
+          "subdivide_borders", "flat", "free_rings"}) {
+        if (call.has(option)) refuse(option);
+    }
+    if (call.integer("fidelity") == 1) refuse("fidelity");
+    if (method == DeformMethod::geodesic && call.has("weights")) refuse("weights");
+}
+
+DeformOptions deform_options(const Call& call) {
+    const bool thesis = call.integer("fidelity") == 1;
+    DeformOptions options = thesis ? DeformOptions::thesis() : DeformOptions{};
+    take_choice(call, "method", options.method);
+    take_choice(call, "second", options.second);
+    take_choice(call, "local_size", options.local_size);
+    take_choice(call, "weights", options.weights);
+    if (call.has("coherence")) options.coherence = call.integer("coherence");
+    if (call.has("refine")) options.refine = call.integer("refine");
+    if (call.has("subdivide_borders")) options.refine_borders = call.boolean("subdivide_borders");
+    take_choice(call, "flat", options.flat);
+    options.loose = call.choice<UnheldParts>("loose");
+    if (call.has("free_rings")) options.free_rings = call.integer("free_rings");
+    take_number(call, "displacement", options.displacement);
+    options.transition = call.number("transition");
+    take_number(call, "degenerate_threshold", options.degenerate_threshold);
+    return options;
+}
+
+}  // namespace
+
+Deformer made_deformer(const Call& call, const MeshObject& mesh) {
+    const DeformOptions options = deform_options(call);
+    refuse_options(call, options.method);
+    const Region region = call.has("region") ? call.object<RegionObject>("region")->current()
+                                             : Region::all(mesh.mesh.shared_topology());
+    return Deformer(mesh.mesh, region, options, call.context());
+}
+
+std::vector<Parameter> deform_parameters() {
+    const DeformOptions defaults;
+    const auto shown = [](double value) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%g", value);
+        return std::string(text);
+    };
+    return {
+        object("region", "lissom.Region", "What may move. Outside nothing does.").optional("all"),
+        choice(
+            "method",
+            {"implicit", "naive", "rotation_estimate", "similarity", "geodesic", "harmonic",
+             "frames"},
+            "implicit is this kernel's own method. The others are for comparison: Laplacian "
+            "coordinates as they are; turned by rotations estimated from that (Lipman 2004); by "
+            "similarities implicit in the positions (Sorkine 2004); handle rotations propagated "
+            "by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-"
+            "invariant coordinates (Lipman 2005). Of the other options they take `weights` only, "
+            "and geodesic not even that; they have no basis, and preview is as solve.")
+            .optional("\"implicit\""),
+        choice("local_size", {"keep", "scale"},
+               "Whether details keep their size or scale with the surface around them.")
+            .optional("\"keep\""),
+        choice(
+            "second", {"blend", "laplacian", "poisson"},
+            "The system that makes the shape from the rotations: blend is smooth at handles with "
+            "little distortion, laplacian is the thesis's, poisson has the least distortion. Keep "
+            "blend unless something asks for another: laplacian where the surface has to be as "
+            "smooth as can be and may stretch, poisson where it may crease at handles, as along an "
+            "edge of the part. Compared in examples/deform/second.png.")
+            .optional("\"blend\"")
+            .thesis("2.4.4", "\"laplacian\""),
+        integer("coherence", "Rings of neighbours that turn alike.")
+            .between(1, 2)
+            .optional(std::to_string(defaults.coherence))
+            .thesis("2.4.2", "2"),
+        choice("weights", {"cotangent", "uniform"}, "Weights of the Laplacian coordinates.")
+            .optional("\"cotangent\""),
+        integer(
+            "refine",
+            "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
+            "less distortion for half a frame each. For bars and limbs that bend and twist. "
+            "Where it would fold, cross or stretch the surface more than without, it is taken back "
+            "as far as that, but a draft does not look. Beside handles "
+            "that change their size it fades to nothing. Compared in "
+            "examples/deform/refine.png.")
+            .at_least(0)
+            .optional(std::to_string(defaults.refine)),
+        choice("loose", {"error", "stay", "follow"},
+               "What becomes of separate parts that no handle holds, as buttons and eyes: an error "
+               "that names them; they stay; or each follows the surface nearest to it, as a rigid "
+               "piece; in a basis as an affine one.")
+            .defaults("error"),
+        integer("free_rings",
+                "Rings of vertices that handles give up where they nearly touch another, at most "
+                "two edges apart, so that the surface between has room: handles that go different "
+                "ways would tear it. report says how many help.")
+            .between(0, 10)
+            .optional("0"),
+        boolean("subdivide_borders",
+                "Works on a surface that is subdivided where the border of what is held is coarse "
+                "beside the region; the mesh keeps its faces.")
+            .optional("true"),
+        choice("flat", {"extended", "displaced"},
+               "How a vertex whose surroundings are flat knows how it turns: extended, by an "
+               "unknown of its own beside it, so that a flat part that is moved within its plane "
+               "stays flat; displaced, by moving it out of the plane while solving.")
+            .optional("\"extended\"")
+            .thesis("2.4.3", "\"displaced\""),
+        number("displacement",
+               "How far degenerate vertices are displaced, and how far beside flat ones their "
+               "unknown lies.")
+            .above(0)
+            .in("mean lengths of their edges")
+            .optional(shown(defaults.displacement)),
+        number("degenerate_threshold",
+               "Condition number from which a vertex counts as degenerate and is displaced. Below "
+               "about 100 that is nearly every vertex.")
+            .above(1)
+            .optional(shown(defaults.degenerate_threshold))
+            .thesis("2.4.3", "200000"),
+        number("transition",
+               "Within this geodesic distance of the region's outline the deformation fades into "
+               "what stays.")
+            .at_least(0)
+            .in("mesh units")
+            .defaults(0.0),
+        choice("fidelity", {"default", "thesis"},
+               "thesis: coherence 2, second laplacian, and the weights and threshold of the thesis "
+               "where no other option says otherwise; the page thesis.md of the reference names "
+               "all of it.")
+            .defaults("default")};
+}
+
+}  // namespace lissom::lua
