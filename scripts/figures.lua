@@ -79,7 +79,7 @@ local function percentiles(list)
     return { p50 = pick(0.5), p99 = pick(0.99), max = list[#list] }
 end
 
---- How unevenly triangles were stretched: the ratio of greatest to least stretch, 1 where a triangle kept its
+--- Returns how unevenly triangles were stretched: the ratio of greatest to least stretch, 1 if it kept its
 -- shape, as { p50, p99, max } over all triangles.
 function figures.anisotropy(rest, mesh)
     local p, q, ratios = rest:positions(), mesh:positions(), {}
@@ -166,8 +166,8 @@ local function fit(p, q, vertices)
     }
 end
 
---- How far a part turned, in degrees: the angle of the rotation that takes its vertices nearest to where they
--- are.
+--- Returns how far a part turned, in degrees: the angle of the rotation that fits the motion of its vertices
+-- best.
 function figures.turn(rest, mesh, region)
     local r = fit(rest:positions(), mesh:positions(), region:vertices())
     return math.deg(2 * math.atan(length{ r[2], r[3], r[4] }, math.abs(r[1])))
@@ -215,7 +215,7 @@ function figures.set_ends(mesh, axis, share)
     mesh:set_region("low", slab(0, share)):set_region("high", slab(1 - share, 1))
 end
 
---- Copies `rest`, deforms the copy and returns it. options: those of lissom.deform, with `region` a name;
+--- Copies `rest`, deforms the copy and returns it. options: those of lissom.deformer, with `region` a name;
 -- handles: name of a region = function(handle) that moves it; `preview` true for the first system only.
 function figures.deformed(rest, options, handles, preview)
     local mesh, chosen = rest:copy(), {}

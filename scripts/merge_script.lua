@@ -47,8 +47,8 @@ local function script_options(params)
     return options
 end
 
---- Source, target and options of a script: a known pair, given models, or what generate() returns; and what
--- was asked for on the command line among the parameters of `schema`.
+--- Source, target and options of a script: a known pair, given models, or the result of generate(); and the
+-- values that the command line gave to parameters of `schema`.
 function merge_script.models(params, schema, generate)
     local source, target, options
     if params.pair ~= "" then

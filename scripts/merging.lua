@@ -8,12 +8,12 @@
 --     })
 --     require("merge_pictures").write{ name = "mermaid", mesh = mesh, report = report, parts = parts }
 --
--- A cut is { point=, normal=, seed= }: the line of the plane that is nearest to the point is cut, and what
--- lies on the normal's side, or holds the seed, is kept. Without a cut the longest open boundary is taken.
+-- A cut is { point=, normal=, seed= }: the line of the plane that is nearest to the point is cut, and the
+-- side of the normal, or of the seed, is kept. Without a cut the longest open boundary is taken.
 -- A key is a pair of directions: the vertex of the source's boundary that is farthest along the first meets
 -- the vertex of the target's that is farthest along the second. A direction is {x, y, z}, "x", "-z" or "0,
 -- 1, -0.5". On a boundary that is tilted towards a direction, so that this comes near to the boundary's axis,
--- the farthest vertex is where the tilt puts it and not where the direction points: a warning says so, and a
+-- the farthest vertex follows the tilt and not the direction: a warning says so, and a
 -- direction in the boundary's plane, a vertex in `joins` of lissom.merge, or source_front and target_front
 -- (whose part in that plane counts) are surer.
 local lissom = require "lissom"
@@ -143,14 +143,14 @@ function merging.axis(boundary)
     return unit(axis)
 end
 
---- The angle in degrees between a direction and the plane of a boundary: 0 where the farthest vertex along it
--- is certain, towards 90 where the boundary's tilt decides.
+--- Returns the angle in degrees between a direction and the plane of a boundary: 0 if the farthest vertex
+-- along it is certain, towards 90 if the boundary's tilt decides.
 function merging.tilt(boundary, direction)
     local d = unit(merging.direction(direction))
     return math.deg(math.asin(math.min(1, math.abs(dot(d, merging.axis(boundary))))))
 end
 
--- What to say of a key whose direction is ambiguous on a boundary.
+-- Returns the warning for a key whose direction is ambiguous on a boundary.
 local function tilt_warning(number, side, boundary, direction)
     local tilt = merging.tilt(boundary, direction)
     if math.cos(math.rad(tilt)) >= least_part then return nil end
@@ -185,13 +185,14 @@ function merging.longest_boundary(mesh)
     return least_boundary(mesh, function(boundary) return -boundary:length() end)
 end
 
---- The part of a mesh that a cut keeps, its new boundary, and what the cut found (a list of warnings).
--- Without a cut the mesh itself and its longest boundary. boundary_conflict if the plane cuts no part off.
+--- Returns the part of a mesh that a cut keeps, its new boundary, and the warnings of the cut.
+-- Without a cut returns the mesh itself and its longest boundary. Raises boundary_conflict if the plane
+-- cuts no part off.
 function merging.part(mesh, cut)
     if not cut then
         local boundary = merging.longest_boundary(mesh)
         if not boundary then
-            lissom.error{ message = "the mesh is closed; say by a cut where it is to be opened", level = 2 }
+            lissom.error{ message = "the mesh is closed; give a cut that opens it", level = 2 }
         end
         return mesh, boundary, {}
     end
@@ -211,7 +212,7 @@ local function handed_on(name, first, problem, ...)
     return first, problem, ...
 end
 
---- Calls a function; the message of its error begins with the name of what it works on.
+--- Calls a function; the message of its error begins with `name`, the part that it works on.
 function merging.named(name, f, ...)
     return handed_on(name, lissom.try(f, ...))
 end
@@ -265,14 +266,14 @@ function merging.merge(joins, options, warnings)
     return mesh, report, { source = source, targets = targets, joins = joins, warnings = warnings or {} }
 end
 
---- Adds what a cut found (a list of warnings) to a list of texts, with the name of what was cut.
+--- Adds the warnings of a cut to a list of texts, with the name of the part. Returns the list.
 function merging.note(list, name, warnings)
     for _, warning in ipairs(warnings) do table.insert(list, name .. ": " .. warning.message) end
     return list
 end
 
---- A join of two boundaries with keys by pairs of directions, or without keys where these are nil. What is to
--- be said of the keys is added to a list of warnings.
+--- Returns a join of two boundaries with keys by pairs of directions, or without keys if these are nil. Adds
+-- warnings of ambiguous keys to a list.
 function merging.joined(source, target, directions, warnings)
     if not directions then return { source = source, target = target } end
     local keys, of_keys = merging.keys(source, target, directions)
@@ -283,16 +284,16 @@ end
 --- Parameters of merging.join, as lissom.params takes them.
 merging.schema = {
     source_cut = { type = "string", default = "",
-        help = "where the source is cut: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
-    target_cut = { type = "string", default = "", help = "where the target is cut" },
+        help = "cut of the source: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
+    target_cut = { type = "string", default = "", help = "cut of the target" },
     keys = { type = "string", default = "",
-        help = "what meets: \"y = -z; ...\", directions on source and target; else what fits best" },
+        help = "pairs that meet: \"y = -z; ...\", directions on source and target; else the best fit" },
 }
 
---- Cuts two models, or takes their longest open boundaries, and merges what is left of the source onto the
+--- Cuts two models, or takes their longest open boundaries, and merges the rest of the source onto the
 -- target.
 -- Options: source_cut, target_cut; keys, pairs of directions; the others are those of merging.merge.
--- Returns what that returns.
+-- Returns the mesh, the report and the parts, as merging.merge.
 function merging.join(source, target, options)
     local values, own = merging.read_options("join", merging.schema, options)
     local of, onto = merging.read_cut(values.source_cut), merging.read_cut(values.target_cut)
@@ -336,7 +337,7 @@ end
 
 --- A copy of the source moved, turned and scaled so that its boundary comes to lie at the target's: in the
 -- middle, as long, looking at it, and with the first direction of a key (a pair) on the second. Returns the
--- copy and its boundary: what merging in the fixed configuration starts from.
+-- copy and its boundary: the start of merging in the fixed configuration.
 function merging.placed(from, to, key)
     local axis, angle = rotation_between(frame(from, key[1], 1), frame(to, key[2], -1))
     local here, there, scale = merging.center(from), merging.center(to), to:length() / from:length()
@@ -366,7 +367,7 @@ end
 function merging.configuration_error(mesh, parts, number, options)
     local moved, joins = merging.elsewhere(parts.source, number), {}
     for i, join in ipairs(parts.joins) do
-        -- A copy has the same vertices, so that the boundary is the one through where a vertex went.
+        -- A copy has the same vertices, so that the boundary is the one through the moved vertex.
         local point = { moved:position(join.source:vertices()[1]) }
         joins[i] = { source = merging.boundary_near(moved, point), target = join.target, keys = join.keys }
     end

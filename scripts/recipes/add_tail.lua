@@ -21,8 +21,8 @@ add_tail.schema = {
         help = "turns the tail about its joint" },
 }
 
---- Merges a tail onto a body. `options` are values of the schema and options of lissom.merge. Returns what
--- merging.merge does: the mesh, the report and the parts.
+--- Merges a tail onto a body. `options` are values of the schema and options of lissom.merge. Returns
+-- the mesh, the report and the parts, as merging.merge.
 function add_tail.make(tail, body, options)
     local values, own = merging.read_options("add_tail", add_tail.schema, options)
     local _, from, found = merging.named("tail", merging.part, tail, merging.read_cut(values.source_cut))

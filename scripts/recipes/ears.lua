@@ -66,7 +66,7 @@ end
 
 --- Merges an ear and its mirror image onto a head. `options` are values of the schema and options of
 -- lissom.merge.
--- Returns what merging.merge does.
+-- Returns the mesh, the report and the parts, as merging.merge.
 function ears.make(ear, head, options)
     local values, own = merging.read_options("ears", ears.schema, options)
     if values.left == "" then

@@ -14,14 +14,13 @@ local merging = require "merging"
 local replace_limb = {}
 
 --- Parameters, as lissom.params takes them. In Lua there may be `places` instead of `target_cut`: a list of
--- cuts of the body, each with `mirror` ("x", "y" or "z") where the limb's mirror image along that axis is
--- wanted.
+-- cuts of the body, each with `mirror` ("x", "y" or "z") for the limb's mirror image along that axis.
 replace_limb.schema = {
     source_cut = { type = "string", default = "",
-        help = "where the limb is cut: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
-    target_cut = { type = "string", default = "", help = "where the limb of the body is cut off" },
+        help = "cut of the limb: \"point; normal\" or \"point; normal; seed\", each x, y, z" },
+    target_cut = { type = "string", default = "", help = "cut that removes the limb of the body" },
     keys = { type = "string", default = "",
-        help = "what meets: \"y = -z; ...\", directions on limb and body; else what fits best" },
+        help = "pairs that meet: \"y = -z; ...\", directions on limb and body; else the best fit" },
 }
 
 local axis_number = { x = 1, y = 2, z = 3 }
@@ -38,7 +37,8 @@ local function without_mirror(place)
     return cut
 end
 
--- The body after all cuts, and for each a point of its boundary. What the cuts found is added to a list.
+-- Returns the body after all cuts, and for each a point of its boundary. Adds the warnings of the cuts to a
+-- list.
 local function cut_all(body, places, warnings)
     local points = {}
     for i, place in ipairs(places) do
@@ -50,7 +50,7 @@ local function cut_all(body, places, warnings)
     return body, points
 end
 
--- A copy of the limb for each place, mirrored where that is asked for, side by side in one mesh, and for
+-- Returns copies of the limb, one for each place, mirrored if asked for, side by side in one mesh, and for
 -- each a point of its boundary.
 local function copies(limb, boundary, places)
     local all, points, point = nil, {}, boundary:points()[1]
@@ -68,7 +68,8 @@ local function copies(limb, boundary, places)
 end
 
 --- Merges copies of a limb onto a body. `options` are values of the schema, `places`, and options of
--- lissom.merge. Keys are directions of the limb as it is given. Returns what merging.merge does.
+-- lissom.merge. Keys are directions of the limb as it is given. Returns
+-- the mesh, the report and the parts, as merging.merge.
 function replace_limb.make(limb, body, options)
     local given = {}
     for key, value in pairs(options or {}) do given[key] = key ~= "places" and value or nil end
@@ -76,7 +77,7 @@ function replace_limb.make(limb, body, options)
     local places = options and options.places or { merging.read_cut(values.target_cut) }
     if #places == 0 then
         lissom.error{ level = 2,
-            message = "'replace_limb' needs 'target_cut' or 'places': where limbs are cut off" }
+            message = "'replace_limb' needs 'target_cut' or 'places': the cuts that remove limbs" }
     end
     local part, boundary, found = merging.named("limb", merging.part, limb,
         merging.read_cut(values.source_cut))

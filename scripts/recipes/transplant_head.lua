@@ -33,8 +33,8 @@ local function around(up, front, turn)
     return { front, left, vectors.plus(none, front, -1), vectors.plus(none, left, -1) }
 end
 
---- Merges a head onto a body. `options` are values of the schema and options of lissom.merge. Returns what
--- merging.join does: the mesh, the report and the parts.
+--- Merges a head onto a body. `options` are values of the schema and options of lissom.merge. Returns
+-- the mesh, the report and the parts, as merging.join.
 function transplant_head.make(head, body, options)
     local values, own = merging.read_options("transplant_head", transplant_head.schema, options)
     own.source_cut, own.target_cut, own.keys = values.source_cut, values.target_cut, {}
