@@ -165,6 +165,10 @@ Hairstyle::Hairstyle(const Mesh& head, std::shared_ptr<const Scalp> scalp,
     state_ = std::make_unique<State>(head, std::move(scalp), options, context);
 }
 
+Hairstyle::Hairstyle(const Mesh& head, const HairstyleOptions& options, const Context& context)
+    : Hairstyle(head, std::make_shared<const Scalp>(head, ScalpOptions{}, context), options,
+                context) {}
+
 Hairstyle::~Hairstyle() = default;
 Hairstyle::Hairstyle(Hairstyle&&) noexcept = default;
 Hairstyle& Hairstyle::operator=(Hairstyle&&) noexcept = default;
@@ -189,6 +193,18 @@ double Hairstyle::surface_distance(const Vec3& point) const {
 }
 
 // ---- Curves
+
+CurveId Hairstyle::add(StreamCurve curve) {
+    return add(StyleCurve{.shape = std::move(curve)});
+}
+
+CurveId Hairstyle::add(DividingCurve curve) {
+    return add(StyleCurve{.shape = std::move(curve)});
+}
+
+CurveId Hairstyle::add(Ponytail curve) {
+    return add(StyleCurve{.shape = std::move(curve)});
+}
 
 CurveId Hairstyle::add(StyleCurve curve) {
     StyleInputs wanted = inputs();

@@ -1,8 +1,8 @@
 /// Hairstyle: style curves on a head, the direction field that they determine, and the hair that
 /// follows it (thesis, chapter 4).
 ///
-///     Hairstyle style(head, std::make_shared<const Scalp>(head));
-///     style.add({.shape = StreamCurve{.points = points}});
+///     Hairstyle style(head);
+///     style.add(StreamCurve{.points = points});
 ///     const Strands hair = style.grow();
 ///
 /// Points, lengths and directions are in metres of the scalp's frame (Scalp::to_metres): x to the
@@ -83,6 +83,9 @@ class Hairstyle {
     /// more memory than the limit of the context, or without one than the machine has; cancelled.
     Hairstyle(const Mesh& head, std::shared_ptr<const Scalp> scalp,
               const HairstyleOptions& options = {}, const Context& context = {});
+    /// The same with the scalp that Scalp finds on the head. Errors: as before, and as Scalp.
+    explicit Hairstyle(const Mesh& head, const HairstyleOptions& options = {},
+                       const Context& context = {});
     ~Hairstyle();
     Hairstyle(Hairstyle&&) noexcept;
     Hairstyle& operator=(Hairstyle&&) noexcept;
@@ -99,6 +102,10 @@ class Hairstyle {
 
     /// Adds a curve behind all others. Errors: as set.
     CurveId add(StyleCurve curve);
+    /// The same for a curve that has no name.
+    CurveId add(StreamCurve curve);
+    CurveId add(DividingCurve curve);
+    CurveId add(Ponytail curve);
     /// Adds curves behind all others in this order, all or none, and faster than one by one.
     /// Errors: as set, naming the curve by its number in `curves`, from 1; cancelled.
     std::vector<CurveId> add_all(std::vector<StyleCurve> curves, const Context& context = {});
