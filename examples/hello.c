@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
     lissom_bytes json = {NULL, 0};
     lissom_mesh mesh = {0};
     lissom_region all = {0}, base = {0}, tip = {0};
-    lissom_deformer edit = {0};
+    lissom_deformer deformer = {0};
     int32_t still = -1, moving = -1;
     double center[3];
 
@@ -50,29 +50,29 @@ int main(int argc, char** argv) {
     if (lissom_region_all(context, mesh, &all) != LISSOM_OK ||
         lissom_region_named(context, mesh, "base", &base) != LISSOM_OK ||
         lissom_region_named(context, mesh, "tip", &tip) != LISSOM_OK ||
-        lissom_deformer_create(context, mesh, all, NULL, &edit) != LISSOM_OK ||
-        lissom_deformer_add_handle(context, edit, base, NULL, &still) != LISSOM_OK ||
-        lissom_deformer_add_handle(context, edit, tip, NULL, &moving) != LISSOM_OK ||
-        lissom_deformer_handle_center(context, edit, moving, center) != LISSOM_OK) {
+        lissom_deformer_create(context, mesh, all, NULL, &deformer) != LISSOM_OK ||
+        lissom_deformer_add_handle(context, deformer, base, NULL, &still) != LISSOM_OK ||
+        lissom_deformer_add_handle(context, deformer, tip, NULL, &moving) != LISSOM_OK ||
+        lissom_deformer_handle_center(context, deformer, moving, center) != LISSOM_OK) {
         return fail(context);
     }
 
     /* Ten frames of a drag. `positions` could be a mapped vertex buffer. */
-    const size_t rows = (size_t)lissom_deformer_row_count(context, edit);
+    const size_t rows = (size_t)lissom_deformer_row_count(context, deformer);
     float* positions = malloc(rows * 3 * sizeof(float));
     const lissom_output out = {positions, rows, 0, LISSOM_FLOAT32};
     lissom_status status = LISSOM_OK;
     for (int frame = 1; frame <= 10 && status == LISSOM_OK; ++frame) {
         const lissom_transform map = turned(0.1 * frame, center);
-        status = lissom_deformer_set_transform(context, edit, moving, &map);
-        if (status == LISSOM_OK) status = lissom_deformer_solve(context, edit, LISSOM_DRAFT);
-        if (status == LISSOM_OK) status = lissom_deformer_read_positions(context, edit, &out);
+        status = lissom_deformer_set_transform(context, deformer, moving, &map);
+        if (status == LISSOM_OK) status = lissom_deformer_solve(context, deformer, LISSOM_DRAFT);
+        if (status == LISSOM_OK) status = lissom_deformer_read_positions(context, deformer, &out);
     }
     free(positions);
     if (status != LISSOM_OK) return fail(context);
 
-    if (lissom_deformer_solve(context, edit, LISSOM_FULL) != LISSOM_OK ||
-        lissom_deformer_apply(context, edit, mesh) != LISSOM_OK ||
+    if (lissom_deformer_solve(context, deformer, LISSOM_FULL) != LISSOM_OK ||
+        lissom_deformer_apply(context, deformer, mesh) != LISSOM_OK ||
         lissom_mesh_save(context, mesh, argc > 1 ? argv[1] : "bent.obj", NULL) != LISSOM_OK) {
         return fail(context);
     }

@@ -27,7 +27,7 @@ enum class Kind : std::uint8_t {
     mesh,
     region,
     deformer,
-    merge,
+    merger,
     paste,
     hairstyle,
     strands,

@@ -105,8 +105,9 @@ lissom_status lissom_deformer_create(lissom_context* context, lissom_mesh mesh,
     return run(context, [&] {
         require_given(deformer, "deformer");
         const Mesh& own = mesh_of(*context, mesh);
-        auto made = std::make_shared<Deformer>(own, region_of(*context, region),
-                                               deform_options(options), context->kernel);
+        const Region all =
+            region.id == 0 ? Region::all(own.shared_topology()) : region_of(*context, region);
+        auto made = std::make_shared<Deformer>(own, all, deform_options(options), context->kernel);
         context->sharing.belongs(made.get(), own);
         deformer->id = context->add(Kind::deformer, std::move(made));
     });
@@ -121,6 +122,12 @@ lissom_status lissom_deformer_add_handle(lissom_context* context, lissom_deforme
                       .add_handle(region_of(*context, vertices), handle_options(options))
                       .value;
     });
+}
+
+lissom_status lissom_deformer_pin(lissom_context* context, lissom_deformer deformer,
+                                  lissom_region vertices) {
+    return run(context,
+               [&] { deformer_of(*context, deformer).add_handle(region_of(*context, vertices)); });
 }
 
 lissom_status lissom_deformer_remove_handle(lissom_context* context, lissom_deformer deformer,

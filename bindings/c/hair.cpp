@@ -153,6 +153,16 @@ lissom_status lissom_hairstyle_at(lissom_context* context, lissom_hairstyle styl
     });
 }
 
+lissom_status lissom_hairstyle_normal_at(lissom_context* context, lissom_hairstyle style,
+                                         double azimuth, double elevation, double normal[3]) {
+    return run(context, [&] {
+        require_given(normal, "normal");
+        const Vec3 own = context->space.to_host(
+            style_of(*context, style).scalp().at({azimuth, elevation}, 0.0).normal);
+        for (int k = 0; k < 3; ++k) normal[k] = own[k];
+    });
+}
+
 lissom_status lissom_hairstyle_add_stream(lissom_context* context, lissom_hairstyle style,
                                           const lissom_input* points, int32_t* curve) {
     return add_curve<StreamCurve>(context, style, curve, [&](const Hairstyle& own, auto& shape) {

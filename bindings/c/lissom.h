@@ -296,9 +296,9 @@ typedef struct lissom_region {
 typedef struct lissom_deformer {
     uint64_t id;
 } lissom_deformer;
-typedef struct lissom_merge {
+typedef struct lissom_merger {
     uint64_t id;
-} lissom_merge;
+} lissom_merger;
 typedef struct lissom_paste {
     uint64_t id;
 } lissom_paste;
@@ -323,7 +323,7 @@ typedef struct lissom_object {
 LISSOM_API bool lissom_mesh_is_valid(const lissom_context* context, lissom_mesh mesh);
 LISSOM_API bool lissom_region_is_valid(const lissom_context* context, lissom_region region);
 LISSOM_API bool lissom_deformer_is_valid(const lissom_context* context, lissom_deformer deformer);
-LISSOM_API bool lissom_merge_is_valid(const lissom_context* context, lissom_merge merge);
+LISSOM_API bool lissom_merger_is_valid(const lissom_context* context, lissom_merger merger);
 LISSOM_API bool lissom_paste_is_valid(const lissom_context* context, lissom_paste paste);
 LISSOM_API bool lissom_hairstyle_is_valid(const lissom_context* context, lissom_hairstyle style);
 LISSOM_API bool lissom_strands_is_valid(const lissom_context* context, lissom_strands strands);
@@ -335,7 +335,7 @@ LISSOM_API bool lissom_object_is_valid(const lissom_context* context, lissom_obj
 LISSOM_API lissom_status lissom_mesh_release(lissom_context* context, lissom_mesh mesh);
 LISSOM_API lissom_status lissom_region_release(lissom_context* context, lissom_region region);
 LISSOM_API lissom_status lissom_deformer_release(lissom_context* context, lissom_deformer deformer);
-LISSOM_API lissom_status lissom_merge_release(lissom_context* context, lissom_merge merge);
+LISSOM_API lissom_status lissom_merger_release(lissom_context* context, lissom_merger merger);
 LISSOM_API lissom_status lissom_paste_release(lissom_context* context, lissom_paste paste);
 LISSOM_API lissom_status lissom_hairstyle_release(lissom_context* context, lissom_hairstyle style);
 LISSOM_API lissom_status lissom_strands_release(lissom_context* context, lissom_strands strands);
@@ -553,8 +553,9 @@ typedef struct lissom_handle_options {
 LISSOM_API lissom_deformer_options lissom_default_deformer_options(void);
 LISSOM_API lissom_handle_options lissom_default_handle_options(void);
 
-/// Makes a deformer of `region`, with the present shape of the mesh as rest shape. Vertices outside
-/// of the region do not move. Errors: REGION_EMPTY; TOPOLOGY_MISMATCH; INVALID_ARGUMENT.
+/// Makes a deformer of `region` (zero: the whole mesh), with the present shape of the mesh as rest
+/// shape. Vertices outside of the region do not move. Errors: REGION_EMPTY; TOPOLOGY_MISMATCH;
+/// INVALID_ARGUMENT.
 LISSOM_API lissom_status lissom_deformer_create(lissom_context* context, lissom_mesh mesh,
                                                 lissom_region region,
                                                 const lissom_deformer_options* options,
@@ -568,6 +569,10 @@ LISSOM_API lissom_status lissom_deformer_add_handle(lissom_context* context,
                                                     lissom_region vertices,
                                                     const lissom_handle_options* options,
                                                     int32_t* handle);
+/// Holds vertices where they are: a handle that keeps the identity. Errors: as
+/// lissom_deformer_add_handle.
+LISSOM_API lissom_status lissom_deformer_pin(lissom_context* context, lissom_deformer deformer,
+                                             lissom_region vertices);
 LISSOM_API lissom_status lissom_deformer_remove_handle(lissom_context* context,
                                                        lissom_deformer deformer, int32_t handle);
 /// Receives the mean of the handle's vertices at rest.
@@ -750,25 +755,33 @@ typedef struct lissom_merge_report {
 LISSOM_API lissom_merge_options lissom_default_merge_options(void);
 LISSOM_API lissom_merge_report lissom_default_merge_report(void);
 
-/// Checks and prepares a merge of `source` onto `target_count` targets. The meshes stay as they
-/// are. Errors: INVALID_ARGUMENT; OUT_OF_RANGE for a boundary; BOUNDARY_CONFLICT; UNCONSTRAINED;
-/// ZERO_AREA; MEMORY_LIMIT; CANCELLED.
-LISSOM_API lissom_status lissom_merge_create(lissom_context* context, lissom_mesh source,
-                                             const lissom_mesh* targets, int32_t target_count,
-                                             const lissom_join* joins, int32_t join_count,
-                                             const lissom_merge_options* options,
-                                             lissom_merge* merge);
+/// Merges `source` with one target; the meshes stay as they are. Without joins (NULL and 0) their
+/// nearest boundaries meet. `options` and `report` may be NULL. Errors: NOT_A_BOUNDARY for a closed
+/// mesh; as lissom_merger_create and lissom_merger_solve.
+LISSOM_API lissom_status lissom_merge(lissom_context* context, lissom_mesh source,
+                                      lissom_mesh target, const lissom_join* joins,
+                                      int32_t join_count, const lissom_merge_options* options,
+                                      lissom_mesh* mesh, lissom_merge_report* report);
+/// Checks and prepares a merge of `source` onto `target_count` targets, to be solved again with
+/// other keys. Without joins each target meets the source at their nearest boundaries. The meshes
+/// stay as they are. Errors: INVALID_ARGUMENT; OUT_OF_RANGE for a boundary; BOUNDARY_CONFLICT;
+/// UNCONSTRAINED; ZERO_AREA; MEMORY_LIMIT; CANCELLED.
+LISSOM_API lissom_status lissom_merger_create(lissom_context* context, lissom_mesh source,
+                                              const lissom_mesh* targets, int32_t target_count,
+                                              const lissom_join* joins, int32_t join_count,
+                                              const lissom_merge_options* options,
+                                              lissom_merger* merger);
 /// Replaces the keys of one join; nothing is factored again. Errors: OUT_OF_RANGE; KEY_CONFLICT.
-LISSOM_API lissom_status lissom_merge_set_keys(lissom_context* context, lissom_merge merge,
-                                               int32_t join, const double* source_keys,
-                                               const double* target_keys, int32_t key_count);
+LISSOM_API lissom_status lissom_merger_set_keys(lissom_context* context, lissom_merger merger,
+                                                int32_t join, const double* source_keys,
+                                                const double* target_keys, int32_t key_count);
 /// Computes the merged mesh. `report` may be NULL. Errors: KEY_CONFLICT; BOUNDARY_CONFLICT;
 /// CANCELLED.
-LISSOM_API lissom_status lissom_merge_solve(lissom_context* context, lissom_merge merge,
-                                            lissom_mesh* mesh, lissom_merge_report* report);
+LISSOM_API lissom_status lissom_merger_solve(lissom_context* context, lissom_merger merger,
+                                             lissom_mesh* mesh, lissom_merge_report* report);
 /// Starts the solve as a job, whose result is a mesh.
-LISSOM_API lissom_status lissom_merge_begin_solve(lissom_context* context, lissom_merge merge,
-                                                  lissom_job* job);
+LISSOM_API lissom_status lissom_merger_begin_solve(lissom_context* context, lissom_merger merger,
+                                                   lissom_job* job);
 
 // ---- Pasting with an optimal boundary (thesis, section 3.4)
 
@@ -853,6 +866,10 @@ LISSOM_API lissom_status lissom_hairstyle_encode(lissom_context* context, lissom
 LISSOM_API lissom_status lissom_hairstyle_at(lissom_context* context, lissom_hairstyle style,
                                              double azimuth, double elevation, double lift,
                                              double point[3]);
+/// Receives the normal of the head below that point, of length 1.
+LISSOM_API lissom_status lissom_hairstyle_normal_at(lissom_context* context, lissom_hairstyle style,
+                                                    double azimuth, double elevation,
+                                                    double normal[3]);
 /// Adds a curve through points (triples): hair flows along a stream curve, parts at a dividing
 /// curve, and gathers in a ponytail at the beginning of its spine. A radius of 0 is the default.
 /// `curve` is its number in this style. Errors: INVALID_ARGUMENT if fewer than two points differ;
@@ -983,7 +1000,7 @@ LISSOM_API lissom_status lissom_script_run(lissom_context* context, lissom_scrip
 /// `arguments` is a JSON list: first the object of a method, then the arguments by position and the
 /// table of options, as in the reference. An object is {"object": ID} with the `id` of a handle,
 /// which is the object itself and no copy. `json` receives the list of results in the same format,
-/// objects with "type": "lissom.Mesh", ...: lissom.Mesh, Region, Deformation, Hairstyle and Strands
+/// objects with "type": "lissom.Mesh", ...: lissom.Mesh, Region, Deformer, Hairstyle and Strands
 /// are handles of those kinds, all others of lissom_object. Release what you no longer need.
 /// Errors: OUT_OF_RANGE for an unknown name, with the nearest; INVALID_ARGUMENT for bad JSON or
 /// arguments; INVALID_HANDLE; those of the function.

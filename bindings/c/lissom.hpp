@@ -202,6 +202,11 @@ class Mesh : public Object<lissom_mesh, lissom_mesh_release> {
 
 class Deformer : public Object<lissom_deformer, lissom_deformer_release> {
   public:
+    /// Deforms the whole mesh.
+    explicit Deformer(const Mesh& mesh, const lissom_deformer_options* options = nullptr)
+        : Object(mesh.get(), {0}) {
+        check(lissom_deformer_create(context_, mesh.handle(), {0}, options, &handle_));
+    }
     Deformer(const Mesh& mesh, const Region& region,
              const lissom_deformer_options* options = nullptr)
         : Object(mesh.get(), {0}) {
@@ -213,6 +218,9 @@ class Deformer : public Object<lissom_deformer, lissom_deformer_release> {
         std::int32_t handle = -1;
         check(lissom_deformer_add_handle(context_, handle_, vertices.handle(), options, &handle));
         return handle;
+    }
+    void pin(const Region& vertices) {
+        check(lissom_deformer_pin(context_, handle_, vertices.handle()));
     }
     void set_transform(std::int32_t handle, const lissom_transform& transform) {
         check(lissom_deformer_set_transform(context_, handle_, handle, &transform));

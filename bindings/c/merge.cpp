@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <span>
 
 #include "bindings/c/data.h"
+#include "kernel/merge/merge_once.h"
 #include "kernel/merge/paste/paste.h"
 #include "kernel/mesh/cut/cut.h"
 
@@ -59,7 +61,7 @@ std::vector<KeyPair> keys_of(const lissom_context& context, const double* source
 }
 
 Join join_of(const lissom_context& context, const lissom_join& given, const Mesh& source,
-             const std::vector<const Mesh*>& targets) {
+             std::span<const Mesh* const> targets) {
     if (given.target < 0 || given.target >= count_of(targets)) {
         throw Error(ErrorCode::out_of_range, "a join is with target " +
                                                  std::to_string(given.target) + ", and there are " +
@@ -68,6 +70,21 @@ Join join_of(const lissom_context& context, const lissom_join& given, const Mesh
     return {boundary_of(source, given.source_boundary, "source"),
             boundary_of(*targets[at(given.target)], given.target_boundary, "target"), given.target,
             keys_of(context, given.source_keys, given.target_keys, given.key_count)};
+}
+
+// Without joins each target meets the source at their nearest boundaries.
+std::vector<Join> joins_of(const lissom_context& context, const lissom_join* joins, Index count,
+                           const Mesh& source, std::span<const Mesh* const> targets) {
+    require(count >= 0, "join_count is negative");
+    require(count == 0 || joins, "joins is NULL");
+    std::vector<Join> all;
+    for (Index i = 0; i < count; ++i) all.push_back(join_of(context, joins[i], source, targets));
+    if (count > 0) return all;
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        all.push_back(nearest_join(source, *targets[i], context.kernel));
+        all.back().target_mesh = index_of(i);
+    }
+    return all;
 }
 
 MergeOptions merge_options(const lissom_merge_options* given) {
@@ -98,8 +115,8 @@ void tell_report(lissom_context& context, const MergeReport& found, lissom_merge
     std::memcpy(report, &told, std::min(report->struct_size, sizeof told));
 }
 
-Merge& merge_of(lissom_context& context, lissom_merge merge) {
-    return context.content<Merge>(merge.id, Kind::merge);
+Merger& merger_of(lissom_context& context, lissom_merger merger) {
+    return context.content<Merger>(merger.id, Kind::merger);
 }
 
 Paste& paste_of(lissom_context& context, lissom_paste paste) {
@@ -185,55 +202,68 @@ lissom_merge_report lissom_default_merge_report(void) {
     return report;
 }
 
-lissom_status lissom_merge_create(lissom_context* context, lissom_mesh source,
-                                  const lissom_mesh* targets, int32_t target_count,
-                                  const lissom_join* joins, int32_t join_count,
-                                  const lissom_merge_options* options, lissom_merge* merge) {
+lissom_status lissom_merger_create(lissom_context* context, lissom_mesh source,
+                                   const lissom_mesh* targets, int32_t target_count,
+                                   const lissom_join* joins, int32_t join_count,
+                                   const lissom_merge_options* options, lissom_merger* merger) {
     return run(context, [&] {
-        require_given(merge, "merge");
+        require_given(merger, "merger");
         require(target_count >= 1 && targets, "there is no target");
-        require(join_count >= 1 && joins, "there is no join");
         const Mesh& own = mesh_of(*context, source);
         std::vector<const Mesh*> others;
         for (Index i = 0; i < target_count; ++i) others.push_back(&mesh_of(*context, targets[i]));
-        std::vector<Join> pairs;
-        for (Index i = 0; i < join_count; ++i) {
-            pairs.push_back(join_of(*context, joins[i], own, others));
-        }
-        auto made = std::make_shared<Merge>(own, others, std::move(pairs), merge_options(options),
-                                            context->kernel);
-        merge->id = context->add(Kind::merge, std::move(made));
+        auto made = std::make_shared<Merger>(own, others,
+                                             joins_of(*context, joins, join_count, own, others),
+                                             merge_options(options), context->kernel);
+        merger->id = context->add(Kind::merger, std::move(made));
     });
 }
 
-lissom_status lissom_merge_set_keys(lissom_context* context, lissom_merge merge, int32_t join,
-                                    const double* source_keys, const double* target_keys,
-                                    int32_t key_count) {
-    return run(context, [&] {
-        merge_of(*context, merge)
-            .set_keys(join, keys_of(*context, source_keys, target_keys, key_count));
-    });
-}
-
-lissom_status lissom_merge_solve(lissom_context* context, lissom_merge merge, lissom_mesh* mesh,
-                                 lissom_merge_report* report) {
+lissom_status lissom_merge(lissom_context* context, lissom_mesh source, lissom_mesh target,
+                           const lissom_join* joins, int32_t join_count,
+                           const lissom_merge_options* options, lissom_mesh* mesh,
+                           lissom_merge_report* report) {
     return run(context, [&] {
         require_given(mesh, "mesh");
         if (report) take_options(report, lissom_default_merge_report());
-        MergeResult result = merge_of(*context, merge).solve(context->kernel);
+        const Mesh& own = mesh_of(*context, source);
+        const Mesh* other = &mesh_of(*context, target);
+        MergeResult result =
+            merge(own, *other, joins_of(*context, joins, join_count, own, {&other, 1}),
+                  merge_options(options), context->kernel);
         mesh->id = context->add_mesh(std::move(result.mesh));
         tell_report(*context, result.report, report);
     });
 }
 
-lissom_status lissom_merge_begin_solve(lissom_context* context, lissom_merge merge,
-                                       lissom_job* job) {
+lissom_status lissom_merger_set_keys(lissom_context* context, lissom_merger merger, int32_t join,
+                                     const double* source_keys, const double* target_keys,
+                                     int32_t key_count) {
+    return run(context, [&] {
+        merger_of(*context, merger)
+            .set_keys(join, keys_of(*context, source_keys, target_keys, key_count));
+    });
+}
+
+lissom_status lissom_merger_solve(lissom_context* context, lissom_merger merger, lissom_mesh* mesh,
+                                  lissom_merge_report* report) {
+    return run(context, [&] {
+        require_given(mesh, "mesh");
+        if (report) take_options(report, lissom_default_merge_report());
+        MergeResult result = merger_of(*context, merger).solve(context->kernel);
+        mesh->id = context->add_mesh(std::move(result.mesh));
+        tell_report(*context, result.report, report);
+    });
+}
+
+lissom_status lissom_merger_begin_solve(lissom_context* context, lissom_merger merger,
+                                        lissom_job* job) {
     return run(context, [&] {
         require_given(job, "job");
-        const auto own = context->share<Merge>(merge.id, Kind::merge);
+        const auto own = context->share<Merger>(merger.id, Kind::merger);
         const auto made = std::make_shared<MergeResult>();
         begin_job(
-            *context, {{merge.id, Kind::merge}},
+            *context, {{merger.id, Kind::merger}},
             [own, made](const Context& inner) { *made = own->solve(inner); },
             [context, made] { return context->add_mesh(std::move(made->mesh)); }, job);
     });

@@ -39,8 +39,8 @@ bool lissom_region_is_valid(const lissom_context* context, lissom_region region)
 bool lissom_deformer_is_valid(const lissom_context* context, lissom_deformer deformer) {
     return is_valid(context, deformer.id, Kind::deformer);
 }
-bool lissom_merge_is_valid(const lissom_context* context, lissom_merge merge) {
-    return is_valid(context, merge.id, Kind::merge);
+bool lissom_merger_is_valid(const lissom_context* context, lissom_merger merger) {
+    return is_valid(context, merger.id, Kind::merger);
 }
 bool lissom_paste_is_valid(const lissom_context* context, lissom_paste paste) {
     return is_valid(context, paste.id, Kind::paste);
@@ -67,8 +67,8 @@ lissom_status lissom_region_release(lissom_context* context, lissom_region regio
 lissom_status lissom_deformer_release(lissom_context* context, lissom_deformer deformer) {
     return release(context, deformer.id, Kind::deformer);
 }
-lissom_status lissom_merge_release(lissom_context* context, lissom_merge merge) {
-    return release(context, merge.id, Kind::merge);
+lissom_status lissom_merger_release(lissom_context* context, lissom_merger merger) {
+    return release(context, merger.id, Kind::merger);
 }
 lissom_status lissom_paste_release(lissom_context* context, lissom_paste paste) {
     return release(context, paste.id, Kind::paste);

@@ -28,7 +28,7 @@ static lissom_status half(lissom_context* context, const char* path, double up, 
 int main(int argc, char** argv) {
     lissom_context* context = NULL;
     lissom_mesh head = {0}, body = {0}, joined = {0};
-    lissom_merge merge = {0};
+    lissom_merger merger = {0};
     lissom_merge_report report = lissom_default_merge_report();
     /* Boundary 0 of each, and no keys: the best fit is taken. */
     const lissom_join join = {0, 0, 0, NULL, NULL, 0};
@@ -40,8 +40,8 @@ int main(int argc, char** argv) {
     if (lissom_context_create(NULL, &context) != LISSOM_OK) return 1;
     if (half(context, argv[1], 1, &head) != LISSOM_OK ||
         half(context, argv[2], -1, &body) != LISSOM_OK ||
-        lissom_merge_create(context, head, &body, 1, &join, 1, NULL, &merge) != LISSOM_OK ||
-        lissom_merge_solve(context, merge, &joined, &report) != LISSOM_OK) {
+        lissom_merger_create(context, head, &body, 1, &join, 1, NULL, &merger) != LISSOM_OK ||
+        lissom_merger_solve(context, merger, &joined, &report) != LISSOM_OK) {
         return fail(context);
     }
     printf("scale %.3f; %s\n%s", report.scale, report.verdict, report.warnings);

@@ -1,6 +1,7 @@
 #include "kernel/merge/merge.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -28,14 +29,14 @@ void note_loose_parts(const MergePreparation& preparation, std::vector<std::stri
 
 }  // namespace
 
-struct Merge::State {
+struct Merger::State {
     MergePreparation preparation;
     /// By join.
     std::vector<std::vector<KeyPair>> keys;
 };
 
-Merge::Merge(const Mesh& source, std::span<const Mesh* const> targets, std::vector<Join> joins,
-             const MergeOptions& options, const Context& context) try
+Merger::Merger(const Mesh& source, std::span<const Mesh* const> targets, std::vector<Join> joins,
+               const MergeOptions& options, const Context& context) try
     : state_(std::make_unique<State>(
           State{prepare_merge(source, targets, joins, options, context), {}})) {
     for (Join& join : joins) state_->keys.push_back(std::move(join.keys));
@@ -43,11 +44,15 @@ Merge::Merge(const Mesh& source, std::span<const Mesh* const> targets, std::vect
     throw_out_of_memory();
 }
 
-Merge::~Merge() = default;
-Merge::Merge(Merge&&) noexcept = default;
-Merge& Merge::operator=(Merge&&) noexcept = default;
+Merger::Merger(const Mesh& source, const Mesh& target, std::vector<Join> joins,
+               const MergeOptions& options, const Context& context)
+    : Merger(source, std::array<const Mesh*, 1>{&target}, std::move(joins), options, context) {}
 
-void Merge::set_keys(Index join, std::vector<KeyPair> keys) try {
+Merger::~Merger() = default;
+Merger::Merger(Merger&&) noexcept = default;
+Merger& Merger::operator=(Merger&&) noexcept = default;
+
+void Merger::set_keys(Index join, std::vector<KeyPair> keys) try {
     if (join < 0 || join >= count_of(state_->keys)) {
         throw Error(ErrorCode::out_of_range, "there is no such join");
     }
@@ -57,11 +62,11 @@ void Merge::set_keys(Index join, std::vector<KeyPair> keys) try {
     throw_out_of_memory();
 }
 
-const std::vector<std::string>& Merge::warnings() const {
+const std::vector<std::string>& Merger::warnings() const {
     return state_->preparation.found.warnings;
 }
 
-std::size_t Merge::memory_bytes() const {
+std::size_t Merger::memory_bytes() const {
     const MergePreparation& made = state_->preparation;
     std::size_t bytes =
         made.boundaries.source.mesh.memory_bytes() + made.boundaries.target.memory_bytes();
@@ -138,7 +143,7 @@ MergeReport report_of(const MergePreparation& preparation, const Matching& match
     return report;
 }
 
-MergeResult Merge::solve(const Context& context) try {
+MergeResult Merger::solve(const Context& context) try {
     const MergePreparation& preparation = state_->preparation;
     Progress progress(context, "merge");
     const Boundaries& sides = preparation.boundaries;

@@ -1,12 +1,13 @@
-/// Merge: parts of different models become one mesh wherever they lie and whatever their size
+/// Merger: parts of different models become one mesh wherever they lie and whatever their size
 /// (thesis section 3.3). The source is deformed so that its boundaries come to lie on those of the
 /// target, which stays, and both are sewn together.
 ///
-///     const Mesh* targets[] = {&torso};
-///     Merge merge(head, targets, {{boundaries(head)[0], boundaries(torso)[0]}});
-///     MergeResult result = merge.solve();
-///     merge.set_keys(0, other_keys);
-///     result = merge.solve();  // no factorisation
+///     Merger merger(head, torso, {{boundary(head), boundary(torso)}});
+///     MergeResult result = merger.solve();
+///     merger.set_keys(0, other_keys);
+///     result = merger.solve();  // no factorisation
+///
+/// `merge` (merge_once.h) does it in one call.
 #pragma once
 
 #include <cstddef>
@@ -287,7 +288,7 @@ struct MergeResult {
 
 /// A merge that can be solved again after its keys have moved, without factoring again. Accepts
 /// polygon meshes of any genus, with any number of boundaries; those not joined stay open.
-class Merge {
+class Merger {
   public:
     /// Checks and prepares. Meshes may change or die afterwards.
     /// Errors: invalid_argument without targets or joins, or for options out of range;
@@ -296,11 +297,14 @@ class Merge {
     /// vertices or no length, or where a mesh is given twice; handle_overlap where a fixed feature
     /// covers vertices of a boundary or, in the free configuration, of another feature;
     /// unconstrained; zero_area; memory_limit; cancelled.
-    Merge(const Mesh& source, std::span<const Mesh* const> targets, std::vector<Join> joins,
-          const MergeOptions& options = {}, const Context& context = {});
-    ~Merge();
-    Merge(Merge&&) noexcept;
-    Merge& operator=(Merge&&) noexcept;
+    Merger(const Mesh& source, std::span<const Mesh* const> targets, std::vector<Join> joins,
+           const MergeOptions& options = {}, const Context& context = {});
+    /// The same with one target.
+    Merger(const Mesh& source, const Mesh& target, std::vector<Join> joins,
+           const MergeOptions& options = {}, const Context& context = {});
+    ~Merger();
+    Merger(Merger&&) noexcept;
+    Merger& operator=(Merger&&) noexcept;
 
     /// Replaces the keys of one join, vertices and points being those of the meshes as given.
     /// Errors: out_of_range; key_conflict as `solve`. The keys are then those of before.

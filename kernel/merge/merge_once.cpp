@@ -62,8 +62,7 @@ Join nearest_join(const Mesh& source, const Mesh& target, const Context& context
 MergeResult merge(const Mesh& source, const Mesh& target, std::vector<Join> joins,
                   const MergeOptions& options, const Context& context) {
     if (joins.empty()) joins.push_back(nearest_join(source, target, context));
-    const Mesh* const targets[] = {&target};
-    return Merge(source, targets, std::move(joins), options, context).solve(context);
+    return Merger(source, target, std::move(joins), options, context).solve(context);
 }
 
 }  // namespace lissom

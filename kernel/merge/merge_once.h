@@ -1,7 +1,7 @@
 /// Merges in one call.
 ///
 ///     const MergeResult result = merge(head, body);  // the nearest boundaries
-///     const MergeResult other = merge(head, body, {{boundaries(head)[0], boundaries(body)[0]}});
+///     const MergeResult other = merge(head, body, {{boundary(head), boundary(body)}});
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ namespace lissom {
 Join nearest_join(const Mesh& source, const Mesh& target, const Context& context = {});
 
 /// Merges a source with one target. Without joins their nearest boundaries meet. Errors: as
-/// nearest_join, Merge and Merge::solve.
+/// nearest_join, Merger and Merger::solve.
 MergeResult merge(const Mesh& source, const Mesh& target, std::vector<Join> joins = {},
                   const MergeOptions& options = {}, const Context& context = {});
 

@@ -83,7 +83,7 @@ struct Sides {
     GivenMeshes given;
     SidesFound found;
 };
-/// Errors: as Merge.
+/// Errors: as Merger.
 Sides make_sides(const Mesh& source, std::span<const Mesh* const> targets,
                  std::span<const Join> joins, const MergeOptions& options, const Context& context);
 

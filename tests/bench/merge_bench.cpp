@@ -67,10 +67,10 @@ struct Task {
                 t[static_cast<std::size_t>((0.3 + part) * static_cast<double>(t.size()))]};
     }
 
-    Merge prepared(MergeOptions options, bool find_intersections, const Context& context) const {
+    Merger prepared(MergeOptions options, bool find_intersections, const Context& context) const {
         const Mesh* targets[] = {&target.mesh};
         options.find_intersections = find_intersections;
-        return Merge(source.mesh, targets, {join}, options, context);
+        return Merger(source.mesh, targets, {join}, options, context);
     }
 };
 
@@ -94,7 +94,7 @@ Times measure(Index vertices, int threads, const MergeOptions& how = {}) {
         const double whole = milliseconds(start);
         times.whole = std::min(times.whole, whole);
         // As a tool does while a key is dragged.
-        Merge merge = task.prepared(how, false, context);
+        Merger merge = task.prepared(how, false, context);
         merge.set_keys(0, {task.key(repeat + 1)});
         start = Clock::now();
         merge.solve(context);

@@ -255,7 +255,7 @@ lua::Holder ScriptHost::holder_of(std::uint64_t id) {
     }
     throw StatusError(
         LISSOM_INVALID_HANDLE,
-        "the handle names no object that scripts know: it was released, or is a merge "
+        "the handle names no object that scripts know: it was released, or is a merger "
         "or a paste");
 }
 

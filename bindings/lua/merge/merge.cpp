@@ -8,7 +8,7 @@
 
 namespace lissom::lua {
 
-Merge& MergerObject::merger() {
+Merger& MergerObject::merger() {
     if (!content) throw Error(ErrorCode::handle_removed, "the merger was closed; make a new one");
     return *content;
 }

@@ -22,13 +22,13 @@ struct MergerObject {
     static constexpr const char* kTypeName = "lissom.Merger";
 
     /// Empty once it was closed.
-    std::optional<Merge> content;
+    std::optional<Merger> content;
     MergeInputs inputs;
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const { return content ? content->memory_bytes() : 0; }
     /// Throws handle_removed where it was closed.
-    Merge& merger();
+    Merger& merger();
 };
 
 /// Where the elements of one merged mesh come from.

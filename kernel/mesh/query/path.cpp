@@ -185,6 +185,17 @@ std::vector<Path> boundaries(const Mesh& mesh) {
     return paths;
 }
 
+Path boundary(const Mesh& mesh) {
+    std::vector<Path> all = boundaries(mesh);
+    if (all.empty())
+        throw Error(ErrorCode::not_a_boundary, "the mesh is closed: it has no boundary");
+    if (all.size() > 1) {
+        throw Error(ErrorCode::boundary_conflict, "the mesh has " + std::to_string(all.size()) +
+                                                      " boundaries; take one of boundaries(mesh)");
+    }
+    return std::move(all.front());
+}
+
 std::vector<Path> boundaries(const Region& region) {
     std::vector<Path> paths;
     for (std::vector<Index>& loop : region.boundaries()) {

@@ -82,6 +82,10 @@ class Path {
 /// order of Topology::boundary_loops.
 std::vector<Path> boundaries(const Mesh& mesh);
 
+/// Returns the open boundary of a mesh that has exactly one. Errors: not_a_boundary if it has none;
+/// boundary_conflict if it has several.
+Path boundary(const Mesh& mesh);
+
 /// Returns the loops around the faces of a region, as Region::boundaries.
 std::vector<Path> boundaries(const Region& region);
 

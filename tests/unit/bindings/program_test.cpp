@@ -55,7 +55,7 @@ TEST_CASE("help prints the usage of a verb, and of the function of its name") {
     }
     CHECK(run({"help", "inspct"}).err.find("did you mean 'inspect'?") != std::string::npos);
     CHECK(run({"help", "test"}).out.find("lissom test") != std::string::npos);
-    CHECK(run({"help", "edit.report"}).out.find("deformation:report") == 0);
+    CHECK(run({"help", "deformer.report"}).out.find("deformer:report") == 0);
 }
 
 TEST_CASE("inspect answers in text and JSON") {

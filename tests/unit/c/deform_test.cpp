@@ -12,6 +12,14 @@
 namespace lissom::test {
 namespace {
 
+lissom_region region_of(const Host& host, lissom_mesh mesh, const Region& region) {
+    const auto& ids = region.vertices();
+    const lissom_input list{ids.data(), ids.size(), 0, LISSOM_INT32};
+    lissom_region made{};
+    REQUIRE(lissom_region_of_vertices(host, mesh, &list, &made) == LISSOM_OK);
+    return made;
+}
+
 struct Bend {
     explicit Bend(const Host& host, const Mesh& shape) : mesh(host.add(shape)) {
         lissom_region all{};
@@ -20,10 +28,7 @@ struct Bend {
         const Region* ends[] = {shape.find_region("bottom"), shape.find_region("top")};
         std::int32_t* handles[] = {&bottom, &top};
         for (int i = 0; i < 2; ++i) {
-            const auto& ids = ends[i]->vertices();
-            const lissom_input list{ids.data(), ids.size(), 0, LISSOM_INT32};
-            lissom_region end{};
-            REQUIRE(lissom_region_of_vertices(host, mesh, &list, &end) == LISSOM_OK);
+            const lissom_region end = region_of(host, mesh, *ends[i]);
             REQUIRE(lissom_deformer_add_handle(host, deformer, end, nullptr, handles[i]) ==
                     LISSOM_OK);
         }
@@ -71,6 +76,29 @@ TEST_CASE("a deformation is that of the kernel, to the bit") {
         CHECK(vertices[i].position[1] == static_cast<float>(rows[i].y()));
         CHECK(vertices[i].uv[0] == 0.0f);
     }
+}
+
+TEST_CASE("a deformer without a region deforms all of the mesh, and a pin holds") {
+    const Mesh bar = make_bar({});
+    const Host host;
+    const lissom_mesh mesh = host.add(bar);
+    const lissom_region bottom = region_of(host, mesh, *bar.find_region("bottom"));
+    const lissom_region top = region_of(host, mesh, *bar.find_region("top"));
+    lissom_deformer deformer{};
+    REQUIRE(lissom_deformer_create(host, mesh, {0}, nullptr, &deformer) == LISSOM_OK);
+    CHECK(lissom_deformer_row_count(host, deformer) == bar.vertex_count());
+    REQUIRE(lissom_deformer_pin(host, deformer, bottom) == LISSOM_OK);
+    CHECK(lissom_deformer_pin(host, deformer, bottom) == LISSOM_HANDLE_OVERLAP);
+    std::int32_t handle = -1;
+    REQUIRE(lissom_deformer_add_handle(host, deformer, top, nullptr, &handle) == LISSOM_OK);
+    const lissom_transform up = transform_of(translation({0.0, 1.0, 0.0}));
+    REQUIRE(lissom_deformer_set_transform(host, deformer, handle, &up) == LISSOM_OK);
+    REQUIRE(lissom_deformer_solve(host, deformer, LISSOM_FULL) == LISSOM_OK);
+    REQUIRE(lissom_deformer_apply(host, deformer, mesh) == LISSOM_OK);
+    const std::vector<Vec3> moved = host.positions(mesh);
+    for (const Index v : bar.find_region("bottom")->vertices())
+        CHECK(moved[at(v)] == bar.position(v));
+    CHECK(moved != std::vector<Vec3>(bar.positions().begin(), bar.positions().end()));
 }
 
 TEST_CASE("normals of a deformation's rows are those of the mesh that it is applied to") {

@@ -17,6 +17,10 @@ struct Style {
             REQUIRE(lissom_hairstyle_at(host, style, 1.3, elevations[i], 0.02, points[i]) ==
                     LISSOM_OK);
         }
+        double normal[3];
+        REQUIRE(lissom_hairstyle_normal_at(host, style, 1.3, 0.6, normal) == LISSOM_OK);
+        CHECK(std::hypot(normal[0], normal[1], normal[2]) == doctest::Approx(1.0));
+        CHECK(normal[0] > 0.5);
         const lissom_input list{points, 3, 0, LISSOM_FLOAT64};
         REQUIRE(lissom_hairstyle_add_stream(host, style, &list, &curve) == LISSOM_OK);
     }

@@ -18,30 +18,39 @@ TEST_CASE("two halves are cut and merged into one closed mesh") {
     REQUIRE(lissom_cut_by_plane(host, other, origin, down, nullptr, &body, nullptr) == LISSOM_OK);
 
     lissom_join join{};
-    lissom_merge merge{};
-    REQUIRE(lissom_merge_create(host, head, &body, 1, &join, 1, nullptr, &merge) == LISSOM_OK);
+    lissom_merger merger{};
+    REQUIRE(lissom_merger_create(host, head, &body, 1, &join, 1, nullptr, &merger) == LISSOM_OK);
     lissom_mesh whole{};
     auto report = lissom_default_merge_report();
-    REQUIRE(lissom_merge_solve(host, merge, &whole, &report) == LISSOM_OK);
+    REQUIRE(lissom_merger_solve(host, merger, &whole, &report) == LISSOM_OK);
     CHECK(lissom_mesh_boundary_count(host, whole) == 0);
     CHECK(report.scale == doctest::Approx(2.0).epsilon(0.2));
     CHECK(report.verdict != nullptr);
 
     lissom_job job{};
-    REQUIRE(lissom_merge_begin_solve(host, merge, &job) == LISSOM_OK);
+    REQUIRE(lissom_merger_begin_solve(host, merger, &job) == LISSOM_OK);
     lissom_mesh again{};
     REQUIRE(lissom_job_finish(host, job, &again.id) == LISSOM_OK);
     CHECK(host.hash(again) == host.hash(whole));
 
+    // Without joins their nearest boundaries meet; lissom_merge does all in one call.
+    lissom_mesh once{};
+    REQUIRE(lissom_merge(host, head, body, nullptr, 0, nullptr, &once, &report) == LISSOM_OK);
+    CHECK(host.hash(once) == host.hash(whole));
+    REQUIRE(lissom_merge(host, head, body, &join, 1, nullptr, &once, nullptr) == LISSOM_OK);
+    CHECK(host.hash(once) == host.hash(whole));
+    CHECK(lissom_merge(host, head, whole, nullptr, 0, nullptr, &once, nullptr) ==
+          LISSOM_NOT_A_BOUNDARY);
+
     const std::size_t objects = lissom_object_count(host);
     join.target_boundary = 1;
-    CHECK(lissom_merge_create(host, head, &body, 1, &join, 1, nullptr, &merge) ==
+    CHECK(lissom_merger_create(host, head, &body, 1, &join, 1, nullptr, &merger) ==
           LISSOM_OUT_OF_RANGE);
     join = {};
     join.target = 3;
-    CHECK(lissom_merge_create(host, head, &body, 1, &join, 1, nullptr, &merge) ==
+    CHECK(lissom_merger_create(host, head, &body, 1, &join, 1, nullptr, &merger) ==
           LISSOM_OUT_OF_RANGE);
-    CHECK(lissom_merge_create(host, head, nullptr, 0, &join, 1, nullptr, &merge) ==
+    CHECK(lissom_merger_create(host, head, nullptr, 0, &join, 1, nullptr, &merger) ==
           LISSOM_INVALID_ARGUMENT);
     CHECK(lissom_object_count(host) == objects);
 }

@@ -149,7 +149,7 @@ Made deformed(const Context& context) {
 Made merged(const Context& context) {
     const Mesh &lower = inputs().lower, &upper = inputs().upper;
     const Mesh* targets[] = {&lower};
-    Merge merge(upper, targets, {Join{end_of(upper, false), end_of(lower, true)}}, {}, context);
+    Merger merge(upper, targets, {Join{end_of(upper, false), end_of(lower, true)}}, {}, context);
     MergeResult result = merge.solve(context);
     const std::uint64_t value = hash(result.mesh);
     return made(std::pair(std::move(merge), std::move(result)), value);

@@ -203,7 +203,7 @@ TEST_CASE("parts that fit: every vertex stays, whatever the rings, ends and opti
         if (one_of(4) != 0 || !stays) join.keys = {{Index(0), corner}};
         INFO("run " << run << ": " << sides << " sides, " << between << " between, "
                     << text_of(options));
-        const MergeResult result = Merge(given, targets, {join}, options).solve();
+        const MergeResult result = Merger(given, targets, {join}, options).solve();
         CHECK(result.report.joins[0].fits);
         CHECK(greatest_move(result, places_of(target, source)) < 1e-9);
         // Rims whose vertices differ may leave narrow triangles.
@@ -237,9 +237,10 @@ Mesh roof(double height) {
 MergeResult joined(const Mesh& source, const Mesh& target, const MergeOptions& options,
                    std::vector<KeyPair> keys = {}) {
     const Mesh* targets[] = {&target};
-    return Merge(source, targets,
-                 {Join{boundaries(source).front(), boundaries(target).front(), 0, std::move(keys)}},
-                 options)
+    return Merger(
+               source, targets,
+               {Join{boundaries(source).front(), boundaries(target).front(), 0, std::move(keys)}},
+               options)
         .solve();
 }
 
@@ -432,11 +433,11 @@ TEST_CASE("of several joins the one that fits is left as it is") {
         options.suit_transition = blends;
         if (!blends) options.seam = SeamKind::fair;
         const MergeResult result =
-            Merge(source, targets,
-                  {Join{boundary_at(source, source.position(0)), boundary_at(low, low.position(0)),
-                        0},
-                   Join{boundary_at(source, end), boundary_at(high, high.position(0)), 1}},
-                  options)
+            Merger(source, targets,
+                   {Join{boundary_at(source, source.position(0)), boundary_at(low, low.position(0)),
+                         0},
+                    Join{boundary_at(source, end), boundary_at(high, high.position(0)), 1}},
+                   options)
                 .solve();
         CHECK(result.report.joins[0].fits);
         CHECK_FALSE(result.report.joins[1].fits);

@@ -52,7 +52,7 @@ Join first_join(const Mesh& source, const Mesh& target) {
 
 MergeResult merged_badly(const Mesh& source, const Mesh& target, const MergeOptions& options = {}) {
     const Mesh* targets[] = {&target};
-    return Merge(source, targets, {first_join(source, target)}, options).solve();
+    return Merger(source, targets, {first_join(source, target)}, options).solve();
 }
 
 Error refused(const Mesh& source, const Mesh& target, std::vector<Join> joins,
@@ -60,7 +60,7 @@ Error refused(const Mesh& source, const Mesh& target, std::vector<Join> joins,
     const std::uint64_t before[] = {hash(source), hash(target)};
     const Mesh* targets[] = {&target};
     const Error error =
-        error_of([&] { Merge(source, targets, std::move(joins), options).solve(); });
+        error_of([&] { Merger(source, targets, std::move(joins), options).solve(); });
     CHECK(hash(source) == before[0]);
     CHECK(hash(target) == before[1]);
     return error;
@@ -116,13 +116,13 @@ TEST_CASE("merge: a boundary is joined once, and not to its own mesh") {
     const Mesh other = lower_half(6);
     const Mesh* targets[] = {&target, &other};
     check_names(error_of([&] {
-                    Merge(source, targets, {sound, {sound.source, boundaries(other)[0], 1}});
+                    Merger(source, targets, {sound, {sound.source, boundaries(other)[0], 1}});
                 }),
                 ErrorCode::boundary_conflict);
     const Mesh pipe = make_cylinder({.caps = false});
     const Mesh* twice[] = {&target, &target};
     CHECK(error_of([&] {
-              Merge(pipe, twice, {{boundaries(pipe)[0], sound.target}});
+              Merger(pipe, twice, {{boundaries(pipe)[0], sound.target}});
           }).code() == ErrorCode::boundary_conflict);
 }
 
@@ -221,8 +221,9 @@ TEST_CASE("merge: options out of range") {
         CHECK(refused(source, target, {first_join(source, target)}, options).code() ==
               ErrorCode::invalid_argument);
     }
-    CHECK(error_of([&] { Merge(source, {}, {first_join(source, target)}); }).code() ==
-          ErrorCode::invalid_argument);
+    CHECK(error_of([&] {
+              Merger(source, std::span<const Mesh* const>{}, {first_join(source, target)});
+          }).code() == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("merge: the smallest meshes") {
@@ -280,7 +281,7 @@ TEST_CASE("merge: a cancel at any report leaves everything as it was") {
     const Mesh* targets[] = {&target};
     MergeOptions options;
     options.seam = SeamKind::fair;
-    Merge merge(source, targets, {first_join(source, target)}, options);
+    Merger merge(source, targets, {first_join(source, target)}, options);
     const std::uint64_t whole = hash(merge.solve().mesh);
     const auto cancelled = [](int stop, const auto& action) {
         std::optional<Context> context;
@@ -300,7 +301,7 @@ TEST_CASE("merge: a cancel at any report leaves everything as it was") {
     };
     int prepared = 0, solved = 0;
     while (cancelled(prepared, [&](const Context& context) {
-        Merge(source, targets, {first_join(source, target)}, options, context);
+        Merger(source, targets, {first_join(source, target)}, options, context);
     })) {
         ++prepared;
     }
@@ -321,7 +322,7 @@ TEST_CASE("merge: a limit of memory is an error, not a crash") {
     how.memory_limit = 1000;
     const Context context(how);
     CHECK(error_of([&] {
-              Merge(source, targets, {first_join(source, target)}, {}, context);
+              Merger(source, targets, {first_join(source, target)}, {}, context);
           }).code() == ErrorCode::memory_limit);
     CHECK(context.memory()->used() == 0);
 }

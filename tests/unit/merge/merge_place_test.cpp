@@ -59,7 +59,7 @@ MergeResult placed(const Mesh& source, const Mesh& target, const MergeOptions& o
                    std::vector<KeyPair> keys = {}) {
     const Mesh* targets[] = {&target};
     Join join{boundaries(source).front(), boundaries(target).front(), 0, std::move(keys)};
-    return Merge(source, targets, {std::move(join)}, options).solve();
+    return Merger(source, targets, {std::move(join)}, options).solve();
 }
 
 double greatest_difference(const Mesh& a, const Mesh& b) {
@@ -185,7 +185,7 @@ TEST_CASE("round parts take any turn, which is said and no fault") {
         const Mesh source = dome(40, swell);
         const Mesh target = moved(dome(56, swell), rotation(Vec3::UnitX(), kPi, Vec3::Zero()));
         const Mesh* targets[] = {&target};
-        Merge merge(source, targets, {Join{at_plane(source), at_plane(target)}}, options);
+        Merger merge(source, targets, {Join{at_plane(source), at_plane(target)}}, options);
         const MergeReport report = merge.solve().report;
         CHECK(report.joins[0].any_turn == (swell == 0.0));
         if (swell == 0.0) CHECK(report.verdict.find("guess") == std::string::npos);
@@ -209,9 +209,9 @@ TEST_CASE("several joins are placed by where their boundaries lie, and then turn
         return boundaries(mesh).front();
     };
     const Mesh* targets[] = {&below, &above};
-    Merge merge(between, targets,
-                {Join{facing(between, 0.0), facing(below, -1.0), 0},
-                 Join{facing(between, 2.0), facing(above, 4.0), 1}});
+    Merger merge(between, targets,
+                 {Join{facing(between, 0.0), facing(below, -1.0), 0},
+                  Join{facing(between, 2.0), facing(above, 4.0), 1}});
     for (const JoinReport& join : merge.solve().report.joins) {
         CHECK(join.placed == Placing::as_placed);
         CHECK(join.turn.norm() < 0.01);
@@ -223,8 +223,8 @@ TEST_CASE("a thin outline that meets a round one is told before anything is solv
     const Mesh* targets[] = {&bowl};
     const auto warnings = [&](double aspect) {
         const Mesh thin = swollen_dome(60, aspect);
-        const Merge merge(thin, targets,
-                          {Join{boundaries(thin).front(), boundaries(bowl).front()}});
+        const Merger merge(thin, targets,
+                           {Join{boundaries(thin).front(), boundaries(bowl).front()}});
         return merge.warnings();
     };
     CHECK(warnings(1.5).empty());

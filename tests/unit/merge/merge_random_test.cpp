@@ -192,7 +192,7 @@ bool try_one(std::uint32_t seed) {
     }
     const Mesh* targets[] = {&target};
     try {
-        const MergeResult result = Merge(source, targets, joins, options).solve();
+        const MergeResult result = Merger(source, targets, joins, options).solve();
         check_sound(result.mesh);
         // A face of the source with its corners on one straight edge of the target has no area
         // before it is smoothed.

@@ -6,6 +6,7 @@
 
 #include "kernel/merge/merge.h"
 #include "kernel/mesh/cut/cut.h"
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/failing_memory.h"
 #include "tests/unit/support.h"
@@ -23,11 +24,11 @@ Mesh cap(Index segments, double up) {
 struct Pair {
     Mesh source = cap(4, 1.0), target = cap(7, -1.0);
 
-    Merge merge(const MergeOptions& options, const Context& context = {}, long memory = -1) const {
+    Merger merge(const MergeOptions& options, const Context& context = {}, long memory = -1) const {
         const Mesh* targets[] = {&target};
         std::vector<Join> joins{Join{boundaries(source)[0], boundaries(target)[0]}};
         allocations_left = memory;
-        return Merge(source, targets, std::move(joins), options, context);
+        return Merger(source, targets, std::move(joins), options, context);
     }
 };
 
@@ -90,7 +91,7 @@ TEST_CASE("a merge stopped at every report, on every way through it, is as it wa
     const Pair pair;
     const std::uint64_t before[] = {hash(pair.source), hash(pair.target)};
     for (const MergeOptions& options : ways()) {
-        Merge merge = pair.merge(options);
+        Merger merge = pair.merge(options);
         const std::uint64_t whole = hash(merge.solve().mesh);
         // A state that was spoilt would stay so: it is enough to look now and then.
         int stopped = 0;
@@ -112,7 +113,7 @@ TEST_CASE("a merge stopped at every report, on every way through it, is as it wa
 TEST_CASE("a merge without memory is an error of the kernel, and the same call works later") {
     const Pair pair;
     for (const MergeOptions& options : ways()) {
-        Merge merge = pair.merge(options);
+        Merger merge = pair.merge(options);
         const std::uint64_t whole = hash(merge.solve().mesh);
         const Context context;
         const auto solve = [&](long memory) {

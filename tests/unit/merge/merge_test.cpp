@@ -72,8 +72,8 @@ Path opening(const Mesh& mesh) {
 MergeResult merged(const Mesh& source, const Mesh& target, const MergeOptions& options = {},
                    std::vector<KeyPair> keys = {}) {
     const Mesh* targets[] = {&target};
-    return Merge(source, targets, {Join{opening(source), opening(target), 0, std::move(keys)}},
-                 options)
+    return Merger(source, targets, {Join{opening(source), opening(target), 0, std::move(keys)}},
+                  options)
         .solve();
 }
 
@@ -299,9 +299,9 @@ TEST_CASE("one source onto several targets: a cross of four tubes between four o
         return boundaries(mesh).front();
     };
     const Mesh* targets[] = {&low, &high};
-    Merge merge(source, targets,
-                {Join{facing(source, 0.0), facing(low, 0.0), 0},
-                 Join{facing(source, 2.0), facing(high, 9.0), 1}});
+    Merger merge(source, targets,
+                 {Join{facing(source, 0.0), facing(low, 0.0), 0},
+                  Join{facing(source, 2.0), facing(high, 9.0), 1}});
     const MergeResult result = merge.solve();
     CHECK(result.mesh.topology().component_count() == 1);
     CHECK(result.mesh.topology().boundary_loops().size() == 2);
@@ -318,7 +318,7 @@ TEST_CASE("a moved key gives what a merge made with it gives") {
     const Mesh* targets[] = {&target};
     const std::vector<KeyPair> first{{Vec3(1, 0, 0), Vec3(2, 0, 0)}};
     const std::vector<KeyPair> moved{{Vec3(1, 0, 0), Vec3(0, 1.6, 0)}};
-    Merge merge(source, targets, {Join{opening(source), opening(target), 0, first}});
+    Merger merge(source, targets, {Join{opening(source), opening(target), 0, first}});
     const MergeResult before = merge.solve();
     merge.set_keys(0, moved);
     const MergeResult after = merge.solve();
@@ -338,7 +338,7 @@ TEST_CASE("the number of threads changes nothing") {
         const Context context(how);
         MergeOptions options;
         options.source_transition = options.target_transition = 0.5;
-        Merge merge(source, targets, {Join{opening(source), opening(target)}}, options, context);
+        Merger merge(source, targets, {Join{opening(source), opening(target)}}, options, context);
         return hash(merge.solve(context).mesh);
     };
     CHECK(hash_with(1) == hash_with(2));
@@ -502,7 +502,7 @@ TEST_CASE("placed by shape a merge is the same wherever its source lies") {
     MergeOptions options;
     options.place = Place::shape;
     const auto merged_from = [&](const Mesh& mesh) {
-        return Merge(mesh, targets, {Join{low(mesh), low(target)}}, options).solve();
+        return Merger(mesh, targets, {Join{low(mesh), low(target)}}, options).solve();
     };
     const MergeResult first = merged_from(source);
     // Any turn fits, which is said, and no fault.
@@ -577,7 +577,7 @@ TEST_CASE("keys are checked when they are set, and those of before stay") {
     const Mesh source = bumpy_dome(40, 24), target = bowl(50, 20);
     const Mesh* targets[] = {&target};
     const std::vector<KeyPair> keys{{Vec3(1, 0, 0), Vec3(2, 0, 0)}};
-    Merge merge(source, targets, {Join{opening(source), opening(target), 0, keys}});
+    Merger merge(source, targets, {Join{opening(source), opening(target), 0, keys}});
     const std::uint64_t before = hash(merge.solve().mesh);
     const Index inner = source.vertex_count() - 1;
     const Error off = error_of([&] { merge.set_keys(0, {{inner, Vec3(2, 0, 0)}}); });

@@ -197,7 +197,7 @@ std::vector<PlacePair> keyed_pairs() {
         if (!source || !target) return {};
         const Mesh* targets[] = {&target->mesh};
         const MergeReport report =
-            Merge(source->mesh, targets, {join_of(real, *source, *target)}).solve().report;
+            Merger(source->mesh, targets, {join_of(real, *source, *target)}).solve().report;
         const Vec3 turn = report.joins[0].turn;
         PlacePair pair{real.name, source->mesh, target->mesh, source->boundary, target->boundary};
         pair.right = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();

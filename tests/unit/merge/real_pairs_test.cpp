@@ -30,7 +30,7 @@ struct LoadedPair {
 
     MergeResult merged(const MergeOptions& options = {}) const {
         const Mesh* targets[] = {&target.mesh};
-        return Merge(source.mesh, targets, {join_of(*pair, source, target)}, options).solve();
+        return Merger(source.mesh, targets, {join_of(*pair, source, target)}, options).solve();
     }
 };
 
@@ -169,7 +169,7 @@ TEST_CASE("the result does not depend on where the source lies, how it is turned
             Join join = join_of(*pair.pair, pair.source, pair.target);
             join.source = moved.source.boundary;
             const Mesh* targets[] = {&moved.target.mesh};
-            const Mesh result = Merge(moved.source.mesh, targets, {join}).solve().mesh;
+            const Mesh result = Merger(moved.source.mesh, targets, {join}).solve().mesh;
             REQUIRE(result.vertex_count() == expected.vertex_count());
             CHECK(result.topology().faces().vertices == expected.topology().faces().vertices);
             CHECK(greatest_difference(result, expected) < 1e-9 * size);
@@ -254,7 +254,7 @@ TEST_CASE("a part that was cut off and moved comes back where it was") {
         options.smooth = 0;
         options.trim = false;
         options.place = Place::shape;
-        Merge merge(moved, targets, {Join{boundary, body->boundary}}, options);
+        Merger merge(moved, targets, {Join{boundary, body->boundary}}, options);
         const MergeResult result = merge.solve();
         CHECK(result.report.joins[0].guessed);
         CHECK(7.0 * result.report.joins[0].scale == doctest::Approx(1.0).epsilon(0.02));

@@ -82,7 +82,7 @@ MergeResult merged(const Mesh& source, const Mesh& target) {
     const Mesh* targets[] = {&target};
     MergeOptions options;
     options.configuration = Configuration::fixed;
-    return Merge(source, targets, {{loop(source, -1.0), loop(target, 1.0)}}, options).solve();
+    return Merger(source, targets, {{loop(source, -1.0), loop(target, 1.0)}}, options).solve();
 }
 
 const Vec3 kUp = Vec3::UnitY(), kOut = Vec3::UnitX(), kBack = Vec3::UnitZ();

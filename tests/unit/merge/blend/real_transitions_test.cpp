@@ -24,7 +24,7 @@ TEST_CASE("real pairs: faired or blended, the seam shows less than it did, and n
         if (!source || !target) return;
         CAPTURE(pair.name);
         const Mesh* targets[] = {&target->mesh};
-        Merge merge(source->mesh, targets, {test::join_of(pair, *source, *target)});
+        Merger merge(source->mesh, targets, {test::join_of(pair, *source, *target)});
         MergeResult merged = merge.solve();
         const SeamQuality before = seam_quality(merged.mesh, merged.seams);
 

@@ -195,7 +195,7 @@ TEST_CASE("a collar between loops of which one side is all seam is whole") {
     const Mesh triangle({{0, 0, 0}, {1, 0, 0}, {0.2, 1, 0}}, std::move(one));
     const Mesh* targets[] = {&target};
     const MergeResult result =
-        Merge(triangle, targets, {Join{boundaries(triangle)[0], boundaries(target)[0]}}).solve();
+        Merger(triangle, targets, {Join{boundaries(triangle)[0], boundaries(target)[0]}}).solve();
     CHECK(result.report.seam.collar_added > 0);
     CHECK(result.mesh.topology().is_closed());
 }
@@ -218,12 +218,12 @@ TEST_CASE("with collars a merge is the same wherever its source lies, symmetric 
             MergeOptions options;
             options.refine = false;
             const Mesh* targets[] = {&scene.target};
-            return Merge(source, targets,
-                         {Join{boundaries(source)[boundary_towards(scene.source, -1.0)],
-                               boundaries(scene.target)[boundary_towards(scene.target, 1.0)],
-                               0,
-                               {{key(scene.source, -1.0), key(scene.target, 1.0)}}}},
-                         options)
+            return Merger(source, targets,
+                          {Join{boundaries(source)[boundary_towards(scene.source, -1.0)],
+                                boundaries(scene.target)[boundary_towards(scene.target, 1.0)],
+                                0,
+                                {{key(scene.source, -1.0), key(scene.target, 1.0)}}}},
+                          options)
                 .solve();
         };
         const MergeResult first = merged_from(scene.source);
@@ -413,7 +413,7 @@ MergeResult merged_domes(const Mesh& target, const MergeOptions& options) {
     // Wider one way, so that the parts do not fit as they are.
     transform(source, scaling({1.1, 1.0, 1.0}, Vec3::Zero()));
     const Mesh* targets[] = {&target};
-    return Merge(source, targets, {Join{boundaries(source)[0], boundaries(target)[0]}}, options)
+    return Merger(source, targets, {Join{boundaries(source)[0], boundaries(target)[0]}}, options)
         .solve();
 }
 
@@ -480,7 +480,7 @@ TEST_CASE("the turn of a boundary is told where it is not trimmed too") {
     MergeOptions options;
     options.trim = false;
     const MergeResult result =
-        Merge(jagged, targets, {Join{lower(jagged), lower(smooth)}}, options).solve();
+        Merger(jagged, targets, {Join{lower(jagged), lower(smooth)}}, options).solve();
     CHECK(result.report.joins[0].source_turn > 20.0 * kStepDegree);
     CHECK(result.report.joins[0].target_turn == doctest::Approx(15.0 * kStepDegree));
     CHECK_FALSE(result.report.joins[0].source_trimmed);

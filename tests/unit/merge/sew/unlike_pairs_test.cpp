@@ -140,7 +140,8 @@ TEST_CASE("on twelve unlike pairs no step leaves a seam worse, with and without 
         CAPTURE(pair.name);
         const Mesh* targets[] = {&target->mesh};
         const auto merged = [&](const MergeOptions& options) {
-            return Merge(source->mesh, targets, {Join{source->boundary, target->boundary}}, options)
+            return Merger(source->mesh, targets, {Join{source->boundary, target->boundary}},
+                          options)
                 .solve();
         };
         MergeOptions bare;

@@ -44,7 +44,7 @@ struct Tubes {
 
     MergeResult merged() const {
         const Mesh* targets[] = {&target};
-        return Merge(source, targets, {join}, options).solve();
+        return Merger(source, targets, {join}, options).solve();
     }
 
     Mesh target, source;
@@ -204,7 +204,7 @@ TEST_CASE("a source between two targets has a region at either end, and they mus
     const auto merged = [&](double width) {
         MergeOptions options = below.options;
         options.source_transition = width;
-        return Merge(below.source, targets, {below.join, top}, options).solve();
+        return Merger(below.source, targets, {below.join, top}, options).solve();
     };
     const MergeResult result = merged(0.9);
     CHECK(result.mesh.topology().component_count() == 1);
@@ -243,7 +243,7 @@ TEST_CASE(
         MergeOptions options;
         options.thesis = true;
         const Join join = test::join_of(pair, *source, *target);
-        const MergeResult before = Merge(source->mesh, targets, {join}, options).solve();
+        const MergeResult before = Merger(source->mesh, targets, {join}, options).solve();
         double radius = 0.0;
         const std::vector<Index>& seam = before.seams[0];
         Vec3 center = Vec3::Zero();
@@ -253,7 +253,7 @@ TEST_CASE(
         }
         options.target_transition = 0.9 * radius;
         options.source_transition = 0.9 * radius / before.report.joins[0].scale;
-        const MergeResult result = Merge(source->mesh, targets, {join}, options).solve();
+        const MergeResult result = Merger(source->mesh, targets, {join}, options).solve();
         CHECK(result.mesh.face_count() < before.mesh.face_count());
         CHECK(result.mesh.topology().boundary_loops().size() ==
               before.mesh.topology().boundary_loops().size());
