@@ -1,6 +1,6 @@
 /// lissom_basis.h: evaluates the handle basis of a deformation. C99 and C++, this file alone.
 ///
-/// A basis is written by `edit:save_basis("arm.basis")` (`save_basis` in C++): the shape of a
+/// A basis is written by `deformer:save_basis("arm.basis")` (`save_basis` in C++): the shape of a
 /// deformed region as a linear function of the transforms of its handles. A program with a basis
 /// moves handles and gets the surface without a solver: 4 multiplications and additions a
 /// coordinate, handle and vertex. It allocates nothing, calls no library and keeps no state.
@@ -14,11 +14,11 @@
 ///     lissom_basis_local(&basis, wanted, transforms[1]);  // the second is moved by `wanted`
 ///     lissom_basis_evaluate(&basis, transforms[0], 0, basis.vertex_count, out, 3 * sizeof(float));
 /// Accuracy
-///     The result is that of `edit:preview()`, the first system of the method, to the rounding of
-///     floats: 4e-7 of `size` for handles that move about as far as the surface is large. It
-///     follows a drag and has some shear if handles turn far; `edit:solve()` takes the shear out
-///     and cannot be written as a sum of matrices. With every handle at the identity the result is
-///     the rest shape, to the bit. Normals are not part of a basis: `lissom_basis_normals` makes
+///     The result is that of `deformer:preview()`, the first system of the method, to the rounding
+///     of floats: 4e-7 of `size` for handles that move about as far as the surface is large. It
+///     follows a drag and has some shear if handles turn far; `deformer:solve()` takes the shear
+///     out and cannot be written as a sum of matrices. With every handle at the identity the result
+///     is the rest shape, to the bit. Normals are not part of a basis: `lissom_basis_normals` makes
 ///     them from the positions.
 ///
 /// Coordinates

@@ -8,7 +8,7 @@
 namespace lissom::cli {
 namespace {
 
-bool is_letter(char c) {
+bool is_word_letter(char c) {
     return c == '_' || std::isalpha(static_cast<unsigned char>(c)) != 0;
 }
 
@@ -79,13 +79,13 @@ void LuaTokens::read(std::size_t begin, std::size_t end) {
 std::size_t LuaTokens::read_token(std::size_t at, std::size_t end) {
     const std::size_t begin = at;
     const char c = text_[at];
-    if (is_letter(c)) {
-        while (at < end && (is_letter(text_[at]) || is_digit(text_[at]))) ++at;
+    if (is_word_letter(c)) {
+        while (at < end && (is_word_letter(text_[at]) || is_digit(text_[at]))) ++at;
         add(TokenKind::name, begin, at);
         return at;
     }
     if (is_digit(c) || (c == '.' && at + 1 < end && is_digit(text_[at + 1]))) {
-        const auto goes_on = [&](char d) { return is_letter(d) || is_digit(d) || d == '.'; };
+        const auto goes_on = [&](char d) { return is_word_letter(d) || is_digit(d) || d == '.'; };
         const auto is_exponent = [](char d) {
             return d == 'e' || d == 'E' || d == 'p' || d == 'P';
         };
