@@ -2,26 +2,32 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "bindings/cli/json.h"
 #include "bindings/cli/script.h"
 #include "bindings/cli/script_text.h"
 #include "bindings/cli/verbs.h"
+#include "bindings/cli/wall/wall.h"
 #include "bindings/lua/core/script_parameters.h"
+#include "kernel/io/stream/file.h"
 
 namespace lissom::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 // Options before the file that take the next word.
 bool takes_word(const std::string& word) {
-    constexpr std::string_view kOptions[] = {"--threads", "--seconds", "--memory",
-                                             "--output",  "--read",    "--write"};
+    constexpr std::string_view kOptions[] = {"--threads", "--seconds", "--memory", "--output",
+                                             "--read",    "--write",   "--wall"};
     return std::find(std::begin(kOptions), std::end(kOptions), word) != std::end(kOptions);
 }
 
@@ -171,8 +177,14 @@ class SandboxFlags {
                   app.add_option("--read", read_, "A folder whose files it may read; repeatable")
                       ->allow_extra_args(false),
                   app.add_option("--write", write_, "A folder whose files it may write; repeatable")
-                      ->allow_extra_args(false)};
+                      ->allow_extra_args(false),
+                  app.add_option("--wall", wall_,
+                                 "on: in a process of its own, which the system keeps from files, "
+                                 "network and programs; off: within limits of Lua alone")
+                      ->check(CLI::IsMember({"on", "off"}))};
     }
+
+    bool has_wall() const { return asked_ && wall_ == "on"; }
 
     // Whether the limits are of a sandbox that was asked for.
     bool are_consistent() const {
@@ -196,8 +208,64 @@ class SandboxFlags {
     lua::SandboxLimits limits_;
     double memory_ = 256.0, output_ = 64.0;
     std::vector<std::string> read_, write_;
+    std::string wall_ = "on";
     std::vector<const CLI::Option*> given_;
 };
+
+fs::path folder_of_script(const std::string& script) {
+    const fs::path folder = fs::path(script).parent_path();
+    return folder.empty() ? "." : folder;
+}
+
+// A folder that is missing could not be named to the system.
+void make_write_folders(const lua::SandboxLimits& limits) {
+    std::error_code ignored;
+    for (const fs::path& folder : limits.write_folders) fs::create_directories(folder, ignored);
+}
+
+WallRights wall_rights(const Program& program, const std::string& script,
+                       const lua::SandboxLimits& limits) {
+    WallRights rights;
+    rights.seconds = limits.seconds;
+    rights.memory_bytes = limits.memory_bytes;
+    rights.output_bytes = limits.output_bytes;
+    const int cores = static_cast<int>(std::thread::hardware_concurrency());
+    rights.threads = program.threads > 0 ? program.threads : std::max(cores, 1);
+    rights.read_folders = limits.read_folders;
+    rights.read_folders.push_back(folder_of_script(script));
+    const std::string shipped = Script::shipped_scripts();
+    if (!shipped.empty()) rights.read_folders.emplace_back(shipped);
+    rights.write_folders = limits.write_folders;
+    return rights;
+}
+
+int report_end(Program& program, const std::string& script, const WallEnd& end,
+               const lua::SandboxLimits& limits) {
+    if (end.code.empty()) return end.status;
+    for (const fs::path& folder : limits.write_folders) remove_left_overs(folder);
+    ScriptResult result;
+    result.status = end.status;
+    result.code = end.code;
+    result.message = script + ": " + end.message + " [" + end.code + "]";
+    return report(program, result);
+}
+
+// Runs the script in a child process; the status is that of both.
+int run_behind_wall(Program& program, const lua::ScriptArguments& arguments,
+                    const lua::SandboxLimits& limits) {
+    const std::string missing = missing_wall(wall_support());
+    if (!missing.empty()) {
+        return program.fail("this system lacks " + missing +
+                                ", so that the sandbox is within limits of Lua alone; run the "
+                                "script with --wall off if that is enough",
+                            kFailure);
+    }
+    make_write_folders(limits);
+    const std::optional<WallEnd> end =
+        go_behind_wall(wall_rights(program, arguments.script, limits));
+    if (end) return report_end(program, arguments.script, *end, limits);
+    return run_file(program, arguments, limits);
+}
 
 }  // namespace
 
@@ -215,9 +283,12 @@ int run_script(Program& program, const std::vector<std::string>& words) {
     if (program.json()) program.output = Output::json_errors;
     if (!sandbox.are_consistent()) {
         return program.fail(
-            "--seconds, --memory, --output, --read and --write are limits of --sandbox", kUsage);
+            "--seconds, --memory, --output, --read, --write and --wall belong to --sandbox",
+            kUsage);
     }
-    return run_file(program, split.script, sandbox.limits());
+    const std::optional<lua::SandboxLimits> limits = sandbox.limits();
+    if (sandbox.has_wall()) return run_behind_wall(program, split.script, *limits);
+    return run_file(program, split.script, limits);
 }
 
 }  // namespace lissom::cli

@@ -160,16 +160,6 @@ void remove_left_over(const fs::path& path) {
 
 #endif
 
-// Removes the temporary files that killed processes have left in a folder.
-void remove_left_overs(const fs::path& folder) {
-    std::error_code error;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-        const fs::path& path = entry->path();
-        if (is_temporary_name(display_name(path.filename()))) remove_left_over(path);
-    }
-}
-
 // A new file next to the one it replaces. Unless it has replaced it, it is removed in the end.
 class TemporaryFile {
   public:
@@ -195,7 +185,12 @@ class TemporaryFile {
 
     void take_permissions(fs::perms permissions) {
         std::error_code error;
+#ifdef _WIN32
         fs::permissions(path_, permissions, error);
+#else
+        // By the open file: a sandbox refuses the change of rights by names.
+        if (fchmod(fileno(file_), static_cast<mode_t>(permissions)) != 0) error = last_error();
+#endif
         if (error) fail(error);
     }
 
@@ -224,7 +219,9 @@ class TemporaryFile {
         return true;
     }
 
-    [[noreturn]] void fail(const std::error_code& reason) const { refuse_write(target_, reason); }
+    [[noreturn]] void fail(const std::error_code& reason) const {
+        refuse_write(target_, reason);
+    }
 
     fs::path target_, path_;
     std::FILE* file_ = nullptr;
@@ -408,6 +405,15 @@ FileContent read_file(const fs::path& path, const Context& context) {
         done += piece;
     }
     return content;
+}
+
+void remove_left_overs(const fs::path& folder) {
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const fs::path& path = entry->path();
+        if (is_temporary_name(display_name(path.filename()))) remove_left_over(path);
+    }
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes, const Context& context) {

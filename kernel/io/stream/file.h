@@ -52,4 +52,8 @@ void make_folder(const std::filesystem::path& path);
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
                            const Context& context = {});
 
+/// Removes the temporary files that processes left in a folder when they were killed while they
+/// wrote there.
+void remove_left_overs(const std::filesystem::path& folder);
+
 }  // namespace lissom

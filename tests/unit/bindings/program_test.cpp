@@ -433,7 +433,8 @@ TEST_CASE("a byte order mark before Lua is passed over: run, test, repl, require
     const std::string script = folder.write("a.lua", mark + "assert(require('b') == 3)");
     folder.write("b.lua", mark + "return 3");
     CHECK(run({"run", script}).status == kSuccess);
-    const Ended sandboxed = run({"run", "--sandbox", "--read", folder.path(""), script});
+    const Ended sandboxed =
+        run({"run", "--sandbox", "--wall", "off", "--read", folder.path(""), script});
     CHECK_MESSAGE(sandboxed.status == kSuccess, sandboxed.err);
     std::istringstream typed(mark + "x = 2\nassert(x == 2)\n" + mark + "error('no')\n");
     std::streambuf* const old = std::cin.rdbuf(typed.rdbuf());
