@@ -12,6 +12,9 @@ constexpr double kCreaseTurn = 30.0 * kDegree;
 // Beside a crease that runs into a boundary of a clean shape edges turn by less than this: it ends
 // at a corner of the outline. On scans and sculptures smoothing the seam may move its end.
 constexpr double kCleanTurn = 3.0 * kDegree;
+// Sewing divides polygons and flips edges: it makes neighbours of the seam of vertices that are
+// this many rings of faces away, and smoothing moves those.
+constexpr int kNearRings = 2;
 
 // The sums of the area vectors of the faces around both ends of the edge from a to b on its left
 // and on its right, seen along it.
@@ -77,17 +80,29 @@ std::vector<Index> creased_vertices(const Mesh& mesh, std::span<const Index> ask
     return result;
 }
 
+namespace {
+
+void add_faces_around(const Mesh& mesh, std::vector<Index>& vertices) {
+    for (std::size_t k = 0, count = vertices.size(); k < count; ++k) {
+        for (const Index f : mesh.topology().faces_around(vertices[k])) {
+            const std::span<const Index> face = mesh.topology().face(f);
+            vertices.insert(vertices.end(), face.begin(), face.end());
+        }
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+}
+
+}  // namespace
+
 std::vector<Index> vertices_near(const Mesh& mesh, std::span<const std::vector<Index>> loops) {
     std::vector<Index> near;
     for (const std::vector<Index>& loop : loops) {
         for (const Index v : loop) {
-            const std::span<const Index> ring = mesh.topology().neighbors(v);
             near.push_back(v);
-            near.insert(near.end(), ring.begin(), ring.end());
         }
     }
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (int ring = 0; ring < kNearRings; ++ring) add_faces_around(mesh, near);
     return near;
 }
 

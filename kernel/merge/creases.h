@@ -16,7 +16,7 @@ namespace lissom {
 /// 10 degrees.
 std::vector<Index> creased_vertices(const Mesh& mesh, std::span<const Index> asked);
 
-/// Returns the vertices of `loops` and their neighbours, ascending.
+/// Returns the vertices of `loops` and of two rings of faces around them, ascending.
 std::vector<Index> vertices_near(const Mesh& mesh, std::span<const std::vector<Index>> loops);
 
 }  // namespace lissom

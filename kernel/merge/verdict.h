@@ -41,7 +41,8 @@ struct Verdict {
 /// - planes fitted to either side of the seam differ by at most 25 degrees in the mean, 50 at one
 ///   place, and by the crease of a paste, or 1.3 times as much as they did beside the boundaries;
 /// - the surface turns by no more than 30 degrees at an edge of the seam and 20 in the mean (two
-///   thirds of the crease of a paste), or by no more than at edges beside the boundaries;
+///   thirds of the crease of a paste), or by no more than at edges beside the boundaries, 1.3 times
+///   as much in the mean;
 /// - a paste takes no sharp edge of its target along more than .3 of its radius, or deeper than
 ///   .15;
 /// - its place is not a toss;
@@ -49,6 +50,9 @@ struct Verdict {
 /// Angles of parts that fit (JoinReport::fits) are theirs. The text says what holds, or all that
 /// does not.
 Verdict verdict_of(const MergeReport& report, const OpenOptions& open);
+
+/// Whether a paste takes more of the sharp edges of its target than a verdict lets pass.
+bool is_bitten(const TargetBite& bite);
 
 /// Judges a report, and writes verdict and reasons into it.
 void judge(MergeReport& report, const OpenOptions& open);

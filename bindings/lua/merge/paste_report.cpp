@@ -92,6 +92,7 @@ int push_paste_report(const Call& call, const PasteReport& report) {
         call.set_field("clearing");
     }
     call.set_field("kept_outline", call.push(report.kept_outline));
+    call.set_field("tight", call.push(report.tight));
     call.set_field("smooth", call.push(report.smooth));
     call.set_field("draft", call.push(report.draft));
     call.set_field("euler_characteristic", call.push(report.euler_characteristic));
@@ -179,6 +180,9 @@ std::vector<Record> paste_records() {
            "What was removed of the target under the part, if something was."},
           {"boolean", "kept_outline",
            "The outline was pasted along, since the surface there is distorted less."},
+          {"boolean", "tight",
+           "The feature's own outline was pasted along, since more of the target's sharp edges "
+           "stays there."},
           {"boolean", "smooth", "The boundary runs through faces."},
           {"boolean", "draft", "It is a draft: merged without that option its seam is better."},
           {"integer", "euler_characteristic", "Of the result."},

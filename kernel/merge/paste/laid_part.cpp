@@ -50,6 +50,15 @@ PartTrial outline_trial(const PartTrials& trials, const Context& context) {
                      [&](const PartTrials& mapped) { return mapped.along_outline(context); });
 }
 
+PartTrial tight_trial(const PartTrials& trials, const Context& context) {
+    return as_mapped(trials, [&](const PartTrials& mapped) {
+        std::optional<PartTrial> smooth;
+        const bool edges = mapped.options.thesis || mapped.options.loop == PasteBoundary::mesh;
+        if (!edges) smooth = mapped.along_smooth_inner(context);
+        return smooth ? *std::move(smooth) : mapped.along_inner(context);
+    });
+}
+
 BestTrial best_trial(const PartTrials& trials, bool with_outline, const Context& context) {
     std::optional<PartTrial> found = trials.along_line(context);
     PartTrial best = found ? std::move(*found) : trials.along_loop(context);

@@ -18,6 +18,9 @@ namespace lissom {
 /// The part inside the outline, where the maps alone put it.
 PartTrial outline_trial(const PartTrials& trials, const Context& context);
 
+/// The feature inside its own outline, without teeth if that can be.
+PartTrial tight_trial(const PartTrials& trials, const Context& context);
+
 struct BestTrial {
     PartTrial trial;
     /// Near the outline, of the part before iterations, where that was compared.

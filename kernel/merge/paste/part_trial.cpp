@@ -68,7 +68,9 @@ void PartTrials::settle(PartTrial& trial, const Context& context) const {
 
 PartTrial PartTrials::trial_of(std::shared_ptr<MovingPart> part, const PasteSimilarity& similarity,
                                const Context& context) const {
-    PartTrial trial{std::move(part), {}, similarity, 1.0, false, false, {}, {}, {}};
+    PartTrial trial;
+    trial.moving = std::move(part);
+    trial.similarity = similarity;
     trial.scale = lock_scale ? placed.placement.scale : similarity.scale;
     trial.rim = rim_of(trial.part(), surface);
     trial.plain = move(trial, context);
@@ -115,15 +117,21 @@ std::optional<PartTrial> PartTrials::along(MovingParts::Boundary kind, const Fre
     }
 }
 
-std::optional<PartTrial> PartTrials::along_smooth_outline(const Context& context) const {
+// A loop of edges with its similarity.
+PasteLoop PartTrials::fitted(std::span<const Index> vertices) const {
     PasteEnergy energy(ring_edges(surface.map(), ring, surface.images()), energy_for(options, 1));
-    const std::vector<Index> edges = energy.edges_of(ring, regions.outer);
-    PasteLoop outline;
-    outline.vertices = regions.outer;
+    const std::vector<Index> edges = energy.edges_of(ring, vertices);
+    PasteLoop loop;
+    loop.vertices.assign(vertices.begin(), vertices.end());
     const PasteSimilarity start = energy.start(edges);
-    outline.first_scale = start.scale;
-    outline.similarity = energy.improved(edges, start);
-    const std::optional<FreeLoop> line = outline_loop(surface, outline, energy_for(options, 1));
+    loop.first_scale = start.scale;
+    loop.similarity = energy.improved(edges, start);
+    return loop;
+}
+
+std::optional<PartTrial> PartTrials::along_smooth_outline(const Context& context) const {
+    const std::optional<FreeLoop> line =
+        outline_loop(surface, fitted(regions.outer), Outline::outer, energy_for(options, 1));
     if (!line) return std::nullopt;
     std::optional<PartTrial> trial = along(MovingParts::Boundary::outline_line, *line, context);
     if (trial) trial->outline = true;
@@ -131,12 +139,25 @@ std::optional<PartTrial> PartTrials::along_smooth_outline(const Context& context
 }
 
 PartTrial PartTrials::along_outline(const Context& context) const {
-    PasteEnergy energy(ring_edges(surface.map(), ring, surface.images()), energy_for(options, 1));
-    const std::vector<Index> edges = energy.edges_of(ring, regions.outer);
-    const PasteSimilarity start = energy.start(edges);
     PartTrial trial = trial_of(inside(MovingParts::Boundary::outline, regions.outer, context),
-                               energy.improved(edges, start), context);
+                               fitted(regions.outer).similarity, context);
     trial.outline = true;
+    return trial;
+}
+
+std::optional<PartTrial> PartTrials::along_smooth_inner(const Context& context) const {
+    const std::optional<FreeLoop> line =
+        outline_loop(surface, fitted(regions.inner), Outline::inner, energy_for(options, 1));
+    if (!line) return std::nullopt;
+    std::optional<PartTrial> trial = along(MovingParts::Boundary::inner_line, *line, context);
+    if (trial) trial->tight = true;
+    return trial;
+}
+
+PartTrial PartTrials::along_inner(const Context& context) const {
+    PartTrial trial = trial_of(inside(MovingParts::Boundary::inner, regions.inner, context),
+                               fitted(regions.inner).similarity, context);
+    trial.tight = true;
     return trial;
 }
 

@@ -28,6 +28,8 @@ struct PartTrial {
     double scale = 1.0;
     /// The boundary is free of edges; it is the outline that was marked.
     bool smooth = false, outline = false;
+    /// The boundary is the feature's own outline.
+    bool tight = false;
     MovedPart moved;
     PasteDistortion near;
     /// The same before the part was refined and its boundary slid over the target.
@@ -60,10 +62,14 @@ struct PartTrials {
     PartTrial along_outline(const Context& context) const;
     /// The same without the teeth of the outline. Nothing where that has no such line.
     std::optional<PartTrial> along_smooth_outline(const Context& context) const;
+    /// The feature alone, inside its own outline, and the same without teeth.
+    PartTrial along_inner(const Context& context) const;
+    std::optional<PartTrial> along_smooth_inner(const Context& context) const;
 
   private:
     bool slide(PartTrial& trial, double part, const Context& context) const;
     void settle(PartTrial& trial, const Context& context) const;
+    PasteLoop fitted(std::span<const Index> loop) const;
     PartTrial trial_of(std::shared_ptr<MovingPart> part, const PasteSimilarity& similarity,
                        const Context& context) const;
     std::shared_ptr<MovingPart> inside(MovingParts::Boundary kind, std::span<const Index> loop,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 #include <utility>
 
 #include "kernel/core/memory_error.h"
@@ -19,6 +21,8 @@ constexpr double kClearlyBetterAngle = 0.95;
 // The disk of the target is this many times as wide as the ring on it. Ways along edges are up to
 // 1.4 times as long as the surface is wide, so that one that does not cover the ring is widened.
 constexpr double kRoom = 1.5, kMoreRoom = 2.1;
+// At corners they are longer still: such a disk is made if the feature lies outside that one.
+constexpr double kMostRoom = 3.0;
 constexpr int kClosestRounds = 4;
 constexpr Index kWarmIterations = 3;
 
@@ -45,6 +49,12 @@ double longest_edge_of(const Mesh& mesh) {
         }
     }
     return std::sqrt(square);
+}
+
+std::string reach_text(double reach) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", reach);
+    return text;
 }
 
 void require_faces(const Mesh& mesh) {
@@ -130,8 +140,9 @@ void Paste::State::choose_angle(const PasteMap& on, PlacedFeature& place,
     place.angle_chosen = true;
 }
 
-// The size of the images of both outlines, over that on the source; 1 where they have none.
-double Paste::State::size_of(const PasteMap& on, const std::vector<ImagePoint>& images) const {
+// The size of the images of both outlines, over that on the source; nothing if they have none.
+std::optional<double> Paste::State::size_of(const PasteMap& on,
+                                            const std::vector<ImagePoint>& images) const {
     PasteEnergy energy(ring_edges(on, *ring, images), energy_for(options, 1));
     double product = 1.0;
     int count = 0;
@@ -141,7 +152,8 @@ double Paste::State::size_of(const PasteMap& on, const std::vector<ImagePoint>& 
         product *= energy.start(edges).scale;
         ++count;
     }
-    return count > 0 ? std::pow(product, 1.0 / count) : 1.0;
+    if (count == 0) return std::nullopt;
+    return std::pow(product, 1.0 / count);
 }
 
 // A ring that is a tube lies in the plane with another size than on the surface: the size that is
@@ -151,7 +163,9 @@ std::vector<ImagePoint> Paste::State::images_of(const PasteMap& on, const PasteP
     PlanarMap plane = on.planar(placement, angle);
     std::vector<ImagePoint> images = on.images(plane);
     if (options.thesis) return images;
-    plane.factor *= placement.scale / size_of(on, images);
+    const std::optional<double> size = size_of(on, images);
+    if (!size) return images;
+    plane.factor *= placement.scale / *size;
     return on.images(plane);
 }
 
@@ -263,26 +277,48 @@ void Paste::State::draw_closer(const PasteMap& on, PlacedFeature& place, const C
     }
 }
 
-// Lays a disk of the target out and places the part there; the wider one where that holds more.
-void Paste::State::place_on_disk(const PastePlacement& placement, std::span<const Index> start,
-                                 const PasteEffort& effort, const Context& context) {
-    std::unique_ptr<PasteMap> on = map_around(placement, kRoom, context);
-    std::optional<PlacedFeature> found;
+[[noreturn]] void Paste::State::refuse_room(const PastePlacement& placement) const {
+    const SurfacePoint point = surfaces->target_tree.nearest(placement.at);
+    Elements elements{ElementKind::face, 0, {}};
+    elements.add(point.face);
+    throw Error(ErrorCode::boundary_conflict,
+                "there is no room for the part around " + describe(elements) +
+                    " of the target: within the part's reach, " + reach_text(reach_of(placement)) +
+                    ", the surface ends or comes back to itself, as at a border, at a hole or "
+                    "around a thin limb; make the scale smaller, or move the placement away from "
+                    "there",
+                elements);
+}
+
+// The part on a disk of the target of so many reaches; nothing if there is none that is large
+// enough for the feature.
+std::optional<Paste::State::PlacedOn> Paste::State::placed_within(const PastePlacement& placement,
+                                                                  double room,
+                                                                  std::span<const Index> start,
+                                                                  const PasteEffort& effort,
+                                                                  const Context& context) {
     try {
-        found = place(*on, placement, start, effort, context);
+        PlacedOn made{map_around(placement, room, context), {}};
+        made.place = place(*made.map, placement, start, effort, context);
+        return made;
     } catch (const Error& error) {
         if (error.code() != ErrorCode::boundary_conflict) throw;
+        return std::nullopt;
     }
-    if (!found || !covers(*found)) {
-        std::unique_ptr<PasteMap> wide = map_around(placement, kMoreRoom, context);
-        PlacedFeature again = place(*wide, placement, start, effort, context);
-        if (!found || covers(again)) {
-            on = std::move(wide);
-            found = std::move(again);
-        }
+}
+
+// Lays a disk of the target out and places the part there; a wider one where that holds more.
+void Paste::State::place_on_disk(const PastePlacement& placement, std::span<const Index> start,
+                                 const PasteEffort& effort, const Context& context) {
+    std::optional<PlacedOn> found;
+    for (const double room : {kRoom, kMoreRoom, kMostRoom}) {
+        if (found && (covers(found->place) || room == kMostRoom)) break;
+        std::optional<PlacedOn> next = placed_within(placement, room, start, effort, context);
+        if (next && (!found || covers(next->place))) found = std::move(next);
     }
-    use_map(std::move(on));
-    placed = std::move(*found);
+    if (!found) refuse_room(placement);
+    use_map(std::move(found->map));
+    placed = std::move(found->place);
 }
 
 // What depends on the source alone.

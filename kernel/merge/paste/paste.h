@@ -116,6 +116,8 @@ struct PasteReport {
     std::optional<PasteDistortion> outline_near;
     /// The outline was used in place of the loop that was found.
     bool kept_outline = false;
+    /// The feature's own outline was used in place of that: more of the target's sharp edges stays.
+    bool tight = false;
     /// The boundary runs through faces.
     bool smooth = false;
     /// What was removed of the target, if something was.

@@ -6,6 +6,7 @@
 
 #include "kernel/core/clock.h"
 #include "kernel/core/memory_error.h"
+#include "kernel/merge/creases.h"
 #include "kernel/merge/crossings.h"
 #include "kernel/merge/paste/laid_part.h"
 #include "kernel/merge/paste/part/paste_part.h"
@@ -30,10 +31,16 @@ constexpr double kSteepSeam = 20.0 * kDegree;
 // A boundary whose seam turns by more than this gives way to the loop of edges.
 constexpr double kFoldedSeam = 90.0 * kDegree;
 
+// Creases of the target end there, which smoothing the seam would bend.
+std::vector<Index> kept_creases(const OpenedTarget& opened) {
+    return creased_vertices(opened.mesh, vertices_near(opened.mesh, {&opened.loop, 1}));
+}
+
 Sewn sewn_with(const LaidPart& laid, const PasteMergeOptions& options, bool collar,
                const Context& context) {
     SewOptions how;
     how.smooth = options.draft ? 0 : options.smooth;
+    if (how.smooth > 0) how.firm = kept_creases(laid.opened);
     how.collar = collar;
     how.flip = !options.draft;
     const LoopPair pairs[] = {laid.pair};
@@ -59,6 +66,10 @@ double turns(const Sewn& sewn) {
 bool folds(const Sewn& sewn) {
     return turns(sewn) > kFoldedSeam;
 }
+
+// Of two bites, each length times depth, the lesser is worth another boundary if it is below this
+// part of the other.
+constexpr double kSparedMore = 0.8;
 
 struct SewnPart {
     LaidPart laid;
@@ -162,6 +173,27 @@ void unfold(const PartTrials& trials, const TargetPiece& target,
     if (folds(whole.sewn) && outline_near) attempt(outline_trial(trials, context));
 }
 
+// Of two pastes that do not fold the one that leaves more of the target's edges as they are.
+bool spares_more(const SewnPart& next, const SewnPart& whole) {
+    const auto taken = [](const TargetBite& bite) { return bite.length * bite.depth; };
+    return !folds(next.sewn) && taken(next.bite) < kSparedMore * taken(whole.bite);
+}
+
+// Where sharp edges of the target lie between the boundary and the feature, the feature alone is
+// pasted: all around it stays as it is.
+void spare_edges(const PartTrials& trials, const TargetPiece& target,
+                 const PasteMergeOptions& options, SewnPart& whole, const Context& context) {
+    if (!is_bitten(whole.bite)) return;
+    try {
+        PartTrial tight = tight_trial(trials, context);
+        SewnPart next = sewn_along(trials, target, std::move(tight), options, context);
+        if (spares_more(next, whole)) whole = std::move(next);
+    } catch (const Error& error) {
+        // There is no room for that.
+        if (error.code() != ErrorCode::boundary_conflict) throw;
+    }
+}
+
 // The part on a piece of the target, along the boundary that folds least.
 SewnPart sewn_onto(const PartTrials& trials, const TargetPiece& target, bool other_allowed,
                    PasteReport& report, const PasteMergeOptions& options, const Context& context) {
@@ -170,6 +202,8 @@ SewnPart sewn_onto(const PartTrials& trials, const TargetPiece& target, bool oth
     SewnPart result = sewn_along(trials, target, std::move(best.trial), options, context);
     if (!options.draft) {
         unfold(trials, target, report.outline_near, options, result, context);
+        if (other_allowed && !trials.options.thesis)
+            spare_edges(trials, target, options, result, context);
     }
     return result;
 }
@@ -220,6 +254,7 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.scale = trial.scale;
     report.smooth = trial.smooth;
     report.kept_outline = trial.outline;
+    report.tight = trial.tight;
     report.near = pasted.laid.near;
     report.laid = trial.near;
     report.feature =
@@ -240,6 +275,19 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     throw_out_of_memory();
 }
 
+// On the faces of the chart alone, or, if the boundary touches their border, on those around too.
+LaidPart Paste::State::laid_on_ground(const PartTrials& trials, const PartTrial& trial,
+                                      const Context& context) {
+    try {
+        const PasteGround& small = ground(context);
+        return laid_part(trials, small.mesh, small.vertices, trial, context);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::boundary_conflict) throw;
+    }
+    const TargetPiece& piece = target_piece(context);
+    return laid_part(trials, piece.mesh(), piece.chart_vertices(), trial, context);
+}
+
 PasteDraft Paste::draft(const PasteDraftOptions& options, const Context& context) try {
     State& state = *state_;
     const PlacedFeature& placed = state.placed;
@@ -248,9 +296,7 @@ PasteDraft Paste::draft(const PasteDraftOptions& options, const Context& context
                             placed,        state.parts,   options.lock_scale};
     BestTrial best = best_trial(
         trials, options.compare && state.covers(placed) && !state.bound_to_boundary(), context);
-    const PasteGround& ground = state.ground(context);
-    const LaidPart laid =
-        laid_part(trials, ground.mesh, ground.vertices, std::move(best.trial), context);
+    const LaidPart laid = state.laid_on_ground(trials, best.trial, context);
     return {part_at_seam(laid), laid.trial.part().loop, laid.trial.scale,
             laid.trial.smooth,  laid.trial.outline,     laid.near,
             laid.trial.near};

@@ -25,6 +25,10 @@
 
 namespace lissom {
 
+struct LaidPart;
+struct PartTrial;
+struct PartTrials;
+
 /// One placement and the boundary that belongs to it.
 struct PlacedFeature {
     PastePlacement placement;
@@ -129,17 +133,28 @@ struct Paste::State {
                                      const Context& context) const;
     std::unique_ptr<PasteMap> map_around(const PastePlacement& placement, double room,
                                          const Context& context) const;
+    [[noreturn]] void refuse_room(const PastePlacement& placement) const;
+    /// A map of the target and the part on it.
+    struct PlacedOn {
+        std::unique_ptr<PasteMap> map;
+        PlacedFeature place;
+    };
+    std::optional<PlacedOn> placed_within(const PastePlacement& placement, double room,
+                                          std::span<const Index> start, const PasteEffort& effort,
+                                          const Context& context);
     void place_on_disk(const PastePlacement& placement, std::span<const Index> start,
                        const PasteEffort& effort, const Context& context);
     void use_map(std::unique_ptr<PasteMap> on);
     const TargetPiece& target_piece(const Context& context);
     const PasteGround& ground(const Context& context);
+    LaidPart laid_on_ground(const PartTrials& trials, const PartTrial& trial,
+                            const Context& context);
     double misfit_at(const PasteMap& on, const std::vector<ImagePoint>& images) const;
     void choose_angle(const PasteMap& on, PlacedFeature& place, const Context& context) const;
     PlacedFeature place(const PasteMap& on, const PastePlacement& placement,
                         std::span<const Index> start, const PasteEffort& effort,
                         const Context& context);
-    double size_of(const PasteMap& on, const std::vector<ImagePoint>& images) const;
+    std::optional<double> size_of(const PasteMap& on, const std::vector<ImagePoint>& images) const;
     std::vector<ImagePoint> images_of(const PasteMap& on, const PastePlacement& placement,
                                       double angle) const;
     std::vector<ImagePoint> nearest_images(const PasteMap& on, const PlacedFeature& place) const;

@@ -485,6 +485,9 @@ bool is_kept(const Sewn& old, const SeamQuality& before, Remade& remade, const C
            !adds_crossings(old.mesh, remade.shape(), map, remade.made(), context);
 }
 
+// Edges of a side that turn by more than this are not flipped once the seam was smoothed.
+constexpr double kFlippedCrease = 30.0 * kDegree;
+
 // Collars that take away more than this many cubes of the seam's radius bite edges of the side.
 // They may add: faces towards a finer loop enclose more than those they replace.
 constexpr double kCollarBite = 0.03;
@@ -601,8 +604,9 @@ void flip_near_seams(Sewn& sewn, const Context& context) {
     Index flips = 0;
     for (const std::set<Index>& side : faces) {
         if (side.empty()) continue;
-        SeamSheet& sheet = sheets.emplace_back(
-            sewn.mesh, std::vector<Index>(side.begin(), side.end()), sewn.seams, kPi, context);
+        SeamSheet& sheet =
+            sheets.emplace_back(sewn.mesh, std::vector<Index>(side.begin(), side.end()), sewn.seams,
+                                kFlippedCrease, context);
         flips += sheet.flip_edges(limits, context);
     }
     if (flips == 0) return;

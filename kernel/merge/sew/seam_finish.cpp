@@ -10,6 +10,9 @@
 namespace lissom {
 namespace {
 
+// The part of a vertex that must come from firm ones; rounding takes no half of it.
+constexpr double kFirmShare = 0.499;
+
 // The vertices of a loop that a place lies on or between.
 std::vector<ElementMap::Source> sources_at(std::span<const Index> loop, Index offset,
                                            const LoopPoint& place) {
@@ -119,15 +122,16 @@ class Assembly {
 }  // namespace
 
 std::vector<Index> became_of(const Sewn& sewn, std::span<const Index> firm) {
-    const auto is_firm = [&](Index v) { return std::binary_search(firm.begin(), firm.end(), v); };
     std::vector<Index> vertices;
     for (Index v = 0; v < sewn.mesh.vertex_count(); ++v) {
-        const auto sources = sewn.map.vertices[v];
-        if (std::any_of(sources.begin(), sources.end(), [&](const auto& source) {
-                return source.weight >= 0.5 && is_firm(source.element);
-            })) {
-            vertices.push_back(v);
+        // A collar makes vertices on the edges between firm ones.
+        double share = 0.0;
+        for (const ElementMap::Source& source : sewn.map.vertices[v]) {
+            if (std::binary_search(firm.begin(), firm.end(), source.element)) {
+                share += source.weight;
+            }
         }
+        if (share >= kFirmShare) vertices.push_back(v);
     }
     return vertices;
 }

@@ -132,7 +132,7 @@ Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins
          const SewOptions& options = {}, const Context& context = {});
 
 /// Returns the vertices of `sewn` that vertices of the sides became, ascending: at least half of
-/// each comes from one of `firm`, which are ascending and numbered as in SewOptions.
+/// each comes from those of `firm`, which are ascending and numbered as in SewOptions.
 std::vector<Index> became_of(const Sewn& sewn, std::span<const Index> firm);
 
 /// The seams that are not kept as they were sewn.

@@ -51,7 +51,7 @@ class MovingPart {
 /// lies, and not which one it is.
 class MovingParts {
   public:
-    enum class Boundary { line, loop, outline, outline_line };
+    enum class Boundary { line, loop, outline, outline_line, inner, inner_line };
     using Make = std::function<PastePart()>;
 
     /// The part inside a boundary, `make` where it is not the last one of its kind.
@@ -68,7 +68,7 @@ class MovingParts {
         std::vector<Vec2> line;
         std::shared_ptr<MovingPart> part;
     };
-    std::array<Kept, 4> kept_;
+    std::array<Kept, 6> kept_;
 };
 
 }  // namespace lissom

@@ -415,7 +415,7 @@ std::optional<FreeLoop> free_loop(const RingSurface& surface, const PasteLoop& f
 }
 
 std::optional<FreeLoop> outline_loop(const RingSurface& surface, const PasteLoop& outline,
-                                     const EnergyOptions& options) {
+                                     Outline which, const EnergyOptions& options) {
     const PasteChart& chart = surface.map().source();
     std::vector<Vec2> corners;
     double side = 0.0;
@@ -427,9 +427,10 @@ std::optional<FreeLoop> outline_loop(const RingSurface& surface, const PasteLoop
     const std::vector<Vec2> even = resampled(corners, kSampling * side);
     std::vector<Vec2> smooth = even;
     for (int round = 0; round < kOutlineRounds; ++round) smooth = filtered(smooth);
+    const double toward = which == Outline::outer ? side : -side;
     for (const double inward : kInward) {
         std::optional<std::vector<RingPoint>> points =
-            located(surface, drawn_inward(smooth, inward * side));
+            located(surface, drawn_inward(smooth, inward * toward));
         if (!points || !is_simple(*points)) continue;
         return judged(std::move(*points), outline, options);
     }

@@ -76,10 +76,13 @@ struct FreeLoop {
 std::optional<FreeLoop> free_loop(const RingSurface& surface, const PasteLoop& from,
                                   const EnergyOptions& options, const Context& context);
 
-/// A line along the outline of the region, without its teeth: smoothed, and drawn inward until it
-/// lies in the ring. Nothing where it leaves the target's region or crosses itself.
+/// The outlines of a ring.
+enum class Outline { outer, inner };
+
+/// A line along an outline of the ring, without its teeth: smoothed, and drawn away from it until
+/// it lies in the ring. Nothing where it leaves the target's region or crosses itself.
 std::optional<FreeLoop> outline_loop(const RingSurface& surface, const PasteLoop& outline,
-                                     const EnergyOptions& options);
+                                     Outline which, const EnergyOptions& options);
 
 /// A line where it comes to lie on another surface. Nothing where it leaves that or crosses itself.
 std::optional<FreeLoop> carried_loop(const RingSurface& surface, const FreeLoop& line,

@@ -1,0 +1,166 @@
+// Pastes on and beside sharp edges, at corners and beside borders of generated shapes.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "kernel/merge/paste/paste.h"
+#include "kernel/mesh/query/spatial_tree.h"
+#include "tests/unit/merge/paste/paste_shapes.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+Mesh cube_of(Index segments) {
+    return make_box({{2, 2, 2}, {segments, segments, segments}});
+}
+
+// A sheet with a steep round bump in its middle, which looks along y.
+Mesh bump_on_sheet() {
+    Mesh mesh = make_grid({.size = {2, 2}, .segments = {28, 28}});
+    for (Vec3& p : mesh.edit_positions()) {
+        const double r = std::hypot(p.x(), p.z()) / 0.55;
+        p.y() = r < 1.0 ? 0.7 * std::sqrt(1.0 - r * r) : 0.0;
+    }
+    return mesh;
+}
+
+struct PastedOnCube {
+    PasteResult result;
+    Vec3 middle = Vec3::Zero();
+    double radius = 0.0;
+};
+
+PastedOnCube pasted(const Mesh& part, const Region& region, const Mesh& cube, const Vec3& at,
+                    const Vec3& up, double scale) {
+    Paste paste(part, cube, region, std::nullopt, std::nullopt,
+                {.at = at, .up = up, .angle = 0.0, .scale = scale});
+    paste.optimize();
+    PastedOnCube made{paste.merge({.find_intersections = true}), {}, 0.0};
+    const Mesh& mesh = made.result.merged.mesh;
+    const std::vector<Index>& seam = made.result.merged.seams[0];
+    for (const Index v : seam) made.middle += mesh.position(v) / static_cast<double>(seam.size());
+    for (const Index v : seam) {
+        made.radius = std::max(made.radius, (mesh.position(v) - made.middle).norm());
+    }
+    return made;
+}
+
+// How far points of the edges of the cube from -1 to 1 that lie beyond a ball are from a mesh, at
+// most.
+double edges_off(const Mesh& mesh, const Vec3& middle, double radius) {
+    const SpatialTree tree(mesh);
+    constexpr int kSteps = 100;
+    double off = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int side = 0; side < 4; ++side) {
+            for (int k = 0; k <= kSteps; ++k) {
+                Vec3 point;
+                point[axis] = -1.0 + 2.0 * k / kSteps;
+                point[(axis + 1) % 3] = side % 2 == 0 ? -1.0 : 1.0;
+                point[(axis + 2) % 3] = side / 2 == 0 ? -1.0 : 1.0;
+                if ((point - middle).norm() < radius) continue;
+                off = std::max(off, tree.nearest(point).distance);
+            }
+        }
+    }
+    return off;
+}
+
+bool tells(const MergeReport& report, MergeFault fault) {
+    return std::any_of(report.reasons.begin(), report.reasons.end(),
+                       [&](const MergeReason& reason) { return reason.fault == fault; });
+}
+
+const Vec3 kOnCube[] = {{1, 1, 0.1}, {1, 0.8, 0}, {1, 0.9, 0.3}, {0.4, 1, 1}};
+
+}  // namespace
+
+TEST_CASE("paste: edges of a box stay beyond a part that stands on them, and it bites none") {
+    const Mesh bump = bump_on_sheet();
+    const Region region = select_sphere(bump, Vec3::Zero(), 0.92);
+    for (const Index segments : {1, 12}) {
+        for (const Vec3& at : kOnCube) {
+            CAPTURE(segments);
+            CAPTURE(at.transpose());
+            const auto made = pasted(bump, region, cube_of(segments), at, Vec3::UnitZ(), 0.35);
+            const MergeReport& report = made.result.merged.report;
+            CHECK(made.result.merged.mesh.topology().is_closed());
+            const Mesh& mesh = made.result.merged.mesh;
+            CHECK(edges_off(mesh, made.middle, 1.02 * made.radius) < 0.02 * made.radius);
+            CHECK(edges_off(mesh, made.middle, 2.0 * made.radius) < 1e-6);
+            CHECK_FALSE(tells(report, MergeFault::bite));
+            CHECK(report.intersections.empty());
+        }
+    }
+}
+
+TEST_CASE("paste: a part is as large as was asked for, however near edges and corners are") {
+    const Mesh bump = bump_on_sheet(), horn = horned_ball(16);
+    const Mesh cube = cube_of(12);
+    for (const double scale : {0.2, 0.35}) {
+        for (const Vec3& at : {Vec3(1, 0, 0), Vec3(1, 0.8, 0), Vec3(1, 1, 0), Vec3(1, 1, 1)}) {
+            CAPTURE(scale);
+            CAPTURE(at.transpose());
+            const auto flat = pasted(bump, select_sphere(bump, Vec3::Zero(), 0.92), cube, at,
+                                     Vec3::UnitZ(), scale);
+            CHECK(flat.result.report.scale == doctest::Approx(scale).epsilon(0.2));
+            const auto round = pasted(horn, around_horn(horn), cube, at, Vec3::UnitZ(), scale);
+            CHECK(round.result.report.scale == doctest::Approx(scale).epsilon(0.35));
+        }
+    }
+}
+
+TEST_CASE("paste: where there is no room the error names the place and a way out") {
+    const Mesh bump = bump_on_sheet();
+    const Region region = select_sphere(bump, Vec3::Zero(), 0.92);
+    const Mesh ball = make_sphere({1.0, 24, SphereKind::triangles});
+    const Mesh sheet = make_grid({.size = {2, 2}, .segments = {20, 20}});
+    const auto refused = [&](const Mesh& target, const PastePlacement& placement) {
+        try {
+            const Paste paste(bump, target, region, std::nullopt, std::nullopt, placement);
+        } catch (const Error& error) {
+            CHECK(error.code() == ErrorCode::boundary_conflict);
+            CHECK(error.elements().kind == ElementKind::face);
+            CHECK(error.elements().count == 1);
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    for (const std::string& message : {refused(ball, {.at = {1, 0, 0}, .scale = 30.0}),
+                                       refused(sheet, {.at = {1, 0, 0}, .scale = 0.3}),
+                                       refused(sheet, {.at = {0.95, 0, 0}, .scale = 0.3})}) {
+        CAPTURE(message);
+        CHECK(message.find("no room for the part") != std::string::npos);
+        CHECK(message.find("smaller") != std::string::npos);
+        CHECK(message.find("region") == std::string::npos);
+    }
+    CHECK(refused(sheet, {.at = {0.5, 0, 0}, .scale = 0.3}).empty());
+}
+
+TEST_CASE("paste: all frames of a drag over coarse, sharp and smooth targets are made") {
+    const Mesh bump = bump_on_sheet();
+    const Region region = select_sphere(bump, Vec3::Zero(), 0.92);
+    const Mesh targets[] = {cube_of(1), cube_of(5), make_sphere({1.2, 8, SphereKind::triangles}),
+                            make_sphere({1.2, 12, SphereKind::quads}),
+                            make_sphere({1.2, 30, SphereKind::triangles})};
+    for (const Mesh& target : targets) {
+        CAPTURE(target.face_count());
+        const auto at = [](int frame) {
+            const double a = 0.05 * frame;
+            return Vec3(1.5 * std::cos(a), 1.5 * std::sin(a), 0.3 + 0.02 * frame);
+        };
+        Paste paste(bump, target, region, std::nullopt, std::nullopt,
+                    {.at = at(0), .up = Vec3::UnitZ(), .scale = 0.25});
+        paste.optimize();
+        for (int frame = 0; frame < 30; ++frame) {
+            CAPTURE(frame);
+            paste.slide({.at = at(frame), .up = Vec3::UnitZ(), .scale = 0.25});
+            const PasteDraft draft = paste.draft();
+            CHECK(draft.scale == doctest::Approx(0.25).epsilon(0.25));
+            CHECK(draft.part.topology().boundary_loops().size() == 1);
+        }
+    }
+}
