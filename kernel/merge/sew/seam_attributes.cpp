@@ -7,6 +7,7 @@
 
 #include "kernel/core/rotation.h"
 #include "kernel/merge/loop/face_angles.h"
+#include "kernel/mesh/measure/morph_maps.h"
 
 namespace lissom {
 namespace {
@@ -51,7 +52,55 @@ void change_at(const Topology& topology, Attribute& attribute, Index v, const Ch
     for (const Index f : topology.faces_around(v)) change_one(corner_at(topology, f, v));
 }
 
+// The corners of one side at a vertex of a seam, and the mean of the displacements that they have.
+struct SideCorners {
+    std::vector<Index> corners;
+    Vec3 sum = Vec3::Zero();
+    double count = 0.0;
+
+    void add(Index corner, const Attribute& attribute) {
+        corners.push_back(corner);
+        const Eigen::Map<const Vec3> value(attribute.at(corner).data());
+        if (!value.allFinite()) return;
+        sum += value;
+        count += 1.0;
+    }
+    Vec3 mean() const { return sum / count; }
+    // Those without a value get the new mean.
+    void move_mean(const Vec3& to, Attribute& attribute) const {
+        for (const Index corner : corners) {
+            Eigen::Map<Vec3> value(attribute.at(corner).data());
+            value = value.allFinite() ? Vec3(value + (to - mean())) : to;
+        }
+    }
+};
+
+void close_morph(std::span<const SeamSide> side_of_face, Index v, const Topology& topology,
+                 Attribute& attribute) {
+    SideCorners target, source;
+    for (const Index f : topology.faces_around(v)) {
+        SideCorners& side = side_of_face[at(f)] == SeamSide::target ? target : source;
+        side.add(corner_at(topology, f, v), attribute);
+    }
+    if (target.count + source.count == 0.0) return;
+    const Vec3 to = target.count == 0.0   ? source.mean()
+                    : source.count == 0.0 ? target.mean()
+                                          : Vec3(0.5 * (target.mean() + source.mean()));
+    target.move_mean(to, attribute);
+    source.move_mean(to, attribute);
+}
+
 }  // namespace
+
+void close_morphs(std::span<const std::vector<Index>> seams, std::span<const SeamSide> side_of_face,
+                  Mesh& mesh) {
+    for (Attribute& attribute : mesh.attributes().all()) {
+        if (!is_morph_position(attribute) || attribute.domain != Domain::corner) continue;
+        for (const std::vector<Index>& seam : seams) {
+            for (const Index v : seam) close_morph(side_of_face, v, mesh.topology(), attribute);
+        }
+    }
+}
 
 std::vector<ElementMap::Source> SeamSources::blend() const {
     std::vector<ElementMap::Source> all;

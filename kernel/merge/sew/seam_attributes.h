@@ -9,6 +9,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/attributes.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
@@ -27,6 +28,12 @@ struct SeamSources {
 /// vertices of `old`, whose number in `mesh` is in `new_number`.
 void carry_seam_regions(const Mesh& old, const std::unordered_map<Index, SeamSources>& sources,
                         std::span<const Index> new_number, Mesh& mesh);
+
+/// Gives the corners at each vertex of the seams one displacement by every morph target: half of
+/// each side, or that of the side that has one, so that a target does not tear the seam open.
+/// Corners of one side keep their differences.
+void close_morphs(std::span<const std::vector<Index>> seams, std::span<const SeamSide> side_of_face,
+                  Mesh& mesh);
 
 /// The "normal" attribute of a mesh around a seam that moves. Costs nothing where there is none.
 class SeamNormals {

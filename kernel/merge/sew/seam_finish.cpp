@@ -163,7 +163,11 @@ Sewn finish(const SeamWork& work, const SeamFaces& faces, const SewOptions& opti
     sewn.report = work.report;
     sewn.report.before = seam_quality(sewn.mesh, sewn.seams);
     sewn.kept = options.kept;
-    if (options.collar) make_collars(sewn, context);
+    close_morphs(sewn.seams, sewn.side_of_face, sewn.mesh);
+    if (options.collar) {
+        make_collars(sewn, context);
+        close_morphs(sewn.seams, sewn.side_of_face, sewn.mesh);
+    }
     sewn.report.smoothed =
         smooth_seams(sewn.mesh, worked_seams(sewn), became_of(sewn, options.firm),
                      {options.smooth, options.guard}, context);

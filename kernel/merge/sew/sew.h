@@ -111,8 +111,9 @@ struct Sewn {
 /// the seam (two rings where edges flip or the seam is smoothed) everything is kept to the bit:
 /// - attributes of vertices on the seam are blended half and half from both sides, or are those of
 ///   the side that has any. Those of corners are interpolated in their own face, so that each side
-///   keeps its values along the seam. Texture coordinates and tangents of vertices become those of
-///   corners before;
+///   keeps its values along the seam, but for displacements by morph targets, which are blended as
+///   those of vertices so that no target tears the seam. Texture coordinates and tangents of
+///   vertices become those of corners before;
 /// - a side without colors is white, without texture coordinates has 0, 0; what else a side does
 ///   not have at all is NaN there, as `append` does;
 /// - a seam vertex is in the regions that it lies in on either side;

@@ -44,6 +44,12 @@ inline void add_telling_targets(Mesh& mesh) {
     add_target(mesh, 4, Domain::corner, wave);
 }
 
+inline void drop_morphs(Mesh& mesh) {
+    for (int number = 1; number <= 4; ++number) {
+        mesh.attributes().remove("morph." + std::to_string(number) + ".position");
+    }
+}
+
 inline std::vector<Vec3> target(const Mesh& mesh, int number) {
     return morph_displacements(
         mesh, *mesh.attributes().find("morph." + std::to_string(number) + ".position"));
