@@ -13,6 +13,7 @@
 #include "kernel/merge/blend/band_map.h"
 #include "kernel/merge/blend/band_system.h"
 #include "kernel/mesh/edit/extract.h"
+#include "kernel/mesh/measure/morph_maps.h"
 
 namespace lissom {
 namespace {
@@ -127,10 +128,36 @@ void remove_shear(const TransitionMesh& side, TransitionShape& shape, const Cont
     }
 }
 
-std::vector<Vec3> coordinates_of(const BandSystem& band) {
+std::vector<Vec3> coordinates_of(const BandSystem& band, Index shape) {
     std::vector<Vec3> result(band.vertex_count(), Vec3::Zero());
     for (Index i = 0; i < band.vertex_count(); ++i) {
-        if (band.is_row(i)) result[i] = band.coordinates(i);
+        if (band.is_row(i)) result[i] = band.coordinates(i, shape);
+    }
+    return result;
+}
+
+// In the order of the shapes that a BandSystem takes from the mesh.
+std::vector<std::string> morph_names(const Mesh& mesh) {
+    std::vector<std::string> names;
+    for (const Attribute& attribute : mesh.attributes().all()) {
+        if (is_morph_position(attribute)) names.push_back(attribute.name);
+    }
+    return names;
+}
+
+// A part of a mesh with what the mesh's morph targets add there, turned with the surface.
+Mesh with_turned_morphs(const Mesh& part, std::span<const Index> vertices, const Mesh& mesh,
+                        const std::vector<Mat3>& gradients) {
+    Mesh result = part;
+    for (const Attribute& attribute : mesh.attributes().all()) {
+        if (!is_morph_position(attribute)) continue;
+        const std::vector<Vec3> adds = morph_displacements(mesh, attribute);
+        Attribute turned{attribute.name, Domain::vertex, 3, ScalarType::float64, {}};
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const Vec3 d = gradients[i] * adds[at(vertices[i])];
+            turned.values.insert(turned.values.end(), {d.x(), d.y(), d.z()});
+        }
+        result.attributes().add(std::move(turned));
     }
     return result;
 }
@@ -332,7 +359,7 @@ BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held
     remove_shear(source, solved.source, context);
 
     for (Vec3& p : solved.target.positions) p = frame.position_back(p);
-    keep_coordinates(around.part.mesh, around.part.vertex_map, solved.target.positions, moving);
+    keep_coordinates(around.part.mesh, around.part.vertex_map, solved.target, moving);
     BoundaryDeformation result = ordinary;
     for (std::size_t row = 0; row < region.vertices().size(); ++row) {
         const Index v = region.vertices()[row];
@@ -345,30 +372,39 @@ BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held
 
 // Of what moves, and of the far ends.
 void ThesisMerge::keep_coordinates(const Mesh& part, std::span<const Index> vertices,
-                                   std::span<const Vec3> positions, const Region& moving) {
+                                   const TransitionShape& solved, const Region& moving) {
     std::vector<Index> moves;
     for (Index i = 0; i < part.vertex_count(); ++i) {
         if (moving.contains(vertices[i])) moves.push_back(i);
     }
     const Region region(part.shared_topology(), std::move(moves));
-    const BandSystem band(region, region, positions);
-    coordinates_.assign(target_.vertex_count(), Vec3::Zero());
+    BandSystem band(region, region, solved.positions);
+    band.take_morphs(with_turned_morphs(part, vertices, target_, solved.gradients));
+    const std::vector<Vec3> none(at(target_.vertex_count()), Vec3::Zero());
+    const std::vector<std::string> names = morph_names(target_);
+    std::vector<std::vector<Vec3>*> shapes = {&coordinates_};
+    coordinates_ = none;
+    morph_coordinates_.clear();
+    for (const std::string& name : names) shapes.push_back(&(morph_coordinates_[name] = none));
     has_coordinates_.assign(target_.vertex_count(), 0);
     for (Index i = 0; i < band.vertex_count(); ++i) {
         const Index v = vertices[band.mesh_vertex(i)];
         if (!band.is_row(i) || target_.topology().is_boundary(v)) continue;
-        coordinates_[v] = band.coordinates(i);
+        for (Index s = 0; s < band.shape_count(); ++s) {
+            (*shapes[at(s)])[at(v)] = band.coordinates(i, s);
+        }
         has_coordinates_[v] = 1;
     }
 }
 
 // The target's coordinates at one of its places.
-Vec3 ThesisMerge::seen_in_target(const BandPlace& place, const Vec3& otherwise) const {
+Vec3 ThesisMerge::seen_in_target(const BandPlace& place, const std::vector<Vec3>& coordinates,
+                                 const Vec3& otherwise) const {
     Vec3 sum = Vec3::Zero();
     double weights = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
         if (!has_coordinates_[place.vertices[k]]) continue;
-        sum += place.weights[k] * coordinates_[place.vertices[k]];
+        sum += place.weights[k] * coordinates[at(place.vertices[k])];
         weights += place.weights[k];
     }
     return weights > 0.0 ? Vec3(sum / weights) : otherwise;
@@ -376,6 +412,7 @@ Vec3 ThesisMerge::seen_in_target(const BandPlace& place, const Vec3& otherwise) 
 
 // The vertices of the source's boundaries lie on far ends.
 void ThesisMerge::want_at_seams(const BandSystem& band, std::span<const Index> local,
+                                const std::vector<Vec3>& coordinates,
                                 std::vector<Vec3>& wanted) const {
     for (const ThesisJoin& join : joins_) {
         const std::vector<Index>& loop = join.pair.target;
@@ -385,17 +422,20 @@ void ThesisMerge::want_at_seams(const BandSystem& band, std::span<const Index> l
             const LoopPoint& at = join.pair.on_target[k];
             const Index first = whole_.vertex_of[loop[at.segment]];
             const Index next = whole_.vertex_of[loop[(at.segment + 1) % count_of(loop)]];
-            wanted[i] = seen_in_target({{first, next, next}, {1.0 - at.t, at.t, 0.0}}, wanted[i]);
+            wanted[i] = seen_in_target({{first, next, next}, {1.0 - at.t, at.t, 0.0}}, coordinates,
+                                       wanted[i]);
         }
     }
 }
 
-void ThesisMerge::want_in_regions(std::span<const Index> local, std::vector<Vec3>& wanted) const {
+void ThesisMerge::want_in_regions(std::span<const Index> local,
+                                  const std::vector<Vec3>& coordinates,
+                                  std::vector<Vec3>& wanted) const {
     for (const Matches& region : of_source_) {
         for (const Match& m : region.matches) {
             const Index i = local[m.vertex];
             if (i == kNoIndex) continue;
-            const Vec3 other = seen_in_target(m.place, wanted[i]);
+            const Vec3 other = seen_in_target(m.place, coordinates, wanted[i]);
             wanted[i] = m.fraction * wanted[i] + (1.0 - m.fraction) * other;
         }
     }
@@ -423,10 +463,20 @@ TransitionReport ThesisMerge::reconstruct(Sewn& sewn, const Context& context) co
     for (std::size_t v = 0; v < local.size(); ++v) {
         local[v] = source_at[v] == kNoIndex ? kNoIndex : local_of[source_at[v]];
     }
-    std::vector<Vec3> wanted = coordinates_of(band);
-    want_at_seams(band, local, wanted);
-    want_in_regions(local, wanted);
-    band.bend({&wanted, 1}, context);
+    band.take_morphs(sewn.mesh);
+    const std::vector<std::string> names = morph_names(sewn.mesh);
+    const std::vector<Vec3> none(at(target_.vertex_count()), Vec3::Zero());
+    std::vector<std::vector<Vec3>> wanted;
+    for (Index s = 0; s < band.shape_count(); ++s) {
+        const auto of_morph =
+            s == 0 ? morph_coordinates_.end() : morph_coordinates_.find(names[at(s - 1)]);
+        const bool known = of_morph != morph_coordinates_.end();
+        const std::vector<Vec3>& other = s == 0 ? coordinates_ : known ? of_morph->second : none;
+        wanted.push_back(coordinates_of(band, s));
+        want_at_seams(band, local, other, wanted.back());
+        want_in_regions(local, other, wanted.back());
+    }
+    band.bend(wanted, context);
     band.write(sewn.mesh);
     TransitionReport report;
     for (const Matches& region : of_target_) report.target.push_back(region.report);

@@ -13,7 +13,9 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -67,7 +69,8 @@ class ThesisMerge {
     /// After `deform` and sewing: the vertices of the source's regions, without its boundaries,
     /// take those positions whose Laplacian coordinates are nearest to the interpolated ones, in
     /// the least squares weighted by area; at the seam these are the target's. Everything else
-    /// stays to the bit. "normal" attributes turn with the surface. Errors: not_positive_definite;
+    /// stays to the bit. "normal" attributes turn with the surface, and what morph targets add goes
+    /// through the same steps. Errors: not_positive_definite;
     /// memory_limit; cancelled. The mesh is then unchanged.
     TransitionReport reconstruct(Sewn& sewn, const Context& context) const;
 
@@ -101,11 +104,13 @@ class ThesisMerge {
     void add_counterparts(std::span<const Index> target_local, TransitionMesh& target,
                           TransitionMesh& source) const;
     void keep_coordinates(const Mesh& part, std::span<const Index> vertices,
-                          std::span<const Vec3> positions, const Region& moving);
-    Vec3 seen_in_target(const BandPlace& place, const Vec3& otherwise) const;
+                          const TransitionShape& solved, const Region& moving);
+    Vec3 seen_in_target(const BandPlace& place, const std::vector<Vec3>& coordinates,
+                        const Vec3& otherwise) const;
     void want_at_seams(const BandSystem& band, std::span<const Index> local,
-                       std::vector<Vec3>& wanted) const;
-    void want_in_regions(std::span<const Index> local, std::vector<Vec3>& wanted) const;
+                       const std::vector<Vec3>& coordinates, std::vector<Vec3>& wanted) const;
+    void want_in_regions(std::span<const Index> local, const std::vector<Vec3>& coordinates,
+                         std::vector<Vec3>& wanted) const;
     Region moving_in(const Sewn& sewn, std::span<const Index> source_at) const;
 
     const OverlapTarget& whole_;
@@ -116,9 +121,10 @@ class ThesisMerge {
     double weight_;
     std::vector<ThesisBand> target_bands_, source_bands_;
     std::vector<Matches> of_target_, of_source_;
-    /// Of the last `deform`: the coordinates of the target's vertices where they are known, and
-    /// which of the source stay.
+    /// Of the last `deform`: the coordinates of the target's vertices where they are known, those
+    /// of what its morph targets add, by attribute, and which vertices of the source stay.
     std::vector<Vec3> coordinates_;
+    std::map<std::string, std::vector<Vec3>> morph_coordinates_;
     std::vector<char> has_coordinates_, source_held_;
 };
 

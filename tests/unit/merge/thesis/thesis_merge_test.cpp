@@ -8,6 +8,7 @@
 #include "tests/unit/merge/real_pairs.h"
 #include "tests/unit/merge/sew/seam_scenes.h"
 #include "tests/unit/mesh/mesh_support.h"
+#include "tests/unit/mesh/morph_support.h"
 
 using namespace lissom;
 using doctest::Approx;
@@ -124,6 +125,37 @@ TEST_CASE("regions overlap: the source's is kept, and its details fade into the 
         ++kept;
     }
     CHECK(kept == 9 * 32);
+}
+
+TEST_CASE("what a morph target adds fades over the regions as the positions do") {
+    // Plain tubes; the source's target adds bumps, the target's adds nothing.
+    Tubes tubes(0.0);
+    const Tubes bumpy(0.1);
+    const auto add_morph = [](Mesh& mesh, const Mesh& moved) {
+        Attribute morph{"morph.1.position", Domain::vertex, 3, ScalarType::float64, {}};
+        for (Index v = 0; v < mesh.vertex_count(); ++v) {
+            const Vec3 d = moved.position(v) - mesh.position(v);
+            morph.values.insert(morph.values.end(), {d.x(), d.y(), d.z()});
+        }
+        mesh.attributes().add(std::move(morph));
+    };
+    add_morph(tubes.source, bumpy.source);
+    add_morph(tubes.target, tubes.target);
+    MergeResult faded = tubes.merged();
+    tubes.options.source_transition = tubes.options.target_transition = 0.0;
+    MergeResult whole = tubes.merged();
+    for (MergeResult* result : {&faded, &whole})
+        result->mesh = test::moved_by_target(result->mesh, 1);
+    double last = 0.0;
+    for (const double y : {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875}) {
+        const double share = roughness(tubes, faded, y - 0.05, y + 0.05) /
+                             roughness(tubes, whole, y - 0.05, y + 0.05);
+        CAPTURE(y);
+        CHECK(share > last - 0.02);
+        last = share;
+    }
+    CHECK(roughness(tubes, faded, 0.05, 0.2) < 0.6 * roughness(tubes, whole, 0.05, 0.2));
+    CHECK(last > 0.7);
 }
 
 TEST_CASE("keys on the target's boundary go to the far end along the cut, whatever they are") {
