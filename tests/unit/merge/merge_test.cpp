@@ -18,6 +18,7 @@
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/merge/loop/loop_shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
+#include "tests/unit/mesh/morph_support.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -327,6 +328,33 @@ TEST_CASE("a moved key gives what a merge made with it gives") {
     merge.set_keys(0, first);
     CHECK(hash(merge.solve().mesh) == hash(before.mesh));
     CHECK_THROWS_AS(merge.set_keys(1, {}), Error);
+}
+
+TEST_CASE("a moved key on a trimmed side gives what a merge made with it gives, targets too") {
+    Mesh source = bumpy_dome(40, 24);
+    const Mesh target = bowl(50, 20);
+    const std::vector<Index> rim = opening(source).vertices();
+    const Vec3 inward = source.position(rim[0]) - source.position(rim[20]);
+    const Vec3 axis =
+        inward.cross(source.position(rim[10]) - source.position(rim[30])).normalized();
+    for (std::size_t k = 0; k < rim.size(); k += 2) {
+        source.set_position(rim[k], source.position(rim[k]) + 0.06 * axis);
+    }
+    test::add_telling_targets(source);
+    const Mesh* targets[] = {&target};
+    const std::vector<KeyPair> first{{rim[0], Vec3(2, 0, 0)}}, moved{{rim[0], Vec3(0, 1.6, 0)}};
+    Merge merge(source, targets, {Join{opening(source), opening(target), 0, first}});
+    CHECK(merge.solve().report.joins[0].source_trimmed);
+    merge.set_keys(0, moved);
+    const MergeResult after = merge.solve(), fresh = merged(source, target, {}, moved);
+    REQUIRE(fresh.report.joins[0].source_trimmed);
+    CHECK(hash(after.mesh) == hash(fresh.mesh));
+    for (const int number : {1, 2, 3, 4}) {
+        const std::vector<Vec3> a = test::target(after.mesh, number);
+        const std::vector<Vec3> b = test::target(fresh.mesh, number);
+        CHECK(a == b);
+        CHECK(std::any_of(a.begin(), a.end(), [](const Vec3& d) { return d.norm() > 0.1; }));
+    }
 }
 
 TEST_CASE("the number of threads changes nothing") {
