@@ -1,9 +1,11 @@
 #include "kernel/merge/crossings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "kernel/merge/sew/seam_guard.h"
+#include "kernel/merge/shallow_crossings.h"
 #include "kernel/mesh/query/distances.h"
 
 namespace lissom {
@@ -11,6 +13,9 @@ namespace {
 
 // Within this many radii of a seam, faces cross because of the seam.
 constexpr double kAtSeam = 1.0;
+// In radii of a seam: of 33 groups of crossings in 80 merges of real models, those that cannot be
+// seen (lips, eyelids, folds of a neck) part by .005, others by .02 or not by .05.
+constexpr double kShallow = 0.01;
 
 // The faces of the source, which is deformed, and those of the target that were made or moved.
 std::vector<Index> changed_faces(const Mesh& target, const Sewn& sewn) {
@@ -158,6 +163,14 @@ CrossingPlace place_of(const Sewn& sewn, const std::vector<char>& near, const Fa
     return first == SeamSide::source ? CrossingPlace::source : CrossingPlace::target;
 }
 
+double smallest_radius(const Sewn& sewn) {
+    double least = INFINITY;
+    for (const std::vector<Index>& seam : sewn.seams) {
+        least = std::min(least, loop_radius(sewn.mesh, seam));
+    }
+    return least;
+}
+
 Vec3 middle_of_faces(const Mesh& mesh, std::span<const Index> faces) {
     Vec3 sum = Vec3::Zero();
     double count = 0.0;
@@ -201,11 +214,13 @@ std::vector<CrossingGroup> crossing_groups(const Sewn& sewn, std::span<const Fac
     if (pairs.empty()) return {};
     const std::vector<char> near = near_seams(sewn, context);
     std::map<CrossingPlace, CrossingGroup> groups;
+    std::map<CrossingPlace, std::vector<FacePair>> grouped;
     for (const FacePair& pair : pairs) {
         const CrossingPlace place = place_of(sewn, near, pair);
         CrossingGroup& group = groups[place];
         group.place = place;
         ++group.pairs;
+        grouped[place].push_back(pair);
         group.faces.push_back(pair.first);
         group.faces.push_back(pair.second);
     }
@@ -215,6 +230,8 @@ std::vector<CrossingGroup> crossing_groups(const Sewn& sewn, std::span<const Fac
         std::sort(faces.begin(), faces.end());
         faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
         entry.second.middle = middle_of_faces(sewn.mesh, faces);
+        entry.second.shallow =
+            is_shallow(sewn.mesh, grouped[entry.first], kShallow * smallest_radius(sewn), context);
         result.push_back(std::move(entry.second));
     }
     return result;

@@ -85,7 +85,8 @@ BandQuality band_of(const MergePreparation& preparation, const Sewn& sewn, const
     const std::vector<Index> of_target = faces_on(sewn.side_of_face, SeamSide::target);
     const std::vector<Index> of_source = faces_on(sewn.side_of_face, SeamSide::source);
     const Boundaries& from = preparation.boundaries;
-    return band_quality({&sewn.mesh, of_target, seam}, {&sewn.mesh, of_source, seam},
+    const std::vector<Index> origin = source_vertices(sewn.map, from.target.vertex_count());
+    return band_quality({&sewn.mesh, of_target, seam}, {&sewn.mesh, of_source, seam, false, origin},
                         {&from.target, {}, from.target_loops[j]},
                         {&from.source.mesh, {}, from.source.loops[j]}, join.scale,
                         preparation.options.configuration == Configuration::fixed, context);

@@ -183,6 +183,8 @@ enum class MergeFault {
     volume,
     /// The surface turns more across the band than beside the boundaries before.
     bend,
+    /// The rim of the source stands out beside the seam more than it did.
+    flare,
     /// The surface turns more at an edge of the seam than beside the boundaries before.
     seam,
     /// Where the boundaries meet is a guess that may be wrong.
@@ -209,6 +211,9 @@ struct CrossingGroup {
     /// Faces of the result, ascending, and the mean of their corners.
     std::vector<Index> faces;
     Vec3 middle = Vec3::Zero();
+    /// The surfaces only touch: they part if both draw back along their normals by a hundredth of
+    /// the seam's radius. Such groups are no reason against a merge.
+    bool shallow = false;
 };
 
 /// Why a merge is not good.

@@ -148,4 +148,13 @@ std::vector<Index> kept_vertices(const ElementMap& map, Index old_count) {
     return kept;
 }
 
+std::vector<Index> source_vertices(const MeshMap& map, Index first_count) {
+    std::vector<Index> result(at(map.vertices.size()), kNoIndex);
+    for (Index v = 0; v < map.vertices.size(); ++v) {
+        const Index from = map.vertices.main_source(v);
+        if (from >= first_count) result[at(v)] = from - first_count;
+    }
+    return result;
+}
+
 }  // namespace lissom

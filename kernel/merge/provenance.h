@@ -31,5 +31,8 @@ MeshMap composed_of_two(const MeshMap& outer, const Topology& first_between, con
                         const MeshMap& second, const Topology& first_origin);
 /// For each old vertex the new one that is nothing but it, or kNoIndex.
 std::vector<Index> kept_vertices(const ElementMap& map, Index old_count);
+/// For each new vertex the one of the second of two appended meshes that it mainly comes from, or
+/// kNoIndex; the first has `first_count` vertices.
+std::vector<Index> source_vertices(const MeshMap& map, Index first_count);
 
 }  // namespace lissom

@@ -32,14 +32,18 @@ struct Verdict {
 };
 
 /// Judges the whole band around each seam against the parts as they were before. It is good if
-/// - no faces run through one another that did not before (`open.sought`: they were looked for);
+/// - no faces run through one another that did not before (`open.sought`: they were looked for),
+///   but for those that only touch (CrossingGroup::shallow);
 /// - source and target do not lie on the same side of their boundary;
 /// - the surface does not fold back within one radius of the seam where it did not before;
 /// - within half a radius it is at most 1.4 times as rough as both sides were, or turns by less
 ///   than 8 degrees an edge;
 /// - each part keeps three fifths of its volume at its scale;
-/// - planes fitted to either side of the seam differ by at most 25 degrees in the mean, 50 at one
-///   place, and by the crease of a paste, or 1.3 times as much as they did beside the boundaries;
+/// - planes fitted to either side of the seam differ by at most 35 degrees in the mean, 60 along a
+///   tenth of it, and by the crease of a paste, or 1.3 times as much as they did beside the
+///   boundaries;
+/// - the rim of the source turns outward by at most 33 degrees more than at rest; not measured of
+///   a paste, whose rim is tilted on purpose;
 /// - the surface turns by no more than 30 degrees at an edge of the seam and 20 in the mean (two
 ///   thirds of the crease of a paste), or by no more than at edges beside the boundaries, 1.3 times
 ///   as much in the mean;

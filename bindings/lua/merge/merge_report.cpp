@@ -74,7 +74,7 @@ void push_place(const Call& call, const JoinReport& join) {
 }
 
 void push_band_quality(const Call& call, const BandQuality& band) {
-    lua_createtable(call.lua(), 0, 11);
+    lua_createtable(call.lua(), 0, 12);
     call.set_field("roughness", call.push(kDegrees * band.roughness));
     call.set_field("rest_roughness", call.push(kDegrees * band.rest_roughness));
     call.set_field("bend", call.push(kDegrees * band.bend));
@@ -83,6 +83,7 @@ void push_band_quality(const Call& call, const BandQuality& band) {
     call.set_field("rest_greatest_bend", call.push(kDegrees * band.rest_greatest_bend));
     call.set_field("folded", call.push(band.folded));
     call.set_field("rest_folded", call.push(band.rest_folded));
+    call.set_field("flare", call.push(kDegrees * band.flare));
     call.set_field("source_volume", call.push(band.source_volume));
     call.set_field("target_volume", call.push(band.target_volume));
     call.set_field("radius", call.push(band.radius));
@@ -90,7 +91,7 @@ void push_band_quality(const Call& call, const BandQuality& band) {
 
 bool is_angle(MergeFault fault) {
     return fault == MergeFault::roughness || fault == MergeFault::bend ||
-           fault == MergeFault::seam || fault == MergeFault::slivers;
+           fault == MergeFault::flare || fault == MergeFault::seam || fault == MergeFault::slivers;
 }
 
 // Its text with what may help, for tostring.
@@ -519,13 +520,16 @@ std::vector<Record> merge_records() {
           {"number", "rest_bend",
            "The same before on the side that bends more, from the strip at the boundary to the one "
            "behind it."},
-          {"number", "greatest_bend", "The greatest of the angles in `bend`."},
-          {"number", "rest_greatest_bend", "The greatest of those in `rest_bend`."},
+          {"number", "greatest_bend", "What a tenth of the angles in `bend` exceed."},
+          {"number", "rest_greatest_bend", "What a tenth of those in `rest_bend` exceed."},
           {"number", "folded",
            "Length of the edges within one radius at which the surface folds back by more than "
            "135 degrees, in radii of the seam."},
           {"number", "rest_folded",
            "That of the edges of both sides before that turned by more than 105 degrees."},
+          {"number", "flare",
+           "The RMS angle by which the rim of the source turns outward beside the seam more than "
+           "at rest; 0 of a paste."},
           {"number", "source_volume",
            "Volume between source and seam, over that of the source at rest at its scale: 1 where "
            "it was kept, negative where it turned inside out."},
@@ -534,12 +538,12 @@ std::vector<Record> merge_records() {
         {"lissom.MergeReason",
          "Why a merge is not good. tostring gives text and remedy.",
          {{"string", "fault",
-           "crossings, side, folds, roughness, volume, bend, bite, seam, place or slivers; of a "
-           "scatter "
-           "\"left out\" as well."},
+           "crossings, side, folds, roughness, volume, bend, flare, bite, seam, place or slivers; "
+           "of a scatter \"left out\" as well."},
           {"integer|nil", "join", "The join that it is of; nil of all of them."},
           {"number", "value",
-           "What was measured: degrees for roughness, bend, seam and slivers; radii of the seam "
+           "What was measured: degrees for roughness, bend, flare, seam and slivers; radii of the "
+           "seam "
            "for folds and bites; pairs of faces for crossings; the part that was kept for volume; "
            "the "
            "certainty for place."},

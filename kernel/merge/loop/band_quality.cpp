@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/merge/loop/face_angles.h"
+#include "kernel/merge/loop/rim_flare.h"
 #include "kernel/mesh/query/distances.h"
 
 namespace lissom {
@@ -89,22 +90,28 @@ double radius_of(const Mesh& mesh, std::span<const Index> loop, const Vec3& midd
     return length > 0.0 ? std::sqrt(squares / length) : 0.0;
 }
 
+// A seam is judged by what this part of its points exceed, so that a single one does not decide.
+constexpr double kFewPoints = 0.1;
+
 // Angles between planes on either side of points of a seam.
 struct Bends {
     double rms = 0.0, greatest = 0.0;
 };
 
 Bends bends_between(std::span<const Vec3> first, std::span<const Vec3> second) {
-    GreatestAngle greatest;
-    double squares = 0.0, count = 0.0;
+    std::vector<double> angles;
+    double squares = 0.0;
     for (std::size_t k = 0; k < std::min(first.size(), second.size()); ++k) {
         if (!(first[k].squaredNorm() > 0.0 && second[k].squaredNorm() > 0.0)) continue;
         const double angle = angle_between(first[k], second[k]);
-        greatest.add(angle);
+        angles.push_back(angle);
         squares += angle * angle;
-        count += 1.0;
     }
-    return {count > 0.0 ? std::sqrt(squares / count) : 0.0, greatest.value()};
+    if (angles.empty()) return {};
+    const double count = static_cast<double>(angles.size());
+    const auto few = angles.end() - 1 - static_cast<std::ptrdiff_t>(kFewPoints * count);
+    std::nth_element(angles.begin(), few, angles.end());
+    return {std::sqrt(squares / count), *few};
 }
 
 // One side as it is measured: its loop's size, and how far its faces are from it.
@@ -124,6 +131,7 @@ class Side {
     std::span<const Index> loop() const { return loop_; }
     const Vec3& middle() const { return middle_; }
     double radius() const { return radius_; }
+    MadeRim rim() const { return {mesh_, faces_, loop_, distance_, radius_}; }
 
     // Of the faces with a vertex within that many radii, without the seam's edges.
     EdgeSum edges(double radii) const {
@@ -197,8 +205,9 @@ class Side {
     double radius_ = 0.0;
 };
 
+// Of surfaces that are inside out as well.
 double volume_kept(double after, double before, double radius) {
-    return before > kBandFlat * radius * radius * radius ? after / before : 1.0;
+    return std::abs(before) > kBandFlat * radius * radius * radius ? after / before : 1.0;
 }
 
 }  // namespace
@@ -237,6 +246,10 @@ BandQuality band_quality(const BandSide& made_target, const BandSide& made_sourc
     result.folded = folds(on_target, &EdgeSum::folded) + folds(on_source, &EdgeSum::folded);
     result.rest_folded =
         folds(old_target, &EdgeSum::nearly_folded) + folds(old_source, &EdgeSum::nearly_folded);
+    if (!made_source.origin.empty()) {
+        const bool inside_out = old_source.volume(old_source.middle()) < 0.0;
+        result.flare = rim_flare(on_source.rim(), *source.mesh, made_source.origin, inside_out);
+    }
     const Vec3& middle = on_target.middle();
     if (!target.is_piece) {
         result.target_volume = volume_kept(on_target.volume(middle),

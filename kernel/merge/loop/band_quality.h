@@ -18,14 +18,18 @@ struct BandQuality {
     /// weighted by length; and the same of both sides beside their boundaries before.
     double roughness = 0.0, rest_roughness = 0.0;
     /// Angles between planes fitted to the surface on either side of points of the seam, each to a
-    /// strip a third of the radius wide: the RMS, and the greatest. And those on either side
-    /// before, from the strip next to the boundary to the one behind it, of the side that bends
-    /// more.
+    /// strip a third of the radius wide: the RMS, and what a tenth of them exceed. And those on
+    /// either side before, from the strip next to the boundary to the one behind it, of the side
+    /// that bends more.
     double bend = 0.0, greatest_bend = 0.0, rest_bend = 0.0, rest_greatest_bend = 0.0;
     /// Length of the edges within one radius at which the surface folds back by more than 135
     /// degrees, in radii of the seam; and of those of both sides before that turned by more than
     /// 105, and may have become such without a face turning over.
     double folded = 0.0, rest_folded = 0.0;
+    /// By how much more than at rest the source turns outward between neighbouring strips beside
+    /// the seam, which shows as a flared rim: the RMS over the seam of the greatest gain; 0 if it
+    /// is not known where its vertices come from.
+    double flare = 0.0;
     /// Volume of the source and of the target between the surface and the middle of the seam, over
     /// that at rest at the source's scale: 1 where a part kept it. 1 as well where a side has less
     /// than the seam's own dome.
@@ -42,6 +46,9 @@ struct BandSide {
     std::span<const Index> loop = {};
     /// The mesh is a piece of a larger one: its volume is not known.
     bool is_piece = false;
+    /// Of a source in a merged mesh: the vertex of the source at rest that each vertex comes from,
+    /// or kNoIndex.
+    std::span<const Index> origin = {};
 };
 
 /// Measures the band around a seam that `target` and `source` were joined at; `scale` is how much

@@ -112,14 +112,45 @@ TEST_CASE("the verdict weighs the whole band, and tells each fault with its figu
     CHECK(only_reason(report_with(band)).text.find("target lost") != std::string::npos);
 
     band = good_band();
-    band.bend = 30.0 * kDegree;
+    band.bend = 40.0 * kDegree;
     reason = only_reason(report_with(band));
     CHECK(reason.fault == MergeFault::bend);
-    CHECK(reason.limit == doctest::Approx(25.0 * kDegree));
-    band.rest_bend = 24.0 * kDegree;
+    CHECK(reason.limit == doctest::Approx(35.0 * kDegree));
+    band.rest_bend = 32.0 * kDegree;
     CHECK(verdict_of(report_with(band), {}).good);
-    band.greatest_bend = 60.0 * kDegree;
-    CHECK(only_reason(report_with(band)).limit == doctest::Approx(50.0 * kDegree));
+    band.greatest_bend = 70.0 * kDegree;
+    CHECK(only_reason(report_with(band)).limit == doctest::Approx(60.0 * kDegree));
+}
+
+TEST_CASE(
+    "a rim that stands out beside the seam is not good, though the surface bends nowhere else") {
+    BandQuality band = good_band();
+    band.flare = 30.0 * kDegree;
+    CHECK(verdict_of(report_with(band), {}).good);
+    band.flare = 40.0 * kDegree;
+    const MergeReason reason = only_reason(report_with(band));
+    CHECK(reason.fault == MergeFault::flare);
+    CHECK(reason.join == 0);
+    CHECK(reason.value == doctest::Approx(40.0 * kDegree));
+    CHECK(reason.text.find("turns outward by 40 degrees more than before") != std::string::npos);
+    // Parts that fit move as a whole.
+    MergeReport fits = report_with(band);
+    fits.joins.front().fits = true;
+    CHECK(verdict_of(fits, {}).good);
+}
+
+TEST_CASE("surfaces that only touch are told, and are no reason against a merge") {
+    MergeReport report = report_with(good_band());
+    report.intersections.resize(3);
+    report.crossings.resize(2);
+    report.crossings[0].pairs = 1;
+    report.crossings[1].pairs = 2;
+    report.crossings[0].shallow = true;
+    REQUIRE(verdict_of(report, {}).reasons.size() == 1);
+    CHECK(verdict_of(report, {}).reasons[0].value == 2.0);
+    report.crossings[1].shallow = true;
+    CHECK(verdict_of(report, {}).good);
+    CHECK(says(verdict_of(report, {}), "but for 3 pairs that touch"));
 }
 
 TEST_CASE("a seam that turns all around is not good, though one edge beside it was as steep") {
@@ -173,7 +204,7 @@ MergeReport report_of_all_faults() {
     join.band.roughness = 80.0 * kDegree;
     join.band.source_volume = 0.2;
     join.band.target_volume = -0.2;
-    join.band.bend = 80.0 * kDegree;
+    join.band.bend = join.band.flare = 80.0 * kDegree;
     return report;
 }
 
@@ -198,7 +229,7 @@ TEST_CASE("remedies name only options that the operation has and that are not se
     const MergeReport report = report_of_all_faults();
     for (const OpenOptions& open : all_open_options()) {
         const Verdict verdict = verdict_of(report, open);
-        REQUIRE(verdict.reasons.size() == 13);
+        REQUIRE(verdict.reasons.size() == 14);
         for (const MergeReason& reason : verdict.reasons) {
             REQUIRE(!reason.remedy.empty());
             REQUIRE((open.keys || !names(reason, "key")));

@@ -131,7 +131,8 @@ SourceRest source_rest(const Mesh& source, const PastePart& part, const Context&
     const double strip = kRestStrip * radius;
     const std::vector<RestFace> near = faces_near(source, part, middle, farthest + strip);
     measure_bend(rim, near, strip, rest);
-    const double volume = volume_over(part.mesh, part.loop);
+    // Below 0 if the source is inside out, or the part a pit.
+    const double volume = std::abs(volume_over(part.mesh, part.loop));
     if (volume > 0.0) rest.dome = dome_volume(rim, near, middle, radius) / volume;
     return rest;
 }

@@ -8,6 +8,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/merge/sew/seam_guard.h"
+#include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/merge/loop/loop_shapes.h"
 #include "tests/unit/support.h"
@@ -159,4 +160,69 @@ TEST_CASE("a step that crumples the band is refused, though one edge there is st
     SeamGuard guard(mesh, seams, moving, {});
     guard.move(to);
     CHECK(roughness(guard.positions()) < 1.15 * before);
+}
+
+TEST_CASE(
+    "a rim that was bent outward is seen by the flare, a fillet and a shape at rest are not") {
+    const Barrel barrel;
+    std::vector<Index> origin(at(barrel.mesh.vertex_count()));
+    for (Index v = 0; v < barrel.mesh.vertex_count(); ++v) origin[at(v)] = v;
+    const auto flare = [&](const Mesh& made, const Mesh& rest) {
+        return band_quality({&made, barrel.below, barrel.seam},
+                            {&made, barrel.above, barrel.seam, false, origin},
+                            {&rest, barrel.below, barrel.seam}, {&rest, barrel.above, barrel.seam},
+                            1.0, false)
+            .flare;
+    };
+    const auto widened = [](double y) { return 1.0 + 0.5 * std::sin(6.0 * y) * (y < 0.52); };
+    const Mesh rim = barrel.moved([&](Vec3& p) {
+        if (p.y() <= 0.0) return;
+        const double out = widened(p.y());
+        p.x() *= out;
+        p.z() *= out;
+    });
+    const Mesh waist = barrel.moved([](Vec3& p) {
+        if (p.y() <= 0.0 || p.y() >= 1.0) return;
+        const double in = 1.0 - 0.5 * p.y();
+        p.x() *= in;
+        p.z() *= in;
+    });
+    CHECK(flare(barrel.mesh, barrel.mesh) < 1e-9);
+    CHECK(flare(rim, barrel.mesh) > 40.0 * kDegree);
+    CHECK(flare(rim, rim) < 1e-9);
+    CHECK(flare(waist, barrel.mesh) < 10.0 * kDegree);
+    // Whether the faces look outward or inward: the same surface turned over is as good or bad.
+    Mesh rest_over = barrel.mesh, rim_over = rim;
+    flip(rest_over);
+    flip(rim_over);
+    CHECK(flare(rim_over, rest_over) == doctest::Approx(flare(rim, barrel.mesh)));
+}
+
+TEST_CASE("lost volume is seen on a mesh that is inside out as well") {
+    const Barrel barrel;
+    Mesh rest = barrel.mesh, caved = barrel.moved([](Vec3&p) {
+        if (p.y() > 0.0) p.y() *= 0.5;
+    });
+    flip(rest);
+    flip(caved);
+    const BandQuality band = band_quality(
+        {&caved, barrel.below, barrel.seam}, {&caved, barrel.above, barrel.seam},
+        {&rest, barrel.below, barrel.seam}, {&rest, barrel.above, barrel.seam}, 1.0, false);
+    CHECK(band.source_volume == doctest::Approx(0.5));
+    CHECK(band.target_volume == doctest::Approx(1.0));
+}
+
+TEST_CASE("one point of a seam does not decide how much it bends, a tenth of it does") {
+    const Barrel barrel;
+    const auto dented = [&](double width) {
+        return barrel.measured(barrel.moved([&](Vec3& p) {
+            const double angle = std::atan2(p.x(), p.z());
+            if (p.y() <= 0.0 || p.y() > 1.0 || std::abs(angle) > width) return;
+            const double in = 1.0 - 0.9 * p.y();
+            p.x() *= in;
+            p.z() *= in;
+        }));
+    };
+    CHECK(dented(0.1).greatest_bend < 30.0 * kDegree);
+    CHECK(dented(1.0).greatest_bend > 35.0 * kDegree);
 }

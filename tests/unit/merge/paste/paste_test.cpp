@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/measure/measures.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"
@@ -296,4 +297,21 @@ TEST_CASE("paste: the size can be locked; nearest points and the thesis's way wo
     Paste literal = horn_on_egg(horn, target, {.at = {1, 1.2, 0.8}, .scale = 0.7}, thesis);
     literal.optimize();
     check_sound(literal.merge());
+}
+
+TEST_CASE("paste: meshes that are both inside out are judged as the same right side out") {
+    Mesh horn = horned_ball(), target = egg();
+    const auto band_of = [&] {
+        Paste paste = horn_on_egg(horn, target, {.at = {1, 1.2, 0.8}, .scale = 0.8});
+        const PasteResult result = paste.merge();
+        CHECK(result.merged.report.ok);
+        return result.merged.report.joins.at(0).band;
+    };
+    const BandQuality outward = band_of();
+    flip(horn);
+    flip(target);
+    const BandQuality inward = band_of();
+    CHECK(inward.source_volume == doctest::Approx(outward.source_volume).epsilon(0.05));
+    CHECK(inward.roughness == doctest::Approx(outward.roughness).epsilon(0.05));
+    CHECK(inward.greatest_bend == doctest::Approx(outward.greatest_bend).epsilon(0.1));
 }
