@@ -3,9 +3,13 @@
 #include <cmath>
 
 #include "kernel/merge/merge.h"
+#include "kernel/merge/paste/paste.h"
+#include "kernel/merge/paste/scatter.h"
 #include "kernel/mesh/edit/append.h"
 #include "kernel/mesh/measure/morph_maps.h"
 #include "kernel/mesh/query/path.h"
+#include "kernel/mesh/query/region_select.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/io/gltf/support.h"
 
 using namespace lissom;
@@ -59,6 +63,41 @@ GltfFile tube(double bottom, const std::vector<Target>& targets, bool has_weight
     if (!names.empty()) file.json["meshes"][0]["extras"]["targetNames"] = names;
     if (has_weights && !targets.empty()) file.json["meshes"][0]["weights"] = weights;
     return file;
+}
+
+// A ball of a radius, with a bump at the top if asked for, and targets that move all of it.
+Mesh ball(double radius, bool bump, const std::vector<Target>& targets) {
+    Mesh mesh = make_sphere({.segments = 24, .kind = SphereKind::triangles});
+    for (Vec3& p : mesh.edit_positions()) {
+        const double beside = p.x() * p.x() + p.z() * p.z();
+        if (bump && p.y() > 0.0) p.y() += 0.5 * std::exp(-12.0 * beside);
+        p *= radius;
+    }
+    GltfFile file;
+    std::vector<float> positions;
+    std::vector<std::uint16_t> corners;
+    for (const Vec3& p : mesh.positions()) {
+        for (const double x : {p.x(), p.y(), p.z()}) positions.push_back(static_cast<float>(x));
+    }
+    for (const Index v : mesh.topology().faces().vertices) {
+        corners.push_back(static_cast<std::uint16_t>(v));
+    }
+    Json primitive{{"attributes", {{"POSITION", file.floats(positions, "VEC3")}}},
+                   {"indices", file.indices(corners)}};
+    Json names = Json::array(), weights = Json::array();
+    for (const Target& target : targets) {
+        std::vector<float> adds;
+        for (Index v = 0; v < mesh.vertex_count(); ++v) {
+            for (int k = 0; k < 3; ++k) adds.push_back(static_cast<float>(target.adds[k]));
+        }
+        primitive["targets"].push_back({{"POSITION", file.floats(adds, "VEC3")}});
+        names.push_back(target.name);
+        weights.push_back(target.weight);
+    }
+    file.json["nodes"][file.add_mesh(primitive)]["name"] = "part";
+    file.json["meshes"][0]["extras"]["targetNames"] = names;
+    file.json["meshes"][0]["weights"] = weights;
+    return file.load();
 }
 
 // The weights of all targets at two times, 1, 2, 3, ...
@@ -145,6 +184,85 @@ TEST_CASE("merged, shape keys are those of both by name, with weights") {
     CHECK(added(result.mesh, 3, bottom).norm() < 1e-6);
     const Mesh again = decode_mesh(encode_mesh(result.mesh, "glb"), "glb");
     CHECK((added(again, 3, highest(again, 1.0)) - kUp).norm() < 1e-6);
+}
+
+namespace {
+
+Index farthest(const Mesh& mesh, const Vec3& direction) {
+    Index best = 0;
+    for (Index v = 1; v < mesh.vertex_count(); ++v) {
+        if (mesh.position(v).dot(direction) > mesh.position(best).dot(direction)) best = v;
+    }
+    return best;
+}
+
+PastePlacement at_side() {
+    PastePlacement placement;
+    placement.at = Vec3(2.0, 0.0, 0.0);
+    return placement;
+}
+
+// The bump of a ball with [smile, blink] on the side of one with [fat, blink]: it was turned by a
+// quarter, and `smile`, which moved it up, moves it out.
+void check_bump(const Mesh& mesh, double scale) {
+    const Json json = written(mesh);
+    REQUIRE(json["meshes"].size() == 1);
+    CHECK(names_of(json) == Json::array({"fat", "blink", "smile"}));
+    CHECK(json["meshes"][0]["weights"] == Json::array({0.75, 0.5, 0.25}));
+    CHECK(json["meshes"][0]["primitives"][0]["targets"].size() == 3);
+    const Index tip = farthest(mesh, Vec3::UnitX()), away = farthest(mesh, -Vec3::UnitX());
+    CHECK(added(mesh, 1, tip).norm() < 1e-6);
+    CHECK((added(mesh, 3, tip) - scale * Vec3::UnitX()).norm() < 0.1 * scale);
+    CHECK((added(mesh, 1, away) - kBack).norm() < 1e-6);
+    CHECK((added(mesh, 2, away) - kUp).norm() < 1e-6);
+    CHECK(added(mesh, 3, away).norm() < 1e-6);
+}
+
+}  // namespace
+
+TEST_CASE("pasted and scattered, shape keys are those of both by name, turned with the part") {
+    const Mesh part = ball(1.0, true, {{"smile", kUp, 0.25}, {"blink", kOut, 0.5}});
+    const Mesh body = ball(2.0, false, {{"fat", kBack, 0.75}, {"blink", kUp, 0.5}});
+    const Region region = select_sphere(part, Vec3(0.0, 1.3, 0.0), 0.95);
+    Paste paste(part, body, region, std::nullopt, std::nullopt, at_side());
+    paste.optimize(4);
+    const PasteResult pasted = paste.merge();
+    check_bump(pasted.merged.mesh, pasted.merged.report.joins.at(0).scale);
+
+    const PastePlacement places[] = {at_side()};
+    const ScatterResult scattered = scatter(part, body, region, std::nullopt, places);
+    REQUIRE(scattered.placed == 1);
+    check_bump(scattered.mesh, 1.0);
+}
+
+TEST_CASE("cloned, a feature takes its shape keys along, turned with it") {
+    const Mesh mesh = ball(1.0, true, {{"smile", kUp, 0.25}, {"blink", kOut, 0.5}});
+    PastePlacement placement = at_side();
+    placement.at = Vec3(1.0, 0.0, 0.0);
+    Paste paste(mesh, mesh, select_sphere(mesh, Vec3(0.0, 1.3, 0.0), 0.7), std::nullopt,
+                std::nullopt, placement);
+    const PasteResult cloned = paste.merge();
+    const Mesh& made = cloned.merged.mesh;
+    const Json json = written(made);
+    CHECK(names_of(json) == Json::array({"smile", "blink"}));
+    CHECK(json["meshes"][0]["weights"] == Json::array({0.25, 0.5}));
+    const double scale = cloned.merged.report.joins.at(0).scale;
+    const Vec3 tip = added(made, 1, farthest(made, Vec3::UnitX()));
+    CHECK((tip - scale * Vec3::UnitX()).norm() < 0.1 * scale);
+    CHECK((added(made, 1, farthest(made, -Vec3::UnitX())) - kUp).norm() < 1e-6);
+}
+
+TEST_CASE("pasted, a weight that differs on both sides is named, and the target's counts") {
+    const Mesh part = ball(1.0, true, {{"blink", kOut, 0.5}});
+    const Mesh body = ball(2.0, false, {{"blink", kUp, 0.1}});
+    Paste paste(part, body, select_sphere(part, Vec3(0.0, 1.3, 0.0), 0.95), std::nullopt,
+                std::nullopt, at_side());
+    const PasteResult pasted = paste.merge();
+    CHECK(written(pasted.merged.mesh)["meshes"][0]["weights"] == Json::array({0.1}));
+    const std::vector<std::string>& told = pasted.merged.report.warnings;
+    CHECK(std::any_of(told.begin(), told.end(), [](const std::string& text) {
+        return text.find("blink") != std::string::npos;
+    }));
 }
 
 TEST_CASE("shape keys of one side alone keep names and weights, whichever side it is") {
