@@ -19,7 +19,7 @@ void sort_out(std::vector<Index>& elements) {
     elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
 }
 
-std::vector<Index> faces_of(std::span<const FacePair> pairs) {
+std::vector<Index> faces_of_pairs(std::span<const FacePair> pairs) {
     std::vector<Index> faces;
     for (const FacePair& pair : pairs) {
         faces.push_back(pair.first);
@@ -29,7 +29,7 @@ std::vector<Index> faces_of(std::span<const FacePair> pairs) {
     return faces;
 }
 
-std::vector<Index> vertices_of(const Mesh& mesh, std::span<const Index> faces) {
+std::vector<Index> vertices_of_faces(const Mesh& mesh, std::span<const Index> faces) {
     std::vector<Index> vertices;
     for (const Index f : faces) {
         const std::span<const Index> face = mesh.topology().face(f);
@@ -39,10 +39,10 @@ std::vector<Index> vertices_of(const Mesh& mesh, std::span<const Index> faces) {
     return vertices;
 }
 
-std::vector<Index> grown(const Mesh& mesh, std::vector<Index> faces, int rings) {
+std::vector<Index> grown_faces(const Mesh& mesh, std::vector<Index> faces, int rings) {
     for (int ring = 0; ring < rings; ++ring) {
         std::vector<Index> more;
-        for (const Index v : vertices_of(mesh, faces)) {
+        for (const Index v : vertices_of_faces(mesh, faces)) {
             const auto around = mesh.topology().faces_around(v);
             more.insert(more.end(), around.begin(), around.end());
         }
@@ -57,26 +57,26 @@ bool is_one_of(const std::vector<Index>& sorted, Index f) {
 }
 
 // The faces around pairs, and which of them crossed others before.
-struct Surroundings {
+struct CrossingFaces {
     std::vector<Index> faces, vertices, known;
 };
 
-Surroundings surroundings_of(const Mesh& mesh, std::span<const FacePair> pairs,
-                             const Context& context) {
-    Surroundings around;
-    around.faces = grown(mesh, faces_of(pairs), kDrawnRings);
-    around.vertices = vertices_of(mesh, around.faces);
+CrossingFaces faces_around_crossing(const Mesh& mesh, std::span<const FacePair> pairs,
+                                    const Context& context) {
+    CrossingFaces around;
+    around.faces = grown_faces(mesh, faces_of_pairs(pairs), kDrawnRings);
+    around.vertices = vertices_of_faces(mesh, around.faces);
     std::vector<FacePair> sorted(pairs.begin(), pairs.end()), others;
     std::sort(sorted.begin(), sorted.end());
     for (const FacePair& pair : self_intersections(mesh, {around.faces, around.faces}, context)) {
         if (!std::binary_search(sorted.begin(), sorted.end(), pair)) others.push_back(pair);
     }
-    around.known = faces_of(others);
+    around.known = faces_of_pairs(others);
     return around;
 }
 
 // Whether no faces cross but some that crossed others before.
-bool part(const Mesh& drawn, const Surroundings& around, const Context& context) {
+bool draw_apart(const Mesh& drawn, const CrossingFaces& around, const Context& context) {
     const auto left = self_intersections(drawn, {around.faces, around.faces}, context);
     return std::all_of(left.begin(), left.end(), [&](const FacePair& pair) {
         return is_one_of(around.known, pair.first) && is_one_of(around.known, pair.second);
@@ -87,7 +87,7 @@ bool part(const Mesh& drawn, const Surroundings& around, const Context& context)
 
 bool is_shallow(const Mesh& mesh, std::span<const FacePair> pairs, double depth,
                 const Context& context) {
-    const Surroundings around = surroundings_of(mesh, pairs, context);
+    const CrossingFaces around = faces_around_crossing(mesh, pairs, context);
     const std::vector<Vec3> normals = vertex_normals(mesh);
     Mesh drawn = mesh;
     for (const double share : kDrawnParts) {
@@ -95,7 +95,7 @@ bool is_shallow(const Mesh& mesh, std::span<const FacePair> pairs, double depth,
             for (const Index v : around.vertices) {
                 drawn.set_position(v, mesh.position(v) + side * share * depth * normals[at(v)]);
             }
-            if (part(drawn, around, context)) return true;
+            if (draw_apart(drawn, around, context)) return true;
         }
     }
     return false;
