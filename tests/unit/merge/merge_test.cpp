@@ -343,7 +343,7 @@ TEST_CASE("a moved key on a trimmed side gives what a merge made with it gives, 
     test::add_telling_targets(source);
     const Mesh* targets[] = {&target};
     const std::vector<KeyPair> first{{rim[0], Vec3(2, 0, 0)}}, moved{{rim[0], Vec3(0, 1.6, 0)}};
-    Merge merge(source, targets, {Join{opening(source), opening(target), 0, first}});
+    Merger merge(source, targets, {Join{opening(source), opening(target), 0, first}});
     CHECK(merge.solve().report.joins[0].source_trimmed);
     merge.set_keys(0, moved);
     const MergeResult after = merge.solve(), fresh = merged(source, target, {}, moved);
