@@ -96,12 +96,19 @@ std::string call_of(const Entry& entry, const std::string& arguments) {
            entry.function->name + ", object, " + arguments + ")";
 }
 
-// An option table with one key of one nested table.
-std::string option_text(const Entry::Slot& slot, const std::string& value) {
-    const std::size_t dot = slot.path.find('.');
-    if (dot == std::string::npos) return "{ " + slot.path + " = " + value + " }";
-    return "{ " + slot.path.substr(0, dot) + " = { " + slot.path.substr(dot + 1) + " = " + value +
-           " } }";
+// An option table with one key, which may be in nested tables: "handles.rotate.axis". Those of a
+// list of tables stand in its first one.
+std::string option_text(const Entry& entry, const Entry::Slot& slot, const std::string& value) {
+    const std::size_t dot = slot.path.rfind('.');
+    const std::string key = slot.path.substr(dot == std::string::npos ? 0 : dot + 1);
+    const std::string table = "{ " + key + " = " + value + " }";
+    if (dot == std::string::npos) return table;
+    for (const Entry::Slot& outer : entry.slots) {
+        if (outer.path != slot.path.substr(0, dot)) continue;
+        const bool is_list = outer.parameter->kind == Kind::option_list;
+        return option_text(entry, outer, is_list ? "{ " + table + " }" : table);
+    }
+    return table;
 }
 
 TEST_CASE("a method called with a dot is told of the colon") {
@@ -132,7 +139,7 @@ TEST_CASE("no function crashes on arguments of any type") {
             }
             for (const Entry::Slot& slot : entry->slots) {
                 if (slot.parameter == nullptr) continue;
-                CHECK(lua.run("fresh() " + call_of(*entry, option_text(slot, v))) == "");
+                CHECK(lua.run("fresh() " + call_of(*entry, option_text(*entry, slot, v))) == "");
             }
         }
     }
