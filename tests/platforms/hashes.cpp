@@ -51,7 +51,7 @@ Mesh half(const Mesh& mesh, double height, double up) {
 Mesh merged(const Mesh& head, const Mesh& cactus) {
     const Mesh source = half(head, -0.15, 1.0), target = half(cactus, 1.7, -1.0);
     const Mesh* targets[] = {&target};
-    Merge merge(source, targets, {{boundaries(source)[0], boundaries(target)[0]}});
+    Merger merge(source, targets, {{boundaries(source)[0], boundaries(target)[0]}});
     return merge.solve().mesh;
 }
 
