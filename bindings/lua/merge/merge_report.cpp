@@ -560,11 +560,14 @@ std::vector<Record> merge_records() {
          "What a merge found and did.",
          {{"lissom.TargetBite", "bite", "What a paste took of the sharp edges of its target."},
           {"boolean", "ok",
-           "Whether the result is good: no faces run through one another that did not before; the "
+           "Whether the result is good: no faces run through one another that did not before, but "
+           "for those that only touch; the "
            "surface around the seam does not fold back, is at most 1.4 times as rough as the parts "
-           "were there (or turns by less than 8 degrees an edge), and bends by no more than 25 "
-           "degrees from one side to the other and 50 at one place, or 1.3 times what it did "
-           "before (and by the crease of a paste); a paste takes no sharp edge of its target along "
+           "were there (or turns by less than 8 degrees an edge), and bends by no more than 35 "
+           "degrees from one side to the other and 60 along a tenth of it, or 1.3 times what it "
+           "did before (and by the crease of a paste); the rim of the source of a merge turns "
+           "outward by no more than 33 degrees more than before; a paste takes no sharp edge of "
+           "its target along "
            "more than .3 of its radius or deeper than .15; each part keeps "
            "three fifths of its volume; the seam turns by no more than 30 degrees and 20 in "
            "the mean, or than the surfaces did beside the boundaries; no place is a toss; no "
