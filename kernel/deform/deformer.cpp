@@ -40,6 +40,7 @@ void require_options(const DeformOptions& o) {
 // Options that a comparison method has no use for must be left alone.
 void require_applicable(const DeformOptions& o) {
     if (o.method == DeformMethod::implicit) return;
+    require_comparison(o);
     const DeformOptions defaults;
     const bool laplacian = o.method == DeformMethod::naive ||
                            o.method == DeformMethod::rotation_estimate ||

@@ -1,6 +1,7 @@
 /// Options of deformation, and what is prescribed at handles, vertices and points.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,14 @@
 #include "kernel/deform/mesh_point.h"
 
 namespace lissom {
+
+class ComparisonMethod;
+struct ComparisonProblem;
+class Context;
+
+/// Builds and factors a method that deforms in place of the implicit one: comparison_method.h.
+using ComparisonMaker = std::unique_ptr<ComparisonMethod> (*)(const ComparisonProblem& problem,
+                                                              const Context& context);
 
 /// Weights of the Laplacian coordinates: cotangents, or 1 / valence.
 enum class LaplacianWeights { cotangent, uniform };
@@ -31,11 +40,11 @@ enum class FlatVertices { extended, displaced };
 enum class UnheldParts { error, stay, follow };
 
 /// How the region follows its handles. All but `implicit` are the methods that the thesis compares
-/// its own with (sections 2.3 to 2.5). They use the same operators and keep the same promises: hard
-/// positions, the rest shape to the bit, nothing moves outside the region, no factorisation for a
-/// new transform. They have one quality only, so `preview` and `solve_draft` give what `solve`
-/// gives, and no handle basis; weights of handles, and points that are not vertices, are refused as
-/// `unsupported`.
+/// its own with (sections 2.3 to 2.5), and need DeformOptions::comparison. They use the same
+/// operators and keep the same promises: hard positions, the rest shape to the bit, nothing moves
+/// outside the region, no factorisation for a new transform. They have one quality only, so
+/// `preview` and `solve_draft` give what `solve` gives, and no handle basis; weights of handles,
+/// and points that are not vertices, are refused as `unsupported`.
 enum class DeformMethod {
     /// Fu 2007: gradients implicit in the positions, then shear taken out.
     implicit,
@@ -96,6 +105,9 @@ struct DeformOptions {
     /// Within this geodesic distance of the region's outline the surface is drawn to rest, more and
     /// more, so that the deformation fades into what stays; in units of length.
     double transition = 0.0;
+    /// Makes `method` unless it is `implicit`; null refuses the others as `unsupported`.
+    /// make_comparison of kernel/thesis makes all of them.
+    ComparisonMaker comparison = nullptr;
 
     /// The thesis to the letter: coherence 2, threshold 2e5, literal weights, flat vertices
     /// displaced, second system (2.10).

@@ -13,7 +13,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/core/memory_hold.h"
-#include "kernel/deform/comparison/method.h"
+#include "kernel/deform/comparison_method.h"
 #include "kernel/deform/holds/constraints.h"
 #include "kernel/deform/holds/handle_gaps.h"
 #include "kernel/deform/holds/holds.h"
@@ -137,6 +137,9 @@ struct Preparation {
 
 /// Throws `unsupported`, with `what` as subject, where the method is not the implicit one.
 void require_implicit(const DeformOptions& options, const char* what);
+
+/// Throws `unsupported` if the options name a comparison method without its maker.
+void require_comparison(const DeformOptions& options);
 
 /// Factors the comparison method that the options name. Errors: unsupported; as
 /// prepare_deformation.

@@ -35,6 +35,8 @@
 
 namespace lissom {
 
+class OverlapTransition;
+
 /// Whether the source comes to the target from wherever it lies, turned and scaled as fits (3.3.1),
 /// or stays where it was put and only bends to meet the target (3.3.2).
 enum class Configuration { free, fixed };
@@ -104,6 +106,9 @@ struct MergeOptions {
     bool suit_transition = false;
     /// w_T of 3.3.3, of the thesis's transition.
     double transition_weight = 0.1;
+    /// Makes the thesis's transition, which `thesis` with widths asks for: literal_transition of
+    /// kernel/thesis. Without it such a merge is refused as `unsupported`. Not owned.
+    const OverlapTransition* overlap = nullptr;
     /// Trims boundaries that turn at their vertices, in the mean, by `greatest_turn` radians more
     /// than a regular polygon: the seam would show every tooth of them.
     bool trim = true;

@@ -392,9 +392,10 @@ void refine_coarse(Boundaries& boundaries, LoopMeasure measure, const Context& c
 }
 
 // Takes the regions off the targets, which end at their far ends then.
-void open_targets(double width, Boundaries& boundaries, const Context& context) {
+void open_targets(const OverlapTransition& transition, double width, Boundaries& boundaries,
+                  const Context& context) {
     OpenedForOverlap opened =
-        open_for_overlap(boundaries.target, boundaries.target_loops, width, context);
+        transition.open(boundaries.target, boundaries.target_loops, width, context);
     boundaries.target_map = composed(opened.map, boundaries.target_map);
     boundaries.target = std::move(opened.mesh);
     boundaries.target_loops = std::move(opened.loops);
@@ -538,6 +539,22 @@ MergeOptions MergeOptions::literal(Configuration configuration) {
     return options;
 }
 
+namespace {
+
+const OverlapTransition& overlap_of(const MergeOptions& options) {
+    if (!(options.source_transition > 0.0 && options.target_transition > 0.0)) {
+        throw Error(ErrorCode::invalid_argument,
+                    "the thesis's transition needs a region on both sides: give widths above 0 for "
+                    "source and target");
+    }
+    if (options.overlap) return *options.overlap;
+    throw Error(ErrorCode::unsupported,
+                "the thesis's transition is not part of this program, which was built without "
+                "kernel/thesis; leave the thesis's formulas or the widths out");
+}
+
+}  // namespace
+
 MergeMethod method_of(const MergeOptions& options) {
     MergeMethod method;
     method.values.turn = options.configuration == Configuration::free || options.turn_frames;
@@ -551,12 +568,8 @@ MergeMethod method_of(const MergeOptions& options) {
     method.values.tangent_scales = true;
     method.loops = LoopMeasure::raw;
     method.guard = false;
-    method.own_transition = options.source_transition > 0.0 || options.target_transition > 0.0;
-    if (method.own_transition &&
-        !(options.source_transition > 0.0 && options.target_transition > 0.0)) {
-        throw Error(ErrorCode::invalid_argument,
-                    "the thesis's transition needs a region on both sides: give widths above 0 for "
-                    "source and target");
+    if (options.source_transition > 0.0 || options.target_transition > 0.0) {
+        method.overlap = &overlap_of(options);
     }
     return method;
 }
@@ -587,7 +600,7 @@ Boundaries find_boundaries(Sides sides, std::span<const Join> joins, const Merge
     const MergeMethod method = method_of(options);
     make_loops(result, method.loops);
     if (options.refine) refine_coarse(result, method.loops, context);
-    if (method.own_transition) open_targets(options.target_transition, result, context);
+    if (method.overlap) open_targets(*method.overlap, options.target_transition, result, context);
     return result;
 }
 

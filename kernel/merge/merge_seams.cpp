@@ -160,8 +160,8 @@ void finish_seams(const MergeOptions& options, const Matching& matching, const M
         merged.transition.source = merged.transition.target;
         return;
     }
-    if (moved.thesis) {
-        merged.transition = moved.thesis->reconstruct(sewn, context);
+    if (moved.overlap) {
+        merged.transition = moved.overlap->reconstruct(sewn, context);
     } else if (blends) {
         blend(options, matching, firm, merged, context);
     } else if (options.seam == SeamKind::fair &&

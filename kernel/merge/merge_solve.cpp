@@ -52,12 +52,12 @@ struct PlacedKeys {
 };
 
 // The cut of the target's region carries the first key to the far end, and arc length the others.
-void carry_to_end(const Overlap& overlap, const Loop& end, std::size_t join, PlacedKeys& keys) {
+void carry_to_end(const OverlapTransition& transition, const Overlap& overlap, const Loop& end,
+                  std::size_t join, PlacedKeys& keys) {
     const Loop& loop = overlap.curves[join];
     const OverlapTarget& whole = overlap.target;
     keys.start = nearest_vertex(loop, keys.parameters.front().target);
-    const Index at = cut_end(whole.mesh, target_band_loop(whole.mesh, loop.vertices(), keys.start),
-                             whole.width, {});
+    const Index at = transition.cut_from(whole, loop.vertices(), keys.start);
     const std::vector<Index>& ends = whole.ends[join];
     const std::size_t place = std::find(ends.begin(), ends.end(), at) - ends.begin();
     const double shift = end.parameters()[place] - loop.parameters()[keys.start];
@@ -80,7 +80,8 @@ PlacedKeys placed_keys(const MergePreparation& preparation, std::size_t join,
     }
     PlacedKeys placed{key_parameters(source, target, keys), 0};
     if (from.overlap && !keys.empty()) {
-        carry_to_end(*from.overlap, from.target_curves[join], join, placed);
+        carry_to_end(*preparation.method.overlap, *from.overlap, from.target_curves[join], join,
+                     placed);
     }
     return placed;
 }
@@ -243,19 +244,19 @@ Motion motion_of(const MergePreparation& preparation, BoundaryDeformation deform
 }
 
 // The thesis's transition, where it is asked for.
-std::optional<ThesisMerge> thesis_merge(const MergePreparation& preparation,
-                                        const Matching& matching, const Context& context) {
-    if (!preparation.method.own_transition) return std::nullopt;
+std::shared_ptr<OverlapMerge> overlap_merge(const MergePreparation& preparation,
+                                            const Matching& matching, const Context& context) {
+    if (!preparation.method.overlap) return nullptr;
     const MergeOptions& options = preparation.options;
     const bool scales = options.configuration == Configuration::free;
-    std::vector<ThesisJoin> thesis;
+    std::vector<OverlapJoin> joins;
     for (std::size_t j = 0; j < matching.pairs.size(); ++j) {
-        thesis.push_back({matching.pairs[j], matching.starts[j], matching.overlap_starts[j],
-                          scales ? matching.joins[j].scale : 1.0, options.source_transition});
+        joins.push_back({matching.pairs[j], matching.starts[j], matching.overlap_starts[j],
+                         scales ? matching.joins[j].scale : 1.0, options.source_transition});
     }
     const Boundaries& from = preparation.boundaries;
-    return std::make_optional<ThesisMerge>(from.overlap->target, from.target, from.source.mesh,
-                                           std::move(thesis), options.transition_weight, context);
+    return preparation.method.overlap->begin(from.overlap->target, from.target, from.source.mesh,
+                                             std::move(joins), options.transition_weight, context);
 }
 
 }  // namespace
@@ -414,10 +415,10 @@ Moved deform_source(const MergePreparation& preparation, const Matching& matchin
                     const Context& context) {
     const Mesh& rest = preparation.boundaries.source.mesh;
     BoundaryDeformation deformed = deformed_by(preparation, matching.pairs, matching.fits, context);
-    Moved result{rest, deformed.seconds, thesis_merge(preparation, matching, context)};
-    if (result.thesis) {
-        deformed = result.thesis->deform(preparation.deformer->region(), *preparation.kept,
-                                         deformed, context);
+    Moved result{rest, deformed.seconds, overlap_merge(preparation, matching, context)};
+    if (result.overlap) {
+        deformed = result.overlap->deform(preparation.deformer->region(), *preparation.kept,
+                                          deformed, context);
     }
     const Motion motion = motion_of(preparation, std::move(deformed));
     std::vector<Vec3> positions(rest.positions().begin(), rest.positions().end());

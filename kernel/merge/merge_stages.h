@@ -17,6 +17,7 @@
 #include "kernel/core/index.h"
 #include "kernel/deform/boundary/boundary_deformer.h"
 #include "kernel/deform/stats.h"
+#include "kernel/merge/blend/overlap_transition.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/loop/automatic_keys.h"
 #include "kernel/merge/loop/correspondence.h"
@@ -29,8 +30,6 @@
 #include "kernel/merge/merge_side.h"
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
-#include "kernel/merge/thesis/thesis_merge.h"
-#include "kernel/merge/thesis/thesis_overlap.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/self_intersections.h"
@@ -47,8 +46,8 @@ struct MergeMethod {
     LoopMeasure loops = LoopMeasure::robust;
     /// Whether steps at the seam are guarded, and edges flipped.
     bool guard = true;
-    /// Its own transition, where one is asked for.
-    bool own_transition = false;
+    /// Its own transition, if one is asked for; else null.
+    const OverlapTransition* overlap = nullptr;
 };
 /// Errors: invalid_argument for options that do not go together or are out of range.
 MergeMethod method_of(const MergeOptions& options);
@@ -209,8 +208,8 @@ std::vector<JudgedTurn> judged_turns(const MergePreparation& preparation, const 
 struct Moved {
     Mesh source;
     BoundaryTimes seconds;
-    /// Where the thesis's transition is made.
-    std::optional<ThesisMerge> thesis;
+    /// The thesis's transition, if it is made; else null.
+    std::shared_ptr<OverlapMerge> overlap;
 };
 /// The preparation must outlive the result.
 Moved deform_source(const MergePreparation& preparation, const Matching& matching,

@@ -31,6 +31,10 @@ const std::vector<Rule>& rules() {
         {"kernel/merge",
          {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform", "kernel/merge"},
          {"Eigen"}},
+        {"kernel/thesis",
+         {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/deform", "kernel/merge",
+          "kernel/hair", "kernel/thesis"},
+         {"Eigen"}},
         {"kernel/hair", {"kernel/core", "kernel/solve", "kernel/mesh", "kernel/hair"}, {"Eigen"}},
         {"kernel/hair/growth/growth_lanes.h", {"kernel/core"}, {"intrinsics"}},
         {"kernel/sketch",
@@ -49,9 +53,12 @@ const std::vector<Rule>& rules() {
         {"bindings/c/script", {"kernel", "bindings/c", "bindings/lua"}, {"Eigen", "Lua", "JSON"}},
         {"bindings/engine", {}, {"platform"}},
         {"bindings/lua", {"kernel", "bindings/lua"}, {"Eigen", "Lua"}},
+        {"bindings/lua/core/thesis_parts.cpp", {"kernel", "kernel/thesis", "bindings/lua"}, {}},
         {"bindings/cli",
          {"kernel", "bindings"},
          {"Eigen", "Lua", "CLI11", "JSON", "printing", "platform"}},
+        {"bindings/cli/terminal/libedit.h", {}, {"libedit"}},
+        {"bindings/cli/terminal/libedit.cpp", {"bindings/cli"}, {"libedit", "platform"}},
         {"viewer",
          {"kernel", "bindings", "viewer"},
          {"Eigen", "Lua", "OpenGL", "CLI11", "JSON", "stb", "printing", "platform"}},
@@ -69,12 +76,12 @@ const std::vector<Rule>& rules() {
         {"examples", {"kernel", "bindings/c"}, {"printing", "platform"}},
         {"examples/engine", {"bindings/engine"}, {"OpenGL", "GLFW", "stb", "platform"}},
         {"tests/bench",
-         {"kernel", "bindings", "viewer", "tests"},
+         {"kernel", "kernel/thesis", "bindings", "viewer", "tests"},
          {"Eigen", "CGAL", "OpenMesh", "OpenGL", "tinygltf", "JSON", "CHOLMOD", "printing",
           "platform"}},
         {"tests/unit/solve/sparse/cholmod_oracle.cpp", {"kernel", "tests"}, {"Eigen", "CHOLMOD"}},
         {"tests",
-         {"kernel", "bindings", "viewer", "tests"},
+         {"kernel", "kernel/thesis", "bindings", "viewer", "tests"},
          {"Eigen", "Lua", "CLI11", "JSON", "stb", "OpenGL", "doctest", "printing", "platform"}},
     };
     return table;
@@ -90,14 +97,13 @@ const std::vector<Names>& room_orders() {
          "kernel/mesh/shapes"},
         {"kernel/deform/mesh_point", "kernel/deform/options", "kernel/deform/patch",
          "kernel/deform/rotation", "kernel/deform/holds", "kernel/deform/system",
-         "kernel/deform/comparison", "kernel/deform/stats", "kernel/deform/pipeline",
+         "kernel/deform/comparison_method", "kernel/deform/stats", "kernel/deform/pipeline",
          "kernel/deform/rest_shape", "kernel/deform/preparation", "kernel/deform/frame",
          "kernel/deform", "kernel/deform/boundary"},
         {"kernel/merge/provenance", "kernel/merge/loop", "kernel/merge/piece", "kernel/merge/sew",
-         "kernel/merge/blend", "kernel/merge/thesis", "kernel/merge",
-         "kernel/merge/paste/paste_options", "kernel/merge/paste/region",
-         "kernel/merge/paste/placement", "kernel/merge/paste/search", "kernel/merge/paste/part",
-         "kernel/merge/paste/erase", "kernel/merge/paste"},
+         "kernel/merge/blend", "kernel/merge", "kernel/merge/paste/paste_options",
+         "kernel/merge/paste/region", "kernel/merge/paste/placement", "kernel/merge/paste/search",
+         "kernel/merge/paste/part", "kernel/merge/paste/erase", "kernel/merge/paste"},
         {"kernel/hair/field", "kernel/hair/scalp", "kernel/hair/curve", "kernel/hair/strands",
          "kernel/hair/growth", "kernel/hair"},
         {"kernel/sketch", "kernel/sketch/support"},
@@ -159,6 +165,7 @@ std::string_view library_of(std::string_view header) {
         {"tiny_gltf.h", "tinygltf"},
         {"stb", "stb"},
         {"doctest/", "doctest"},
+        {"histedit.h", "libedit"},
         {"omp.h", "OpenMP"},
         {"CGAL/", "CGAL"},
         {"immintrin.h", "intrinsics"},
@@ -229,9 +236,15 @@ bool rooms_allow(std::string_view path, std::string_view header) {
     });
 }
 
+// Modules that a rule names itself, or may not know: what knows them by their parent's name would
+// not be built without them.
+constexpr std::string_view kApart = "kernel/thesis";
+
 bool project_allows(const Rule& rule, std::string_view header) {
-    return std::any_of(rule.project.begin(), rule.project.end(),
-                       [&](std::string_view folder) { return inside(header, folder); });
+    return std::any_of(rule.project.begin(), rule.project.end(), [&](std::string_view folder) {
+        const bool apart = inside(header, kApart) && inside(kApart, folder);
+        return inside(header, folder) && !apart;
+    });
 }
 
 bool libraries_allow(const Rule& rule, std::string_view library) {

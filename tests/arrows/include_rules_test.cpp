@@ -105,6 +105,9 @@ TEST_CASE("an arrow that runs back is found") {
     CHECK(count("kernel/deform/a.cpp", "#include \"kernel/io/load.h\"\n") == 1);
     CHECK(count("kernel/io/a.cpp", "#include \"bindings/lua/module.h\"\n") == 1);
     CHECK(count("bindings/lua/a.cpp", "#include \"viewer/render/renderer.h\"\n") == 1);
+    CHECK(count("viewer/render/a.cpp", "#include \"bindings/lua/module.h\"\n") == 1);
+    CHECK(count("kernel/io/a.cpp", "#include \"kernel/thesis/a.h\"\n") == 1);
+    CHECK(count("bindings/c/a.cpp", "#include \"kernel/thesis/a.h\"\n") == 1);
     CHECK(count("kernel/core/a.cpp", "  #  include \"viewer/render/renderer.h\"\n") == 1);
     CHECK(count("kernel/core/a.cpp", "#include \"kernel/corex/a.h\"\n") == 1);
     CHECK(count("kernel/core/a.cpp", "#include \"context.h\"\n") == 1);

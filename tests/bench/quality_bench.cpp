@@ -19,6 +19,7 @@
 
 #include "kernel/deform/deformer.h"
 #include "kernel/io/mesh_file.h"
+#include "kernel/thesis/comparison/methods.h"
 #include "tests/bench/quality_measure.h"
 #include "tests/bench/quality_scenes.h"
 #include "tests/bench/report.h"
@@ -77,9 +78,7 @@ std::vector<Method> our_methods() {
 std::vector<Method> comparison_methods() {
     std::vector<Method> methods;
     const auto add = [&](const std::string& name, DeformMethod method) {
-        DeformOptions options;
-        options.method = method;
-        methods.push_back({name, options, false});
+        methods.push_back({name, compared_by(method), false});
     };
     add("method naive", DeformMethod::naive);
     add("method rotation_estimate", DeformMethod::rotation_estimate);

@@ -11,7 +11,7 @@ import re
 import sys
 from pathlib import Path
 
-FOLDERS = ("kernel", "bindings", "viewer")
+FOLDERS = ("kernel", "kernel/thesis", "bindings", "viewer")
 LIBRARIES = re.compile(r"Eigen/|lua\.h$|lauxlib\.h$|lualib\.h$|std\w+\.h$|math\.h$|string\.h$|[a-z_]+$")
 
 
@@ -23,7 +23,8 @@ def installed_name(header):
 
 def read_list(root, folder):
     """Headers by their path from the root; True for those marked `via`."""
-    lines = (root / folder / "public_headers.txt").read_text().split("\n")
+    path = root / folder / "public_headers.txt"
+    lines = path.read_text().split("\n") if path.exists() else []
     names = [line for line in lines if line and not line.startswith("#")]
     return [(f"{folder}/{name.removeprefix('via ')}", name.startswith("via ")) for name in names]
 

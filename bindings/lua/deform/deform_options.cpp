@@ -1,5 +1,6 @@
 // The options of lissom.deformer and lissom.deform.
 #include "bindings/lua/deform/deform_options.h"
+#include "bindings/lua/core/thesis_parts.h"
 
 #include <string>
 
@@ -38,6 +39,7 @@ DeformOptions deform_options(const Call& call) {
     const bool thesis = call.integer("fidelity") == 1;
     DeformOptions options = thesis ? DeformOptions::thesis() : DeformOptions{};
     take_choice(call, "method", options.method);
+    options.comparison = comparison_maker();
     take_choice(call, "second", options.second);
     take_choice(call, "local_size", options.local_size);
     take_choice(call, "weights", options.weights);

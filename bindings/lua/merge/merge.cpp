@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/thesis_parts.h"
 #include "bindings/lua/merge/merge_object.h"
 #include "kernel/merge/merge_once.h"
 #include "kernel/merge/merge_within.h"
@@ -54,6 +55,7 @@ MergeOptions merge_options(const Call& call) {
     MergeOptions options;
     if (call.integer("fidelity") == 1) options = MergeOptions::literal(configuration);
     options.configuration = configuration;
+    options.overlap = thesis_overlap();
     options.place = call.choice<Place>("place");
     read_steps(call, options);
     if (call.has("transition") && call.kind("transition") == Kind::boolean) {

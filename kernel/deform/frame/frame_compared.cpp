@@ -78,14 +78,23 @@ void require_plain_holds(const Holds& holds, const DeformOptions& options) {
                     "are for method implicit");
 }
 
+void require_comparison(const DeformOptions& options) {
+    if (options.method == DeformMethod::implicit || options.comparison) return;
+    throw Error(ErrorCode::unsupported,
+                "method " + std::string(method_name(options.method)) +
+                    " is not part of this program, which was built without kernel/thesis; use "
+                    "method implicit");
+}
+
 void prepare_comparison(Preparation& next, const Context& context) {
+    require_comparison(next.rest->options());
     const Patch& patch = next.patch();
     ComparedMethod& compared = next.method.emplace<ComparedMethod>();
     find_sources(next, compared);
     const ComparisonProblem problem{patch, next.known, compared.source, count_of(compared.sources),
                                     next.rest->options()};
     try {
-        compared.method = make_comparison(problem, context);
+        compared.method = problem.options.comparison(problem, context);
     } catch (const Error& error) {
         if (error.code() != ErrorCode::not_positive_definite) throw;
         std::vector<Index> vertices(patch.real_count);

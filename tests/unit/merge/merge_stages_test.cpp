@@ -9,6 +9,7 @@
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/failing_memory.h"
+#include "tests/unit/merge/thesis_overlap.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -38,7 +39,8 @@ std::vector<MergeOptions> ways() {
     fair.seam = SeamKind::fair;
     blended.suit_transition = true;
     thesis.thesis = true;
-    thesis.source_transition = thesis.target_transition = 0.6;
+    thesis.overlap = test::thesis_overlap();
+    if (thesis.overlap) thesis.source_transition = thesis.target_transition = 0.6;
     fixed.configuration = Configuration::fixed;
     fixed.seam = SeamKind::band;
     return {fair, blended, thesis, fixed};
