@@ -47,7 +47,7 @@ if(LISSOM_GPL)
 endif()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "pkg-config | pkgconf, liblua5.4-dev, libtbb12, libepoxy0")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
-    "libglfw3, libepoxy0, libegl1, libgl1, libegl-mesa0, libgl1-mesa-dri, fonts-dejavu-core")
+    "libedit2, libglfw3, libepoxy0, libegl1, libgl1, libegl-mesa0, libgl1-mesa-dri, fonts-dejavu-core")
 set(CPACK_DEBIAN_LUA_PACKAGE_RECOMMENDS "lua5.4 | luajit | love")
 
 include(CPack)

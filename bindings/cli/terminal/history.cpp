@@ -9,8 +9,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostLines = 1000;
-
 std::vector<std::string> lines_of(const fs::path& file) {
     std::vector<std::string> lines;
     std::ifstream in(file);
@@ -19,8 +17,8 @@ std::vector<std::string> lines_of(const fs::path& file) {
 }
 
 void keep_last(std::vector<std::string>& lines) {
-    if (lines.size() <= kMostLines) return;
-    lines.erase(lines.begin(), lines.end() - kMostLines);
+    if (lines.size() <= History::kMostLines) return;
+    lines.erase(lines.begin(), lines.end() - History::kMostLines);
 }
 
 }  // namespace
@@ -33,18 +31,12 @@ History::History(fs::path file) : file_(std::move(file)) {
     keep_last(lines_);
 }
 
-void History::add(const std::string& line) {
-    if (line.empty() || (!lines_.empty() && lines_.back() == line)) return;
+bool History::add(const std::string& line) {
+    if (line.empty() || (!lines_.empty() && lines_.back() == line)) return false;
     lines_.push_back(line);
     keep_last(lines_);
     if (!file_.empty()) std::ofstream(file_, std::ios::app) << line << '\n';
-}
-
-std::optional<std::size_t> History::find(const std::string& text, std::size_t end) const {
-    for (std::size_t i = end; i-- > 0;) {
-        if (lines_[i].find(text) != std::string::npos) return i;
-    }
-    return std::nullopt;
+    return true;
 }
 
 void History::shorten_file() const {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,16 +12,16 @@ namespace lissom::cli {
 /// it. Lines that cannot be written are kept for this run.
 class History {
   public:
+    static constexpr std::size_t kMostLines = 1000;
+
     /// Reads the file; an empty path is no file.
     explicit History(std::filesystem::path file);
 
     std::size_t size() const { return lines_.size(); }
     const std::string& line(std::size_t i) const { return lines_[i]; }
 
-    /// Adds a line, unless it is empty or that before it, to the file as well.
-    void add(const std::string& line);
-    /// The last line before line `end` that holds `text`.
-    std::optional<std::size_t> find(const std::string& text, std::size_t end) const;
+    /// Adds a line, to the file as well, unless it is empty or that before it: then returns false.
+    bool add(const std::string& line);
     /// Shortens the file to the lines that are kept.
     void shorten_file() const;
 

@@ -4,11 +4,12 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "bindings/cli/repl/completion.h"
 #include "bindings/cli/terminal/history.h"
+#include "bindings/cli/terminal/typed_line.h"
 
 namespace lissom::cli {
 
@@ -30,13 +31,14 @@ class LineEditor {
     LineEditor& operator=(const LineEditor&) = delete;
 
     /// A typed line, the end of the input, or Ctrl-C, which gives up the line.
-    enum class Outcome { line, end, interrupted };
+    using Outcome = TypedLines::Outcome;
     struct Read {
         Outcome outcome = Outcome::end;
         std::string line = {};
     };
 
-    /// Reads the next line. The prompt is shown on a terminal only.
+    /// Reads the next line: edited if it is typed and libedit is there. The prompt is shown on a
+    /// terminal only.
     Read read(const char* prompt);
     /// Keeps a chunk for the arrow keys and for the next run.
     void remember(const std::string& chunk);
@@ -49,6 +51,8 @@ class LineEditor {
     LineEditorOptions options_;
     bool interactive_;
     History history_;
+    /// Null for input that is not edited.
+    std::unique_ptr<TypedLines> typed_;
 };
 
 /// Returns the file of the history: $LISSOM_HISTORY, which may be empty for none; else

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 
 namespace lissom::cli {
@@ -11,26 +10,8 @@ namespace lissom::cli {
 bool error_is_terminal();
 bool input_is_terminal();
 
-/// Returns whether keys can be read one by one here (not on Windows), and whether the terminal
-/// knows the escape sequences of a VT100.
-bool terminal_sends_keys();
-bool terminal_moves_cursor();
-
 /// Returns the cells of a row of the terminal; 80 if it does not say.
 std::size_t terminal_columns();
-
-/// While it lives, keys are read as they are pressed and are not shown. Ctrl-C stays a signal.
-class RawTerminal {
-  public:
-    RawTerminal();
-    ~RawTerminal();
-    RawTerminal(const RawTerminal&) = delete;
-    RawTerminal& operator=(const RawTerminal&) = delete;
-
-  private:
-    struct State;
-    std::unique_ptr<State> before_;
-};
 
 /// Input from the terminal: a byte, nothing in time, or its end.
 struct TypedByte {

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/bindings/cli/program_run.h"
 #include "tests/unit/viewer/viewer_support.h"
 #include "viewer/lua/png_file.h"
 

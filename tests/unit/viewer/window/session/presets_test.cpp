@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "kernel/core/error.h"
-#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/bindings/cli/program_run.h"
 
 using namespace lissom;
 using namespace lissom::window;

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "bindings/cli/process/process_number.h"
-#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/bindings/cli/program_run.h"
 
 using namespace lissom;
 using window::Recovery;

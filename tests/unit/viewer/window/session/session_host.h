@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bindings/lua/core/registry.h"
-#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/bindings/cli/program_run.h"
 #include "viewer/lua/viewer_library.h"
 #include "viewer/window/session/session.h"
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "bindings/cli/terminal/line_editor.h"
-#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/bindings/cli/program_run.h"
 
 #ifdef __linux__
 #include <poll.h>

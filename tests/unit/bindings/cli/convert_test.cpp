@@ -2,7 +2,7 @@
 #include <csignal>
 #include <map>
 
-#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/bindings/cli/program_run.h"
 #include "tests/unit/support.h"
 
 namespace lissom::test {

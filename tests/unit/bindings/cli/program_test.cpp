@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "bindings/lua/core/compat.h"
-#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/bindings/cli/program_run.h"
 #include "tests/unit/support.h"
 
 namespace lissom::cli {

@@ -1,6 +1,6 @@
 #include "bindings/cli/file_patterns.h"
 
-#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/bindings/cli/program_run.h"
 #include "tests/unit/support.h"
 
 namespace lissom::cli {
