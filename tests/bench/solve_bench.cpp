@@ -3,14 +3,20 @@
 
 #include <cholmod.h>
 
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "kernel/solve/sparse/adjacency.h"
 #include "kernel/solve/sparse/cholmod_view.h"
+#include "kernel/solve/sparse/elimination_tree.h"
+#include "kernel/solve/sparse/minimum_degree.h"
 #include "kernel/solve/sparse/sparse_system.h"
 #include "tests/bench/limits.h"
 #include "tests/bench/report.h"
@@ -133,6 +139,41 @@ void run_peer(Report& report, const SymmetricMatrix& matrix, SparseSystem& ours,
                      Better::more, kSolveBound);
 }
 
+// The pattern of the whole matrix for Eigen, which has its upper half beside ours.
+Eigen::SparseMatrix<double> whole_matrix(const SymmetricMatrix& matrix) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index c = 0; c < matrix.size(); ++c) {
+        for (Index k = matrix.begin[at(c)]; k < matrix.begin[at(c + 1)]; ++k) {
+            entries.emplace_back(matrix.row[at(k)], c, 1.0);
+            if (matrix.row[at(k)] != c) entries.emplace_back(c, matrix.row[at(k)], 1.0);
+        }
+    }
+    Eigen::SparseMatrix<double> whole(matrix.size(), matrix.size());
+    whole.setFromTriplets(entries.begin(), entries.end());
+    return whole;
+}
+
+double fill_of(const Adjacency& graph, std::vector<Index> order) {
+    double entries = 0.0;
+    for (const Index count : elimination_tree(graph, std::move(order)).count) entries += count;
+    return entries;
+}
+
+// Our order of elimination beside that of Eigen's approximate minimum degree.
+void run_orders(Report& report, const SymmetricMatrix& matrix) {
+    const Adjacency graph(matrix);
+    const Eigen::SparseMatrix<double> whole = whole_matrix(matrix);
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, Index> found;
+    const Quotient time = seconds_quotient(
+        kRounds, [&] { Eigen::AMDOrdering<Index>()(whole, found); },
+        [&] { minimum_degree_order(graph); });
+    report.add_ratio("Eigen's AMD / ours: order of elimination", "Eigen", time, 1.0, Better::more);
+    const auto& indices = found.indices();
+    const double theirs = fill_of(graph, {indices.data(), indices.data() + indices.size()});
+    report.add({"Eigen's AMD / ours: entries of the factor",
+                theirs / fill_of(graph, minimum_degree_order(graph)), ""});
+}
+
 void run(Report& report) {
     const SymmetricMatrix matrix = squared_laplacian(test_mesh());
     SparseSystem ours;
@@ -158,6 +199,7 @@ void run(Report& report) {
                      seconds_quotient(
                          kRounds, [&] { theirs.analyze(); }, [&] { ours.analyze(matrix); }),
                      0.95, Better::more, kAnalysisBound);
+    run_orders(report, matrix);
     report.add_ratio("analysis / factor, 1 thread", "factor",
                      seconds_quotient(
                          3, [&] { ours.analyze(matrix); }, [&] { ours.factor(matrix, one); }));

@@ -40,7 +40,7 @@ std::vector<Vec3> bent(const Scene& scene, const DeformOptions& options, const A
 // size.
 double deviation(const Scene& scene, const Affine& map, const DeformOptions& options = {}) {
     Scene other = scene;
-    other.mesh = mapped(scene.mesh, map);
+    other.mesh = moved(scene.mesh, map);
     other.size = surface_radius(other.mesh);
     return greatest_distance(bent(other, options, map), mapped(bent(scene, options), map)) /
            other.size;

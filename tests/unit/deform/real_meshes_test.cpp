@@ -140,7 +140,7 @@ TEST_CASE("real meshes: turned, moved and scaled copies deform alike") {
             map.linear *= scale;
             map.translation *= scale;
             Scene other = scene;
-            other.mesh = mapped(scene.mesh, map);
+            other.mesh = moved(scene.mesh, map);
             Edit b = make_edit(other);
             b.deformer.set_transform(b.high, conjugated(move, map));
             const double error =

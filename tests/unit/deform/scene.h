@@ -10,6 +10,7 @@
 #include "kernel/deform/deformer.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/mesh.h"
+#include "tests/unit/shapes.h"
 
 namespace lissom::test {
 
@@ -78,12 +79,6 @@ inline double greatest_distance(const std::vector<Vec3>& a, const std::vector<Ve
 inline std::vector<Vec3> mapped(const std::vector<Vec3>& points, const Affine& map) {
     std::vector<Vec3> result;
     for (const Vec3& p : points) result.push_back(map(p));
-    return result;
-}
-
-inline Mesh mapped(const Mesh& mesh, const Affine& map) {
-    Mesh result = mesh;
-    for (Vec3& p : result.edit_positions()) p = map(p);
     return result;
 }
 

@@ -14,6 +14,7 @@
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 #include "tests/unit/hair/threads.h"
+#include "tests/unit/shapes.h"
 #include "tests/unit/support.h"
 
 namespace lissom::test {
@@ -47,12 +48,6 @@ class RandomPoints {
 inline Box grown(Box box, double share) {
     const Vec3 margin = share * (box.max - box.min);
     return {box.min - margin, box.max + margin};
-}
-
-inline Mesh moved(const Mesh& mesh, const Affine& map) {
-    Mesh result = mesh;
-    for (Vec3& p : result.edit_positions()) p = map(p);
-    return result;
 }
 
 /// Generalised winding number: the solid angles of all triangles (Van Oosterom and Strackee 1983).

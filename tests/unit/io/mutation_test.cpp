@@ -1,6 +1,7 @@
 // Damaged files: whatever the bytes are, a reader returns a mesh or throws an Error.
 #include <functional>
 
+#include "tests/unit/io/damage.h"
 #include "tests/unit/io/io_support.h"
 
 using namespace lissom;
@@ -33,6 +34,8 @@ std::string binary_off_sample() {
     return bytes;
 }
 
+constexpr std::string_view kLetters = "0123456789-. \n";
+
 struct Sample {
     std::string extension, bytes;
 };
@@ -63,31 +66,6 @@ bool is_read(const std::string& bytes, const std::string& extension) {
     }
 }
 
-std::string mutated(std::string bytes, std::mt19937& random) {
-    const int changes = 1 + static_cast<int>(random() % 4);
-    for (int i = 0; i < changes && !bytes.empty(); ++i) {
-        const std::size_t at = random() % bytes.size();
-        switch (random() % 5) {
-            case 0:
-                bytes[at] = static_cast<char>(random());
-                break;
-            case 1:
-                bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
-                break;
-            case 2:
-                bytes.erase(at, 1 + random() % 8);
-                break;
-            case 3:
-                bytes.insert(at, bytes.substr(random() % bytes.size(), random() % 32));
-                break;
-            default:
-                bytes[at] = "0123456789-. \n"[random() % 14];
-                break;
-        }
-    }
-    return bytes;
-}
-
 }  // namespace
 
 TEST_CASE("a file that is cut short anywhere is read or refused") {
@@ -107,7 +85,7 @@ TEST_CASE("a file with damaged bytes is read or refused") {
         int read = 0;
         for (int i = 0; i < 200; ++i) {
             CAPTURE(i);
-            read += is_read(mutated(sample.bytes, random), sample.extension);
+            read += is_read(damaged(sample.bytes, random, kLetters), sample.extension);
         }
         // Some damage does no harm: what is undamaged is read.
         CHECK(is_read(sample.bytes, sample.extension));

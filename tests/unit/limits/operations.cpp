@@ -33,6 +33,7 @@
 #include "kernel/scene/mesh_item.h"
 #include "kernel/scene/scene.h"
 #include "kernel/scene/strands_item.h"
+#include "tests/unit/shapes.h"
 
 namespace lissom::test {
 namespace {
@@ -65,20 +66,11 @@ Mesh with_attributes(Mesh mesh) {
     return mesh;
 }
 
-// An upright tube, open at both ends.
-Mesh tube(Index segments, Index rings) {
-    return make_cylinder({.segments = segments, .rings = rings, .caps = false});
-}
-
-Mesh moved(Mesh mesh, const Vec3& by) {
-    transform(mesh, Affine{Mat3::Identity(), by});
-    return mesh;
-}
-
 struct Inputs {
     Mesh bar = with_attributes(make_bar({.across = 24, .along = 400}));
     Mesh sphere = make_sphere({.segments = 80, .kind = SphereKind::triangles});
-    Mesh lower = tube(200, 200), upper = moved(tube(200, 200), Vec3(0.1, 2.5, 0.0));
+    Mesh lower = open_tube(200, 200),
+         upper = moved(open_tube(200, 200), translation(Vec3(0.1, 2.5, 0.0)));
     Mesh head = make_head({.vertices = 4000});
     std::string obj = encode_mesh(bar, "obj"), ply = encode_mesh(bar, "ply"),
                 glb = encode_mesh(bar, "glb"), stl = encode_mesh(sphere, "stl"),

@@ -15,7 +15,7 @@
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/repair/quality.h"
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/merge/loop/loop_shapes.h"
+#include "tests/unit/shapes.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

@@ -11,8 +11,8 @@
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/path.h"
-#include "tests/unit/merge/loop/loop_shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
+#include "tests/unit/shapes.h"
 
 using namespace lissom;
 using namespace lissom::test;

@@ -9,7 +9,7 @@
 #include "kernel/merge/provenance.h"
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/measure/measures.h"
-#include "tests/unit/merge/loop/loop_shapes.h"
+#include "tests/unit/shapes.h"
 
 using namespace lissom;
 using namespace lissom::test;

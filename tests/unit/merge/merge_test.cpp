@@ -16,9 +16,9 @@
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/merge/loop/loop_shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 #include "tests/unit/mesh/morph_support.h"
+#include "tests/unit/shapes.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

@@ -11,6 +11,7 @@
 
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/mesh.h"
+#include "tests/unit/shapes.h"
 #include "tests/unit/support.h"
 
 namespace lissom::test {
@@ -86,12 +87,6 @@ inline Affine similarity(Random& random, double scale) {
     const Affine turn = rotation(random.direction(), random.uniform(0.0, 2.0 * kPi), Vec3::Zero());
     return translation(3.0 * random.direction()) * scaling(Vec3::Constant(scale), Vec3::Zero()) *
            turn;
-}
-
-inline Mesh moved(const Mesh& mesh, const Affine& map) {
-    Mesh result = mesh;
-    for (Vec3& p : result.edit_positions()) p = map(p);
-    return result;
 }
 
 /// Gives a mesh one attribute on each domain, labels, a region and a material library, all of which

@@ -193,8 +193,8 @@ TEST_CASE("mirrored handles: a real mesh, as far as it is symmetric") {
 TEST_CASE(
     "mirrored handles: sides of unlike vertices, and nearly symmetric ones, are not refused") {
     const std::vector<std::pair<Mesh, Vec3>> shapes{
-        {mapped(make_sphere(), rotation({1, 0.3, 0.2}, 0.7, Vec3::Zero())), {0.8, 0.5, 0.2}},
-        {mapped(make_torus(), rotation(Vec3::UnitY(), 0.05, Vec3::Zero())), {1.0, 0.1, 0.1}},
+        {moved(make_sphere(), rotation({1, 0.3, 0.2}, 0.7, Vec3::Zero())), {0.8, 0.5, 0.2}},
+        {moved(make_torus(), rotation(Vec3::UnitY(), 0.05, Vec3::Zero())), {1.0, 0.1, 0.1}},
         {roughened(make_bar({1.0, 5.0, 6, 30}), 0.01), {0.5, 0.8, 0}}};
     for (const auto& [mesh, at] : shapes) {
         const Scene scene = make_scene(mesh);
@@ -227,7 +227,7 @@ TEST_CASE("mirrored handles: what differs much is told with what helps, and is d
 }
 
 TEST_CASE("mirrored handles: the rim of an image gives way to what another handle holds") {
-    const Mesh mesh = mapped(make_sphere(), rotation({1, 0.3, 0.2}, 0.7, Vec3::Zero()));
+    const Mesh mesh = moved(make_sphere(), rotation({1, 0.3, 0.2}, 0.7, Vec3::Zero()));
     const Scene scene = make_scene(mesh);
     Deformer d(scene.mesh, scene.all());
     std::vector<Index> low, high;

@@ -3,6 +3,7 @@
 
 #include "kernel/io/strand_file.h"
 #include "tests/unit/hair/strands/strand_support.h"
+#include "tests/unit/io/damage.h"
 #include "tests/unit/io/io_support.h"
 
 using namespace lissom;
@@ -53,30 +54,7 @@ bool is_handled(const std::string& bytes, const std::string& extension) {
     }
 }
 
-std::string mutated(std::string bytes, std::mt19937& random) {
-    const int changes = 1 + static_cast<int>(random() % 4);
-    for (int i = 0; i < changes && !bytes.empty(); ++i) {
-        const std::size_t at = random() % bytes.size();
-        switch (random() % 5) {
-            case 0:
-                bytes[at] = static_cast<char>(random());
-                break;
-            case 1:
-                bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
-                break;
-            case 2:
-                bytes.erase(at, 1 + random() % 8);
-                break;
-            case 3:
-                bytes.insert(at, bytes.substr(random() % bytes.size(), random() % 32));
-                break;
-            default:
-                bytes[at] = "0123456789-.()[]{}\"=, \n"[random() % 23];
-                break;
-        }
-    }
-    return bytes;
-}
+constexpr std::string_view kLetters = "0123456789-.()[]{}\"=, \n";
 
 struct Sample {
     std::string extension, bytes;
@@ -143,7 +121,7 @@ TEST_CASE("a hair file with damaged bytes is read or refused") {
         int read = 0;
         for (int i = 0; i < 1000; ++i) {
             CAPTURE(i);
-            const std::string bytes = mutated(sample.bytes, random);
+            const std::string bytes = damaged(sample.bytes, random, kLetters);
             CHECK(is_handled(bytes, sample.extension));
             read += is_read(bytes, sample.extension);
         }

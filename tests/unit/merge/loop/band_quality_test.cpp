@@ -10,7 +10,7 @@
 #include "kernel/merge/sew/seam_guard.h"
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/merge/loop/loop_shapes.h"
+#include "tests/unit/shapes.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

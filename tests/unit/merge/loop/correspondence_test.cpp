@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "kernel/core/error.h"
-#include "tests/unit/merge/loop/loop_shapes.h"
+#include "tests/unit/shapes.h"
 
 using namespace lissom;
 using namespace lissom::test;

@@ -10,7 +10,7 @@
 #include "kernel/core/error.h"
 #include "kernel/merge/loop/loop_values.h"
 #include "kernel/mesh/measure/triangulation.h"
-#include "tests/unit/merge/loop/loop_shapes.h"
+#include "tests/unit/shapes.h"
 
 using namespace lissom;
 using namespace lissom::test;

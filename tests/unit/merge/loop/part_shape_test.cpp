@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "tests/unit/merge/loop/loop_shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
+#include "tests/unit/shapes.h"
 
 using namespace lissom;
 using namespace lissom::test;

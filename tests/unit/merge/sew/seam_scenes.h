@@ -9,6 +9,7 @@
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/shapes.h"
 
 namespace lissom::test {
 
@@ -93,10 +94,8 @@ inline void add_join(SewScene& scene, std::size_t target_number, std::size_t sou
 /// An open tube along y from `bottom` to `bottom + height`.
 inline Mesh make_tube(Index segments, double bottom, double height, double radius = 1.0,
                       Index rings = 6) {
-    Mesh mesh = make_cylinder(
-        {.radius = radius, .height = height, .segments = segments, .rings = rings, .caps = false});
-    for (Vec3& p : mesh.edit_positions()) p.y() += bottom + 0.5 * height;
-    return mesh;
+    return moved(open_tube(segments, rings, height, radius),
+                 translation({0.0, bottom + 0.5 * height, 0.0}));
 }
 
 /// Number of the boundary whose points are lowest (`sign` -1) or highest (+1) along y.

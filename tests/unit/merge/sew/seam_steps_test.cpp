@@ -17,9 +17,9 @@
 #include "kernel/mesh/query/self_intersections.h"
 #include "kernel/mesh/query/spatial_tree.h"
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/merge/loop/loop_shapes.h"
 #include "tests/unit/merge/sew/seam_scenes.h"
 #include "tests/unit/mesh/mesh_support.h"
+#include "tests/unit/shapes.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;

@@ -9,9 +9,9 @@
 #include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/query/region_select.h"
 #include "tests/unit/merge/blend/fairing_scenes.h"
-#include "tests/unit/merge/loop/loop_shapes.h"
 #include "tests/unit/merge/sew/seam_scenes.h"
 #include "tests/unit/mesh/morph_support.h"
+#include "tests/unit/shapes.h"
 
 using namespace lissom;
 

@@ -12,24 +12,13 @@
 #include "kernel/mesh/query/self_intersections.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
+#include "tests/unit/shapes.h"
 
 using namespace lissom;
+using namespace lissom::test;
 using doctest::Approx;
 
 namespace {
-
-// A tube of radius 1 from y = -1 to 1, without caps.
-Mesh open_tube(Index segments, double height = 2.0) {
-    return make_cylinder(
-        {.radius = 1.0, .height = height, .segments = segments, .rings = 2, .caps = false});
-}
-
-Mesh moved(Mesh mesh, const Vec3& by) {
-    Affine map;
-    map.translation = by;
-    transform(mesh, map);
-    return mesh;
-}
 
 double height_of(const Mesh& mesh, const Path& path) {
     double sum = 0.0;
@@ -55,8 +44,8 @@ void cap(Mesh& mesh, double height) {
 TEST_CASE("bridge: two tubes become one, with one triangle for each edge of either rim") {
     for (const Index other : {8, 12, 31}) {
         CAPTURE(other);
-        Mesh mesh = open_tube(12);
-        append(mesh, moved(open_tube(other), {0, 4, 0}));
+        Mesh mesh = open_tube(12, 2);
+        append(mesh, moved(open_tube(other, 2), translation({0, 4, 0})));
         const Mesh before = mesh;
         const BridgeReport report = bridge(mesh, rim_at(mesh, 1), rim_at(mesh, 3));
         CHECK(report.first_face == before.face_count());
@@ -92,8 +81,8 @@ TEST_CASE("bridge: both ends of a tunnel through a box make it a ring") {
 }
 
 TEST_CASE("bridge: triangles have what the rims have, and nothing is absent") {
-    Mesh mesh = open_tube(8);
-    append(mesh, moved(open_tube(8), {0, 4, 0}));
+    Mesh mesh = open_tube(8, 2);
+    append(mesh, moved(open_tube(8, 2), translation({0, 4, 0})));
     const Topology& old = mesh.topology();
     Attribute uv{"uv", Domain::corner, 2, ScalarType::float32, {}};
     for (const Index v : old.faces().vertices) {
@@ -143,8 +132,8 @@ TEST_CASE("bridge: edges that exist between two rims are not used again") {
 }
 
 TEST_CASE("bridge: what cannot be joined is refused, and the mesh stays") {
-    Mesh mesh = open_tube(12);
-    Mesh over = moved(open_tube(12), {0, 4, 0});
+    Mesh mesh = open_tube(12, 2);
+    Mesh over = moved(open_tube(12, 2), translation({0, 4, 0}));
     flip(over);
     append(mesh, over);
     const std::uint64_t before = hash(mesh);
@@ -153,7 +142,7 @@ TEST_CASE("bridge: what cannot be joined is refused, and the mesh stays") {
     };
     const Path low = rim_at(mesh, 1), high = rim_at(mesh, 3);
     CHECK(code(low, low.reversed()) == ErrorCode::boundary_conflict);
-    CHECK(code(low, boundaries(open_tube(12))[0]) == ErrorCode::topology_mismatch);
+    CHECK(code(low, boundaries(open_tube(12, 2))[0]) == ErrorCode::topology_mismatch);
     CHECK(code(low, Path({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, true)) == ErrorCode::not_a_boundary);
     CHECK(code(low, Path(mesh.shared_topology(), {0, 1, 2}, false)) == ErrorCode::not_a_boundary);
     CHECK(code(low, high) == ErrorCode::inconsistent_orientation);

@@ -176,7 +176,7 @@ TEST_CASE("comparison: a turned copy deforms alike where no rotation is linearis
     const Scene scene = compared_bar();
     const Affine map = rotation({0.3, -0.5, 0.9}, 2.1, {1.0, 2.0, 3.0});
     Scene other = scene;
-    other.mesh = mapped(scene.mesh, map);
+    other.mesh = moved(scene.mesh, map);
     for (const DeformMethod method : kMethods) {
         Edit a = make_edit(scene, options_of(method)), b = make_edit(other, options_of(method));
         const Affine move = bend(scene, a.deformer.handle_center(a.high));
@@ -192,7 +192,7 @@ TEST_CASE("comparison: small and large copies deform alike") {
     for (const double scale : {1e-7, 1e-3, 1e7}) {
         const Affine map{scale * Mat3::Identity(), Vec3::Zero()};
         Scene other = scene;
-        other.mesh = mapped(scene.mesh, map);
+        other.mesh = moved(scene.mesh, map);
         for (const DeformMethod method : kMethods) {
             CAPTURE(scale);
             CAPTURE(method_name(method));

@@ -1,11 +1,13 @@
-/// Bands with known boundary loops, for the tests of merging.
+/// Shapes that the tests of several modules use.
 #pragma once
 
 #include <cmath>
 #include <functional>
 #include <vector>
 
+#include "kernel/core/geometry.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/shapes/shapes.h"
 
 namespace lissom::test {
 
@@ -27,6 +29,17 @@ inline Mesh tube(Index count, Index rings, const std::function<Vec3(double, doub
         }
     }
     return Mesh(std::move(positions), std::move(faces));
+}
+
+/// A tube around y, open at both ends and centered at the origin.
+inline Mesh open_tube(Index segments, Index rings, double height = 2.0, double radius = 1.0) {
+    return make_cylinder(
+        {.radius = radius, .height = height, .segments = segments, .rings = rings, .caps = false});
+}
+
+inline Mesh moved(Mesh mesh, const Affine& map) {
+    for (Vec3& p : mesh.edit_positions()) p = map(p);
+    return mesh;
 }
 
 /// A round tube of radius 1 and height 2.
