@@ -33,7 +33,7 @@ Sheet sheet_of(bool triangles, const Vec3& tilt) {
         if (std::all_of(x.begin(), x.end(), flat)) normal = Vec3::Unit(d);
     }
     Scene scene = make_scene(grid, 0.06);
-    scene.mesh = mapped(grid, placed);
+    scene.mesh = moved(grid, placed);
     return {std::move(scene), placed.linear * normal, placed};
 }
 
