@@ -23,8 +23,8 @@ void note(Names& names, const char* name, bool differs) {
 
 Names of_deformer() {
     const auto& [method, second, size, weights, refine, coherence, coherence_weight, threshold,
-                 flat, loose, free_rings, borders, displacement, scale_free, transition] =
-        DeformOptions{};
+                 flat, loose, free_rings, borders, displacement, scale_free, transition,
+                 comparison] = DeformOptions{};
     const DeformOptions t = DeformOptions::thesis();
     Names names;
     note(names, "method", method != t.method);
@@ -43,13 +43,14 @@ Names of_deformer() {
     note(names, "transition", transition != t.transition);
     // A matter without an option.
     CHECK(scale_free != t.scale_free);
+    CHECK(comparison == t.comparison);
     return names;
 }
 
 Names of_merge() {
     const auto& [configuration, place, fixed, motion, reach, frames, seam, smooth, collar,
-                 source_width, target_width, suit, weight, trim, turn, refine, intersections,
-                 directions, thesis] = MergeOptions{};
+                 source_width, target_width, suit, weight, overlap, trim, turn, refine,
+                 intersections, directions, thesis] = MergeOptions{};
     const MergeOptions t = MergeOptions::literal(Configuration::fixed);
     CHECK(MergeOptions::literal().configuration == configuration);
     CHECK(MergeOptions::literal().turn_frames);
@@ -72,6 +73,7 @@ Names of_merge() {
     note(names, "intersections", intersections != t.find_intersections);
     CHECK(directions.size() == t.directions.size());
     CHECK(thesis != t.thesis);
+    CHECK(overlap == t.overlap);
     return names;
 }
 
