@@ -1,10 +1,10 @@
 // The options of lissom.deformer and lissom.deform.
 #include "bindings/lua/deform/deform_options.h"
-#include "bindings/lua/core/thesis_parts.h"
 
 #include <string>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/thesis_parts.h"
 
 namespace lissom::lua {
 namespace {

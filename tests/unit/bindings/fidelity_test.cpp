@@ -43,7 +43,7 @@ Names of_deformer() {
     note(names, "transition", transition != t.transition);
     // A matter without an option.
     CHECK(scale_free != t.scale_free);
-    CHECK(comparison == t.comparison);
+    CHECK((comparison == t.comparison));
     return names;
 }
 
@@ -73,7 +73,7 @@ Names of_merge() {
     note(names, "intersections", intersections != t.find_intersections);
     CHECK(directions.size() == t.directions.size());
     CHECK(thesis != t.thesis);
-    CHECK(overlap == t.overlap);
+    CHECK((overlap == t.overlap));
     return names;
 }
 

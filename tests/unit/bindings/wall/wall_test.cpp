@@ -25,7 +25,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/unit/bindings/program_run.h"
+#include "tests/unit/bindings/cli/program_run.h"
 
 namespace lissom::cli {
 namespace {
