@@ -23,12 +23,16 @@ void end_in_time(lua_State* L) {
     if (stop_of(L).asked()) raise_stopped(L);
 }
 
-// Upvalue 1: the function.
+int return_all(lua_State* L, int, lua_KContext) {
+    return lua_gettop(L);
+}
+
+// Upvalue 1: the function, which may yield.
 int call_in_time(lua_State* L) {
     end_in_time(L);
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_insert(L, 1);
-    lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+    lua_callk(L, lua_gettop(L) - 1, LUA_MULTRET, 0, return_all);
     return lua_gettop(L);
 }
 
@@ -94,8 +98,10 @@ int load_string(lua_State* L, bool has_environment) {
     std::size_t size = 0;
     const char* text = lua_tolstring(L, 1, &size);
     ReadText source{{text, size}};
+    const bool takes_text =
+        std::string_view(luaL_optstring(L, 3, "t")).find('t') != std::string_view::npos;
     const char* name = luaL_optstring(L, 2, text);
-    const int status = lua_load(L, read_piece, &source, name, "t");
+    const int status = lua_load(L, read_piece, &source, name, takes_text ? "t" : "");
     end_in_time(L);
     if (status != LUA_OK) {
         lua_pushnil(L);
@@ -140,10 +146,9 @@ int set_metatable(lua_State* L) {
         }
         lua_pop(L, 1);
     }
-    lua_settop(L, 2);
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_insert(L, 1);
-    lua_call(L, 2, 1);
+    lua_call(L, lua_gettop(L) - 1, 1);
     return 1;
 }
 
@@ -172,7 +177,7 @@ int handle_message(lua_State* L) {
 
 // Upvalue 1: Lua's.
 int call_with_handler(lua_State* L) {
-    luaL_checkany(L, 2);
+    luaL_checktype(L, 2, LUA_TFUNCTION);
     lua_pushvalue(L, 2);
     lua_pushcclosure(L, handle_message, 1);
     lua_replace(L, 2);

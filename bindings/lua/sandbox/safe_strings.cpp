@@ -219,11 +219,11 @@ int gsub(lua_State* L) {
     const std::string_view text = text_at(L, 1);
     std::string_view pattern = text_at(L, 2);
     const int type = lua_type(L, 3);
+    const lua_Integer most = luaL_optinteger(L, 4, static_cast<lua_Integer>(text.size()) + 1);
     luaL_argexpected(
         L,
         type == LUA_TNUMBER || type == LUA_TSTRING || type == LUA_TTABLE || type == LUA_TFUNCTION,
         3, "string/function/table");
-    const lua_Integer most = luaL_optinteger(L, 4, static_cast<lua_Integer>(text.size()) + 1);
     const bool anchored = pattern.starts_with('^');
     if (anchored) pattern.remove_prefix(1);
     Matcher matcher(text, pattern, stop_of(L));

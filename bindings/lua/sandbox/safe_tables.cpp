@@ -86,7 +86,10 @@ int sort(lua_State* L) {
 }
 
 int concatenate(lua_State* L) {
+    // Nothing else has elements; strings are no lists.
+    if (!lua_istable(L, 1) && !lua_isuserdata(L, 1)) return call_lua(L);
     lua_settop(L, 4);
+    luaL_optstring(L, 2, "");
     const lua_Integer first = luaL_optinteger(L, 3, 1);
     const lua_Integer last = lua_isnoneornil(L, 4) ? luaL_len(L, 1) : luaL_checkinteger(L, 4);
     require_range(L, 1, first, last);
@@ -109,6 +112,7 @@ int unpack(lua_State* L) {
 
 int move(lua_State* L) {
     const lua_Integer first = luaL_checkinteger(L, 2), last = luaL_checkinteger(L, 3);
+    luaL_checkinteger(L, 4);
     require_range(L, 1, first, last);
     if (!lua_isnoneornil(L, 5)) require_range(L, 5, first, last);
     return call_lua(L);
