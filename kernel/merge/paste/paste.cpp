@@ -302,7 +302,8 @@ std::optional<Paste::State::PlacedOn> Paste::State::placed_within(const PastePla
         made.place = place(*made.map, placement, start, effort, context);
         return made;
     } catch (const Error& error) {
-        if (error.code() != ErrorCode::boundary_conflict) throw;
+        const ErrorCode code = error.code();
+        if (code != ErrorCode::boundary_conflict && code != ErrorCode::not_a_disk) throw;
         return std::nullopt;
     }
 }

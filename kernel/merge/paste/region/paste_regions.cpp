@@ -13,8 +13,9 @@
 namespace lissom {
 namespace {
 
-// Steps by which a disk that does not close on itself is sought.
+// Steps by which a disk that does not close on itself is sought, down to a hundredth of its size.
 constexpr double kShrink = 0.85;
+constexpr int kShrinks = 28;
 
 // Of a ring that is sought: what its share is made smaller by, and the least that is tried.
 constexpr double kNarrowerShare = 0.6, kLeastShare = 0.05;
@@ -349,7 +350,7 @@ std::vector<Index> disk_around(const Mesh& target, const SurfacePoint& point, do
                                const Context& context) {
     const std::vector<double> distance = edge_distances(target, point, radius, context);
     const Topology& topology = target.topology();
-    for (;; radius *= kShrink) {
+    for (int step = 0;; ++step, radius *= kShrink) {
         context.checkpoint();
         FaceSet set(topology, {});
         for (Index f = 0; f < topology.face_count(); ++f) {
@@ -365,7 +366,8 @@ std::vector<Index> disk_around(const Mesh& target, const SurfacePoint& point, do
         set.grow_at_bow_ties(nullptr);
         // Far faces are not looked at where there is no need.
         if (!has_no_islands(set)) fill_islands(set, nullptr);
-        if (is_disk(set) || set.size() == 1) return set.faces();
+        if (is_disk(set)) return set.faces();
+        if (step == kShrinks) require_disk(set);
     }
 }
 

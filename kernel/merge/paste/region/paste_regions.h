@@ -48,7 +48,7 @@ std::vector<Index> outlined_faces(const Mesh& mesh, const Region& region, const 
 std::vector<Index> target_faces(const Mesh& target, const Region& onto, const Context& context);
 
 /// Faces of the target within `radius` along edges of a point: the greatest disk of at most that
-/// size, which is the face of the point at least. Errors: cancelled.
+/// size. Errors: not_a_disk if there is none; cancelled.
 std::vector<Index> disk_around(const Mesh& target, const SurfacePoint& point, double radius,
                                const Context& context);
 
