@@ -59,8 +59,9 @@ void declare_files(CLI::App& app, Request& request) {
     app.add_option("IN", request.in, "The mesh file, hair file or scene to read");
     app.add_option("OUT", request.out, "The file to write; its extension names the format");
     app.add_option("--in", request.many.in,
-                   "Files to read: names, folders (the mesh files in them) or patterns in quotes, "
-                   "with * and ? in names and ** for any folders");
+                   "Files to read: names, folders (the mesh and hair files in them that can become "
+                   "the format of --to) or patterns in quotes, with * and ? in names and ** for "
+                   "any folders");
     app.add_option("--out", request.many.out_folder,
                    "Folder to write to, created if it is missing; sub-folders are kept");
     app.add_option("--to", request.many.to,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bindings/cli/file_patterns.h"
+#include "bindings/cli/scene_input.h"
 #include "kernel/io/stream/file.h"
 
 namespace lissom::cli {
@@ -39,6 +40,24 @@ std::string lower_case(std::string text) {
     return text;
 }
 
+bool is_among(const std::vector<std::string>& extensions, const std::string& extension) {
+    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+// Kinds of files that can become files with the extension `to`; all without one.
+FileKinds kinds_for(const std::string& to) {
+    if (to.empty()) return {};
+    return {is_among(writable_extensions(), to), is_among(writable_strand_extensions(), to)};
+}
+
+// Why a pattern finds nothing.
+std::string reason_of(const PatternMatches& matches, const std::string& to) {
+    if (matches.passed_over == 0) return "no file has such a name";
+    const std::string kinds = to.empty() ? "" : " that can become ." + to;
+    return "none of its " + std::to_string(matches.passed_over) + " files is a mesh or hair file" +
+           kinds + ", by its extension";
+}
+
 // The conversions to be done, in order.
 class JobList {
   public:
@@ -57,7 +76,7 @@ class JobList {
     }
 
     void add_pattern(const std::string& pattern) {
-        const PatternMatches matches = expand_pattern(pattern);
+        const PatternMatches matches = expand_pattern(pattern, kinds_for(files_.to));
         const bool skips_outputs = is_below(out_folder_, identity_of(matches.base));
         const std::size_t before = jobs_.size();
         for (const MatchedFile& file : matches.files) {
@@ -69,7 +88,7 @@ class JobList {
             add_failure(folder, ErrorCode::file_unreadable, "the folder cannot be listed");
         }
         if (matches.files.empty() && jobs_.size() == before) {
-            add_failure(pattern, ErrorCode::file_not_found, "no file has such a name");
+            add_failure(pattern, ErrorCode::file_not_found, reason_of(matches, files_.to));
         }
     }
 

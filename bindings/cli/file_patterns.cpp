@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "bindings/cli/scene_input.h"
 #include "kernel/io/mesh_file.h"
 
 namespace lissom::cli {
@@ -15,14 +16,22 @@ bool has_wildcards(std::string_view name) {
     return name.find_first_of("*?") != std::string_view::npos;
 }
 
-bool is_readable(const fs::path& file) {
+std::string lower_case_extension(const fs::path& file) {
     std::string extension = file.extension().string();
     if (!extension.empty()) extension.erase(0, 1);
     for (char& c : extension) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }
+    return extension;
+}
+
+bool is_mesh_path(const fs::path& file) {
     const std::vector<std::string>& known = readable_extensions();
-    return std::find(known.begin(), known.end(), extension) != known.end();
+    return std::find(known.begin(), known.end(), lower_case_extension(file)) != known.end();
+}
+
+bool is_scene_file(const fs::path& file) {
+    return lower_case_extension(file) == "lissom";
 }
 
 // Bytes of the character of UTF-8 that begins `text`, which is not empty.
@@ -37,8 +46,10 @@ std::size_t character_length(std::string_view text) {
 // Follows the parts of a pattern from the one with the first wildcard on.
 class Matcher {
   public:
-    Matcher(std::vector<std::string> parts, PatternMatches& matches)
-        : parts_(std::move(parts)), matches_(matches) {}
+    Matcher(std::vector<std::string> parts, FileKinds kinds, PatternMatches& matches)
+        : parts_(std::move(parts)), kinds_(kinds), matches_(matches) {
+        own_extension_ = lower_case_extension(parts_.back());
+    }
 
     void match(const fs::path& folder, const fs::path& relative, std::size_t part) {
         const bool any_folders = parts_[part] == kAnyFolders;
@@ -56,6 +67,8 @@ class Matcher {
                 if (entry.is_directory(error)) match(folder / name, relative / name, part + 1);
             } else if (entry.is_regular_file(error) && is_readable(name)) {
                 matches_.files.push_back({folder / name, relative / name});
+            } else if (entry.is_regular_file(error)) {
+                ++matches_.passed_over;
             }
         }
     }
@@ -64,6 +77,12 @@ class Matcher {
     static bool fits(std::string_view name, std::string_view part) {
         if (name.starts_with('.') && !part.starts_with('.')) return false;
         return matches_wildcards(name, part);
+    }
+
+    bool is_readable(const fs::path& name) const {
+        const bool own = lower_case_extension(name) == own_extension_;
+        return ((kinds_.meshes || own) && is_mesh_path(name)) ||
+               ((kinds_.hair || own) && is_hair_path(name)) || (own && is_scene_file(name));
     }
 
     std::vector<fs::directory_entry> list(const fs::path& folder) {
@@ -81,6 +100,8 @@ class Matcher {
     }
 
     std::vector<std::string> parts_;
+    std::string own_extension_;
+    FileKinds kinds_;
     PatternMatches& matches_;
 };
 
@@ -118,7 +139,7 @@ bool matches_wildcards(std::string_view name, std::string_view pattern) {
     return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-PatternMatches expand_pattern(const std::string& pattern) {
+PatternMatches expand_pattern(const std::string& pattern, FileKinds kinds) {
     PatternMatches matches;
     std::vector<std::string> parts;
     for (const fs::path& part : fs::path(pattern)) {
@@ -137,7 +158,7 @@ PatternMatches expand_pattern(const std::string& pattern) {
         return matches;
     }
     if (parts.empty() || parts.back() == kAnyFolders) parts.emplace_back(kAnyName);
-    Matcher(std::move(parts), matches).match(matches.base, {}, 0);
+    Matcher(std::move(parts), kinds, matches).match(matches.base, {}, 0);
     sort_and_unite(matches.files);
     return matches;
 }

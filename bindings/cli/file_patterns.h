@@ -1,4 +1,4 @@
-/// Patterns that name many mesh files.
+/// Patterns that name many files of meshes, hair or scenes.
 #pragma once
 
 #include <filesystem>
@@ -18,9 +18,16 @@ struct MatchedFile {
     std::filesystem::path relative;
 };
 
-/// Returns the files that a pattern names, sorted by path.
+/// Kinds of files that a pattern finds if its own extension names none.
+struct FileKinds {
+    bool meshes = true, hair = true;
+};
+
+/// Files that a pattern names, sorted by path.
 struct PatternMatches {
     std::vector<MatchedFile> files;
+    /// Number of files whose names fit and whose extensions do not.
+    std::size_t passed_over = 0;
     /// Folders that could not be listed.
     std::vector<std::filesystem::path> unreadable_folders;
     /// The last folder that the pattern names without wildcards.
@@ -29,8 +36,9 @@ struct PatternMatches {
 
 /// Expands a pattern: wildcards `*` and `?` in the names of folders and files, and `**` for any
 /// folders, none included. They pass over hidden files, unless the pattern's name begins with a
-/// dot, and over files that `load_mesh` does not read by their extension. A folder names the files
-/// in it. Anything else names one file, whether it exists or not.
-PatternMatches expand_pattern(const std::string& pattern);
+/// dot, and over files whose extension names no format of `kinds`, unless it is the pattern's own
+/// and names a format of meshes or hair, or a scene. A folder names the files in it. Anything else
+/// names one file, whether it exists or not.
+PatternMatches expand_pattern(const std::string& pattern, FileKinds kinds = {});
 
 }  // namespace lissom::cli

@@ -270,6 +270,9 @@ int Worker::picture(lua_State* L) {
 
 std::string Worker::compare(const PictureCheck& check) {
     std::error_code error;
+    if (!fs::exists(check.picture, error)) {
+        return "there is no file \"" + check.picture.string() + "\"";
+    }
     const bool has_golden = fs::exists(check.golden, error);
     std::string message = "there is no golden picture " + shown_beside(check.golden) +
                           " yet; lissom test --update writes it";

@@ -113,6 +113,32 @@ TEST_CASE("convert writes hair as hair, in every format that holds hair") {
     CHECK(rows_of(many).at("t.obj")["error"]["code"] == "unknown_format");
 }
 
+TEST_CASE("convert finds hair by patterns and in folders, and says why a pattern finds nothing") {
+    const ProgramFolder folder;
+    folder.write("in/curls.usda", kConvertHair);
+    folder.write("in/t.obj", kConvertTriangle);
+    folder.write("in/notes.txt", "x");
+    const auto converted = [&](const std::string& pattern, const std::string& to) {
+        std::vector<std::string> words{
+            "convert", "--in", folder.path(pattern), "--out", folder.path("out" + to), "--json"};
+        if (!to.empty()) words.insert(words.end(), {"--to", to});
+        return rows_of(run_program(words));
+    };
+    CHECK(converted("in/*.usda", "hair").at("curls.usda")["strands"] == 2);
+    CHECK(folder.has("outhair/curls.hair"));
+    CHECK(converted("in", "data").size() == 1);
+    CHECK(converted("in", "").size() == 2);
+    // Hair cannot become a .ply file: a folder passes over it, its own extension does not.
+    CHECK(converted("in", "ply").size() == 1);
+    CHECK(converted("in/*.usda", "ply").at("curls.usda")["error"]["code"] == "unknown_format");
+    const auto nothing = converted("in/*.txt", "").at("*.txt");
+    CHECK(nothing["error"]["message"].get<std::string>().find("none of its 1 files") !=
+          std::string::npos);
+    const auto none = converted("in/*.off", "").at("*.off");
+    CHECK(none["error"]["message"].get<std::string>().find("no file has such a name") !=
+          std::string::npos);
+}
+
 TEST_CASE("convert names the objects of a scene that the file does not hold") {
     const ProgramFolder folder;
     const std::string hair = folder.write("curls.usda", kConvertHair);

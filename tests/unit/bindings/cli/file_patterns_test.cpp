@@ -55,5 +55,26 @@ TEST_CASE("patterns name mesh files in names, folders and any folders") {
     CHECK(expand_pattern(folder.path("missing.obj")).files.size() == 1);
 }
 
+TEST_CASE("patterns find hair, as far as kinds or their own extensions ask for it") {
+    const test::ProgramFolder folder;
+    for (const char* name : {"a/head.obj", "a/curls.usda", "a/curls.HAIR", "a/straight.data",
+                             "a/all.lissom", "a/n.txt"}) {
+        folder.write(name, "x");
+    }
+    CHECK(names(folder, "a/*.usda") == Names{"curls.usda"});
+    CHECK(names(folder, "a/*.hair") == Names{});
+    CHECK(names(folder, "a/*.HAIR") == Names{"curls.HAIR"});
+    CHECK(names(folder, "a/*.lissom") == Names{"all.lissom"});
+    CHECK(names(folder, "a") == Names{"curls.HAIR", "curls.usda", "head.obj", "straight.data"});
+    const auto found = [&](const char* pattern, FileKinds kinds) {
+        return expand_pattern(folder.path(pattern), kinds).files.size();
+    };
+    CHECK(found("a", {.meshes = true, .hair = false}) == 1);
+    CHECK(found("a/*", {.meshes = false, .hair = true}) == 3);
+    CHECK(found("a/*.usda", {.meshes = true, .hair = false}) == 1);
+    CHECK(found("a/*.obj", {.meshes = false, .hair = true}) == 1);
+    CHECK(expand_pattern(folder.path("a/*.txt")).passed_over == 1);
+}
+
 }  // namespace
 }  // namespace lissom::cli
