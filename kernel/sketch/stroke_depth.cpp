@@ -51,14 +51,16 @@ std::vector<Seen> look_along(std::span<const Vec2> stroke, const View& view,
 }
 
 [[noreturn]] void refuse_start(const Seen& start) {
+    if (!start.from_behind && !std::isfinite(start.depth)) {
+        throw Error(ErrorCode::out_of_range,
+                    "the stroke starts beside the surface; start it on the surface");
+    }
     throw Error(ErrorCode::invalid_argument,
                 start.from_behind
                     ? "the stroke starts on the inside of the surface: the camera is in the head, "
                       "or looks through a hole; move it out, and start on the outside"
-                : std::isfinite(start.depth)
-                    ? "the stroke starts on a part that is not to be drawn on; start on the marked "
-                      "region, or look at it from another side"
-                    : "the stroke starts beside the surface; start it on the surface");
+                    : "the stroke starts on a part that is not to be drawn on; start on the marked "
+                      "region, or look at it from another side");
 }
 
 // Returns the depth of each point on the surface to be drawn on, or of the last such point; the

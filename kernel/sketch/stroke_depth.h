@@ -32,7 +32,7 @@ struct DrawnSurface {
 
 /// Returns the stroke on the surface while it is over it, and beyond it at the depth of the last
 /// point that was (section 4.5). Points are `lift` nearer to the viewer. Errors: not_finite;
-/// invalid_argument if the stroke starts beside the surface, which says whether something else is
+/// out_of_range if the stroke starts beside the surface, invalid_argument if something else is
 /// there; cancelled.
 std::vector<Vec3> stroke_on_surface(std::span<const Vec2> stroke, const View& view,
                                     const DrawnSurface& surface, double lift = 0.0,
@@ -59,8 +59,9 @@ struct EnvelopeOptions {
 /// `slope`, so that it bridges ears and passes silhouettes without a corner. It begins on the
 /// region and, moving towards the viewer alone, never enters the head. Depths beyond the silhouette
 /// are a guess; draw again from another view. If the start has to be moved, the point that it is
-/// moved to comes before the others. Errors: not_finite; invalid_argument if the stroke starts
-/// neither on the region nor near it, with the reason, or for options out of range; cancelled.
+/// moved to comes before the others. Errors: not_finite; out_of_range if the stroke starts beside
+/// the head; invalid_argument if it starts neither on the region nor near it, with the reason, or
+/// for options out of range; cancelled.
 std::vector<Vec3> stroke_over_head(std::span<const Vec2> stroke, const View& view,
                                    const DrawnSurface& head, const EnvelopeOptions& options = {},
                                    const Context& context = {});

@@ -40,9 +40,10 @@ local function create(self, one, points)
     return one.style:add_dividing(options)
 end
 
-local function readings(self, ev, one, curve)
-    local camera = hair.camera(ev.camera, one)
-    local line = camera:stroke{ points = self.pixels, on = one.scalp, depth = "last", size = ev.size }.points
+local function readings(self, stroke, ev, one)
+    local camera, curve = hair.camera(ev.camera, one), stroke.target
+    local given = { points = stroke.pixels, on = one.scalp, depth = "last", size = ev.size }
+    local line = camera:stroke(given).points
     local list = { { name = "parting", act = function() return create(self, one, line) end } }
     local near = curve and hair.distance(curve:course(), line[1]) < beside * one.scalp:scale()
     if near and not ev.shift then

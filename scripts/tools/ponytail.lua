@@ -19,21 +19,22 @@ local function create(self, one, spine)
     return one.style:add_ponytail(options)
 end
 
-local function new_tail(self, ev, one, in_middle)
-    local curve = create(self, one, tail.spine(ev, one, self.pixels, in_middle))
+local function new_tail(self, stroke, ev, one, in_middle)
+    local curve = create(self, one, tail.spine(ev, one, stroke.pixels, in_middle))
     self.state.viewpoint = hair.camera(ev.camera, one)
-    self.advice = not in_middle and hair.guessed or nil
+    stroke.advice = not in_middle and hair.guessed or nil
     return curve
 end
 
-local function readings(self, ev, one, curve)
-    local list = curve and not ev.shift and tail.readings(self, ev, one, curve) or {}
-    if tail.is_in_middle(ev, one, self.pixels) then
+local function readings(self, stroke, ev, one)
+    local is_change = stroke.target and not ev.shift
+    local list = is_change and tail.readings(self.state.viewpoint, stroke, ev, one) or {}
+    if tail.is_in_middle(ev, one, stroke.pixels) then
         table.insert(list, { name = "tail in the middle", act = function()
-            return new_tail(self, ev, one, true)
+            return new_tail(self, stroke, ev, one, true)
         end })
     end
-    table.insert(list, { name = "tail", act = function() return new_tail(self, ev, one) end })
+    table.insert(list, { name = "tail", act = function() return new_tail(self, stroke, ev, one) end })
     return list
 end
 

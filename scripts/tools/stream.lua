@@ -23,8 +23,27 @@ local function chosen(self, one)
     return nil
 end
 
-local function let_go(self)
-    self.pixels, self.target, self.twin, self.drafts, self.support, self.said = nil, nil, nil, nil, nil, nil
+local function let_go(self) self.stroke = nil end
+
+-- The stroke that a press begins, at the stream under the cursor or the chosen one.
+local function begin(self, ev, one)
+    local stroke, params = hair.new_stroke(ev, one), self.params
+    local under, near = hair.curve_at(ev, one, { kind = "stream", preferred = chosen(self, one) })
+    stroke.under, stroke.target = under, under or chosen(self, one)
+    if params.by ~= "draw" and not under and stroke.target then
+        near = hair.nearest(stroke.target:course(), hair.camera(ev.camera, one), ev.size, ev.x, ev.y)
+        if not near or near.pixels > 20 then stroke.target = nil end
+    end
+    stroke.near = near
+    if not stroke.target then return stroke end
+    stroke.twin = params.symmetric and curves.partner(one, stroke.target) or nil
+    stroke.before = stroke.target:points()
+    if params.by ~= "draw" then
+        stroke.before = stroke.target:course()
+        near.point = hair.snapped(near, stroke.before)
+        stroke.place = curves.place(stroke.before, near)
+    end
+    return stroke
 end
 
 local keys = {
@@ -60,42 +79,27 @@ return require("lissom").tool{
             help = "How far along a stream a pull or a rub reaches." },
     },
     press = function(self, ev)
-        local one = hair.need(ev.scene, self.params)
-        let_go(self)
-        self.advice = nil
-        local under, near = hair.curve_at(ev, one, { kind = "stream", preferred = chosen(self, one) })
-        self.under, self.near, self.target = under, near, under or chosen(self, one)
-        hair.begin_stroke(self, ev, one)
-        if self.params.by ~= "draw" and not under and self.target then
-            near = hair.nearest(self.target:course(), hair.camera(ev.camera, one), ev.size, ev.x, ev.y)
-            self.near = near
-            if not near or near.pixels > 20 then self.target = nil end
-        end
-        if not self.target then return end
-        self.twin = self.params.symmetric and curves.partner(one, self.target) or nil
-        self.before = self.target:points()
-        if self.params.by ~= "draw" then
-            self.before = self.target:course()
-            near.point = hair.snapped(near, self.before)
-            self.place = curves.place(self.before, near)
-        end
+        self.stroke, self.advice = nil, nil
+        self.stroke = begin(self, ev, hair.need(ev.scene, self.params))
     end,
     drag = function(self, ev)
-        local one = self.pixels and hair.find(ev.scene, self.params)
-        if not one then return end
-        if not hair.goes_on(self, ev) or #self.pixels < 3 or hair.is_click(self.pixels) then return end
-        stream_hands.follow(self, one, ev, draft_share)
+        local stroke = self.stroke
+        local one = stroke and hair.find(ev.scene, self.params)
+        if not one or not hair.goes_on(stroke, ev) then return end
+        if #stroke.pixels < 3 or hair.is_click(stroke.pixels) then return end
+        stream_hands.follow(self, stroke, one, ev, draft_share)
     end,
     release = function(self, ev)
-        local one = self.pixels and hair.find(ev.scene, self.params)
-        if one and hair.is_click(self.pixels) then
-            self.curve = self.under
-            hair.forget_begun(self, ev.scene)
-        elseif one and not stream_hands.follow(self, one, ev) then
-            error(self.said, 0)
-        elseif one and self.drafts then
+        local stroke = self.stroke
+        local one = stroke and hair.find(ev.scene, self.params)
+        if one and hair.is_click(stroke.pixels) then
+            self.curve = stroke.under
+            hair.forget_begun(stroke, ev.scene)
+        elseif one and not stream_hands.follow(self, stroke, one, ev) then
+            error(stroke.said, 0)
+        elseif one and stroke.drafts then
             self.state.viewpoint = hair.camera(ev.camera, one)
-            hair.advise(self, ev, hair.is_guess(ev, one, self.pixels))
+            self.advice = hair.advice_after(ev, hair.is_guess(ev, one, stroke.pixels))
         end
         let_go(self)
     end,
@@ -104,7 +108,7 @@ return require("lissom").tool{
         if one and (hair.params[ev.parameter] and ev.parameter ~= "field") then hair.grow(ev.scene, one) end
     end,
     key = function(self, ev)
-        local one = not self.pixels and hair.find(ev.scene, self.params)
+        local one = not self.stroke and hair.find(ev.scene, self.params)
         local curve = chosen(self, one or nil)
         if one and ev.key == "v" then self.state.viewpoint = hair.camera(ev.camera, one) end
         if one and ev.key == "tab" then self.curve = hair.next_curve(ev, one, "stream", curve) end
@@ -116,13 +120,14 @@ return require("lissom").tool{
         local one = hair.find(view.scene, self.params)
         if not one then return end
         if self.params.field then hair_view.field(view, one) end
-        local curve = self.target or chosen(self, one)
-        local under = hair_view.curves(view, one, "stream", curve, self.pixels ~= nil)
-        if self.support then hair_view.support(view, one, self.support) end
-        if self.pixels and #self.pixels > 1 then view:outline{ pixels = self.pixels, width = 2 } end
-        local resting = not self.pixels
+        local stroke = self.stroke or {}
+        local curve, pixels = stroke.target or chosen(self, one), stroke.pixels
+        local under = hair_view.curves(view, one, "stream", curve, pixels ~= nil)
+        if stroke.support then hair_view.support(view, one, stroke.support) end
+        if pixels and #pixels > 1 then view:outline{ pixels = pixels, width = 2 } end
+        local resting = not pixels
         local advice = resting and hair.advice(self, view)
-        hair_view.say(view, self.said or advice or resting and hair_view.warning(view, one, under) or nil)
+        hair_view.say(view, stroke.said or advice or resting and hair_view.warning(view, one, under) or nil)
     end,
     cancel = let_go,
     deactivate = let_go,

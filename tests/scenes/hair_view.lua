@@ -140,7 +140,7 @@ test("v: hints are drawn on the strip seen from here, or on the surface of the o
         local p = place(curve, 0.6)
         press{ p[1] - 45, p[2] }
         moves({ p[1] - 45, p[2] }, { p[1] + 45, p[2] + 4 })
-        local support, shown = h.tool.support, h.host:draw().surfaces
+        local support, shown = h.tool.stroke.support, h.host:draw().surfaces
         expect.equal(#shown, 1)
         expect.truthy(#shown[1].from == #shown[1].to and shown[1].opacity < 0.5)
         local found = support:mode()

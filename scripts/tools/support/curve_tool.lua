@@ -6,8 +6,8 @@
 --   kind, color               of the curves and of the stroke
 --   handles(one, curve)       as curve_handles has them
 --   slide(curve, held, metres)        takes a handle to a length from its base
---   readings(self, ev, one, curve)    what the stroke may mean, likeliest first: a list of { name =, act = },
---                             where act returns the curve that it has made, if any, and more to say
+--   readings(self, stroke, ev, one)   what the stroke may mean, likeliest first: a list of { name =, act = };
+--                             act returns the curve that it has made, if any, and more to say
 --   create(self, one, points)         a curve through points, with the tool's parameters
 --   remember(curve), put_back(curve, before)    what strokes change of a curve, before one: points alone
 --   keys                      functions of (curve, self, ev, one) by key
@@ -15,6 +15,11 @@
 --   advise(one, curve, strands)       what to do next, after a stroke; nil where nothing is to be said
 --
 -- Where its parameter `symmetric` is set, the mirror image of a curve does what the curve does.
+--
+-- A stroke is a value that the tool holds while the button is down: its `pixels`, the curve `target` with its
+-- mirror image `twin`, both as they were `before` and `twin_before`; the handle that is `held`, if any; and
+-- what it makes: the curves `draft` and `twin_draft`, the `support` that it is drawn on, what is `said` of
+-- it, and the `advice` to be given after it.
 local lissom = require "lissom"
 local curve_handles = require "tools.support.curve_handles"
 local curves = require "tools.support.curves"
@@ -33,17 +38,14 @@ local function choose(self, curve)
     curve_handles.show(self.params, self.own.name, curve)
 end
 
-local function forget(self)
-    self.held, self.pixels, self.target, self.before, self.draft = nil, nil, nil, nil, nil
-    self.twin, self.twin_before, self.twin_draft, self.support, self.said = nil, nil, nil, nil, nil
-end
+local function forget(self) self.stroke = nil end
 
-local function put_back(self)
-    if self.target then self.own.put_back(self.target, self.before) end
-    if self.twin then self.own.put_back(self.twin, self.twin_before) end
-    if self.draft then self.draft:remove() end
-    if self.twin_draft then self.twin_draft:remove() end
-    self.draft, self.twin_draft, self.support = nil, nil, nil
+local function put_back(own, stroke)
+    if stroke.target then own.put_back(stroke.target, stroke.before) end
+    if stroke.twin then own.put_back(stroke.twin, stroke.twin_before) end
+    if stroke.draft then stroke.draft:remove() end
+    if stroke.twin_draft then stroke.twin_draft:remove() end
+    stroke.draft, stroke.twin_draft, stroke.support = nil, nil, nil
 end
 
 -- The mirror image of a curve where the tool is symmetric; nil where there is none.
@@ -52,99 +54,104 @@ local function twin_of(self, one, curve)
 end
 
 -- What the stroke has done, done on the other side.
-local function mirror(self, one)
+local function mirror(self, stroke, one)
     if not self.params.symmetric then return end
     local own = self.own
-    if self.draft and not curves.is_middle(one, self.draft) then
-        self.twin_draft = own.create(self, one, curves.mirrored(one.scalp, self.draft:points()))
-    elseif self.twin and not self.draft then
-        own.put_back(self.twin, curves.mirror_image(one.scalp, own.remember(self.target)))
+    if stroke.draft and not curves.is_middle(one, stroke.draft) then
+        stroke.twin_draft = own.create(self, one, curves.mirrored(one.scalp, stroke.draft:points()))
+    elseif stroke.twin and not stroke.draft then
+        own.put_back(stroke.twin, curves.mirror_image(one.scalp, own.remember(stroke.target)))
     end
 end
 
-local function act(self, ev, one)
-    local list = self.own.readings(self, ev, one, self.target)
-    local reading, other = list[self.turn % #list + 1], list[(self.turn + 1) % #list + 1]
+local function act(self, stroke, ev, one)
+    local list = self.own.readings(self, stroke, ev, one)
+    local reading, other = list[stroke.turn % #list + 1], list[(stroke.turn + 1) % #list + 1]
     local more = #list > 1 and "  (Alt: " .. other.name .. ")" or ""
     local done, made, said = pcall(reading.act)
-    if not done then error(hair.message(made) .. more, 0) end
-    self.draft = made
-    mirror(self, one)
+    if not done then lissom.error{ message = hair.message(made) .. more, code = hair.code(made) } end
+    stroke.draft = made
+    mirror(self, stroke, one)
     return reading.name .. (said and ": " .. said or "") .. more
 end
 
 -- What the stroke so far means, done anew, and a share of the hair after it; what is wrong with it is told.
-local function follow(self, ev, one, share)
-    put_back(self)
-    local done, said = pcall(act, self, ev, one)
+local function follow(self, stroke, ev, one, share)
+    put_back(self.own, stroke)
+    local done, said = pcall(act, self, stroke, ev, one)
     if done then done, said = hair.try_grow(ev.scene, one, share, said) end
     if not done then
-        put_back(self)
+        put_back(self.own, stroke)
         hair.grow(ev.scene, one, share)
     end
-    said = hair.message(said)
-    self.said = done and said or hair.refusal(said, self.target or #hair.curves(one) == 0)
+    stroke.said = hair.told(done, said, stroke.target or #hair.curves(one) == 0)
     return done
 end
 
-local function drag_handle(self, ev, one)
-    local length = curve_handles.slide(ev, one, self.held)
-    self.own.slide(self.target, self.held, length)
-    if self.twin then self.own.slide(self.twin, self.held, length) end
+local function drag_handle(own, stroke, ev, one)
+    local length = curve_handles.slide(ev, one, stroke.held)
+    own.slide(stroke.target, stroke.held, length)
+    if stroke.twin then own.slide(stroke.twin, stroke.held, length) end
 end
 
 -- The target where it is still there; without one a stroke only makes something.
-local function has_lost_target(self, one) return self.target and chosen(self, one) ~= self.target end
+local function has_lost_target(self, one)
+    local target = self.stroke.target
+    return target and chosen(self, one) ~= target
+end
 
 local calls = {}
 
 function calls.press(self, ev)
-    local one = hair.need(ev.scene, self.params)
+    local one, own = hair.need(ev.scene, self.params), self.own
     forget(self)
-    self.target, self.advice = chosen(self, one), nil
-    self.curve = self.target
-    self.before = self.target and self.own.remember(self.target)
-    self.twin = twin_of(self, one, self.target)
-    self.twin_before = self.twin and self.own.remember(self.twin)
-    self.held = self.target and curve_handles.pick(ev, one, self.own.handles(one, self.target))
-    hair.begin_stroke(self, ev, one)
+    local stroke, target = hair.new_stroke(ev, one), chosen(self, one)
+    self.advice, self.curve, stroke.target = nil, target, target
+    stroke.before = target and own.remember(target)
+    stroke.twin = twin_of(self, one, target)
+    stroke.twin_before = stroke.twin and own.remember(stroke.twin)
+    stroke.held = target and curve_handles.pick(ev, one, own.handles(one, target))
+    self.stroke = stroke
 end
 
 function calls.drag(self, ev)
-    local one = self.pixels and hair.find(ev.scene, self.params)
+    local stroke = self.stroke
+    local one = stroke and hair.find(ev.scene, self.params)
     if not one or has_lost_target(self, one) then return end
-    if not hair.goes_on(self, ev) then return end
-    if self.held then
-        drag_handle(self, ev, one)
+    if not hair.goes_on(stroke, ev) then return end
+    if stroke.held then
+        drag_handle(self.own, stroke, ev, one)
         hair.grow(ev.scene, one, draft_share)
-    elseif not hair.is_click(self.pixels) and #self.pixels > 2 then
-        follow(self, ev, one, draft_share)
+    elseif not hair.is_click(stroke.pixels) and #stroke.pixels > 2 then
+        follow(self, stroke, ev, one, draft_share)
     end
 end
 
 function calls.release(self, ev)
-    local one = self.pixels and hair.find(ev.scene, self.params)
+    local stroke = self.stroke
+    local one = stroke and hair.find(ev.scene, self.params)
     if not one or has_lost_target(self, one) then return forget(self) end
-    if self.held then
+    if stroke.held then
         hair.grow(ev.scene, one)
-    elseif hair.is_click(self.pixels) then
-        local other = hair.curve_at(ev, one, { kind = self.own.kind, preferred = self.target })
+    elseif hair.is_click(stroke.pixels) then
+        local other = hair.curve_at(ev, one, { kind = self.own.kind, preferred = stroke.target })
         if other then choose(self, other) end
-        hair.forget_begun(self, ev.scene)
-    elseif not follow(self, ev, one) then
-        error(self.said, 0)
+        hair.forget_begun(stroke, ev.scene)
+    elseif not follow(self, stroke, ev, one) then
+        error(stroke.said, 0)
     end
-    self.curve = self.draft or self.curve
+    self.curve = stroke.draft or self.curve
     if self.curve then choose(self, self.curve) end
-    if self.own.advise and self.curve and not self.advice then
-        self.advice = self.own.advise(one, self.curve, hair.strands(ev.scene, one))
+    local advice = stroke.advice
+    if self.own.advise and self.curve and not advice then
+        advice = self.own.advise(one, self.curve, hair.strands(ev.scene, one))
     end
-    hair.advise(self, ev, self.advice)
+    self.advice = hair.advice_after(ev, advice)
     forget(self)
 end
 
 function calls.key(self, ev)
-    local one = not self.pixels and hair.find(ev.scene, self.params)
+    local one = not self.stroke and hair.find(ev.scene, self.params)
     local curve = one and chosen(self, one)
     if not curve then return end
     if ev.key == "tab" then return choose(self, hair.next_curve(ev, one, self.own.kind, curve)) end
@@ -174,16 +181,17 @@ function calls.draw(self, view)
     if not one then return end
     local curve = chosen(self, one)
     if self.params.field then hair_view.field(view, one) end
-    local under = hair_view.curves(view, one, own.kind, curve, self.pixels ~= nil)
+    local stroke = self.stroke or {}
+    local under = hair_view.curves(view, one, own.kind, curve, stroke.pixels ~= nil)
     if curve then own.draw(view, one, curve) end
-    if self.support then hair_view.support(view, one, self.support) end
-    local handle = curve and curve_handles.draw(view, one, own.handles(one, curve), self.held)
-    if self.pixels and not self.held then
-        view:outline{ pixels = self.pixels, color = own.color, width = 2 }
+    if stroke.support then hair_view.support(view, one, stroke.support) end
+    local handle = curve and curve_handles.draw(view, one, own.handles(one, curve), stroke.held)
+    if stroke.pixels and not stroke.held then
+        view:outline{ pixels = stroke.pixels, color = own.color, width = 2 }
     end
-    local resting = not self.pixels and not handle
+    local resting = not stroke.pixels and not handle
     local advice = resting and hair.advice(self, view)
-    hair_view.say(view, self.said or advice or resting and hair_view.warning(view, one, under) or nil)
+    hair_view.say(view, stroke.said or advice or resting and hair_view.warning(view, one, under) or nil)
 end
 
 calls.cancel, calls.deactivate = forget, forget

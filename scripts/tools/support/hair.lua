@@ -256,21 +256,29 @@ end
 
 local fine, step = 0.5, 2       -- pixels from the last one from which an event counts, and from which it acts
 
---- Begins a stroke of a tool: its `pixels`, and how often Alt was pressed in it, its `turn`.
-function hair.begin_stroke(tool, ev, one)
-    tool.pixels, tool.turn, tool.alt, tool.last = { { ev.x, ev.y } }, 0, ev.alt, nil
-    tool.begun = one.begun
+--- A stroke that begins: its `pixels`, how often Alt was pressed in it, its `turn`, and the style that was
+-- `begun` for it. A tool keeps one while the button is down, with all that is known of it.
+function hair.new_stroke(ev, one)
+    return { pixels = { { ev.x, ev.y } }, turn = 0, alt = ev.alt, begun = one.begun }
 end
 
 --- After a click, which draws nothing: a style that was begun for it goes again.
-function hair.forget_begun(tool, scene)
-    if tool.begun and meshes.object(scene, tool.begun) then scene:remove(tool.begun) end
+function hair.forget_begun(stroke, scene)
+    if stroke.begun and meshes.object(scene, stroke.begun) then scene:remove(stroke.begun) end
 end
 
---- What a refused stroke is told, with what else it may have been meant for.
-function hair.refusal(message, is_change)
-    if is_change or not message:find("starts beside the surface", 1, true) then return message end
-    return message .. ", or click a curve first to change that"
+--- What an error says, without its place in a script and its code.
+function hair.message(text) return (tostring(text):gsub("^[^\n]-:%d+: ", ""):gsub(" %[[%l_]+%]$", "")) end
+
+--- The code of an error; nil if a script has raised a text.
+function hair.code(problem) return type(problem) == "table" and problem.code or nil end
+
+--- What is said of a stroke: `said` if it was `done`, else what is wrong with it, and if it starts beside the
+-- head and changes no curve, what else it may have been meant for.
+function hair.told(done, said, is_change)
+    local text = hair.message(said)
+    if done or is_change or hair.code(said) ~= "out_of_range" then return text end
+    return text .. ", or click a curve first to change that"
 end
 
 local function is_near(ev, pixel, pixels)
@@ -279,13 +287,13 @@ end
 
 --- Takes an event into the stroke; whether there is anything to be done about it, so that slow hands with
 -- thousands of events do not wait for each.
-function hair.goes_on(tool, ev)
-    local is_turned = ev.alt and not tool.alt
-    if is_turned then tool.turn = tool.turn + 1 end
-    tool.alt = ev.alt
-    if not is_near(ev, tool.pixels[#tool.pixels], fine) then table.insert(tool.pixels, { ev.x, ev.y }) end
-    if is_near(ev, tool.last, step) and not is_turned and not tool.behind then return false end
-    tool.last, tool.behind = { ev.x, ev.y }, ev.late
+function hair.goes_on(stroke, ev)
+    local is_turned, pixels = ev.alt and not stroke.alt, stroke.pixels
+    if is_turned then stroke.turn = stroke.turn + 1 end
+    stroke.alt = ev.alt
+    if not is_near(ev, pixels[#pixels], fine) then table.insert(pixels, { ev.x, ev.y }) end
+    if is_near(ev, stroke.last, step) and not is_turned and not stroke.behind then return false end
+    stroke.last, stroke.behind = { ev.x, ev.y }, ev.late
     return not ev.late
 end
 
@@ -297,21 +305,20 @@ function hair.is_click(pixels)
     return true
 end
 
---- Keeps what a tool advises after the step that now ends, where the hand is.
-function hair.advise(tool, ev, text)
-    tool.advice = text
-    tool.advised = text and { step = ev.scene:history().place + 1, x = ev.x, y = ev.y } or nil
+--- What a tool advises after the step that now ends, if anything: the `text`, and where the hand is.
+function hair.advice_after(ev, text)
+    return text and { text = text, step = ev.scene:history().place + 1, x = ev.x, y = ev.y } or nil
 end
 
 local advised_near = 60         -- pixels
 
---- The advice, until another step is done or this one undone, or the hand goes elsewhere; nil then.
+--- The text of a tool's advice, until another step is done or this one undone, or the hand goes elsewhere.
 function hair.advice(tool, view)
-    local advised, cursor = tool.advice and tool.advised, view.cursor
-    if not advised or not cursor or view.scene:history().place ~= advised.step then return nil end
-    local away = math.max(math.abs(cursor[1] - advised.x), math.abs(cursor[2] - advised.y))
+    local advice, cursor = tool.advice, view.cursor
+    if not advice or not cursor or view.scene:history().place ~= advice.step then return nil end
+    local away = math.max(math.abs(cursor[1] - advice.x), math.abs(cursor[2] - advice.y))
     if away > advised_near then tool.advice = nil end
-    return tool.advice
+    return advice.text
 end
 
 --- What tools say where nothing tells how deep a stroke is.
@@ -327,9 +334,6 @@ function hair.is_guess(ev, one, pixels)
     if beside < 0.25 * #pixels then return nil end
     return hair.guessed
 end
-
---- What an error says, without its place in a script and its code.
-function hair.message(text) return (tostring(text):gsub("^[^\n]-:%d+: ", ""):gsub(" %[[%l_]+%]$", "")) end
 
 local seen_only = { field = true, surface = true, stop = true, reach = true, by = true, symmetric = true,
     lift = true }

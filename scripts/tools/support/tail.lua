@@ -70,10 +70,10 @@ end
 local strip_width = 0.08    -- metres to each side of a spine on which profiles are drawn
 
 -- A profile on the strip of the spine that faces the view.
-local function profile_points(self, ev, curve, camera)
-    self.support = curve:support{ mode = "strip", camera = camera, width = strip_width }
-    local given = { points = self.pixels, size = ev.size, on = self.support }
-    return camera:stroke(given).points, self.support:end_on() > 1 / 3
+local function profile_points(stroke, ev, curve, camera)
+    stroke.support = curve:support{ mode = "strip", camera = camera, width = strip_width }
+    local given = { points = stroke.pixels, size = ev.size, on = stroke.support }
+    return camera:stroke(given).points, stroke.support:end_on() > 1 / 3
 end
 
 local parts = {}
@@ -90,15 +90,15 @@ function parts.place(ev, one, camera, spine, pixels, width)
         is_beside = hair.distance(spine, start) < beside * one.scalp:scale() }
 end
 
-function parts.section(_, ev, curve, camera, pixels)
+function parts.section(ev, curve, camera, pixels)
     return { name = "tie", act = function()
         curve:set{ section = section_points(ev, curve:course(), camera, pixels) }
     end }
 end
 
-function parts.profile(self, ev, curve, camera)
+function parts.profile(stroke, ev, curve, camera)
     return { name = "profile", act = function()
-        local points, end_on = profile_points(self, ev, curve, camera)
+        local points, end_on = profile_points(stroke, ev, curve, camera)
         curve:set{ profiles = tail.with_profile(curve, points) }
         return nil, end_on and "the tail is seen end-on: turn the view" or nil
     end }
@@ -107,35 +107,39 @@ end
 function parts.refused(text) return { name = "nothing", act = function() error(text, 0) end } end
 
 -- Hints to the spine, as to a stream.
-function parts.hints(self, ev, one, curve, camera, pixels)
+function parts.hints(viewpoint, stroke, ev, one, camera, pixels)
+    local curve = stroke.target
     local list = {}
     for i, name in ipairs(curves.readings(curve, camera, ev.size, pixels) or {}) do
         list[i] = { name = name, act = function()
-            self.support = curves.support(curve, "auto", camera, self.state.viewpoint)
-            local given = { points = self.pixels, size = ev.size, on = self.support }
+            stroke.support = curves.support(curve, "auto", camera, viewpoint)
+            local given = { points = stroke.pixels, size = ev.size, on = stroke.support }
             curves.apply(curve, name, camera:stroke(given).points)
             if name ~= "cut" then curve:set{ spine = tail.leaving(one, curve:points()) } end
-            return nil, self.support:mode() == "ruled" and "in depth" or nil
+            return nil, stroke.support:mode() == "ruled" and "in depth" or nil
         end }
     end
     return list
 end
 
---- What a stroke at a tail may mean, likeliest first, as curve_tool has it; empty where it is not at it.
-function tail.readings(self, ev, one, curve)
+--- What a stroke at the tail that is its target may mean, likeliest first, as curve_tool has it; empty if it
+-- is not at it. The tail was drawn from `viewpoint`.
+function tail.readings(viewpoint, stroke, ev, one)
+    local curve = stroke.target
     local camera, spine = hair.camera(ev.camera, one), curve:course()
-    local pixels = camera:stroke{ points = self.pixels, size = ev.size }.pixels
+    local pixels = camera:stroke{ points = stroke.pixels, size = ev.size }.pixels
     local way, width = round(pixels)
     local place = parts.place(ev, one, camera, spine, pixels, width)
     if not place then return {} end
-    local hints = (place.is_at or place.is_beside) and parts.hints(self, ev, one, curve, camera, pixels) or {}
+    local is_near = place.is_at or place.is_beside
+    local hints = is_near and parts.hints(viewpoint, stroke, ev, one, camera, pixels) or {}
     local first
     if way == "all" and place.is_around then
-        first = parts.section(self, ev, curve, camera, pixels)
+        first = parts.section(ev, curve, camera, pixels)
     elseif not place.is_beside or (place.is_at and way ~= "half") then
         return hints
     elseif along(camera, ev.size, spine, pixels) > 0.7 then
-        first = parts.profile(self, ev, curve, camera)
+        first = parts.profile(stroke, ev, curve, camera)
     elseif way == "half" and place.is_around then
         first = parts.refused("half a ring: draw all the way round the tail, for the tie")
     elseif #hints == 0 then
