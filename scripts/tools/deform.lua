@@ -64,8 +64,7 @@ end
 local function told_of_mirror(handle)
     if not handle:mirrored() then return nil end
     local residual = handle:mirror_residual()
-    -- In lines of their own: a label is no wider than it must be.
-    if residual.warning then return (residual.warning:gsub("; ", ";\n"):gsub(", or", ",\nor")) end
+    if residual.warning then return residual.warning end
     return string.format("mirrored; the sides differ by %.2f %% of the size, %.2f %% on "
         .. "average", 100 * residual.max, 100 * residual.mean)
 end
@@ -96,8 +95,9 @@ local function finish(self, one)
     if report.volume_change then
         table.insert(words, string.format("volume %+.0f %%", 100 * report.volume_change))
     end
-    for _, warning in ipairs(report.warnings) do table.insert(words, warning.message) end
-    self.told = table.concat(words, "; ")
+    local lines = { table.concat(words, "; ") }
+    for _, warning in ipairs(report.warnings) do table.insert(lines, warning.message) end
+    self.told = table.concat(lines, "\n")
 end
 
 local keys = {

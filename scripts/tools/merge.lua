@@ -120,8 +120,7 @@ local function told(join, report)
     end
     if found.any_turn then table.insert(words, "any turn fits") end
     if join.turn ~= 0 then table.insert(words, string.format("turned by %g degrees", join.turn)) end
-    table.insert(words, report.verdict)
-    return table.concat(words, "; ")
+    return table.concat(words, "; ") .. "\n" .. report.verdict
 end
 
 -- Merges. A join is { source =, target =, keys =, turn = }: hits of two loops, pairs of points on them, and

@@ -8,11 +8,17 @@ local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
 local vectors = require "vectors"
 
--- Where the camera stands, seen from what it looks at, and what is up there.
+-- Where the camera stands, seen from what it looks at, and what is up there, if y points up.
 local sides = {
     ["1"] = { { 0, 0, 1 } }, ["2"] = { { 0, 0, -1 } }, ["3"] = { { -1, 0, 0 } }, ["4"] = { { 1, 0, 0 } },
     ["5"] = { { 0, 1, 0 }, { 0, 0, -1 } }, ["6"] = { { 0, -1, 0 }, { 0, 0, 1 } }, ["7"] = { { 1, 0.6, 1.2 } },
 }
+
+-- The same direction if `up` points up: z instead of y by a quarter turn about x.
+local function to_world(direction, up)
+    if up == "y" then return direction end
+    return { direction[1], -direction[3], direction[2] }
+end
 
 local function add_vertices(points, one, vertices)
     for _, v in ipairs(vertices) do
@@ -37,10 +43,10 @@ end
 -- The camera looking from a side, and showing all.
 local function seen_from(ev, side)
     local camera, points = ev.camera, points_of(ev.scene, true)
-    local eye = vectors.plus(camera:target(), vectors.unit(side[1]), vectors.length(
+    local eye = vectors.plus(camera:target(), vectors.unit(to_world(side[1], ev.up)), vectors.length(
         vectors.plus(camera:eye(), camera:target(), -1)))
-    local turned = lissom.camera{ eye = eye, target = camera:target(), up = side[2] or { 0, 1, 0 },
-        fov = camera:fov(), ortho = camera:ortho() }
+    local turned = lissom.camera{ eye = eye, target = camera:target(),
+        up = to_world(side[2] or { 0, 1, 0 }, ev.up), fov = camera:fov(), ortho = camera:ortho() }
     return #points > 0 and turned:frame(points, ev.size) or turned
 end
 

@@ -45,7 +45,8 @@ end
 
 -- How the part stands: upright in the picture's space of both meshes, turned and scaled by the parameters.
 local function placement(self, at)
-    return { at = at, toward = self.params.up, up = self.params.up, angle = self.params.angle,
+    local up = self.params.up == "the view's" and self.up or self.params.up
+    return { at = at, toward = up, up = up, angle = self.params.angle,
         scale = self.params.scale }
 end
 
@@ -116,7 +117,8 @@ return lissom.tool{
             help = "Turns the part on the surface, counter-clockwise; the wheel." },
         scale = { type = "number", default = 1, min = 0.01, max = 100,
             help = "Its size; shift and the wheel." },
-        up = { type = "choice", default = "y", choices = { "x", "y", "z", "-x", "-y", "-z" },
+        up = { type = "choice", default = "the view's",
+            choices = { "the view's", "x", "y", "z", "-x", "-y", "-z" },
             help = "The direction of both meshes that stays upright." },
         clear = { type = "boolean", default = false, help = "Removes what stands out of the target there." },
         normals = { type = "number", default = 0, min = 0, max = 1,
@@ -124,6 +126,7 @@ return lissom.tool{
     },
     press = function(self, ev)
         forget(self)
+        self.up = ev.up
         local hit = ev:hit()
         self.part = find_part(self, ev.scene, hit and hit.mesh)
         if not self.part then error("nothing is selected: select the part first, or open one", 0) end

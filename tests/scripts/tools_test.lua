@@ -471,6 +471,41 @@ test("a recording sees by the very same camera", function()
     end
 end)
 
+test("with z up the keys of sides turn with the view, and a recording keeps that", function()
+    local scene = ball_scene()
+    local function host_with(up)
+        return lissom.tool_host{ scene = scene, camera = lissom.camera{ eye = { 0, 0, 5 } }, up = up }
+    end
+    local function seen(up, key)
+        local camera = host_with(up):use(lissom.load_tool("navigate")):key{ key = key }.camera
+        local eye, target = camera:eye(), camera:target()
+        local away = {}
+        for i = 1, 3 do away[i] = eye[i] - target[i] end
+        return away, camera:up()
+    end
+    for _, key in ipairs{ "1", "2", "3", "4", "5", "6", "7" } do
+        local y_away, y_up = seen("y", key)
+        local z_away, z_up = seen("z", key)
+        for i, from in ipairs{ 1, 3, 2 } do
+            local sign = i == 2 and -1 or 1
+            expect.near(z_away[i], sign * y_away[from], 1e-9)
+            expect.near(z_up[i], sign * y_up[from], 1e-9)
+        end
+    end
+    local ups = {}
+    local asks = lissom.tool{ name = "asks", key = function(_, ev)
+        ups[#ups + 1] = ev.up
+        ev.scene:get("ball"):set_position(1, #ev.up, ev.up == "z" and 1 or 0, 0)
+    end, draw = function(_, view) ups[#ups + 1] = view.up end }
+    local host = host_with("z"):record()
+    host:use(asks):look(lissom.camera{ eye = { 0, -5, 0 }, up = { 0, 0, 1 } }):key{ key = "a" }:draw()
+    expect.equal(table.concat(ups), "zz")
+    local recorded = assert(load((host:recording():gsub('require%("lissom"%)%.replay', ""))))()
+    local after = scene:hash()
+    host:undo()
+    expect.equal(lissom.replay(recorded, { scene = scene, tools = { asks } }):hash(), after)
+end)
+
 test("a recording looks for its files from its own folder", function()
     local folder = test.file("recorded")
     os.execute("mkdir -p '" .. folder .. "'")

@@ -292,7 +292,7 @@ bool ViewApp::press_anywhere(const Input& input) {
     closes_ = closes_ || ends;
     if (saves) keeping_.save();
     const bool exports = is_control && input.character == U'E' && !replay_.plays();
-    if (exports) session_.export_mesh(state_.content.export_name);
+    if (exports) session_.export_object(state_.content.export_name);
     if (input.key == Key::f12) finishing_.want_file();
     return ends || saves || exports || input.key == Key::f12;
 }
@@ -338,7 +338,7 @@ void ViewApp::answer(const PanelAnswers& answers) {
     if (answers.cancel) session_.cancel();
     answer_tool(answers.tool);
     if (answers.save) keeping_.save();
-    if (answers.export_mesh) session_.export_mesh(state_.content.export_name);
+    if (answers.exports) session_.export_object(state_.content.export_name);
     if (answers.line) session_.evaluate(*answers.line);
     if (answers.complete) session_.complete(*answers.complete);
     scripts_.answer(answers);

@@ -39,9 +39,9 @@ local function name_members(class, what, fields, own)
     end
 end
 
-name_members(Event, "lissom.ToolEvent", set_of{ "kind", "camera", "scene", "size", "x", "y", "start",
-    "button", "shift", "ctrl", "alt", "late", "key", "lines", "parameter" })
-name_members(View, "lissom.ToolView", set_of{ "camera", "scene", "size", "cursor" }, set_of{ "list" })
+name_members(Event, "lissom.ToolEvent", set_of{ "kind", "camera", "scene", "size", "up", "x", "y",
+    "start", "button", "shift", "ctrl", "alt", "late", "key", "lines", "parameter" })
+name_members(View, "lissom.ToolView", set_of{ "camera", "scene", "size", "up", "cursor" }, set_of{ "list" })
 name_members(Host, "lissom.ToolHost", set_of{ "scene", "camera", "size", "tool" }, set_of{ "asked", "base",
     "begun", "brings_up", "depth", "drawn", "draws", "exported", "guarded", "held", "hover", "is_made",
     "journal", "kept", "known_hash", "log", "looked", "numbers", "opened", "prompted", "request", "thread",
@@ -159,7 +159,7 @@ end
 function Host:event(kind, fields)
     local held = self.held or {}
     local event = { kind = kind, camera = self.camera, scene = self.scene, size = self.size,
-        x = self.x, y = self.y, start = held.start, button = held.button,
+        up = self:up_axis(), x = self.x, y = self.y, start = held.start, button = held.button,
         shift = false, ctrl = false, alt = false }
     for key, value in pairs(fields or {}) do event[key] = value end
     callers[event] = self
@@ -442,14 +442,18 @@ function Host:take_numbers(numbers)
     self.size = checked_size(numbers.size)
     self.camera = lissom.camera{ eye = numbers.eye, target = numbers.target, up = numbers.up,
         fov = numbers.fov, ortho = numbers.ortho }
+    self.z_up = numbers.z_up or nil
     self.numbers = { eye = numbers.eye, target = numbers.target, up = numbers.up, fov = numbers.fov,
-        ortho = numbers.ortho, size = self.size }
+        ortho = numbers.ortho, size = self.size, z_up = self.z_up }
 end
+
+-- The axis of the world that points up in views.
+function Host:up_axis() return self.z_up and "z" or "y" end
 
 -- A tool looks by another camera.
 function Host:see_by(camera)
     local numbers = camera_numbers(camera)
-    numbers.size = self.size
+    numbers.size, numbers.z_up = self.size, self.z_up
     self:take_numbers(numbers)
 end
 
@@ -457,7 +461,7 @@ function Host:look(camera, size)
     self:ready()
     if type(camera) ~= "userdata" then error("look takes a camera", 2) end
     local numbers = camera_numbers(camera)
-    numbers.size = checked_size(size or self.size)
+    numbers.size, numbers.z_up = checked_size(size or self.size), self.z_up
     return self:look_by(numbers)
 end
 

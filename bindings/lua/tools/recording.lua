@@ -151,9 +151,10 @@ local function free_name(scene, name)
     return free
 end
 
-local function new_host(scene, camera, size)
+local function new_host(scene, camera, size, up)
     size = type(size) == "number" and { size, size } or size or { 1280, 960 }
     local host = setmetatable({ scene = scene, typed = "", base = scene:depth() }, Host)
+    host.z_up = up == "z" or nil
     return host:look(camera, checked_size(size))
 end
 
@@ -477,7 +478,7 @@ end
 local function event_kind(playing, i) return playing.recorded.events[i][1] end
 
 local function make_host(options)
-    local host = new_host(options.scene, options.camera, options.size)
+    local host = new_host(options.scene, options.camera, options.size, options.up)
     if options.tool then host:use(options.tool) end
     return host
 end

@@ -432,6 +432,8 @@ std::vector<Function> tool_functions() {
                     "go on once the scene is as before.",
          .options = {object("scene", "lissom.Scene", "What the tools work on."),
                      object("camera", "lissom.Camera", "What it is seen by."), size_argument(),
+                     choice("up", {"y", "z"}, "The axis of the world that points up in views.")
+                         .defaults("y"),
                      table("tool", "The first tool.").optional("none")},
          .results = {{"lissom.ToolHost", "host", "Call its methods."}},
          .example = kHostExample + kPushTool + R"(local before = scene:hash()
@@ -496,6 +498,7 @@ std::vector<Record> tool_records() {
           {"lissom.Camera", "camera", "What the scene is seen by."},
           {"lissom.Scene", "scene", "The scene."},
           {"integer[]", "size", "{width, height} of the picture in pixels."},
+          {"\"y\"|\"z\"", "up", "The axis of the world that points up in views."},
           {"fun(self: any): any", "ray", "Origin and direction, as camera:ray."},
           {"fun(self: any): lissom.PickHit?", "hit", "The surface under the cursor."},
           {"fun(self: any, options: table?): lissom.PickHit?", "pick",
@@ -510,6 +513,7 @@ std::vector<Record> tool_records() {
          {{"lissom.Camera", "camera", "What the scene is seen by."},
           {"lissom.Scene", "scene", "The scene."},
           {"integer[]", "size", "{width, height} of the picture in pixels."},
+          {"\"y\"|\"z\"", "up", "The axis of the world that points up in views."},
           {"number[]?", "cursor", "Where the cursor is."},
           {"fun(self: any, options: table)", "points", "{points=, color=, radius= in pixels}"},
           {"fun(self: any, options: table)", "line",

@@ -149,7 +149,7 @@ end
 function Host:draw()
     self:ready()
     local view = setmetatable({ camera = self.camera, scene = self.scene, size = self.size,
-        cursor = self.x and { self.x, self.y } or nil,
+        up = self:up_axis(), cursor = self.x and { self.x, self.y } or nil,
         list = { points = {}, lines = {}, labels = {}, outlines = {}, circles = {}, regions = {},
             surfaces = {}, meshes = {} } }, View)
     draw_hover(view, self)

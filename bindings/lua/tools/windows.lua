@@ -87,12 +87,11 @@ end
 -- The first look at a scene that was saved in a window is the one that it was saved with.
 local function look_in_window(host, numbers)
     local view = saved_views[host.scene]
-    host.z_up = numbers.z_up
     if not view then return look(host, numbers) end
     saved_views[host.scene] = nil
-    host.z_up = view.z_up
     host.brings_up = true
-    local saved = { size = numbers.size, fov = view.ortho == nil and view.fov or nil, ortho = view.ortho }
+    local saved = { size = numbers.size, fov = view.ortho == nil and view.fov or nil, ortho = view.ortho,
+        z_up = view.z_up }
     for _, name in ipairs{ "eye", "target", "up" } do
         saved[name] = { view[name .. 1], view[name .. 2], view[name .. 3] }
     end
@@ -142,6 +141,36 @@ local function mesh_in_hand(scene)
         or count .. " meshes are to be seen: select vertices of the one to export, or hide the others", 0)
 end
 
+-- The only visible hair; and the name and place of its object.
+local function hair_in_hand(scene)
+    local found, count = nil, 0
+    for _, name in ipairs(scene:names()) do
+        local info = scene:info(name)
+        if info.kind == "strands" and info.visible then
+            found, count = { scene:get(name), name, info.transform }, count + 1
+        end
+    end
+    if count == 1 then return found[1], found[2], found[3] end
+    error(count == 0 and "no hair is to be seen: there is nothing to export to a file of hair"
+        or count .. " objects of hair are to be seen: hide the others", 0)
+end
+
+local surfaces, only_hair = set_of{ "mesh", "deformation" }, set_of{ "strands" }
+
+local function shows(scene, kinds)
+    for _, name in ipairs(scene:names()) do
+        local info = scene:info(name)
+        if info.visible and kinds[info.kind] then return true end
+    end
+    return false
+end
+
+-- What goes into a file that may hold `meshes`, `hair` or both.
+local function object_in_hand(scene, meshes, hair)
+    local without_mesh = not meshes or (not shows(scene, surfaces) and shows(scene, only_hair))
+    return (hair and without_mesh and hair_in_hand or mesh_in_hand)(scene)
+end
+
 local function exists(path)
     local file = io.open(path, "rb")
     if file then file:close() end
@@ -149,26 +178,28 @@ local function exists(path)
 end
 
 -- A name that no file has: that of the object, with a number if needed.
-local function free_name(name)
+local function free_file(name, ending)
     local base, number = name:gsub("%.%w+$", ""):gsub("[^%w%-_. ]", "_"), 1
     while true do
-        local path = base .. (number > 1 and "-" .. number or "") .. ".obj"
+        local path = base .. (number > 1 and "-" .. number or "") .. ending
         if not exists(path) then return path end
         number = number + 1
     end
 end
 
--- A copy of the mesh in hand for a file, where that is to go, and { name =, transform = } of its object. A
--- file that this window has not written stays as it is.
-local function export(host, path)
-    local mesh, name, place = mesh_in_hand(host.scene)
+-- A copy of the mesh or hair in hand for a file, its path, and { name =, transform = } of its object. The
+-- path's ending names a format of `meshes`, `hair` or both. A file that this window has not written stays as
+-- it is.
+local function export(host, path, meshes, hair)
+    local object, name, place = object_in_hand(host.scene, meshes, hair)
+    local is_hair = type_of(object) == "lissom.Strands"
     host.exported = host.exported or {}
-    if path == "" then path = free_name(name) end
+    if path == "" then path = free_file(name, is_hair and ".usda" or ".obj") end
     if exists(path) and not host.exported[path] then
         error(path .. " is there already, and was not written by this window: give another name", 0)
     end
-    local copy = mesh:copy()
-    if try(copy.region, copy, "selected") then copy:remove_region("selected") end
+    local copy = object:copy()
+    if not is_hair and try(copy.region, copy, "selected") then copy:remove_region("selected") end
     return copy, path, { name = name, transform = place }
 end
 
@@ -176,7 +207,9 @@ end
 local function write_export(host, copy, path, object)
     copy:save(path)
     host.exported[path] = true
-    local counts = string.format("%d vertices, %d faces", #copy, copy:face_count())
+    local counts = type_of(copy) == "lissom.Strands"
+        and string.format("%d strands", #copy)
+        or string.format("%d vertices, %d faces", #copy, copy:face_count())
     return "exported " .. object.name .. " to " .. path .. ": " .. counts
 end
 

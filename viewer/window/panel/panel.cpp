@@ -169,7 +169,7 @@ constexpr const char* kKeys =
     "without a tool: 1 to 7: sides   O: perspective   F: as Home\n"
     "    W: wire   B: boundaries   U: z up or y up\n"
     "Ctrl-Z, Ctrl-Shift-Z: undo, redo\n"
-    "Ctrl-S: save the scene   Ctrl-E: export a mesh   F12: picture\n"
+    "Ctrl-S: save the scene   Ctrl-E: export a mesh or hair   F12: picture\n"
     "F5: run again   Esc: stop, or take back\n"
     "Ctrl-Q: end\n"
     "Files can be dropped on the window.";
@@ -481,12 +481,14 @@ void Panel::State::export_row(PanelContent& content, PanelAnswers& answers) {
     std::array<char, kLongestText> name{};
     content.export_name.copy(name.data(), name.size() - 1);
     forget_unfit_history("##export", name.data());
-    ImGui::InputTextWithHint("##export", "file: .obj .glb .ply .stl", name.data(), name.size());
+    ImGui::InputTextWithHint("##export", "file: .obj .glb .ply .usda", name.data(), name.size());
     content.export_name = name.data();
     ImGui::SameLine();
-    if (ImGui::Button("export")) answers.export_mesh = true;
+    if (ImGui::Button("export")) answers.exports = true;
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("Ctrl-E: writes the mesh with a selection, else the only one to be seen");
+        ImGui::SetTooltip(
+            "Ctrl-E: writes the mesh with a selection, else the only one to be seen;\n"
+            "if the ending is one of hair (.usda .hair .data .rib), the hair");
     }
 }
 

@@ -68,7 +68,7 @@ struct PanelContent {
 /// Requests of a person in one frame.
 struct PanelAnswers {
     bool frame_all = false, toggle_ortho = false, screenshot = false, save = false,
-         export_mesh = false, toggle_up = false, run_again = false, cancel = false,
+         exports = false, toggle_up = false, run_again = false, cancel = false,
          compare_with_this = false;
     /// Action on the newest left scene.
     bool open_left = false, forget_left = false;

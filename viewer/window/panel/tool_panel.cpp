@@ -147,6 +147,23 @@ ImVec2 inside(const ImVec2& at, const ImVec2& extent, const ImVec2& corner, cons
     return ImVec2(moved(at.x, extent.x, corner.x, end.x), moved(at.y, extent.y, corner.y, end.y));
 }
 
+// Widest line of a label: in heights of a line, and of the picture.
+constexpr float kLabelWidth = 30.0f, kLabelShare = 0.5f;
+
+// Draws a label beside a pixel, inside the picture between two corners; longer lines are wrapped.
+void draw_label(const ToolLabel& label, const ImVec2& beside, const ImVec2& corner,
+                const ImVec2& end, ImDrawList& list) {
+    const float line = ImGui::GetFontSize();
+    const float widest = std::min(kLabelWidth * line, kLabelShare * (end.x - corner.x));
+    const char* const text = label.text.c_str();
+    const ImVec2 extent = ImGui::CalcTextSize(text, nullptr, false, widest);
+    const ImVec2 p = inside(beside, extent, corner, end);
+    list.AddRectFilled(ImVec2(p.x - 4.0f, p.y - 2.0f),
+                       ImVec2(p.x + extent.x + 4.0f, p.y + extent.y + 2.0f),
+                       IM_COL32(24, 26, 30, 200), 3.0f);
+    list.AddText(ImGui::GetFont(), line, p, packed(label.color), text, nullptr, widest);
+}
+
 // Quads are drawn without soft borders, which would show between them.
 void draw_surface(const ToolSurface& surface, const Camera& camera, const PictureSize& size,
                   const ImVec2& corner, ImDrawList& list) {
@@ -200,12 +217,7 @@ void draw_marks(const ToolState& state, const MarkedPicture& picture) {
     for (const ToolLabel& label : state.marks.labels) {
         const Vec3 at = camera.project(label.at, size);
         if (!(at.z() > 0.0) || !at.allFinite()) continue;
-        const ImVec2 extent = ImGui::CalcTextSize(label.text.c_str());
-        const ImVec2 p = inside(place(at.x() + 8.0, at.y() - 8.0), extent, corner, end);
-        list->AddRectFilled(ImVec2(p.x - 4.0f, p.y - 2.0f),
-                            ImVec2(p.x + extent.x + 4.0f, p.y + extent.y + 2.0f),
-                            IM_COL32(24, 26, 30, 200), 3.0f);
-        list->AddText(p, packed(label.color), label.text.c_str());
+        draw_label(label, place(at.x() + 8.0, at.y() - 8.0), corner, end, *list);
     }
     if (state.hand) {
         const Vec2 p = fit(state.hand->at);

@@ -335,7 +335,7 @@ void Session::save_scene(const std::string& path, std::uint64_t scene, std::uint
     worker_.post(save, true);
 }
 
-void Session::export_mesh(const std::string& path) {
+void Session::export_object(const std::string& path) {
     const auto write = [this, path] {
         if (!bench_ || !bench_->has_scene()) {
             return tell(LineKind::warning, "there is no scene: nothing was exported");
@@ -344,7 +344,7 @@ void Session::export_mesh(const std::string& path) {
         begin_work();
         std::string told;
         set_saving(true);
-        const cli::ScriptResult result = bench_->export_mesh(path, told);
+        const cli::ScriptResult result = bench_->export_object(path, told);
         set_saving(false);
         if (succeeds(result)) tell(LineKind::result, told);
     };

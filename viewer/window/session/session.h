@@ -113,9 +113,9 @@ class Session {
     /// Writes the scene to a file, and tells that it did, if it is still the scene with the number
     /// `scene`; `take_saved` then returns `change`.
     void save_scene(const std::string& path, std::uint64_t scene = 0, std::uint64_t change = 0);
-    /// Writes the mesh in hand to a file whose ending names the format, a free name if `path` is
-    /// empty, and tells it. After an error all is as before.
-    void export_mesh(const std::string& path);
+    /// Writes the mesh or the hair in hand to a file whose ending names the format, a free name if
+    /// `path` is empty, and tells it. After an error all is as before.
+    void export_object(const std::string& path);
     /// Writes the scene and, if no other was asked for, its journal to files, silently.
     void copy_scene(const std::string& path, const std::string& journal);
     /// A parameter of the tool has this value.

@@ -8,10 +8,14 @@
 
 #include "bindings/lua/core/call.h"
 #include "bindings/lua/core/object.h"
+#include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tools.h"
+#include "kernel/hair/strands/strand_edit.h"
+#include "kernel/io/record/file_rules.h"
+#include "kernel/io/strand_file.h"
 #include "kernel/mesh/edit/transform.h"
 #include "viewer/lua/shown_values.h"
 
@@ -421,15 +425,36 @@ cli::ScriptResult ToolBench::save(const std::string& path, std::string& left_out
     return result;
 }
 
-// A copy of a mesh, its file and its object are at `first`: writes it as it stands in the scene.
+namespace {
+
+// Moves a copy of a mesh or of hair to its place in the scene.
+void move_copy(const lua::Holder& holder, const Affine& place) {
+    if (place.is_identity()) return;
+    if (holder.type_name == lua::StrandsObject::kTypeName) {
+        return transform(static_cast<lua::StrandsObject*>(holder.object.get())->strands, place);
+    }
+    auto* copy = static_cast<lua::MeshObject*>(holder.object.get());
+    transform(copy->mesh, place);
+    copy->changed();
+}
+
+// Returns whether the ending of `path` names one of these formats; true without a path.
+bool is_among(const std::string& path, const std::vector<std::string>& extensions) {
+    const std::string extension = normalized_extension(fs::path(path).extension().string());
+    return path.empty() ||
+           std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+}  // namespace
+
+// A copy of an object, its file and its name and place are at `first`: writes it as it stands in
+// the scene.
 cli::ScriptResult ToolBench::write_export(int first, std::string& told) {
     lua_State* L = script_.lua();
-    auto* holder = lua::find_holder(L, first, lua::MeshObject::kTypeName);
-    auto* copy = static_cast<lua::MeshObject*>(holder->object.get());
+    const lua::Holder* holder = lua::find_holder(L, first, lua::MeshObject::kTypeName);
+    if (!holder) holder = lua::find_holder(L, first, lua::StrandsObject::kTypeName);
     try {
-        const Affine place = raw_transform(L, first + 2, "transform");
-        if (!place.is_identity()) transform(copy->mesh, place);
-        copy->changed();
+        move_copy(*holder, raw_transform(L, first + 2, "transform"));
     } catch (const Error& error) {
         cli::ScriptResult failed;
         failed.status = cli::kFailure;
@@ -443,12 +468,14 @@ cli::ScriptResult ToolBench::write_export(int first, std::string& told) {
     return result;
 }
 
-cli::ScriptResult ToolBench::export_mesh(const std::string& path, std::string& told) {
+cli::ScriptResult ToolBench::export_object(const std::string& path, std::string& told) {
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     push_host();
     lua_pushstring(L, path.c_str());
-    cli::ScriptResult result = call("export", 2);
+    lua_pushboolean(L, is_among(path, writable_extensions()) ? 1 : 0);
+    lua_pushboolean(L, is_among(path, writable_strand_extensions()) ? 1 : 0);
+    cli::ScriptResult result = call("export", 4);
     if (result.status == cli::kSuccess) result = write_export(top + 1, told);
     lua_settop(L, top);
     return result;

@@ -134,9 +134,9 @@ class ToolBench {
     bool is_empty();
     /// Writes the scene to a file; `left_out` lists its omissions.
     cli::ScriptResult save(const std::string& path, std::string& left_out);
-    /// Writes the mesh in hand to a file whose ending names the format, or to a free name if `path`
-    /// is empty; `told` says which. The scene stays as it is.
-    cli::ScriptResult export_mesh(const std::string& path, std::string& told);
+    /// Writes the mesh or the hair in hand to a file whose ending names the format, or to a free
+    /// name if `path` is empty; `told` says which. The scene stays as it is.
+    cli::ScriptResult export_object(const std::string& path, std::string& told);
     /// Sets the global variable `scene`, for lines of a console.
     void publish_scene();
 

@@ -25,7 +25,7 @@ struct PanelFrames {
         changes += answers.parameters_changed;
         pressed += answers.run_again;
         saved += answers.save;
-        exports += answers.export_mesh ? 1 : 0;
+        exports += answers.exports ? 1 : 0;
         if (answers.save_preset) saved_presets.push_back(*answers.save_preset);
         if (answers.line) entered.push_back(*answers.line);
     }

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "kernel/io/mesh_file.h"
+#include "kernel/io/strand_file.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/viewer/window/session/session_host.h"
@@ -153,7 +154,7 @@ TEST_CASE(
         "scene:set('ball', { transform = { { 1, 0, 0, 3 }, { 0, 0, -1, 0 }, "
         "{ 0, 1, 0, 0 }, { 0, 0, 0, 1 } } })");
     host.session.evaluate("before = scene:hash()");
-    host.session.export_mesh(path);
+    host.session.export_object(path);
     host.session.evaluate("print('same', before == scene:hash())");
     host.wait();
     CHECK(host.says(LineKind::message, "same\ttrue"));
@@ -162,9 +163,9 @@ TEST_CASE(
     CHECK(written.vertex_count() == make_sphere().vertex_count());
     CHECK(bounds(written).center().x() == doctest::Approx(3.0).epsilon(1e-6));
     // Again over what was written here, but not over other files, nor with an unknown ending.
-    host.session.export_mesh(path);
-    host.session.export_mesh(host.ball);
-    host.session.export_mesh(host.folder.path("out.xyzzy"));
+    host.session.export_object(path);
+    host.session.export_object(host.ball);
+    host.session.export_object(host.folder.path("out.xyzzy"));
     host.wait();
     CHECK(std::count_if(host.lines.begin(), host.lines.end(), [](const ConsoleLine& line) {
               return line.text.starts_with("exported ball to ");
@@ -205,6 +206,38 @@ TEST_CASE("several tools: each is found, none is taken in hand, and what fails i
     CHECK(buttons.back() == ToolButton{push, "pusher"});
 }
 
+TEST_CASE("export: an ending of hair writes the visible hair as it stands; others the mesh") {
+    ToolHost host;
+    host.open("navigate");
+    host.session.evaluate(
+        "scene:add('hair', lissom.strands{ points = { { 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, "
+        "{ 1, 1, 0 } }, counts = { 2, 2 } }, { transform = { { 1, 0, 0, 5 }, { 0, 1, 0, 0 }, "
+        "{ 0, 0, 1, 0 }, { 0, 0, 0, 1 } } })");
+    host.session.evaluate("before = scene:hash()");
+    for (const std::string ending : {".usda", ".hair", ".data"}) {
+        host.session.export_object(host.folder.path("out" + ending));
+    }
+    host.session.export_object(host.folder.path("both.obj"));
+    host.session.evaluate("print('same', before == scene:hash())");
+    host.wait();
+    CHECK(host.says(LineKind::message, "same\ttrue"));
+    for (const std::string ending : {".usda", ".hair", ".data"}) {
+        const Strands written = load_strands(host.folder.path("out" + ending));
+        CHECK(written.size() == 2);
+        CHECK(written.points()[0] == doctest::Approx(5.0).epsilon(1e-6));
+    }
+    CHECK(load_mesh(host.folder.path("both.obj")).vertex_count() == make_sphere().vertex_count());
+    // What can hold both is written for the hair once no mesh is to be seen.
+    host.session.evaluate("scene:set('ball', { visible = false })");
+    host.session.export_object(host.folder.path("lines.obj"));
+    host.session.evaluate("scene:set('hair', { visible = false })");
+    host.session.export_object(host.folder.path("none.usda"));
+    host.wait();
+    CHECK(host.says(LineKind::result, "exported hair to " + host.folder.path("lines.obj")));
+    CHECK(host.says(LineKind::error, "no hair is to be seen"));
+    CHECK(!std::filesystem::exists(host.folder.path("none.usda")));
+}
+
 TEST_CASE("z up: a saved scene opens with it, and the mesh keeps its coordinates") {
     ToolHost host;
     host.open("navigate");
@@ -215,7 +248,7 @@ TEST_CASE("z up: a saved scene opens with it, and the mesh keeps its coordinates
     host.session.post(look);
     const std::string path = host.folder.path("turned.lissom"), mesh = host.folder.path("same.obj");
     host.session.save_scene(path);
-    host.session.export_mesh(mesh);
+    host.session.export_object(mesh);
     host.wait();
     CHECK(load_mesh(mesh).positions()[5] == load_mesh(host.ball).positions()[5]);
     host.session.take_tool_state();
