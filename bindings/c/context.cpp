@@ -33,12 +33,12 @@ static_assert(static_cast<int>(ErrorCode::region_empty) + 1 == LISSOM_REGION_EMP
 static_assert(static_cast<int>(ErrorCode::internal) + 1 == LISSOM_INTERNAL);
 
 // Sink of the host's reader. Errors must not pass through the host's function.
-struct Taking {
+struct ReadCallback {
     const std::function<void(std::string_view)>* sink;
     std::exception_ptr failed = nullptr;
 
     static void take(void* argument, const void* bytes, std::size_t size) {
-        auto& own = *static_cast<Taking*>(argument);
+        auto& own = *static_cast<ReadCallback*>(argument);
         if (own.failed) return;
         try {
             (*own.sink)({static_cast<const char*>(bytes), size});
@@ -53,9 +53,9 @@ FileTable files_of(const lissom_context_options& host) {
     if (host.read_file) {
         files.read = [read = host.read_file, user = host.user](
                          std::string_view path, const std::function<void(std::string_view)>& sink) {
-            Taking taking{&sink};
-            const bool found = read(user, std::string(path).c_str(), Taking::take, &taking);
-            if (taking.failed) std::rethrow_exception(taking.failed);
+            ReadCallback callback{&sink};
+            const bool found = read(user, std::string(path).c_str(), ReadCallback::take, &callback);
+            if (callback.failed) std::rethrow_exception(callback.failed);
             return found;
         };
     }

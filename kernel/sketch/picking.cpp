@@ -36,9 +36,9 @@ struct Candidate {
 };
 
 // A triangle that has hidden something, in the world: it often hides the next thing too.
-class Curtain {
+class OccluderCache {
   public:
-    Curtain(const View& view, const std::array<Vec3, 3>& corners)
+    OccluderCache(const View& view, const std::array<Vec3, 3>& corners)
         : camera_(view.camera), corner_(corners[0]) {
         frame_ << corners[1] - corners[0], corners[2] - corners[0], Vec3::Zero();
     }
@@ -119,7 +119,7 @@ class NearestSearch {
     std::set<std::pair<Index, Index>> returned_;
     std::tuple<Index, Index, Index> last_{kNoIndex, kNoIndex, kNoIndex};
     int hidden_ = 0;
-    std::optional<Curtain> curtain_;
+    std::optional<OccluderCache> occluders_;
 };
 
 std::vector<PickHit> pick_faces(const PickScene& scene, const View& view, const Vec2& cursor,
@@ -291,7 +291,7 @@ bool NearestSearch::is_hidden(const Candidate& candidate) {
     const PickScene::Object& object = scene_.object(candidate.object);
     const double slack = object.surface ? 0.0 : kOverlaySlack * view_.pixel_length(candidate.depth);
     const Vec3 world = object.to_world(candidate.local);
-    if (curtain_ && curtain_->hides(world, slack)) return true;
+    if (occluders_ && occluders_->hides(world, slack)) return true;
     if (!visibility_.is_hidden(candidate.object, candidate.local, slack)) return false;
     if (hidden_ < kManyHidden) return true;
     const auto first = pick_faces(scene_, view_, view_.project(world).head<2>(),
@@ -302,7 +302,7 @@ bool NearestSearch::is_hidden(const Candidate& candidate) {
         const PickScene::Object& from = scene_.object(first[0].object);
         corners[k] = from.to_world(from.surface->positions()[at(first[0].triangle[k])]);
     }
-    curtain_.emplace(view_, corners);
+    occluders_.emplace(view_, corners);
     return true;
 }
 

@@ -5,8 +5,8 @@
 -- the seam is good. If it is turned wrongly, turn it by the wheel, with ctrl or while the button is down,
 -- or click pairs of points that shall meet, the first on the loop of the part, the second on the seam; or
 -- choose which of the world's axes is up on the part as it lies, and which way it looks: arrows show these
--- hints on both meshes. Enter takes the result, and the part is hidden too. The parameters may be changed
--- until the next merge: the result follows.
+-- hints on both meshes, and are dragged to any direction, with ctrl along an axis. Enter takes the result,
+-- and the part is hidden too. The parameters may be changed until the next merge: the result follows.
 local lissom = require "lissom"
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
@@ -22,17 +22,19 @@ local of_part = { "none", "x", "-x", "y", "-y", "z", "-z" }
 local of_other = { "the same", "x", "-x", "y", "-y", "z", "-z" }
 
 -- The hint "up" or "front": a direction of the world on the part, and the one on the other mesh that it goes
--- to; nil if there is none.
-local function hint(params, name)
-    local source = axes[params["part_" .. name]]
-    return source, source and (axes[params[name]] or source)
+-- to; nil if there is none. Directions that were `dragged` come before those of the parameters.
+local function hint(params, dragged, name)
+    local of_source = "part_" .. name
+    if params[of_source] == "none" then return nil end
+    local source = dragged[of_source] or axes[params[of_source]]
+    return source, dragged[name] or axes[params[name]] or source
 end
 
 -- The hints as options of lissom.merge: in the space of the target, in which the part lies as in the scene.
 local function with_hints(options, params, scene, join)
     local back = matrices.inverse(scene:info(join.target.object).transform)
     for _, name in ipairs{ "up", "front" } do
-        local source, target = hint(params, name)
+        local source, target = hint(params, join.dragged, name)
         if source then
             options["source_" .. name] = matrices.direction(back, source)
             options["target_" .. name] = matrices.direction(back, target)
@@ -123,8 +125,8 @@ local function told(join, report)
     return table.concat(words, "; ") .. "\n" .. report.verdict
 end
 
--- Merges. A join is { source =, target =, keys =, turn = }: hits of two loops, pairs of points on them, and
--- degrees.
+-- Merges. A join is { source =, target =, keys =, turn =, dragged = }: hits of two loops, pairs of points on
+-- them, degrees, and directions of hints by their names.
 local function merged(self, scene, join)
     for _, hit in ipairs{ join.source, join.target } do
         local there = rawequal(meshes.get(scene, hit.object), hit.mesh)
@@ -178,9 +180,18 @@ local function in_scene(scene, loop)
     return info and matrices.point(info.transform, loop.boundary:points()[1])
 end
 
--- The same join with another turn.
-local function with_turn(join, turn)
-    return { source = join.source, target = join.target, keys = join.keys, turn = turn }
+-- The same join with another turn, and other directions of hints if they are given.
+local function with_turn(join, turn, dragged)
+    return { source = join.source, target = join.target, keys = join.keys, turn = turn,
+        dragged = dragged or join.dragged }
+end
+
+-- Directions of hints with another one under a name, or without it.
+local function with_direction(dragged, name, direction)
+    local copy = {}
+    for key, value in pairs(dragged) do copy[key] = value end
+    copy[name] = direction
+    return copy
 end
 
 -- The same; where it cannot be merged, that is told in the picture, and the clicks go on.
@@ -223,10 +234,11 @@ local function draw_loop(view, loop, keys, which, color)
     end
 end
 
--- Draws the hints as arrows at the middle of a loop, as long as its radius and a half.
-local function draw_hints(view, params, loop, which)
-    local info = loop and view.scene:info(loop.object)
-    if not info then return end
+-- The hints as arrows at the middle of a loop, as long as 1.5 of its radius: a list of { name =, center =,
+-- length =, tip =, color = }; `which` is 1 for the part and 2 for the other mesh.
+local function arrows(scene, params, dragged, loop, which)
+    local info, list = loop and meshes.info(scene, loop.object), {}
+    if not info then return list end
     local center, points = { 0, 0, 0 }, loop.boundary:points()
     for i, point in ipairs(points) do
         points[i] = matrices.point(info.transform, point)
@@ -234,13 +246,51 @@ local function draw_hints(view, params, loop, which)
     end
     local length = 1.5 * vectors.length(vectors.plus(points[1], center, -1))
     for _, name in ipairs{ "up", "front" } do
-        local direction = select(which, hint(params, name))
+        local direction = select(which, hint(params, dragged, name))
         if direction then
-            local tip, color = vectors.plus(center, direction, length), colors[name]
-            view:line{ points = { center, tip }, color = color, width = 4 }
-            view:handle{ at = tip, color = color }
-            view:label{ at = tip, text = name }
+            table.insert(list, { name = which == 1 and "part_" .. name or name, center = center,
+                length = length, tip = vectors.plus(center, vectors.unit(direction), length),
+                color = colors[name], label = name })
         end
+    end
+    return list
+end
+
+local near_tip = 12             -- pixels from which the tip of an arrow is taken hold of
+
+-- The arrow whose tip is under the cursor, of both loops of a join.
+local function arrow_under(self, ev, join)
+    for which, loop in ipairs{ join.source, join.target } do
+        for _, arrow in ipairs(arrows(ev.scene, self.params, join.dragged, loop, which)) do
+            local x, y = ev.camera:project(arrow.tip, ev.size)
+            if math.abs(x - ev.x) + math.abs(y - ev.y) <= near_tip then return arrow end
+        end
+    end
+    return nil
+end
+
+-- The direction from the middle of an arrow to the cursor's place on the ball around it, or nearest to it;
+-- with ctrl the nearest axis of the world.
+local function dragged_to(ev, arrow)
+    local origin, sight = ev:ray()
+    local off = vectors.plus(origin, arrow.center, -1)
+    local along = -vectors.dot(off, sight)
+    local nearest = vectors.plus(off, sight, along)
+    local beside = arrow.length ^ 2 - vectors.dot(nearest, nearest)
+    local direction = vectors.unit(vectors.plus(nearest, sight, -math.sqrt(math.max(0, beside))))
+    if not ev.ctrl then return direction end
+    local best
+    for _, axis in pairs(axes) do
+        if not best or vectors.dot(axis, direction) > vectors.dot(best, direction) then best = axis end
+    end
+    return best
+end
+
+local function draw_arrows(view, list)
+    for _, arrow in ipairs(list) do
+        view:line{ points = { arrow.center, arrow.tip }, color = arrow.color, width = 4 }
+        view:handle{ at = arrow.tip, color = arrow.color }
+        view:label{ at = arrow.tip, text = arrow.label }
     end
 end
 
@@ -271,7 +321,7 @@ return lissom.tool{
                 prompt = "Click the loop of the part that is moved (the box 'boundaries' shows all)" }
             self.result = nil
             local target = pick.boundary{ prompt = "Click the loop that it is joined to" }
-            try(self, scene, { source = self.source, target = target, keys = {}, turn = 0 })
+            try(self, scene, { source = self.source, target = target, keys = {}, turn = 0, dragged = {} })
         end
         local join = shown(self, scene)
         while join do
@@ -281,12 +331,26 @@ return lissom.tool{
             if not from then return scene:set(join.source.object, { visible = false }) end
             self.open = { on_loop(scene, join.source, from) }
             local to = pick.point{ prompt = "Click where it belongs on the seam", object = self.result }
+            join = shown(self, scene) or join           -- arrows may have been dragged
             local keys = table.move(join.keys, 1, #join.keys, 1, {})
             table.insert(keys, { self.open[1], on_loop(scene, join.target, to) })
             self.open = nil
-            try(self, scene, { source = join.source, target = join.target, keys = keys, turn = 0 })
+            try(self, scene, { source = join.source, target = join.target, keys = keys, turn = 0,
+                dragged = join.dragged })
             join = shown(self, scene)
         end
+    end,
+    press = function(self, ev)
+        local join = in_progress(self, ev.scene)
+        self.arrow = join and arrow_under(self, ev, join) or nil
+        return self.arrow ~= nil
+    end,
+    drag = function(self, ev) self.arrow.direction = dragged_to(ev, self.arrow) end,
+    release = function(self, ev)
+        local arrow, join = self.arrow, in_progress(self, ev.scene)
+        self.arrow = nil
+        if not (join and arrow.direction) then return end
+        try(self, ev.scene, with_turn(join, 0, with_direction(join.dragged, arrow.name, arrow.direction)))
     end,
     wheel = function(self, ev)
         local join = in_progress(self, ev.scene)
@@ -296,16 +360,19 @@ return lissom.tool{
     end,
     changed = function(self, ev)
         local join = shown(self, ev.scene)
-        if join then try(self, ev.scene, with_turn(join, join.turn)) end
+        if not join then return end
+        try(self, ev.scene, with_turn(join, join.turn, with_direction(join.dragged, ev.parameter, nil)))
     end,
     draw = function(self, view)
         if self.trouble then view:label(self.trouble) end
-        local join = in_progress(self, view.scene) or { source = self.source, keys = {} }
+        local join = in_progress(self, view.scene) or { source = self.source, keys = {}, dragged = {} }
+        local held, dragged = self.arrow, join.dragged
+        if held and held.direction then dragged = with_direction(dragged, held.name, held.direction) end
         local keys = table.move(join.keys, 1, #join.keys, 1, {})
         table.insert(keys, self.open)
         draw_loop(view, join.source, keys, 1, "#d06020")
-        draw_hints(view, self.params, join.source, 1)
-        draw_hints(view, self.params, join.target, 2)
+        draw_arrows(view, arrows(view.scene, self.params, dragged, join.source, 1))
+        draw_arrows(view, arrows(view.scene, self.params, dragged, join.target, 2))
         draw_loop(view, join.target, keys, 2, "#2070c0")
         local at = join.told and in_scene(view.scene, join.target)
         if not at then return end
@@ -320,7 +387,7 @@ return lissom.tool{
             ev.scene:remove(self.result)
             ev.scene:set(join.target.object, { visible = true })
         end
-        self.source, self.trouble = nil, nil
+        self.source, self.trouble, self.arrow = nil, nil, nil
     end,
-    deactivate = function(self) self.source, self.trouble = nil, nil end,
+    deactivate = function(self) self.source, self.trouble, self.arrow = nil, nil, nil end,
 }

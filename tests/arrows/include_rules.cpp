@@ -117,8 +117,8 @@ const std::vector<Names>& room_orders() {
          "bindings/cli", "bindings/cli/test"},
         {"viewer/render/draw/image", "viewer/render/draw", "viewer/render/strands",
          "viewer/render/gl", "viewer/render", "viewer/lua", "viewer/window/screen",
-         "viewer/window/session", "viewer/window/makers", "viewer/window/panel",
-         "viewer/window/app", "viewer/window", "viewer/main"},
+         "viewer/window/tools", "viewer/window/session", "viewer/window/makers",
+         "viewer/window/panel", "viewer/window/app", "viewer/window", "viewer/main"},
     };
     return orders;
 }

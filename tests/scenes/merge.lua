@@ -150,6 +150,37 @@ test("hints: up and front of the part go to those of the other mesh, arrows show
     h:there_and_back()
 end)
 
+test("the arrow of a hint is dragged to another direction, which undo takes back", function()
+    h = hand.new("merge", { small = spiked(1, -2, 1, 16, 90), large = cup(-1, 2, 1.5, 24) }, { ortho = 19.2 })
+    click_loops()
+    h.host:set{ part_up = "y" }
+    local function lines() return h.host:draw().lines end
+    local function tip(k)
+        local list = lines()
+        return list[#list - k].points[2]
+    end
+    local function spike()
+        local mesh, best, most = h.scene:get("merged"), nil, 0
+        for v = 1, #mesh do
+            local x, y, z = mesh:position(v)
+            local r = x < 2 and math.sqrt(y * y + z * z) or 0
+            if r > most then best, most = math.deg(math.atan(y, z)), r end
+        end
+        return best
+    end
+    local before, hash = spike(), h.scene:hash()
+    local from = tip(1)             -- of the other mesh, whose loop is drawn last
+    h:drag({ from, { from[1], from[2] - 9, from[3] } }, { ctrl = true })
+    expect.near(tip(1)[2], -from[2], 1e-3)
+    expect.near(math.abs(spike() - before), 180, 3)
+    h.host:undo()
+    expect.equal(h.scene:hash(), hash)
+    expect.near(tip(1)[2], from[2], 1e-9)
+    h.host:redo()
+    h:key("enter")
+    h:there_and_back()
+end)
+
 test("as placed goes by how the parts lie in the scene", function()
     local a = math.rad(40)
     local turned = { { 1, 0, 0, 0 }, { 0, math.cos(a), -math.sin(a), 0 }, { 0, math.sin(a), math.cos(a), 0 },

@@ -213,7 +213,7 @@ test("what is no tool is refused", function()
     expect.equal(message{}:match("name") ~= nil, true)
     expect.equal(message{ name = "a", press = 3 }:match("function") ~= nil, true)
     local function nothing() end
-    expect.equal(message{ name = "a", run = nothing, press = nothing }:match("run") ~= nil, true)
+    expect.equal(message{ name = "a", run = nothing, drag = nothing }:match("run") ~= nil, true)
     expect.equal(message{ name = "a", params = { x = { type = "numbr" } } }:match("params") ~= nil, true)
     local host = host_of(ball_scene())
     expect.equal(pcall(host.use, host, { name = "a" }), false)
@@ -248,6 +248,29 @@ test("a tool that asks is answered, and begins again", function()
     expect.equal(z ~= nil, true)
     host:click(middle):key{ key = "escape" }
     expect.equal(host:prompt(), "Which?")
+end)
+
+test("a tool that asks takes a gesture by its press, and other clicks answer", function()
+    local scene, drags, answers = ball_scene(), 0, 0
+    local tool = lissom.tool{ name = "both", run = function()
+        while true do
+            lissom.pick.vertex{ prompt = "Where?" }
+            answers = answers + 1
+        end
+    end, press = function(_, ev) return ev.shift end, drag = function() drags = drags + 1 end,
+        release = function(_, ev) ev.scene:get("ball"):transform{ scale = 2 } end }
+    local host = host_of(scene, tool)
+    local before, steps = scene:hash(), #scene:history()
+    host:press{ x = 640, y = 480, shift = true }:move{ x = 650, y = 480 }:release(middle)
+    expect.equal(drags, 1)
+    expect.equal(answers, 0)
+    expect.equal(#scene:history(), steps + 1)
+    host:undo()
+    expect.equal(scene:hash(), before)
+    host:press(middle):move{ x = 641, y = 480 }:release(middle)
+    expect.equal(drags, 1)
+    expect.equal(answers, 1)
+    expect.equal(scene:hash(), before)
 end)
 
 test("a run that fails, yields at will or never asks leaves the host usable", function()
@@ -361,6 +384,25 @@ test("a journal tells two meshes apart that are alike", function()
     local other = ball_scene()
     other:add("twin", lissom.shapes.sphere())
     assert(load(host:journal_text()))(other)
+    expect.equal(other:hash(), scene:hash())
+end)
+
+test("a journal tells methods that change something and return another thing", function()
+    local paint = lissom.tool{ name = "paint", press = function(_, ev)
+        local mesh = ev.scene:get("ball")
+        mesh:add_attribute{ name = "heat", values = 20 }
+        mesh:add_attribute{ name = "cold", values = 3 }
+        mesh:remove_attribute("cold")
+        mesh:set_region("all", mesh:region{ all = true })
+        mesh:remove_region("all")
+    end }
+    local scene = ball_scene()
+    local host = host_of(scene):keep_journal():use(paint):click(middle)
+    local text, other = host:journal_text(), ball_scene()
+    for _, name in ipairs{ "heat", "remove_attribute", "remove_region" } do
+        expect.truthy(text:find(name, 1, true))
+    end
+    assert(load(text))(other)
     expect.equal(other:hash(), scene:hash())
 end)
 
@@ -639,9 +681,10 @@ test("names that events, views and hosts do not have are told, with what was mea
         host.tool.act = act
         expect.error(function() host:draw() end, text)
     end
-    refuses(function(view) view:circle{ center = { 1, 2 } } end, "no option 'center', did you mean 'at'?")
+    refuses(function(view) view:circle{ center = { 1, 2 } } end,
+        "unknown option 'center' of 'circle', did you mean 'at'?")
     refuses(function(view) view:circle{ at = { 1, 2 }, radus = 3 } end, "did you mean 'radius'?")
-    refuses(function(view) view:line{ whatever = 1 } end, "there is: closed, color, points, width")
+    refuses(function(view) view:line{ whatever = 1 } end, "there is: points, color, width, closed")
     refuses(function(view) view:lable{} end, "lissom.ToolView: no field or method 'lable', did you mean")
     expect.error(function() host:clik(middle) end, "did you mean 'click'?")
     expect.error(function() host:click{ x = 1, y = 2, shfit = true } end, "did you mean 'shift'?")

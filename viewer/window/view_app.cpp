@@ -14,17 +14,18 @@
 #include "kernel/core/clock.h"
 #include "kernel/core/error.h"
 #include "viewer/window/app/camera_moves.h"
-#include "viewer/window/app/finishing.h"
 #include "viewer/window/app/frames.h"
 #include "viewer/window/app/hair_fill.h"
-#include "viewer/window/app/hand.h"
-#include "viewer/window/app/keeping.h"
+#include "viewer/window/app/pointer_input.h"
 #include "viewer/window/app/replay.h"
-#include "viewer/window/app/script_side.h"
-#include "viewer/window/app/stage.h"
+#include "viewer/window/app/scene_autosave.h"
+#include "viewer/window/app/scene_upload.h"
+#include "viewer/window/app/script_reload.h"
+#include "viewer/window/app/still_render.h"
 #include "viewer/window/app/view_state.h"
 #include "viewer/window/makers/colorer.h"
 #include "viewer/window/screen/driver_memory.h"
+#include "viewer/window/tools/tool_list.h"
 
 namespace lissom::window {
 namespace {
@@ -69,7 +70,7 @@ class ViewApp {
 
   private:
     void drop(const std::vector<std::string>& files);
-    void take_tools();
+    void take_tools(const std::vector<std::pair<std::string, std::string>>& tools);
     void add_buttons(const std::vector<std::string>& words);
     double wait_time() const;
     void turn(Clock::time_point heard);
@@ -89,7 +90,7 @@ class ViewApp {
     // ---- Results of others
     void take_results();
     void take_opened(const std::vector<std::string>& words);
-    void take_news();
+    void take_news(SessionNews news);
     void take_tool_state(ToolState state);
     void see_played(const PlayedHand& hand);
     void take_progress();
@@ -97,7 +98,7 @@ class ViewApp {
 
     void make_again();
     bool at_rest() const {
-        return stage_.is_sent() && state_.changes.seconds() > kRest && !hand_.drags() &&
+        return upload_.is_sent() && state_.changes.seconds() > kRest && !pointer_.drags() &&
                !state_.changes.owes_frame();
     }
 
@@ -106,14 +107,14 @@ class ViewApp {
     Session session_;
     ViewState state_;
     HairFill hair_;
-    Stage stage_;
+    SceneUpload upload_;
     Frames frames_;
-    Finishing finishing_;
+    StillRender still_render_;
     Colorer colorer_;
-    Hand hand_;
-    Keeping keeping_;
+    PointerInput pointer_;
+    SceneAutosave autosave_;
     Replay replay_;
-    ScriptSide scripts_;
+    ScriptReload reload_;
     // Since when the session works.
     std::optional<Clock::time_point> busy_since_;
     bool closes_ = false;
@@ -126,14 +127,14 @@ ViewApp::ViewApp(cli::Program& program, const ViewOptions& options)
           program, [] { GlfwWindow::wake(); }, options.session),
       state_{window_, panel_, session_, {window_.scale().panel()}, options.tells},
       hair_(state_, threads_of(program)),
-      stage_(state_, hair_, threads_of(program)),
-      frames_(state_, stage_),
-      finishing_(state_, threads_of(program)),
+      upload_(state_, hair_, threads_of(program)),
+      frames_(state_, upload_),
+      still_render_(state_, threads_of(program)),
       colorer_([] { GlfwWindow::wake(); }),
-      hand_(state_),
-      keeping_(state_),
+      pointer_(state_),
+      autosave_(state_),
       replay_(state_, options.speed),
-      scripts_(state_) {
+      reload_(state_) {
     if (options.tells) {
         window_.listen_to_driver(
             [this](const std::string& text) { state_.tell("driver " + text); });
@@ -144,7 +145,7 @@ ViewApp::ViewApp(cli::Program& program, const ViewOptions& options)
     add_buttons(shipped_tools());
     add_buttons(own_tools());
     add_buttons(options.tools);
-    keeping_.offer();
+    autosave_.offer();
     if (!options.words.empty()) session_.open(options.words);
 }
 
@@ -165,8 +166,8 @@ void ViewApp::drop(const std::vector<std::string>& files) {
     if (!scripts.empty()) session_.find_tools(scripts);
 }
 
-void ViewApp::take_tools() {
-    for (const auto& [word, name] : session_.take_tools()) {
+void ViewApp::take_tools(const std::vector<std::pair<std::string, std::string>>& tools) {
+    for (const auto& [word, name] : tools) {
         keep_button(state_.content.tools, word, name);
         state_.tell("button " + name);
         state_.changes.owe_frames();
@@ -176,8 +177,8 @@ void ViewApp::take_tools() {
 // It has replaced the open document.
 void ViewApp::take_opened(const std::vector<std::string>& words) {
     replay_.forget();
-    keeping_.begin(words.front());
-    scripts_.begin(words.front());
+    autosave_.begin(words.front());
+    reload_.begin(words.front());
     state_.camera_is_placed = false;
     state_.up.reset();
     window_.set_title(std::filesystem::path(words.front()).filename().string() + " - lissom");
@@ -204,27 +205,26 @@ void ViewApp::turn(Clock::time_point heard) {
     if (frames_.has_to_show()) state_.changes.owe_frames();
     take_inputs(heard);
     take_results();
-    if (replay_.begin()) hand_.let_go();
     replay_.play();
-    scripts_.look();
-    if (!hand_.tool_drags()) keeping_.copy();
-    stage_.send_pieces();
+    reload_.look();
+    if (!pointer_.tool_drags()) autosave_.copy();
+    upload_.send_pieces();
     if (state_.changes.owes_frame() || panel_.owes_frame() || session_.busy()) {
         if (window_.lost()) make_again();
         answer(frames_.draw());
     }
     hair_.fill(at_rest());
-    finishing_.draw(at_rest(), hair_.is_filled());
+    still_render_.draw(at_rest(), hair_.is_filled());
     const bool busy = !hair_.is_filled() || session_.busy() || colorer_.busy();
-    finishing_.tell_rest(at_rest(), busy);
+    still_render_.tell_rest(at_rest(), busy);
     // The work until now has changed nothing visible.
-    if (state_.changes.is_drawn() && stage_.is_sent() && !session_.busy()) frames_.end_event();
+    if (state_.changes.is_drawn() && upload_.is_sent() && !session_.busy()) frames_.end_event();
 }
 
 int ViewApp::end() {
     state_.tell(frames_.times());
-    finishing_.stop();
-    keeping_.keep_unsaved();
+    still_render_.stop();
+    autosave_.keep_unsaved();
     if (session_.finish(1.0)) return cli::kSuccess;
     std::cerr << "lissom: the running work did not stop within a second, and was ended"
               << std::endl;
@@ -233,11 +233,11 @@ int ViewApp::end() {
 
 double ViewApp::wait_time() const {
     if (state_.changes.owes_frame() || panel_.owes_frame()) return 0.0;
-    if (state_.screen->filling() || stage_.has_pieces()) return 0.0;
+    if (state_.screen->filling() || upload_.has_pieces()) return 0.0;
     if (session_.busy()) return 0.1;
     if (const auto wait = replay_.wait()) return std::min(*wait, 0.1);
-    if (state_.shown && (finishing_.is_owed() || !hair_.is_filled())) return 0.03;
-    return scripts_.waits() ? 0.02 : 0.25;
+    if (state_.shown && (still_render_.is_owed() || !hair_.is_filled())) return 0.03;
+    return reload_.waits() ? 0.02 : 0.25;
 }
 
 // ---- Inputs
@@ -257,8 +257,9 @@ void ViewApp::take(const Input& input) {
     const bool is_key = input.kind == Input::Kind::key_down || input.kind == Input::Kind::key_up ||
                         input.kind == Input::Kind::text;
     // A drag that began in the picture stays there; the panel sees every move and every release.
-    const bool for_panel = is_key ? panel_.wants_keys()
-                                  : panel_.wants_mouse(input.at, window_.size()) && !hand_.drags();
+    const bool for_panel = is_key
+                               ? panel_.wants_keys()
+                               : panel_.wants_mouse(input.at, window_.size()) && !pointer_.drags();
     const bool is_position = input.kind == Input::Kind::move || input.kind == Input::Kind::release;
     if (for_panel || is_position || is_key || input.kind == Input::Kind::press) panel_.feed(input);
     if (is_key) return take_key(input, for_panel);
@@ -266,7 +267,7 @@ void ViewApp::take(const Input& input) {
     const Canvas canvas = state_.canvas();
     Input own = input;
     own.at -= Vec2(canvas.x, canvas.y);
-    hand_.take(own);
+    pointer_.take(own);
 }
 
 void ViewApp::take_while_playing(const Input& input) {
@@ -279,7 +280,7 @@ void ViewApp::take_key(const Input& input, bool for_panel) {
     const bool stops = input.key == Key::escape && input.kind == Input::Kind::key_down;
     if (stops && session_.busy()) return session_.cancel();
     if (for_panel) return;
-    if (state_.has_tool()) hand_.press_tool_key(input);
+    if (state_.has_tool()) pointer_.press_tool_key(input);
     if (input.kind == Input::Kind::key_down) press_key(input);
 }
 
@@ -290,10 +291,10 @@ bool ViewApp::press_anywhere(const Input& input) {
     const bool ends = is_control && input.character == U'Q';
     const bool saves = is_control && input.character == U'S' && !replay_.plays();
     closes_ = closes_ || ends;
-    if (saves) keeping_.save();
+    if (saves) autosave_.save();
     const bool exports = is_control && input.character == U'E' && !replay_.plays();
     if (exports) session_.export_object(state_.content.export_name);
-    if (input.key == Key::f12) finishing_.want_file();
+    if (input.key == Key::f12) still_render_.want_file();
     return ends || saves || exports || input.key == Key::f12;
 }
 
@@ -334,15 +335,15 @@ void ViewApp::answer(const PanelAnswers& answers) {
     if (answers.coloring) colorer_.choose(*answers.coloring);
     if (answers.compare_with_this) colorer_.compare_with_this();
     state_.content.coloring = colorer_.coloring();
-    if (answers.screenshot) finishing_.want_file();
+    if (answers.screenshot) still_render_.want_file();
     if (answers.cancel) session_.cancel();
     answer_tool(answers.tool);
-    if (answers.save) keeping_.save();
+    if (answers.save) autosave_.save();
     if (answers.exports) session_.export_object(state_.content.export_name);
     if (answers.line) session_.evaluate(*answers.line);
     if (answers.complete) session_.complete(*answers.complete);
-    scripts_.answer(answers);
-    if (const auto left = keeping_.answer(answers)) session_.open({*left});
+    reload_.answer(answers);
+    if (const auto left = autosave_.answer(answers)) session_.open({*left});
 }
 
 void ViewApp::answer_tool(const ToolAnswers& answers) {
@@ -360,37 +361,40 @@ void ViewApp::answer_tool(const ToolAnswers& answers) {
 // ---- Results of others
 
 void ViewApp::take_results() {
-    take_news();
-    scripts_.take_failures();
-    if (auto shown = session_.take_shown()) colorer_.show(std::move(*shown));
+    take_news(session_.take_news());
+    reload_.take_failures();
     if (auto colored = colorer_.take()) {
         if (!colored->error.empty()) state_.add_line(LineKind::error, colored->error);
         show(std::move(colored->shown));
     }
     hair_.take();
-    stage_.take();
-    finishing_.take();
+    upload_.take();
+    still_render_.take();
     take_progress();
 }
 
-void ViewApp::take_news() {
-    for (ConsoleLine& line : session_.take_lines()) {
+void ViewApp::take_news(SessionNews news) {
+    for (ConsoleLine& line : news.lines) {
         state_.tell((line.kind == LineKind::error ? "error " : "line ") + line.text);
         state_.add_line(line.kind, std::move(line.text));
     }
-    if (auto completion = session_.take_completion()) {
-        state_.content.completion = std::move(completion);
+    if (news.completion) {
+        state_.content.completion = std::move(news.completion);
         state_.tell("completed");
         state_.changes.owe_frames();
     }
-    if (const auto opened = session_.take_opened()) take_opened(*opened);
-    if (const auto saved = session_.take_saved()) keeping_.take_saved(*saved);
-    if (auto declared = session_.take_parameters()) {
-        state_.content.parameters = std::move(*declared);
+    if (news.opened) take_opened(*news.opened);
+    if (news.saved) autosave_.take_saved(*news.saved);
+    if (news.parameters) {
+        state_.content.parameters = std::move(*news.parameters);
         state_.changes.owe_frames();
     }
-    take_tools();
-    if (auto state = session_.take_tool_state()) take_tool_state(std::move(*state));
+    take_tools(news.tools);
+    if (news.tool_state) take_tool_state(std::move(*news.tool_state));
+    if (news.shown) colorer_.show(std::move(*news.shown));
+    if (!news.playback) return;
+    replay_.begin(*news.playback);
+    pointer_.let_go();
 }
 
 void ViewApp::take_tool_state(ToolState state) {
@@ -398,9 +402,9 @@ void ViewApp::take_tool_state(ToolState state) {
     const bool has_stepped = state.place != known.place || state.steps.size() != known.steps.size();
     if (state.tool != known.tool) state_.tell("tool " + state.tool);
     if (state.scene != known.scene) {
-        keeping_.replace();
+        autosave_.replace();
     } else if (has_stepped) {
-        keeping_.add_change();
+        autosave_.add_change();
     }
     if (has_stepped) {
         state_.tell("history " + std::to_string(state.place) + " of " +
@@ -448,19 +452,19 @@ void ViewApp::show(Shown shown) {
     update_legend(state_);
     if (!state_.camera_is_placed) place_camera(state_);
     state_.changes.add();
-    scripts_.watch();
+    reload_.watch();
     state_.tell("shown " + std::to_string(now.number));
 }
 
 // The driver has lost all that was drawn: it is sent to a new window.
 void ViewApp::make_again() {
-    stage_.forget();
+    upload_.forget();
     state_.screen.reset();
     panel_.leave_context();
     try {
         window_.reopen();
     } catch (const Error&) {
-        keeping_.keep_unsaved();
+        autosave_.keep_unsaved();
         throw;
     }
     panel_.enter_context();

@@ -10,7 +10,7 @@
 #include "kernel/core/index.h"
 #include "viewer/window/session/session.h"
 #include "viewer/window/view_app.h"
-#include "viewer/window/view_words.h"
+#include "viewer/window/view_arguments.h"
 
 namespace lissom::cli {
 namespace {
@@ -25,7 +25,7 @@ std::string check_size(const std::string& text) {
 }  // namespace
 
 int view(Program& program, const std::vector<std::string>& words) {
-    const window::ViewWords split = window::split_words(words);
+    const window::ViewArguments split = window::split_arguments(words);
     window::ViewOptions options;
     options.words = split.scripts;
     CLI::App app(

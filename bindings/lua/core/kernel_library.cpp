@@ -93,7 +93,7 @@ Library kernel_library() {
                      deformer_type(),   handle_type(),  merger_type(),          provenance_type(),
                      paste_type(),      scalp_type(),   whole_hairstyle_type(), whole_curve_type(),
                      strands_type(),    scene_type(),   polyline_type(),        whole_camera_type(),
-                     gizmo_type(),      support_type(), parameters_type()};
+                     gizmo_type(),      support_type(), tool_view_type(),       parameters_type()};
     library.records = kernel_records();
     add(library.records, error_records());
     add(library.records, cut_records());

@@ -80,6 +80,7 @@ std::vector<Function> support_methods_of_curve();
 std::vector<Record> support_records();
 std::vector<Record> pick_records();
 Type gizmo_type();
+Type tool_view_type();
 std::vector<Function> gizmo_functions();
 std::vector<Record> gizmo_records();
 

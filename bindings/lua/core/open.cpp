@@ -46,6 +46,15 @@ int collect_state(lua_State* L) {
 
 // ---- Calls. Upvalues: the description (light), the StateBox, the Type (light) for objects.
 
+const char* effect_name(Effect effect) {
+    constexpr const char* kNames[] = {"by_result", "changes", "replaces", "shapes", "unheard"};
+    return kNames[static_cast<int>(effect)];
+}
+
+bool is_told(const Entry& entry) {
+    return entry.function->effect != Effect::unheard && (!entry.type || entry.type->is_heard);
+}
+
 // Calls a method of the listener with `count` values from the stack index `first` on.
 void tell_listener(lua_State* L, State& state, const char* method, const Entry& entry, int first,
                    int count) {
@@ -59,9 +68,10 @@ void tell_listener(lua_State* L, State& state, const char* method, const Entry& 
         lua_pushnil(L);
     }
     lua_pushstring(L, entry.function->name.c_str());
+    lua_pushstring(L, effect_name(entry.function->effect));
     for (int i = 0; i < count; ++i) lua_pushvalue(L, first + i);
     state.is_heard = false;
-    const int status = lua_pcall(L, count + 3, 0, 0);
+    const int status = lua_pcall(L, count + 4, 0, 0);
     state.is_heard = true;
     if (status != 0) lua_error(L);
 }
@@ -82,7 +92,7 @@ int dispatch(lua_State* L) {
     if (state.only_help && (entry->type || entry->function->name != "params")) {
         return end_for_help(L, state);
     }
-    if (state.is_heard) return dispatch_heard(L, state, *entry);
+    if (state.is_heard && is_told(*entry)) return dispatch_heard(L, state, *entry);
     Call call(L, state, *entry);
     return entry->function->body(call);
 }
@@ -149,7 +159,9 @@ std::string missing_method_text(const Type& type, const char* name) {
     if (!call.empty()) return type.name + ": no method '" + name + "'; write " + call;
     std::vector<std::string_view> names{"close"};
     for (const Function& method : type.methods) names.push_back(method.name);
-    return type.name + ": no method '" + name + "'" + name_hint(name, names);
+    for (const Result& field : type.fields) names.push_back(field.name);
+    return type.name + (type.fields.empty() ? ": no method '" : ": no field or method '") + name +
+           "'" + name_hint(name, names);
 }
 
 std::string missing_function_text(const Registry& registry, const std::string& prefix,

@@ -86,6 +86,12 @@ Parameter Parameter::in(std::string name_of_unit) const {
     return copy;
 }
 
+Parameter Parameter::elsewhere(std::vector<std::string> names) const {
+    Parameter copy = *this;
+    copy.other_names = std::move(names);
+    return copy;
+}
+
 Parameter boolean(std::string name, std::string help) {
     return make(std::move(name), Kind::boolean, std::move(help));
 }

@@ -99,6 +99,8 @@ struct Parameter {
     std::string type_name;
     std::vector<Parameter> fields;
     std::vector<Parameter> alternatives;
+    /// Names that other programs have for it: an error about one of them suggests this one.
+    std::vector<std::string> other_names;
 
     /// May be left out; `has` then tells.
     Parameter optional(std::string text = {}) const;
@@ -122,6 +124,8 @@ struct Parameter {
     Parameter thesis(std::string section, std::string text) const;
     /// Unit, for the reference: "degrees", "mesh units", ...
     Parameter in(std::string name_of_unit) const;
+    /// Sets `other_names`.
+    Parameter elsewhere(std::vector<std::string> names) const;
 };
 
 Parameter boolean(std::string name, std::string help);

@@ -314,6 +314,7 @@ Type parameters_type() {
               .summary =
                   "Values of a script's parameters: `params.length`. Values that are set are "
                   "checked as those of the command line."};
+    type.is_heard = false;
     type.operators = {
         {"__index", get_value, "params.name", "the value of a parameter"},
         {"__newindex", set_value, "params.name = value", "sets it; an error where it does not fit"},

@@ -385,6 +385,20 @@ bool Parser::knows_key(const char* key, int first, int last) const {
     return false;
 }
 
+namespace {
+
+// Returns the name of the parameter among slots that `key` is called by elsewhere, or "".
+std::string name_elsewhere(const Entry& entry, int first, int last, const std::string& key) {
+    for (int slot = first; slot < last; ++slot) {
+        const Parameter& p = *entry.slots[slot].parameter;
+        const auto& names = p.other_names;
+        if (std::find(names.begin(), names.end(), key) != names.end()) return p.name;
+    }
+    return "";
+}
+
+}  // namespace
+
 // Looks at the key on top of the stack.
 void Parser::check_key(int first, int last) {
     const char* key = lua_type(L_, -1) == LUA_TSTRING ? lua_tostring(L_, -1) : nullptr;
@@ -406,7 +420,8 @@ void Parser::refuse_key(const char* key, int first, int last) {
             const auto arguments = slot_names(entry_, by_position_, entry_.arguments);
             names.insert(names.begin(), arguments.begin(), arguments.end());
         }
-        return unknown + name_hint(key, names);
+        const std::string meant = name_elsewhere(entry_, first, last, key);
+        return unknown + name_hint(meant.empty() ? key : meant.c_str(), names);
     });
     call_.raise(text);
 }

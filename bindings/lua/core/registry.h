@@ -31,6 +31,20 @@ namespace lissom::lua {
 
 class Call;
 
+/// What a method does to its object, for journals of calls.
+enum class Effect {
+    /// Changes it if that is what it returns.
+    by_result,
+    /// Changes it, and returns something else.
+    changes,
+    /// Changes it to a state that does not depend on earlier calls of the method for the same part.
+    replaces,
+    /// Changes an object that is in no scene.
+    shapes,
+    /// Concerns steps and files of a scene, not its content.
+    unheard
+};
+
 /// A function that a script calls: reads `call`, works, pushes results and returns their number.
 using Body = int (*)(Call& call);
 
@@ -60,6 +74,7 @@ struct Function {
     /// Exactly one of the options, or the optional argument, must be given: they are alternatives.
     bool one_option = false;
     std::vector<Result> results = {};
+    Effect effect = Effect::by_result;
     /// Codes that the function may end with beside bad arguments.
     std::vector<ErrorCode> errors = {};
     /// A script that runs by itself; `lissom` is the module. Tests run every one.
@@ -87,9 +102,13 @@ struct Type {
     std::string summary = {};
     std::vector<Function> methods = {};
     std::vector<Operator> operators = {};
+    /// What its "__index" answers beside methods, for the reference and for errors about names.
+    std::vector<Result> fields = {};
     /// Frees what the object holds at once, although others may still share it; may be null. Must
     /// not throw, and must leave an object that its own methods refuse (see Call::self).
     void (*close)(void* object) = nullptr;
+    /// Whether journals tell its calls; false for an object of the hand alone.
+    bool is_heard = true;
 };
 
 /// A plain table that functions return, described for editors.

@@ -90,10 +90,10 @@ void open(lua_State* L, const HostOptions& options);
 /// asked for (State::only_help).
 int end_for_help(lua_State* L, State& state);
 
-/// A C function for Lua: its argument, a table with the methods before(type, name, arguments...)
-/// and after(type, name, results...), hears each call of the library from now on, but for those
-/// that it makes itself; nil: nobody does. `type` is nil for a function of the module. What yields
-/// or fails has no after.
+/// A C function for Lua: its argument, a table with the methods before(type, name, effect,
+/// arguments...) and after(type, name, effect, results...), hears each call of the library from now
+/// on, but for its own, those of types that are not heard, and methods whose Effect is `unheard`;
+/// nil: nobody does. `type` is nil for a function of the module. What yields or fails has no after.
 int hear_calls(lua_State* L);
 
 /// The function of the registration table that the value at `index` is, or null.

@@ -364,6 +364,7 @@ std::vector<Function> solving_methods() {
              "Solves the first system only and writes the result into the mesh: quick enough "
              "to follow a drag, with some shear.",
          .results = mesh,
+         .effect = Effect::replaces,
          .errors = kSolveErrors,
          .example = kBar + "top:translate(1, 0, 0)\ndeformer:preview()"},
         {.name = "solve",
@@ -378,6 +379,7 @@ std::vector<Function> solving_methods() {
                              "once more when the drag ends.")
                          .defaults(false)},
          .results = mesh,
+         .effect = Effect::replaces,
          .errors = kSolveErrors,
          .example = kBar + "top:rotate{ axis = 'z', angle = 60 }\nassert(deformer:solve() == bar)"},
         {.name = "reset",
@@ -501,6 +503,7 @@ Type deformer_type() {
                   "may have different vertices: see mirror_residual.")
                   .optional("none")},
          .results = {{"lissom.Handle", "handle", "Where it is; move it and solve."}},
+         .effect = Effect::changes,
          .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
                     ErrorCode::handle_outside_region, ErrorCode::handle_overlap,
                     ErrorCode::invalid_argument, ErrorCode::out_of_range, ErrorCode::mesh_empty},

@@ -54,9 +54,9 @@ int save_basis_file(Call& call) {
 constexpr int kMaximumFrames = 10000;
 
 // How the handles and the mesh of a deformation stand, to be put back.
-class Standing {
+class DeformSnapshot {
   public:
-    explicit Standing(DeformObject& edit)
+    explicit DeformSnapshot(DeformObject& edit)
         : mesh_(edit.mesh->mesh),
           revision_(edit.mesh->mesh.revision()),
           poses_(edit.deformer().poses()),
@@ -89,7 +89,7 @@ class Standing {
 // Everything that lives as long as one call of bake.
 struct Baking {
     Baking(std::shared_ptr<DeformObject> owner, BakeOptions options, const Context& context)
-        : edit(std::move(owner)), standing(*edit), shape(standing.mesh()) {
+        : edit(std::move(owner)), snapshot(*edit), shape(snapshot.mesh()) {
         edit->deformer().apply_rest_to(shape);
         baker = std::make_unique<MorphBaker>(shape, edit->deformer().region(), std::move(options),
                                              context);
@@ -109,14 +109,14 @@ struct Baking {
     // Whatever the script did to the deformation in the meantime.
     void restore() const {
         if (edit->content) {
-            standing.restore_handles(*edit->content);
-            standing.restore_result(*edit->content);
+            snapshot.restore_handles(*edit->content);
+            snapshot.restore_result(*edit->content);
         }
-        standing.restore_mesh(*edit->mesh);
+        snapshot.restore_mesh(*edit->mesh);
     }
 
     std::shared_ptr<DeformObject> edit;
-    Standing standing;
+    DeformSnapshot snapshot;
     Mesh shape;
     std::unique_ptr<MorphBaker> baker;
 };
@@ -159,7 +159,7 @@ int bake_frames(lua_State* L) {
         const double time = request.times[i];
         Baking* const baking = request.baking;
         if (!call.attempt_quick(
-                [&] { baking->standing.restore_handles(baking->edit->deformer()); })) {
+                [&] { baking->snapshot.restore_handles(baking->edit->deformer()); })) {
             return 0;
         }
         lua_pushvalue(L, 2);

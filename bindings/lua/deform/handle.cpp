@@ -261,12 +261,14 @@ top:rotate{ axis = { 1, 0, 0 }, angle = 10, about = { 0, 0, 0 } })"},
                                   "Rows of a 4 x 4 matrix; takes rest positions to where they "
                                   "go.")},
              .results = self,
+             .effect = Effect::replaces,
              .errors = kHandleErrors,
              .example = kBar + "top:set_matrix(top:matrix())"},
             {.name = "reset",
              .body = reset_handle,
              .summary = "The handle goes back to where it began.",
              .results = self,
+             .effect = Effect::replaces,
              .errors = kHandleErrors,
              .example = kBar + "top:translate(1, 0, 0):reset()"}};
 }
@@ -341,6 +343,7 @@ assert(right:mirror_residual().max < 1e-9))"},
         {.name = "remove",
          .body = remove_handle,
          .summary = "Takes the handle out of the deformation; it cannot be used any more.",
+         .effect = Effect::changes,
          .errors = kDeformerErrors,
          .example = kBar + "top:remove()\nassert(#deformer:handles() == 1)"}};
     for (const Function& query : queries) type.methods.push_back(query);

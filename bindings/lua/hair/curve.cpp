@@ -288,6 +288,7 @@ std::vector<Function> changing_methods() {
         {.name = "remove",
          .body = remove_curve,
          .summary = "Takes it out of the style.",
+         .effect = Effect::changes,
          .errors = kCurveErrors,
          .example = kStyle + "curve:remove()\nassert(#style:curves() == 0)"}};
 }
@@ -319,6 +320,7 @@ curve[operation](curve, hint))"},
              .arguments = hint_argument("A polyline that passes near the curve."),
              .options = reach_option(),
              .results = kSelfCurve,
+             .effect = Effect::changes,
              .errors = kChangeErrors,
              .example = kStyle + R"(local points = curve:points()
 local middle = {}
@@ -332,6 +334,7 @@ curve:cut({ above, middle }, { reach = 0.02 }))"},
              .arguments = hint_argument("A polyline that begins near the curve."),
              .options = joining_options(),
              .results = kSelfCurve,
+             .effect = Effect::changes,
              .errors = kChangeErrors,
              .example = kStyle + R"(local tip = curve:points()[2]
 curve:concatenate{ tip, { tip[1], tip[2] - 0.05, tip[3] } })"},
@@ -342,6 +345,7 @@ curve:concatenate{ tip, { tip[1], tip[2] - 0.05, tip[3] } })"},
              .arguments = hint_argument("A polyline whose ends are near the curve."),
              .options = joining_options(),
              .results = kSelfCurve,
+             .effect = Effect::changes,
              .errors = kChangeErrors,
              .example = kStyle + R"(local from, to = curve:points()[1], curve:points()[2]
 local out = style:at{ azimuth = 45, elevation = 35, lift = 0.03 }

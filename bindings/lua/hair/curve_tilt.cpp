@@ -120,6 +120,7 @@ std::vector<Function> tilt_methods() {
                               "head beside it.")
                            .in("mesh units")},
          .results = {{"lissom.CurveTilt", "tilt", "What the curve has now."}},
+         .effect = Effect::changes,
          .errors = {ErrorCode::not_finite, ErrorCode::invalid_argument, ErrorCode::out_of_range,
                     ErrorCode::handle_removed, ErrorCode::memory_limit},
          .example =

@@ -474,6 +474,7 @@ std::vector<Function> adding_methods() {
          .named_arguments = true,
          .options = rest_of(stream_fields()),
          .results = curve,
+         .effect = Effect::changes,
          .errors = kAddErrors,
          .example = kStyle},
         {.name = "add_dividing",
@@ -484,6 +485,7 @@ std::vector<Function> adding_methods() {
          .named_arguments = true,
          .options = rest_of(dividing_fields()),
          .results = curve,
+         .effect = Effect::changes,
          .errors = kAddErrors,
          .example = kStyle + R"(local parting = {}
 for i, elevation in ipairs{ 40, 60, 80 } do
@@ -497,6 +499,7 @@ style:add_dividing{ points = parting, tilt = { 20, 40 } })"},
          .named_arguments = true,
          .options = rest_of(ponytail_fields()),
          .results = curve,
+         .effect = Effect::changes,
          .errors = kAddErrors,
          .example = kStyle + R"(local behind = { azimuth = 180, elevation = 25, lift = 0.02 }
 local tie, out = style:at(behind), style:normal_at(behind)
@@ -514,6 +517,7 @@ std::vector<Function> field_methods() {
          .summary = "Brings the field up to date with the curves. `grow` and `field` do so by "
                     "themselves.",
          .results = kSelfStyle,
+         .effect = Effect::changes,
          .errors = kFieldErrors,
          .example = kStyle + "style:solve()"},
         {.name = "field",
@@ -663,6 +667,7 @@ std::vector<Function> growth_methods() {
              .named_arguments = true,
              .options = growth_fields(),
              .results = {{"lissom.Strands", "hair", "The strands."}},
+             .effect = Effect::changes,
              .errors = {ErrorCode::invalid_argument, ErrorCode::region_empty,
                         ErrorCode::not_positive_definite, ErrorCode::memory_limit,
                         ErrorCode::handle_removed, ErrorCode::cancelled},

@@ -195,6 +195,7 @@ Function comb_method() {
                  .defaults(15)
                  .between(1, 90)},
         .results = {{"lissom.CombReport", "report", "What was done."}},
+        .effect = Effect::changes,
         .errors = {ErrorCode::not_finite, ErrorCode::invalid_argument, ErrorCode::out_of_range,
                    ErrorCode::not_positive_definite, ErrorCode::memory_limit,
                    ErrorCode::handle_removed, ErrorCode::cancelled},

@@ -386,6 +386,7 @@ Type paste_type() {
                            "The boundary on the source: points of its surface, or vertices where "
                            "it runs along edges."},
                           {"lissom.PasteSearch", "report", "What was found."}},
+              .effect = Effect::shapes,
               .errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed,
                          ErrorCode::cancelled},
               .example = horn + R"(local loop, report = paste:optimize()
@@ -432,6 +433,7 @@ assert(#part:boundaries() == 1 and boundary:is_closed() and report.scale > 0.5))
                   "there, the last good placement stays.",
               .options = move_parameters(),
               .results = {{"lissom.Paste", "paste", "The same paste."}},
+              .effect = Effect::shapes,
               .errors = {ErrorCode::boundary_conflict, ErrorCode::invalid_argument,
                          ErrorCode::not_a_disk, ErrorCode::not_finite, ErrorCode::handle_removed,
                          ErrorCode::memory_limit, ErrorCode::cancelled},

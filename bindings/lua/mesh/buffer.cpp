@@ -506,6 +506,7 @@ assert(lissom.try(mesh.attribute, mesh, "color") == nil))"},
                      "The numbers.")
                   .defaults(0.0)},
          .results = {{"lissom.Buffer", "buffer", "Its numbers."}},
+         .effect = Effect::changes,
          .errors = {ErrorCode::invalid_argument},
          .example = R"(local mesh = lissom.shapes.box()
 local heat = mesh:add_attribute{ name = "heat", values = 20 }
@@ -516,6 +517,7 @@ assert(mesh:attribute("heat")[1] == 100))"},
          .summary = "Removes an attribute.",
          .arguments = {string("name", "Name of the attribute.")},
          .results = {{"boolean", "removed", "False where there was none."}},
+         .effect = Effect::changes,
          .example = "assert(not lissom.shapes.box():remove_attribute('heat'))"}};
 }
 

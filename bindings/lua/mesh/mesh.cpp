@@ -375,6 +375,7 @@ Type mesh_type() {
          .summary = "Moves a vertex and returns the mesh.",
          .arguments = {vertex, vector("position", "Where it goes: three numbers or {x, y, z}.")},
          .results = {{"lissom.Mesh", "mesh", "The mesh itself."}},
+         .effect = Effect::replaces,
          .errors = {ErrorCode::out_of_range},
          .example = R"(local mesh = lissom.shapes.box()
 mesh:set_position(1, 0, 0, 0):set_position(2, { 1, 0, 0 }))"},

@@ -349,6 +349,7 @@ assert(#path == 11))"},
                              .at_least(0)},
              .results = {{"lissom.Mesh", "mesh", "The mesh itself."},
                          {"lissom.FillReport", "report", "What was added."}},
+             .effect = Effect::changes,
              .errors = {ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
                         ErrorCode::unsupported, ErrorCode::memory_limit, ErrorCode::cancelled},
              .example = R"(local tube = lissom.shapes.cylinder{ caps = false }

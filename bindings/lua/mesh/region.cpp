@@ -519,6 +519,7 @@ assert(#arm > 0 and #high > 0 and #near > 0 and #upper_third > 0 and #around > 0
          .arguments = {string("name", "Its name."),
                        object("region", "lissom.Region", "A region of this mesh.")},
          .results = {{"lissom.Mesh", "mesh", "The mesh itself."}},
+         .effect = Effect::replaces,
          .errors = {ErrorCode::topology_mismatch, ErrorCode::invalid_argument},
          .example = R"(local mesh = lissom.shapes.box()
 mesh:set_region("all", mesh:region{ all = true })
@@ -528,6 +529,7 @@ assert(#mesh:region("all") == 8))"},
          .summary = "Forgets a named region.",
          .arguments = {string("name", "Its name.")},
          .results = {{"boolean", "removed", "False where there was none."}},
+         .effect = Effect::replaces,
          .example = "assert(lissom.shapes.box():remove_region('top'))"},
         {.name = "groups",
          .body = group_names,

@@ -202,6 +202,9 @@ void add_type(std::string& text, const Type& type) {
         if (op.name == "__index" && type.name == "lissom.Params")
             text += "---@field [string] any\n";
     }
+    for (const Result& field : type.fields) {
+        text += "---@field " + field.name + " " + field.type + " " + field.help + "\n";
+    }
     const std::string local = type.name.substr(type.name.rfind('.') + 1);
     text += "local " + local + " = {}\n\n";
     for (const Function& method : type.methods) {
@@ -325,6 +328,9 @@ std::string type_page(const Type& type) {
     text += "\n";
     for (const Operator& op : type.operators) {
         text += "- `" + op.usage + "`: " + op.help + "\n";
+    }
+    for (const Result& field : type.fields) {
+        text += "- `" + variable + "." + field.name + "`: " + field.type + ". " + field.help + "\n";
     }
     text += "- `" + variable + ":close()`: frees what the object holds; it may be called again\n\n";
     for (const Function& method : type.methods) {

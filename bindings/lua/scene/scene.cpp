@@ -282,6 +282,7 @@ std::vector<Function> object_methods() {
                        item_argument("object", "What is added.")},
          .options = look_fields(),
          .results = {{"any", "object", "The object."}},
+         .effect = Effect::changes,
          .errors = {ErrorCode::invalid_argument, ErrorCode::singular_transform,
                     ErrorCode::memory_limit},
          .example = kBarScene + R"(bar:transform{ scale = 2 }
@@ -361,6 +362,7 @@ std::vector<Function> step_methods() {
          .arguments = {string("name", "What undo calls it."),
                        function("action", "fun(): any", "What is done.")},
          .results = {{"any", "...", "What the function returns."}},
+         .effect = Effect::unheard,
          .errors = history_errors,
          .example = kBarScene + R"(local before = scene:hash()
 scene:step("grow", function() bar:transform{ scale = 2 } end)
@@ -371,6 +373,7 @@ assert(scene:hash() == before))"},
          .summary = "Opens a step, for instance when a drag begins; commit or rollback ends it.",
          .arguments = {string("name", "What undo calls it.")},
          .results = kSceneSelf,
+         .effect = Effect::unheard,
          .errors = history_errors,
          .example = kBarScene + R"(scene:begin("drag")
 for i = 1, 10 do bar:transform{ translate = { 0.1, 0, 0 } } end
@@ -380,6 +383,7 @@ assert(scene:undo() == "drag"))"},
          .body = commit_step,
          .summary = "Ends the step opened last. A step in which nothing changed is none.",
          .results = {{"boolean", "changed", "Whether anything changed."}},
+         .effect = Effect::unheard,
          .errors = history_errors,
          .example = kBarScene + R"(scene:begin("nothing")
 assert(not scene:commit()))"},
@@ -387,6 +391,7 @@ assert(not scene:commit()))"},
          .body = roll_back_step,
          .summary = "Ends the step opened last and takes back what was done since.",
          .results = kSceneSelf,
+         .effect = Effect::unheard,
          .errors = history_errors,
          .example = kBarScene + R"(local before = scene:hash()
 scene:begin("drag")
@@ -397,6 +402,7 @@ assert(scene:hash() == before))"},
          .body = step_depth,
          .summary = "Number of steps that are open.",
          .results = {{"integer", "depth", "0 outside steps."}},
+         .effect = Effect::unheard,
          .example = kBarScene + R"(scene:begin("drag")
 assert(scene:depth() == 1)
 scene:rollback())"},
@@ -405,6 +411,7 @@ scene:rollback())"},
          .summary = "Takes back the last step: the contents go back into the objects themselves. "
                     "What was changed outside a step is a step called \"edited\".",
          .results = step_name,
+         .effect = Effect::unheard,
          .errors = history_errors,
          .example = kBarScene + R"(bar:transform{ scale = 2 }
 assert(scene:undo() == "edited")
@@ -414,6 +421,7 @@ assert(scene:redo() == "edited"))"},
          .summary = "Does the step again that was undone last. A new step forgets those that were "
                     "undone.",
          .results = step_name,
+         .effect = Effect::unheard,
          .errors = history_errors,
          .example = kBarScene + "scene:undo()\nassert(scene:redo() == 'add bar')"},
         {.name = "history",
@@ -426,6 +434,7 @@ assert(#history == 1 and history.place == 1 and history[1].name == "add bar"))"}
          .body = clear_history,
          .summary = "Forgets all steps; the scene stays as it is.",
          .results = kSceneSelf,
+         .effect = Effect::unheard,
          .errors = history_errors,
          .example = kBarScene + "assert(not scene:clear_history():undo())"},
         {.name = "hash",

@@ -162,6 +162,7 @@ std::vector<Function> scene_file_methods() {
                      {"string[]", "left_out",
                       "What had no place in the file, a sentence each: materials and skeletons of "
                       "meshes."}},
+         .effect = Effect::unheard,
          .errors = {ErrorCode::file_write_failed, ErrorCode::file_is_directory,
                     ErrorCode::file_too_large, ErrorCode::invalid_argument, ErrorCode::memory_limit,
                     ErrorCode::cancelled},

@@ -232,6 +232,7 @@ std::vector<Parameter> view_options() {
 Type camera_type() {
     Type type;
     type.name = CameraObject::kTypeName;
+    type.is_heard = false;
     type.summary =
         "How a world is seen in a picture. It does not change. Pixels count from the top left "
         "corner of the picture.";

@@ -8,21 +8,10 @@
 
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/sketch/camera_object.h"
-#include "kernel/sketch/gizmo_drag.h"
+#include "bindings/lua/sketch/gizmo_object.h"
 
 namespace lissom::lua {
 namespace {
-
-struct GizmoObject {
-    static constexpr const char* kTypeName = "lissom.Gizmo";
-
-    Gizmo gizmo;
-    GizmoSteps steps;
-    std::optional<GizmoDrag> drag;
-
-    // Where it stands now.
-    Gizmo shown() const { return drag ? drag->moved() : gizmo; }
-};
 
 constexpr const char* kMotionNames[] = {"move", "rotate", "scale"};
 constexpr const char* kRoleNames[] = {"x", "y", "z", "view"};
@@ -419,6 +408,7 @@ assert(shape.part == "move-x" and #shape.lines > 0 and #shape.points == 1))"}};
 Type gizmo_type() {
     Type type;
     type.name = GizmoObject::kTypeName;
+    type.is_heard = false;
     type.summary =
         "Axes, planes and rings around a point, by which a hand moves, turns and scales. It draws "
         "nothing and moves nothing: it says what to draw, what is under a pixel, and what a drag "

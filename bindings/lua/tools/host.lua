@@ -1,13 +1,14 @@
 -- The host of tools: calls a tool's functions with what a hand does, each in a step of the scene. What is
 -- returned is what the binding calls; its reference is in tools.cpp.
 -- `error` is Lua's, but for an error object; new_error makes one.
-local lissom, hear, guard, now, load_script, find_file, name_hint, new_error, error = ...
+local lissom, hear, guard, now, load_script, find_file, name_hint, new_error, error, new_view, marks_of,
+    event_fields = ...
 
 local try = lissom.try
 
 local function fail(text, code) error(new_error(text, code)) end
 
-local Tool, Event, View, Host = { __name = "lissom.Tool" }, {}, {}, { __name = "lissom.ToolHost" }
+local Tool, Event, Host = { __name = "lissom.Tool" }, {}, { __name = "lissom.ToolHost" }
 Tool.__tostring = function(tool) return "lissom.Tool: " .. rawget(tool, "name") end
 Host.__tostring = function(host) return "lissom.ToolHost: " .. (host.tool and host.tool.name or "no tool") end
 
@@ -41,7 +42,6 @@ end
 
 name_members(Event, "lissom.ToolEvent", set_of{ "kind", "camera", "scene", "size", "up", "x", "y",
     "start", "button", "shift", "ctrl", "alt", "late", "key", "lines", "parameter" })
-name_members(View, "lissom.ToolView", set_of{ "camera", "scene", "size", "up", "cursor" }, set_of{ "list" })
 name_members(Host, "lissom.ToolHost", set_of{ "scene", "camera", "size", "tool" }, set_of{ "asked", "base",
     "begun", "brings_up", "depth", "drawn", "draws", "exported", "guarded", "held", "hover", "is_made",
     "journal", "kept", "known_hash", "log", "looked", "numbers", "opened", "prompted", "request", "thread",
@@ -81,8 +81,8 @@ local function make_tool(tool)
     if type(tool.name) ~= "string" or tool.name == "" then fail("a tool needs a name, a string") end
     if tool.help ~= nil and type(tool.help) ~= "string" then fail("the help of a tool is a string") end
     for key, value in pairs(tool) do check_callback(key, value) end
-    if tool.run and (tool.press or tool.drag or tool.release) then
-        fail("a tool that asks (run) has no press, drag or release")
+    if tool.run and not tool.press and (tool.drag or tool.release) then
+        fail("a tool that asks (run) has drag and release for gestures that its press takes: give it one")
     end
     tool.params = lissom.params(tool.params or {}, { command_line = false })
     tool.state = tool.state or {}
@@ -124,36 +124,32 @@ end
 
 function Event:select(options) return self.camera:select(filled(self, options)) end
 
-local event_fields = {
-    mouse = set_of{ "x", "y", "button", "shift", "ctrl", "alt", "late" },
-    wheel = set_of{ "x", "y", "lines", "shift", "ctrl", "alt" },
-    key = set_of{ "key", "shift", "ctrl", "alt" },
-}
-local buttons = set_of{ "left", "right", "middle" }
+-- What is wrong with a field of an event, which is described as a parameter of a function is; nil if nothing.
+local function event_flaw(name, value, field)
+    if value == nil then return field.required and "needs " .. name or nil end
+    if field.choices then
+        if not set_of(field.choices)[value] then
+            return "has no " .. name .. " '" .. tostring(value) .. "'" .. hint(value, set_of(field.choices))
+        end
+    elseif type(value) ~= field.kind then
+        return "needs " .. name .. ", a " .. field.kind
+    elseif field.kind == "number" and not (value >= field.min and value <= field.max) then
+        return string.format("needs %s, a number from %g to %g", name, field.min, field.max)
+    end
+end
 
 local function check_event(what, fields)
     if type(fields) ~= "table" then misuse("an event of the %s is a table", what) end
     local known = event_fields[what]
     for key in pairs(fields) do
-        if not known[key] then
+        if type(key) ~= "string" or not known[key] then
             misuse("an event of the %s has no '%s'%s", what, tostring(key), hint(key, known))
         end
     end
-    if what == "key" then
-        if type(fields.key) ~= "string" then misuse("a key is a string, for instance \"enter\"") end
-        return
+    for _, name in ipairs(known) do
+        local flaw = event_flaw(name, fields[name], known[name])
+        if flaw then misuse("an event of the %s %s", what, flaw) end
     end
-    for _, axis in ipairs{ "x", "y" } do
-        local value = fields[axis]
-        if type(value) ~= "number" or not (value <= 1e9 and value >= -1e9) then
-            misuse("an event needs %s, a number of pixels", axis)
-        end
-    end
-    local lines = fields.lines
-    if what == "wheel" and not (type(lines) == "number" and math.abs(lines) <= 1e6) then
-        misuse("an event of the wheel needs lines, a number: upwards is above 0")
-    end
-    if fields.button and not buttons[fields.button] then misuse("a button is left, right or middle") end
 end
 
 function Host:event(kind, fields)
@@ -238,9 +234,10 @@ function Host:call(name, event)
     local callback = self.tool and self.tool[name]
     if not callback then return end
     self:start_work(name)
-    local done, message = pcall(callback, self.tool, event)
-    if not done then self:fail(message) end
+    local done, result = pcall(callback, self.tool, event)
+    if not done then self:fail(result) end
     self:end_work()
+    return result
 end
 
 function Host:commit()
@@ -486,7 +483,9 @@ function Host:press(fields)
     self:note(mouse_note("press", event))
     self:begin()
     self.held = { button = button, start = event.start }
-    self:call("press", event)
+    -- Of a tool that asks a gesture answers, unless its press takes it.
+    local is_taken = self:call("press", event) == true
+    self.held.answers = self.tool.run and not is_taken
     return self
 end
 
@@ -497,7 +496,7 @@ function Host:move(fields)
     local event = self:event(self.held and "drag" or "move", fields)
     if self.held then
         self:note(mouse_note("move", event))
-        self:call("drag", event)
+        if not self.held.answers then self:call("drag", event) end
     elseif self.tool.move then
         self:note(mouse_note("move", event))
         self:step("move", event)
@@ -513,7 +512,7 @@ function Host:release(fields)
     if not self.held then return self end
     local event = self:event("release", fields)
     self:note(mouse_note("release", event))
-    if self.tool.run then
+    if self.held.answers then
         local hit = self:candidate(event)
         if hit then self:answer(hit) end
     else

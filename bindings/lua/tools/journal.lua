@@ -1,30 +1,8 @@
 -- ---- Journals: the calls that tools have made, as a script that makes them again without a hand.
 
--- Methods that change something and do not return the object that they are called on.
-local changing = {
-    ["lissom.Deformer"] = set_of{ "add_handle", "constrain", "stiffness", "preview", "solve", "reset",
-        "rebase" },
-    ["lissom.Handle"] = set_of{ "remove" },
-    ["lissom.Scene"] = set_of{ "add" },
-    ["lissom.Mesh"] = set_of{ "fill", "remove_region", "remove_attribute", "add_attribute" },
-    ["lissom.Hairstyle"] = set_of{ "add_stream", "add_dividing", "add_ponytail", "solve", "grow",
-        "comb" },
-    ["lissom.Curve"] = set_of{ "remove", "cut", "concatenate", "insert", "add_hint" },
-}
--- What a hand needs and a journal does not.
-local unheard = set_of{ "lissom.Gizmo", "lissom.Camera", "lissom.Params", "lissom.ToolHost" }
-local steps = set_of{ "begin", "commit", "rollback", "step", "undo", "redo", "depth", "clear_history",
-    "save" }
+-- What a method does to its object stands in the registration table (Effect): it reaches a journal as a word.
+local changing = set_of{ "changes", "replaces" }
 
--- Methods that change an object which is in no scene: told where something is made of it.
-local shaping = { ["lissom.Paste"] = set_of{ "optimize", "move" } }
-
--- Calls whose result does not depend on what the same call on the same thing did before.
-local replacing = {
-    ["lissom.Handle"] = set_of{ "set_matrix", "reset" },
-    ["lissom.Deformer"] = set_of{ "preview", "solve" },
-    ["lissom.Mesh"] = set_of{ "set_region", "remove_region", "set_position" },
-}
 local Untold = {}
 
 local function untold(text) error(setmetatable({ text = text }, Untold), 0) end
@@ -103,22 +81,22 @@ function Journal:see(object)
     if owner then self:see(owner) end
 end
 
-function Journal:before(kind, name, ...)
-    if not self.host.working or unheard[kind] or (kind == "lissom.Scene" and steps[name]) then return end
+function Journal:before(kind, name, effect, ...)
+    if not self.host.working then return end
     local given = { ... }
     see_objects(given, function(object) self:see(self:same(object)) end, 0)
-    self.pending = { kind = kind, name = name, count = select("#", ...), given = given }
+    self.pending = { kind = kind, name = name, effect = effect, count = select("#", ...), given = given }
 end
 
-function Journal:after(kind, name, ...)
+function Journal:after(kind, name, effect, ...)
     local call = self.pending
     if not call or call.kind ~= kind or call.name ~= name then return end
     self.pending = nil
     local results = { ... }
     local first = type(call.given[1]) == "userdata" and self:same(call.given[1])
-    local itself = first and rawequal(first, self:same((...)))
-    call.shapes = shaping[kind] and shaping[kind][name] and first or nil
-    call.changes = not call.shapes and (itself or (changing[kind] and changing[kind][name])) or false
+    local itself = kind and first and rawequal(first, self:same((...)))
+    call.shapes = effect == "shapes" and first or nil
+    call.changes = not call.shapes and (itself or changing[effect]) or false
     local makes = see_objects(results, function() end, 0)
     if not (call.changes or call.shapes or makes) then return end
     call.results, call.arguments = {}, {}
@@ -166,10 +144,8 @@ end
 local function part_of(mesh, what, which) return number_of(mesh) .. " " .. what .. " " .. tostring(which) end
 
 local function target(call)
-    local set = replacing[call.kind]
-    if not (set and set[call.name]) then return nil end
-    if call.kind == "lissom.Handle" then return call.arguments[1] end
-    if call.kind == "lissom.Deformer" then return call.arguments[1] end
+    if call.effect ~= "replaces" then return nil end
+    if call.kind ~= "lissom.Mesh" then return call.arguments[1] end
     return part_of(call.arguments[1], call.name:match("region$") or call.name, call.arguments[2])
 end
 

@@ -446,19 +446,19 @@ end
 local usual_step = 1 / 60
 
 -- The scene of a recording's beginning, the files that it was opened from, what `play` takes, and the times
--- of the events.
+-- and kinds of the events.
 local function open_recording(path)
     local recorded, folder = recording_of(path), folder_of(path)
     check_recording(recorded)
     local scene, paths = recorded_scene(recorded, folder)
     check_beginning(recorded, scene)
-    local times, last = {}, 0
+    local times, kinds, last = {}, {}, 0
     for i, event in ipairs(recorded.events) do
         local time = type(event.t) == "number" and event.t or last + usual_step
         last = time > last and time or last
-        times[i] = last
+        times[i], kinds[i] = last, event[1]
     end
-    return scene, paths, { recorded = recorded, folder = folder, path = path }, times
+    return scene, paths, { recorded = recorded, folder = folder, path = path }, times, kinds
 end
 
 -- Does an event. Returns the first difference where this event brings it, whether there is any, and the tool
@@ -473,9 +473,6 @@ local function play(host, playing, i)
     local tool = event[1] == "tool" and (event[2] and tool_place(event[2], playing.folder) or "") or nil
     return is_first and text or nil, playing.differs, tool
 end
-
--- What an event is, for messages.
-local function event_kind(playing, i) return playing.recorded.events[i][1] end
 
 local function make_host(options)
     local host = new_host(options.scene, options.camera, options.size, options.up)

@@ -15,6 +15,7 @@
 #include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tool_text.h"
+#include "bindings/lua/tools/tool_view.h"
 #include "kernel/core/clock.h"
 #include "kernel/core/nearest.h"
 
@@ -103,6 +104,46 @@ int raise_at_level(lua_State* L) {
     return lua_error(L);
 }
 
+// A field of an event for the text: { kind =, required =, min =, max =, choices = }.
+void push_event_field(lua_State* L, const Parameter& field) {
+    lua_createtable(L, 0, 5);
+    const char* kind = field.kind == Kind::boolean  ? "boolean"
+                       : field.kind == Kind::number ? "number"
+                                                    : "string";
+    lua_pushstring(L, kind);
+    lua_setfield(L, -2, "kind");
+    lua_pushboolean(L, field.required ? 1 : 0);
+    lua_setfield(L, -2, "required");
+    lua_pushnumber(L, field.min);
+    lua_setfield(L, -2, "min");
+    lua_pushnumber(L, field.max);
+    lua_setfield(L, -2, "max");
+    if (field.choices.empty()) return;
+    lua_createtable(L, count_of(field.choices), 0);
+    for (std::size_t i = 0; i < field.choices.size(); ++i) {
+        lua_pushstring(L, field.choices[i].c_str());
+        lua_rawseti(L, -2, index_of(i) + 1);
+    }
+    lua_setfield(L, -2, "choices");
+}
+
+// { mouse =, wheel =, key = }: fields by their names, and their names in order.
+void push_event_fields(lua_State* L) {
+    constexpr std::array kNames{"mouse", "wheel", "key"};
+    lua_createtable(L, 0, 3);
+    for (const EventKind kind : {EventKind::mouse, EventKind::wheel, EventKind::key}) {
+        const std::vector<Parameter>& fields = event_fields(kind);
+        lua_createtable(L, count_of(fields), count_of(fields));
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            lua_pushstring(L, fields[i].name.c_str());
+            lua_rawseti(L, -2, index_of(i) + 1);
+            push_event_field(L, fields[i]);
+            lua_setfield(L, -2, fields[i].name.c_str());
+        }
+        lua_setfield(L, -2, kNames[static_cast<std::size_t>(kind)]);
+    }
+}
+
 // Runs the text and keeps what it returns.
 void load_tool_functions(lua_State* L) {
     Piece piece;
@@ -121,7 +162,10 @@ void load_tool_functions(lua_State* L) {
     lua_pushcfunction(L, push_name_hint);
     lua_pushcfunction(L, make_error);
     lua_pushcfunction(L, raise_at_level);
-    lua_call(L, 9, 1);
+    lua_pushcfunction(L, new_tool_view);
+    lua_pushcfunction(L, push_tool_marks);
+    push_event_fields(L);
+    lua_call(L, 12, 1);
     lua_pushvalue(L, -1);
     raw_set_pointer(L, LUA_REGISTRYINDEX, &kToolFunctions);
 }
@@ -337,6 +381,52 @@ const std::string kPushTool = R"(local tool = lissom.tool{
 }
 )";
 
+std::vector<Parameter> modifier_fields() {
+    return {boolean("shift", "Whether this key is down.").optional(),
+            boolean("ctrl", "Likewise.").optional(), boolean("alt", "Likewise.").optional()};
+}
+
+// Fields before those of the modifiers.
+std::vector<Parameter> with_modifiers(std::vector<Parameter> fields) {
+    for (Parameter& field : modifier_fields()) fields.push_back(std::move(field));
+    return fields;
+}
+
+std::vector<Parameter> place_fields() {
+    return {number("x", "Pixels from the left edge of the picture.").between(-1e9, 1e9),
+            number("y", "Pixels from its top.").between(-1e9, 1e9)};
+}
+
+std::vector<Parameter> mouse_fields() {
+    std::vector<Parameter> fields = place_fields();
+    fields.push_back(choice("button", {"left", "right", "middle"},
+                            "The button, left if it is left out; of a press.")
+                         .optional("left"));
+    fields.push_back(
+        boolean("late", "Whether a later place of the same drag is known already; of a move.")
+            .optional());
+    return with_modifiers(std::move(fields));
+}
+
+std::vector<Parameter> wheel_fields() {
+    std::vector<Parameter> fields = place_fields();
+    fields.push_back(
+        number("lines", "How far the wheel turned: upwards is above 0.").between(-1e6, 1e6));
+    return with_modifiers(std::move(fields));
+}
+
+// Fields of a table for editors.
+std::vector<Result> described(const std::vector<Parameter>& fields) {
+    std::vector<Result> results;
+    for (const Parameter& field : fields) {
+        const char* type = field.kind == Kind::boolean  ? "boolean"
+                           : field.kind == Kind::number ? "number"
+                                                        : "string";
+        results.push_back({type + std::string(field.required ? "" : "?"), field.name, field.help});
+    }
+    return results;
+}
+
 std::vector<Result> host_fields() {
     return {
         {"lissom.Scene", "scene", "What the tools work on."},
@@ -355,12 +445,9 @@ std::vector<Result> host_fields() {
          "The button came up: the step ends."},
         {"fun(self: any, event: lissom.MouseEvent): lissom.ToolHost", "click",
          "Press and release."},
-        {"fun(self: any, event: table): lissom.ToolHost", "wheel",
-         "{x=, y=, lines=, shift=, ctrl=, alt=}: the wheel turned, upwards where lines are above "
-         "0. "
-         "Part of the gesture while a button is down, else a step of its own."},
-        {"fun(self: any, event: table): lissom.ToolHost", "key",
-         "{key=, shift=, ctrl=, alt=}: \"enter\", \"escape\", \"a\", ..."},
+        {"fun(self: any, event: lissom.WheelEvent): lissom.ToolHost", "wheel",
+         "The wheel turned: part of the gesture while a button is down, else a step of its own."},
+        {"fun(self: any, event: lissom.KeyEvent): lissom.ToolHost", "key", "A key was pressed."},
         {"fun(self: any, text: string): lissom.ToolHost", "type", "A key for each character."},
         {"fun(self: any, values: table): lissom.ToolHost", "set", "Sets parameters of the tool."},
         {"fun(self: any): lissom.ToolHost", "cancel",
@@ -387,6 +474,13 @@ std::vector<Result> host_fields() {
 
 }  // namespace
 
+const std::vector<Parameter>& event_fields(EventKind kind) {
+    static const std::array kFields{
+        mouse_fields(), wheel_fields(),
+        with_modifiers({string("key", "\"enter\", \"escape\", \"a\", ...")})};
+    return kFields[static_cast<std::size_t>(kind)];
+}
+
 void push_tool_function(lua_State* L, const char* name) {
     luaL_checkstack(L, LUA_MINSTACK, "no room for tools");
     raw_get_pointer(L, LUA_REGISTRYINDEX, &kToolFunctions);
@@ -404,9 +498,10 @@ std::vector<Function> tool_functions() {
          .body = make_tool,
          .summary =
              "Makes a tool: functions that are called with what a hand does. press, drag and "
-             "release, or run, a coroutine that asks by lissom.pick; move, wheel, key, changed (of "
-             "a "
-             "parameter), draw, activate, deactivate, cancel. All take the tool itself and a "
+             "release, or run, a coroutine that asks by lissom.pick, of which clicks are the "
+             "answers "
+             "unless press returns true; move, wheel, key, changed (of a parameter), draw, "
+             "activate, deactivate, cancel. All take the tool itself and a "
              "lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the "
              "scene, any other call is one of its own; after an error the scene is as before. "
              "drag is called with every place that the hand came to. The table's other keys are "
@@ -471,15 +566,11 @@ assert(lissom.replay(recorded, { scene = scene, tools = { tool } }):hash() == re
 std::vector<Record> tool_records() {
     return {
         {"lissom.ToolHost", "Calls tools with what a hand does.", host_fields()},
-        {"lissom.MouseEvent",
-         "What a mouse did.",
-         {{"number", "x", "Pixels from the left edge of the picture."},
-          {"number", "y", "Pixels from its top."},
-          {"string?", "button", "left (default), right or middle; of a press."},
-          {"boolean?", "shift", "Whether this key is down."},
-          {"boolean?", "ctrl", "Likewise."},
-          {"boolean?", "alt", "Likewise."},
-          {"boolean?", "late", "A later place of the same drag is known already; of a move."}}},
+        {"lissom.MouseEvent", "What a mouse did.", described(event_fields(EventKind::mouse))},
+        {"lissom.WheelEvent",
+         "What the wheel did: part of the gesture while a button is down, else a step of its own.",
+         described(event_fields(EventKind::wheel))},
+        {"lissom.KeyEvent", "A key that was pressed.", described(event_fields(EventKind::key))},
         {"lissom.ToolEvent",
          "What a tool is called with.",
          {{"number?", "x", "Pixels from the left edge of the picture."},
@@ -507,33 +598,6 @@ std::vector<Record> tool_records() {
            "camera:select of the scene."},
           {"fun(self: any, camera: lissom.Camera)", "look",
            "From now on the scene is seen by this camera; no step of the scene."}}},
-        {"lissom.ToolView",
-         "What a tool draws on, over the picture. Colours are \"#rrggbb\"; each method returns the "
-         "view.",
-         {{"lissom.Camera", "camera", "What the scene is seen by."},
-          {"lissom.Scene", "scene", "The scene."},
-          {"integer[]", "size", "{width, height} of the picture in pixels."},
-          {"\"y\"|\"z\"", "up", "The axis of the world that points up in views."},
-          {"number[]?", "cursor", "Where the cursor is."},
-          {"fun(self: any, options: table)", "points", "{points=, color=, radius= in pixels}"},
-          {"fun(self: any, options: table)", "line",
-           "{points=, color=, width= in pixels, closed=}"},
-          {"fun(self: any, options: table)", "curve", "The same."},
-          {"fun(self: any, options: table)", "label", "{at=, text=, color=}"},
-          {"fun(self: any, options: table)", "handle",
-           "{at=, color=, radius=}: a ball to take hold of."},
-          {"fun(self: any, gizmo: lissom.Gizmo, chosen: string?)", "gizmo",
-           "The gizmo as it is seen now; the part `chosen` as the one in hand."},
-          {"fun(self: any, options: table)", "region", "{mesh=, region=, color=}: colours it."},
-          {"fun(self: any, options: table)", "mesh",
-           "{mesh=, transform=, color=}: one that is not in the scene, before what it lies on; it "
-           "must not change afterwards."},
-          {"fun(self: any, options: table)", "outline",
-           "{pixels=, color=, width=, closed=, opacity=}: a line in the picture, of {x, y}."},
-          {"fun(self: any, options: table)", "circle",
-           "{at={x, y}, radius=, color=}: in pixels of the picture."},
-          {"fun(self: any, options: table)", "surface",
-           "{from=, to=, color=, opacity=}: seen through, between two lines of as many points."}}},
         {"lissom.ToolMarks",
          "What a tool shows, as the tables it was drawn with.",
          {{"table[]", "points", "Balls."},

@@ -3,7 +3,10 @@
 /// of the library.
 #pragma once
 
+#include <vector>
+
 #include "bindings/lua/core/compat.h"
+#include "bindings/lua/core/parameter.h"
 
 namespace lissom::lua {
 
@@ -11,5 +14,11 @@ namespace lissom::lua {
 /// options of lissom.load: their scene), "load_tool", or one that windows call (windows.lua).
 /// Raises a Lua error where the state has no memory for it.
 void push_tool_function(lua_State* L, const char* name);
+
+/// Events of a hand that a host takes.
+enum class EventKind { mouse, wheel, key };
+
+/// Returns the fields of an event, which hosts check and windows write.
+const std::vector<Parameter>& event_fields(EventKind kind);
 
 }  // namespace lissom::lua

@@ -109,12 +109,6 @@ local function save(host, path)
     return table.concat(left_out, "; ")
 end
 
-local function draw(host)
-    host.drawn = nil
-    host.prompted = host:prompt()
-    host.drawn = host:draw()
-end
-
 -- The camera that the tool or a saved scene has set since the last call, else nil; and of a saved scene,
 -- whether z is up in it.
 local function looked(host)
@@ -122,6 +116,14 @@ local function looked(host)
     if camera and host.brings_up then z_up = host.z_up == true end
     host.looked, host.brings_up = nil, nil
     return camera, z_up
+end
+
+-- Draws, and returns what `looked` does.
+local function draw(host)
+    host.drawn = nil
+    host.prompted = host:prompt()
+    host.drawn = host:drawn_view()
+    return looked(host)
 end
 
 -- The visible mesh of which something is selected, else the only one; and the name and place of its object.
@@ -280,5 +282,5 @@ return { tool = make_tool, is_tool = is_tool, host = make_host, replay = replay,
     load_tool = load_tool, host_of = host_of, look = look_in_window, use = use, tool_files = tool_files,
     draw = draw, holds = holds, save = save, export = export, write_export = write_export, method = method,
     sketch = sketch,
-    open_recording = open_recording, play = play, event_kind = event_kind, looked = looked, keep = keep,
+    open_recording = open_recording, play = play, keep = keep,
     restore = restore }

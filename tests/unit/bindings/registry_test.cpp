@@ -160,5 +160,20 @@ TEST_CASE("inconsistent descriptions are refused") {
     CHECK_THROWS_AS(twice.add(library_of(function_named("f"))), std::logic_error);
 }
 
+TEST_CASE("effects of methods stand in the table, and only steps and files of scenes are unheard") {
+    const Registry registry = kernel_registry();
+    std::size_t changing = 0;
+    for (const auto& entry : registry.entries()) {
+        const Effect effect = entry->function->effect;
+        INFO(entry->function->name);
+        if (!entry->type) CHECK(effect == Effect::by_result);
+        if (effect == Effect::unheard) CHECK(entry->type->name == "lissom.Scene");
+        changing += effect == Effect::changes || effect == Effect::replaces ? 1 : 0;
+    }
+    CHECK(changing > 20);
+    CHECK(!registry.find_type("lissom.Camera")->is_heard);
+    CHECK(registry.find_type("lissom.Mesh")->is_heard);
+}
+
 }  // namespace
 }  // namespace lissom::lua

@@ -49,8 +49,8 @@ void Frames::see_settings() {
 }
 
 void Frames::draw_picture() {
-    const bool other_settings = stage_.has_other_settings();
-    stage_.send();
+    const bool other_settings = upload_.has_other_settings();
+    upload_.send();
     const Canvas canvas = state_.canvas();
     const bool resized = !(canvas == drawn_canvas_);
     if (state_.shown && (resized || other_settings)) update_legend(state_);
@@ -96,7 +96,7 @@ PanelAnswers Frames::draw() {
     try {
         draw_picture();
     } catch (const Error& error) {
-        stage_.give_up(error);
+        upload_.give_up(error);
     }
     PanelContent& content = state_.content;
     content.is_ortho = state_.camera.is_ortho();

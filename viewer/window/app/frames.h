@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "viewer/window/app/stage.h"
+#include "viewer/window/app/scene_upload.h"
 #include "viewer/window/app/view_state.h"
 #include "viewer/window/screen/frame_times.h"
 
@@ -16,7 +16,7 @@ void update_legend(ViewState& state);
 class Frames {
   public:
     /// Both must outlive it.
-    Frames(ViewState& state, Stage& stage) : state_(state), stage_(stage) {}
+    Frames(ViewState& state, SceneUpload& stage) : state_(state), upload_(stage) {}
 
     /// Returns whether all of the window has to be shown again.
     bool has_to_show() const;
@@ -44,7 +44,7 @@ class Frames {
     void measure(double seconds);
 
     ViewState& state_;
-    Stage& stage_;
+    SceneUpload& upload_;
     // Factor by which the picture is smaller than its canvas.
     int coarseness_ = 1;
     Canvas drawn_canvas_;

@@ -5,18 +5,15 @@
 
 namespace lissom::window {
 
-bool Replay::begin() {
-    auto playback = state_.session.take_playback();
-    if (!playback) return false;
-    const std::size_t count = playback->times.size();
-    state_.content.playing = {.name = std::filesystem::path(playback->path).filename().string(),
+void Replay::begin(const Playback& playback) {
+    const std::size_t count = playback.times.size();
+    state_.content.playing = {.name = std::filesystem::path(playback.path).filename().string(),
                               .count = count};
     state_.tell("playing " + std::to_string(count));
-    player_.emplace(std::move(playback->times), speed_);
+    player_.emplace(playback.times, speed_);
     state_.plays = true;
     posted_ = 0;
     last_ = Clock::now();
-    return true;
 }
 
 void Replay::forget() {

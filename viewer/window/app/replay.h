@@ -16,8 +16,8 @@ class Replay {
     Replay(ViewState& state, double speed) : state_(state), speed_(speed) {}
 
     bool plays() const { return player_.has_value(); }
-    /// Begins the recording that the session has opened; then returns true, and the hand lets go.
-    bool begin();
+    /// Begins a recording that the session has opened; the hand is to let go.
+    void begin(const Playback& playback);
     /// Posts the events that are due once those before them are done, and ends after the last.
     void play();
     void take_key(const Input& input);

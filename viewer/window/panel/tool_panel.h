@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "viewer/window/screen/canvas.h"
-#include "viewer/window/session/tool_bench.h"
+#include "viewer/window/tools/tool_bench.h"
 
 namespace lissom::window {
 

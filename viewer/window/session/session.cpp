@@ -1,19 +1,17 @@
 #include "viewer/window/session/session.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "bindings/cli/repl/display.h"
-#include "bindings/cli/repl/help_function.h"
 #include "bindings/cli/repl/session_text.h"
 #include "bindings/cli/script_text.h"
 #include "bindings/cli/terminal/interrupt.h"
 #include "bindings/lua/core/failure.h"
 #include "viewer/lua/shown_values.h"
 #include "viewer/lua/viewer_library.h"
+#include "viewer/window/session/script_setup.h"
 #include "viewer/window/session/unlike_sizes.h"
 
 namespace lissom::window {
@@ -30,101 +28,7 @@ constexpr double kLongWork = 1.0;
 // Seconds after which a stroke that a slow tool follows is shown as far as it has come.
 constexpr double kLongStroke = 0.05;
 
-// Refuses os.exit, which would end the window and its contents.
-int refuse_exit(lua_State* L) {
-    return luaL_error(L, "os.exit does not end the window: return, or raise an error");
-}
-
-// Puts `refuse_exit` into the library `os`. Runs inside lua_pcall.
-int guard_exit(lua_State* L) {
-    lua_getglobal(L, "os");
-    lua_pushcfunction(L, refuse_exit);
-    lua_setfield(L, -2, "exit");
-    return 0;
-}
-
-// Adds the files of the modules that the state has loaded to the list at upvalue 1. Runs inside
-// lua_pcall: a script may have put anything in the place of `package`.
-int list_module_files(lua_State* L) {
-    auto* files = static_cast<std::vector<fs::path>*>(lua_touserdata(L, lua_upvalueindex(1)));
-    lua_getglobal(L, "package");
-    lua_getfield(L, 1, "loaded");
-    lua_pushnil(L);
-    while (lua_next(L, 2)) {
-        lua_settop(L, 3);
-        if (lua_type(L, 3) != LUA_TSTRING) continue;
-        lua_getfield(L, 1, "searchpath");
-        lua_pushvalue(L, 3);
-        lua_getfield(L, 1, "path");
-        lua_call(L, 2, 1);
-        lua::Failure failure;
-        const char* found = lua_tostring(L, 4);
-        failure.guard([&] {
-            if (found) files->emplace_back(found);
-        });
-        lua_settop(L, 3);
-    }
-    return 0;
-}
-
-bool has_global(lua_State* L, const char* name) {
-    lua_getglobal(L, name);
-    const bool has = !lua_isnil(L, -1);
-    lua_pop(L, 1);
-    return has;
-}
-
-// Provides the variables `lissom` and `help`, for lines of the console, if the script has none.
-// Runs inside lua_pcall.
-int provide_library(lua_State* L) {
-    if (!has_global(L, "help")) {
-        lua_getglobal(L, "require");
-        lua_pushliteral(L, "lissom");
-        lua_call(L, 1, 1);
-        cli::provide_help(L);
-    }
-    if (has_global(L, "lissom")) return 0;
-    lua_getglobal(L, "require");
-    lua_pushliteral(L, "lissom");
-    lua_call(L, 1, 1);
-    lua_setglobal(L, "lissom");
-    return 0;
-}
-
-// Writes a file whole or not at all.
-bool write_whole(const std::string& path, const std::string& text) {
-    const std::string beside = path + ".part";
-    std::error_code error;
-    {
-        std::ofstream file(beside, std::ios::binary);
-        if (!(file << text && file.flush())) {
-            file.close();
-            fs::remove(beside, error);
-            return false;
-        }
-    }
-    fs::rename(beside, path, error);
-    return !error;
-}
-
-std::string without_digits(std::string text) {
-    std::erase_if(text, [](unsigned char c) { return std::isdigit(c) != 0; });
-    return text;
-}
-
 }  // namespace
-
-void add_line(std::vector<ConsoleLine>& lines, ConsoleLine line) {
-    const bool repeats = !lines.empty() && line.kind == LineKind::warning &&
-                         lines.back().kind == line.kind &&
-                         without_digits(lines.back().text) == without_digits(line.text);
-    if (repeats) {
-        line.times += lines.back().times;
-        lines.back() = std::move(line);
-    } else {
-        lines.push_back(std::move(line));
-    }
-}
 
 bool is_script(const std::string& word) {
     return fs::path(word).extension() == ".lua";
@@ -137,7 +41,10 @@ bool is_recording(const std::string& word) {
 }
 
 Session::Session(cli::Program& program, std::function<void()> wake, SessionOptions options)
-    : program_(program), wake_(std::move(wake)), options_(std::move(options)) {
+    : program_(program),
+      wake_(std::move(wake)),
+      options_(std::move(options)),
+      records_(options_.record, options_.journal) {
     look_.kind = ToolInput::Kind::look;
     look_.size = {1280, 960};
     program_.log_filter = [this](LogLevel level, std::string_view text) {
@@ -149,8 +56,8 @@ Session::Session(cli::Program& program, std::function<void()> wake, SessionOptio
     };
     program_.progress_listener = [this](std::string_view label, double fraction) {
         const std::lock_guard lock(mutex_);
-        news_.stage = label;
-        news_.fraction = fraction;
+        shared_.stage = label;
+        shared_.fraction = fraction;
     };
     listener_ = [this](const Picture& picture) {
         ++pictures_;
@@ -174,7 +81,7 @@ void Session::open(const std::vector<std::string>& words) {
     const std::uint64_t number = ++asked_;
     {
         const std::lock_guard lock(mutex_);
-        news_.asked = words;
+        shared_.asked = words;
     }
     give_up();
     post_only([this, words, number] {
@@ -187,17 +94,17 @@ void Session::run_again(const std::vector<std::string>& words) {
     if (is_opening()) return;
     {
         const std::lock_guard lock(mutex_);
-        if (news_.words.empty()) return;
-        if (is_script(news_.words.front())) {
-            news_.words.resize(1);
-            news_.words.insert(news_.words.end(), words.begin(), words.end());
+        if (shared_.words.empty()) return;
+        if (is_script(shared_.words.front())) {
+            shared_.words.resize(1);
+            shared_.words.insert(shared_.words.end(), words.begin(), words.end());
         }
     }
     opened_ = asked_.load();
     give_up();
     post_only([this] {
         std::unique_lock lock(mutex_);
-        const std::vector<std::string> now = news_.words;
+        const std::vector<std::string> now = shared_.words;
         lock.unlock();
         run(now, false);
     });
@@ -228,9 +135,9 @@ void Session::set_saving(bool saves) {
 void Session::begin_work() {
     program_.forget_interrupt();
     const std::lock_guard lock(mutex_);
-    news_.stage.clear();
-    news_.fraction = 0.0;
-    news_.work_began = Clock::now();
+    shared_.stage.clear();
+    shared_.fraction = 0.0;
+    shared_.work_began = Clock::now();
 }
 
 // Stops the running work because something else takes its place: nobody has to be told.
@@ -251,7 +158,7 @@ void Session::use_tool(const std::string& word) {
 void Session::read_tool_again() {
     {
         const std::lock_guard lock(mutex_);
-        if (busy() && seconds_since(news_.work_began) > kLongWork) cancel();
+        if (busy() && seconds_since(shared_.work_began) > kLongWork) cancel();
     }
     post_job([this] {
         begin_work();
@@ -263,19 +170,19 @@ void Session::read_tool_again() {
 // Inputs keep their place among all requests: inputs after another job wait for it.
 void Session::post(ToolInput input) {
     const std::lock_guard lock(mutex_);
-    news_.last_setting.reset();
-    if (!news_.takes_inputs_last || news_.inputs.empty()) {
-        news_.inputs.emplace_back();
-        news_.takes_inputs_last = true;
+    shared_.last_setting.reset();
+    if (!shared_.takes_inputs_last || shared_.inputs.empty()) {
+        shared_.inputs.emplace_back();
+        shared_.takes_inputs_last = true;
         worker_.post([this] { take_inputs(); });
     }
-    push_input(news_.inputs.back(), std::move(input));
+    push_input(shared_.inputs.back(), std::move(input));
 }
 
 void Session::post_job(Worker::Job job) {
     const std::lock_guard lock(mutex_);
-    news_.takes_inputs_last = false;
-    news_.last_setting.reset();
+    shared_.takes_inputs_last = false;
+    shared_.last_setting.reset();
     worker_.post(std::move(job));
 }
 
@@ -283,16 +190,16 @@ void Session::post_job(Worker::Job job) {
 void Session::post_only(Worker::Job job) {
     const std::lock_guard lock(mutex_);
     std::vector<ToolInput> kept;
-    for (std::vector<ToolInput>& batch : std::exchange(news_.inputs, {})) {
+    for (std::vector<ToolInput>& batch : std::exchange(shared_.inputs, {})) {
         for (ToolInput& input : batch) {
             if (input.kind == ToolInput::Kind::look) kept = {std::move(input)};
         }
     }
     worker_.post_only(std::move(job));
-    news_.last_setting.reset();
-    news_.takes_inputs_last = !kept.empty();
+    shared_.last_setting.reset();
+    shared_.takes_inputs_last = !kept.empty();
     if (kept.empty()) return;
-    news_.inputs.push_back(std::move(kept));
+    shared_.inputs.push_back(std::move(kept));
     worker_.post([this] { take_inputs(); });
 }
 
@@ -301,7 +208,7 @@ void Session::copy_scene(const std::string& path, const std::string& journal) {
         if (!bench_ || !bench_->has_scene() || bench_->is_held()) return;
         begin_work();
         std::string left_out;
-        if (!succeeds(bench_->save(path, left_out)) || !options_.journal.empty()) return;
+        if (!succeeds(bench_->save(path, left_out)) || records_.has_journal()) return;
         const std::optional<std::string> text = bench_->text_of("journal_text");
         if (text && !write_whole(journal, *text)) {
             tell(LineKind::error, "the journal cannot be written to " + journal);
@@ -327,11 +234,11 @@ void Session::save_scene(const std::string& path, std::uint64_t scene, std::uint
         tell(LineKind::result, "saved " + path);
         if (!left_out.empty()) tell(LineKind::warning, left_out);
         const std::lock_guard lock(mutex_);
-        news_.saved = change;
+        shared_.news.saved = change;
     };
     const std::lock_guard lock(mutex_);
-    news_.takes_inputs_last = false;
-    news_.last_setting.reset();
+    shared_.takes_inputs_last = false;
+    shared_.last_setting.reset();
     worker_.post(save, true);
 }
 
@@ -349,8 +256,8 @@ void Session::export_object(const std::string& path) {
         if (succeeds(result)) tell(LineKind::result, told);
     };
     const std::lock_guard lock(mutex_);
-    news_.takes_inputs_last = false;
-    news_.last_setting.reset();
+    shared_.takes_inputs_last = false;
+    shared_.last_setting.reset();
     worker_.post(write, true);
 }
 
@@ -366,19 +273,19 @@ void Session::show_object(const std::string& name, bool visible) {
 // If the last waiting job sets the same parameter, the newer value takes its place.
 void Session::set_tool_parameter(const std::string& name, const lua::ParameterValue& value) {
     const std::lock_guard lock(mutex_);
-    if (news_.last_setting && news_.last_setting->first == name) {
-        news_.last_setting->second = value;
+    if (shared_.last_setting && shared_.last_setting->first == name) {
+        shared_.last_setting->second = value;
         return;
     }
     auto setting = std::make_shared<Setting>(name, value);
-    news_.takes_inputs_last = false;
-    news_.last_setting = setting;
+    shared_.takes_inputs_last = false;
+    shared_.last_setting = setting;
     worker_.post([this, setting] { set_parameter(setting); });
 }
 
 void Session::set_parameter(const std::shared_ptr<Setting>& setting) {
     std::unique_lock lock(mutex_);
-    if (news_.last_setting == setting) news_.last_setting.reset();
+    if (shared_.last_setting == setting) shared_.last_setting.reset();
     const auto [name, value] = *setting;
     lock.unlock();
     if (!bench_ || !bench_->has_scene()) return;
@@ -389,17 +296,12 @@ void Session::set_parameter(const std::shared_ptr<Setting>& setting) {
 
 bool Session::is_opening() const {
     const std::lock_guard lock(mutex_);
-    return opened_ != asked_ && !news_.words.empty() && news_.asked != news_.words;
+    return opened_ != asked_ && !shared_.words.empty() && shared_.asked != shared_.words;
 }
 
 bool Session::has_setting() const {
     const std::lock_guard lock(mutex_);
-    return news_.last_setting != nullptr;
-}
-
-std::optional<Playback> Session::take_playback() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(news_.playback, std::nullopt);
+    return shared_.last_setting != nullptr;
 }
 
 void Session::stop_playing() {
@@ -410,59 +312,24 @@ void Session::stop_playing() {
     post(std::move(stop));
 }
 
-std::optional<ToolState> Session::take_tool_state() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(news_.tool_state, std::nullopt);
-}
-
 std::vector<fs::path> Session::tool_files() const {
     const std::lock_guard lock(mutex_);
-    return news_.tool_files;
+    return shared_.tool_files;
 }
 
 std::pair<std::string, double> Session::progress() const {
     const std::lock_guard lock(mutex_);
-    return {news_.stage, news_.fraction};
+    return {shared_.stage, shared_.fraction};
 }
 
-std::optional<std::vector<std::string>> Session::take_opened() {
+SessionNews Session::take_news() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(news_.opened, std::nullopt);
-}
-
-std::optional<std::uint64_t> Session::take_saved() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(news_.saved, std::nullopt);
-}
-
-std::vector<std::pair<std::string, std::string>> Session::take_tools() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(news_.tools, {});
-}
-
-std::optional<Shown> Session::take_shown() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(news_.shown, std::nullopt);
-}
-
-std::vector<ConsoleLine> Session::take_lines() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(news_.lines, {});
-}
-
-std::optional<std::vector<lua::ScriptParameter>> Session::take_parameters() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(news_.parameters, std::nullopt);
-}
-
-std::optional<Completion> Session::take_completion() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(news_.completion, std::nullopt);
+    return std::exchange(shared_.news, {});
 }
 
 std::vector<fs::path> Session::files() const {
     const std::lock_guard lock(mutex_);
-    return news_.files;
+    return shared_.files;
 }
 
 bool Session::finish(double seconds) {
@@ -492,21 +359,21 @@ bool Session::opens(const std::vector<std::string>& words, bool is_new) {
 // Makes these words the open document.
 void Session::adopt(const std::vector<std::string>& words) {
     const std::lock_guard lock(mutex_);
-    news_.words = words;
-    news_.opened = words;
-    news_.parameters = std::vector<lua::ScriptParameter>();
+    shared_.words = words;
+    shared_.news.opened = words;
+    shared_.news.parameters = std::vector<lua::ScriptParameter>();
 }
 
 bool Session::has_words() const {
     const std::lock_guard lock(mutex_);
-    return !news_.words.empty();
+    return !shared_.words.empty();
 }
 
 // Returns whether the failed words are the open document, to be mended and read again.
 bool Session::keeps_failed(const std::vector<std::string>& words, bool is_new) const {
     const std::lock_guard lock(mutex_);
-    const bool is_same_script = is_script(words.front()) && news_.words.front() == words.front();
-    return !is_new || is_same_script || news_.words == words;
+    const bool is_same_script = is_script(words.front()) && shared_.words.front() == words.front();
+    return !is_new || is_same_script || shared_.words == words;
 }
 
 // Nothing of a script stays with the open document now.
@@ -537,8 +404,8 @@ void Session::show_again(const std::optional<Shown>& shown) {
 void Session::show_last() {
     if (!last_shown_) return;
     const std::lock_guard lock(mutex_);
-    last_shown_->number = ++news_.number;
-    news_.shown = last_shown_;
+    last_shown_->number = ++shared_.number;
+    shared_.news.shown = last_shown_;
 }
 
 // A state of its own, whose prints and pictures come here.
@@ -551,8 +418,7 @@ void Session::open_script(const lua::ScriptArguments& arguments) {
     lua_pushlightuserdata(L, this);
     lua_pushcclosure(L, print, 1);
     lua_setglobal(L, "print");
-    lua_pushcfunction(L, guard_exit);
-    if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
+    guard_exit(L);
     lua::set_picture_listener(L, &listener_);
     pictures_ = 0;
 }
@@ -567,7 +433,7 @@ bool Session::run_script(const std::vector<std::string>& words, bool is_new) {
     open_script({words[0], {words.begin() + 1, words.end()}});
     const cli::ScriptResult result = script_->run_file(words[0]);
     const bool works = result.status == cli::kSuccess;
-    const bool is_tool = works && bench_->is_tool(1, lua_gettop(script_->lua()));
+    const bool is_tool = works && bench_->tool_among({1, lua_gettop(script_->lua())}).has_value();
     tell_whether_mended(words[0], works);
     if (!works) succeeds(result);
     const bool is_seen = works && !is_tool && has_shown(words[0]);
@@ -594,7 +460,7 @@ bool Session::has_shown(const std::string& script) {
     tell(LineKind::warning, script +
                                 " shows nothing: let it draw with lissom.render, or return an "
                                 "object to show: a mesh, strands, a scene, or a table of them");
-    return bench_->has_scene_among(1, lua_gettop(script_->lua()));
+    return bench_->has_scene_among({1, lua_gettop(script_->lua())});
 }
 
 void Session::settle_failed(Document before, bool is_same) {
@@ -609,7 +475,7 @@ void Session::settle_script(const std::vector<std::string>& words, bool is_same)
     // They were shown before it was known that they would stay.
     if (pictures_ > 0) show_last();
     show_values();
-    succeeds(bench_->take_values(1, lua_gettop(L)));
+    succeeds(bench_->take_values({1, lua_gettop(L)}));
     // The words of its command line are not in a recording.
     settle_scene(words.size() == 1 ? words : std::vector<std::string>());
     lua_settop(L, 0);
@@ -647,7 +513,7 @@ void Session::look_for_tools(const std::vector<std::string>& scripts) {
     if (!found.empty()) tell(LineKind::result, "tools that have a button now: " + names);
     {
         const std::lock_guard lock(mutex_);
-        news_.tools.insert(news_.tools.end(), found.begin(), found.end());
+        shared_.news.tools.insert(shared_.news.tools.end(), found.begin(), found.end());
     }
     wake_();
 }
@@ -660,8 +526,7 @@ std::optional<std::string> Session::name_of_tool(const std::string& script) {
         tell(LineKind::error, result.message);
         return std::nullopt;
     }
-    const int count = lua_gettop(script_->lua());
-    if (bench_->is_tool(1, count)) return bench_->tool_name(1);
+    if (auto name = bench_->tool_among({1, lua_gettop(script_->lua())})) return name;
     tell(LineKind::warning, script + " is no tool: drop it alone to run it");
     return std::nullopt;
 }
@@ -716,8 +581,8 @@ bool Session::load_files(const std::vector<std::string>& paths, bool is_new) {
 }
 
 void Session::tell_sizes() {
-    const Picture picture = bench_->picture();
-    const std::string hint = unlike_sizes(picture.meshes, bench_->names_of(picture));
+    const ToolPicture seen = bench_->picture();
+    const std::string hint = unlike_sizes(seen.picture.meshes, seen.names);
     if (!hint.empty()) tell(LineKind::warning, hint);
 }
 
@@ -727,46 +592,43 @@ void Session::tell_sizes() {
 bool Session::open_recording(const std::string& path, bool is_new) {
     Document before = put_aside();
     open_script({});
-    Playback playback{path, {}};
-    std::vector<std::string> files;
-    const bool works = succeeds(bench_->open_recording(path, files, playback.times));
+    recording_ = {};
+    const bool works = succeeds(bench_->open_recording(path, recording_));
     if (!works) put_back(std::move(before));
     if (!works && !keeps_failed({path}, is_new)) return false;
     if (is_new) adopt({path});
     set_files({path});
     if (!works) return false;
     forget_script();
-    settle_scene(files, false);
-    event_count_ = playback.times.size();
+    settle_scene(recording_.files, false);
     events_played_ = 0;
-    plays_ = shows_hand_ = event_count_ > 0;
+    plays_ = shows_hand_ = !recording_.times.empty();
     const std::lock_guard lock(mutex_);
-    news_.playback = std::move(playback);
+    shared_.news.playback = Playback{path, recording_.times};
     return true;
 }
 
 void Session::play(std::size_t event) {
-    if (!plays_ || event >= event_count_) return;
+    const std::size_t count = recording_.times.size();
+    if (!plays_ || event >= count) return;
     PlayedEvent done;
     cli::ScriptResult result = bench_->play(event, done);
     if (!done.difference.empty()) tell(LineKind::error, done.difference);
     if (done.tool) keep_tool(*done.tool);
     if (result.status != cli::kSuccess) {
         if (!plays_.exchange(false)) result.message = "a step was stopped and taken back";
-        result.message = "event " + std::to_string(event + 1) + " of " +
-                         std::to_string(event_count_) + ", " + bench_->event_kind(event) + ": " +
-                         result.message;
+        result.message = "event " + std::to_string(event + 1) + " of " + std::to_string(count) +
+                         ", " + recording_.kinds[event] + ": " + result.message;
         succeeds(result);
         return let_go();
     }
     events_played_ = event + 1;
-    if (event + 1 < event_count_) return;
+    if (event + 1 < count) return;
     plays_ = false;
     let_go();
-    if (!bench_->play_differs()) {
-        tell(LineKind::result, "played " + std::to_string(event_count_) +
-                                   " events, which come to the scene that was recorded");
-    }
+    if (done.differs) return;
+    tell(LineKind::result,
+         "played " + std::to_string(count) + " events, which come to the scene that was recorded");
 }
 
 // A recording that ends early leaves no button down.
@@ -775,21 +637,6 @@ void Session::let_go() {
     ToolInput cancel;
     cancel.kind = ToolInput::Kind::cancel;
     succeeds(bench_->take(cancel));
-}
-
-// Returns a recording's name of a file: its place beside or below the recording, else its whole
-// path.
-std::string Session::told_path(const std::string& path) const {
-    if (options_.record.empty()) return path;
-    std::error_code error;
-    const auto folder_of = [&](const fs::path& file) {
-        return fs::weakly_canonical(fs::absolute(file, error).parent_path(), error);
-    };
-    const fs::path from = folder_of(options_.record);
-    const fs::path whole = folder_of(path) / fs::path(path).filename();
-    const fs::path below = whole.lexically_relative(from);
-    const bool is_below = !below.empty() && *below.begin() != "..";
-    return (is_below ? below : whole).generic_string();
 }
 
 // ---- Tools
@@ -811,19 +658,6 @@ void Session::recover() {
     }
 }
 
-// A journal that was not asked for lies elsewhere: it calls files by their whole paths.
-void Session::begin_records(const std::vector<std::string>& open) {
-    std::vector<std::string> told, whole;
-    std::error_code error;
-    for (const std::string& path : open) {
-        told.push_back(told_path(path));
-        whole.push_back(fs::absolute(path, error).generic_string());
-    }
-    if (!options_.record.empty()) succeeds(bench_->record("record", told, options_.load));
-    succeeds(
-        bench_->record("keep_journal", options_.journal.empty() ? whole : open, options_.load));
-}
-
 // A scene is there that was not before: it is seen and recorded as `open`, and the tool works on
 // it unless a recording brings its own.
 void Session::settle_scene(const std::vector<std::string>& open, bool takes_tool) {
@@ -831,17 +665,18 @@ void Session::settle_scene(const std::vector<std::string>& open, bool takes_tool
     if (bench_->has_scene()) {
         bench_->publish_scene();
         succeeds(bench_->take(look_));
-        begin_records(open);
+        for (const auto& begun : records_.begin(*bench_, open, options_.load)) succeeds(begun);
         // A recording begins with the scene that the script has made.
-        const bool selects = options_.record.empty();
+        const bool selects = !records_.has_recording();
         if (!kept_.empty()) succeeds(bench_->restore(std::exchange(kept_, ""), selects));
         if (!options_.tool.empty() && takes_tool) settle_tool(options_.tool);
         if (pictures_ == 0) return show_scene(true);
     }
     ToolState state = bench_->state();
+    state.hand.reset();
     state.scene = scene_number_;
     const std::lock_guard lock(mutex_);
-    news_.tool_state = std::move(state);
+    shared_.news.tool_state = std::move(state);
 }
 
 bool Session::settle_tool(const std::string& word) {
@@ -850,11 +685,12 @@ bool Session::settle_tool(const std::string& word) {
              "tools work on a scene: open meshes, or let the script return a scene or meshes");
         return false;
     }
-    const bool done = succeeds(bench_->use(word, word.ends_with(".lua") ? told_path(word) : word));
+    const bool done =
+        succeeds(bench_->use(word, word.ends_with(".lua") ? records_.told_path(word) : word));
     tell_whether_mended(word, done);
     const std::vector<fs::path> files = bench_->tool_files(word);
     const std::lock_guard lock(mutex_);
-    news_.tool_files = files;
+    shared_.tool_files = files;
     return done;
 }
 
@@ -863,14 +699,14 @@ void Session::keep_tool(const std::string& word) {
     options_.tool = word;
     const std::vector<fs::path> files = bench_->tool_files(word);
     const std::lock_guard lock(mutex_);
-    news_.tool_files = files;
+    shared_.tool_files = files;
 }
 
 void Session::take_inputs() {
     std::unique_lock lock(mutex_);
-    if (news_.inputs.empty()) return;
-    const std::vector<ToolInput> inputs = std::move(news_.inputs.front());
-    news_.inputs.pop_front();
+    if (shared_.inputs.empty()) return;
+    const std::vector<ToolInput> inputs = std::move(shared_.inputs.front());
+    shared_.inputs.pop_front();
     lock.unlock();
     begin_work();
     bool only_looks = true;
@@ -917,55 +753,31 @@ void Session::show_scene(bool always) {
     try {
         ToolState state = bench_->state();
         state.scene = scene_number_;
-        const ToolBench::Looked looked = bench_->looked();
-        state.camera = looked.camera;
-        state.up = looked.up;
         if (state.camera) look_.camera = *state.camera;
         if (state.up) look_.up = *state.up;
-        if (shows_hand_) state.hand = bench_->hand();
+        if (!shows_hand_) state.hand.reset();
         // The last event shows it as well.
         shows_hand_ = plays_;
         const bool same = state == last_state_ && !state.camera;
         if (same && !always) return;
-        Picture picture = bench_->picture();
-        std::vector<std::string> names = bench_->names_of(picture);
-        show(frozen_.freeze(std::move(picture)), std::move(names));
+        ToolPicture seen = bench_->picture();
+        show(frozen_.freeze(std::move(seen.picture)), std::move(seen.names));
         last_state_ = state;
         const std::lock_guard lock(mutex_);
         // One that the window has not seen yet.
-        if (news_.tool_state && !state.camera) {
-            state.camera = news_.tool_state->camera;
-            state.up = news_.tool_state->up;
+        if (shared_.news.tool_state && !state.camera) {
+            state.camera = shared_.news.tool_state->camera;
+            state.up = shared_.news.tool_state->up;
         }
-        news_.tool_state = std::move(state);
+        shared_.news.tool_state = std::move(state);
     } catch (const Error& error) {
         tell(LineKind::error, error.message());
     } catch (const std::bad_alloc&) {
         tell(LineKind::error, "there is no memory to show this");
     }
-    if (always) save_records();
+    const std::string problem = always ? records_.save(*bench_) : "";
+    if (!problem.empty()) tell(LineKind::error, problem);
     wake_();
-}
-
-void Session::save_records() {
-    save_record("recording", options_.record, recorded_);
-    save_record("journal_text", options_.journal, told_);
-}
-
-// Writes the text of the host's method `what`, if it differs from the saved one.
-void Session::save_record(const char* what, const std::string& path, std::string& saved) {
-    if (path.empty() || bench_->is_held()) return;
-    const std::optional<std::string> text = bench_->text_of(what);
-    if (!text || *text == saved) return;
-    if (write_whole(path, *text)) {
-        saved = *text;
-        record_fails_ = false;
-        return;
-    }
-    // It is tried again at the next change.
-    if (!std::exchange(record_fails_, true)) {
-        tell(LineKind::error, "the recording cannot be written to " + path);
-    }
 }
 
 // The state of the script, else one of its own, with the variable `lissom`.
@@ -974,8 +786,7 @@ lua_State* Session::console_state() {
     if (!script_) open_script({});
     lua_State* L = script_->lua();
     lua_settop(L, 0);
-    lua_pushcfunction(L, provide_library);
-    if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
+    provide_library(L);
     return L;
 }
 
@@ -984,7 +795,7 @@ void Session::find_completions(const std::string& text) {
     lua_settop(script_->lua(), 0);
     {
         const std::lock_guard lock(mutex_);
-        news_.completion = std::move(completion);
+        shared_.news.completion = std::move(completion);
     }
     wake_();
 }
@@ -1017,7 +828,7 @@ void Session::evaluate_line(const std::string& line) {
             show_scene(true);
         } else {
             for (int i = 1; i <= lua_gettop(L); ++i) tell(LineKind::result, cli::display(L, i));
-            const bool holds = bench_->holds(1, lua_gettop(L));
+            const bool holds = bench_->holds({1, lua_gettop(L)});
             if (holds || !show_values()) show_scene(true);
         }
     }
@@ -1037,9 +848,9 @@ void Session::show(Picture picture, std::vector<std::string> names) {
     next.picture = std::make_shared<const Picture>(std::move(picture));
     {
         const std::lock_guard lock(mutex_);
-        next.number = ++news_.number;
+        next.number = ++shared_.number;
         last_shown_ = next;
-        news_.shown = std::move(next);
+        shared_.news.shown = std::move(next);
     }
     wake_();
 }
@@ -1047,7 +858,7 @@ void Session::show(Picture picture, std::vector<std::string> names) {
 void Session::tell(LineKind kind, const std::string& text) {
     {
         const std::lock_guard lock(mutex_);
-        if (news_.lines.size() < kMostLines) news_.lines.push_back({kind, text});
+        if (shared_.news.lines.size() < kMostLines) shared_.news.lines.push_back({kind, text});
     }
     wake_();
 }
@@ -1055,15 +866,11 @@ void Session::tell(LineKind kind, const std::string& text) {
 void Session::publish_parameters() {
     const auto& declared = script_->state().parameters;
     const std::lock_guard lock(mutex_);
-    if (declared) news_.parameters = declared->list;
+    if (declared) shared_.news.parameters = declared->list;
 }
 
 void Session::find_files(const std::string& script) {
-    std::vector<fs::path> files;
-    lua_State* L = script_->lua();
-    lua_pushlightuserdata(L, &files);
-    lua_pushcclosure(L, list_module_files, 1);
-    if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
+    std::vector<fs::path> files = module_files(script_->lua());
     files.emplace_back(script);
     set_files(std::move(files));
 }
@@ -1071,7 +878,7 @@ void Session::find_files(const std::string& script) {
 // Files that the open document was read from.
 void Session::set_files(std::vector<fs::path> files) {
     const std::lock_guard lock(mutex_);
-    news_.files = std::move(files);
+    shared_.files = std::move(files);
 }
 
 // print, with the session as upvalue 1.

@@ -14,56 +14,17 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/cli/repl/completion.h"
 #include "bindings/cli/script.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/core/clock.h"
 #include "kernel/io/mesh_file.h"
-#include "viewer/render/picture.h"
+#include "viewer/window/session/record_files.h"
+#include "viewer/window/session/session_news.h"
 #include "viewer/window/session/snapshot_bounds.h"
-#include "viewer/window/session/tool_bench.h"
 #include "viewer/window/session/worker.h"
+#include "viewer/window/tools/tool_bench.h"
 
 namespace lissom::window {
-
-enum class LineKind { message, result, input, warning, error };
-
-/// A line of the console.
-struct ConsoleLine {
-    LineKind kind = LineKind::message;
-    std::string text;
-    /// How often it was told, one after the other.
-    int times = 1;
-};
-
-/// Adds a line behind the others. A warning that differs from the last line in its numbers alone
-/// takes its place and counts it, as a hand that goes on makes many of them.
-void add_line(std::vector<ConsoleLine>& lines, ConsoleLine line);
-
-/// Something finished to look at.
-struct Shown {
-    std::shared_ptr<const Picture> picture;
-    /// Names of the meshes, if they have any.
-    std::vector<std::string> names;
-    Snapshot snapshot;
-    Box bounds;
-    /// Grows with every one.
-    std::uint64_t number = 0;
-};
-
-/// How a line of the console may go on.
-struct Completion {
-    /// The line up to the cursor, as it was asked for.
-    std::string text;
-    cli::Completions found;
-};
-
-/// A recording that is ready to be played.
-struct Playback {
-    std::string path;
-    /// Seconds of its events, in their order.
-    std::vector<double> times;
-};
 
 struct SessionOptions {
     /// The tool that is in hand from the first: a file, or the name of one that ships.
@@ -123,8 +84,6 @@ class Session {
 
     // ---- Playing
 
-    /// Returns the recording that was opened since the last call.
-    std::optional<Playback> take_playback();
     /// Returns whether events of it are taken: until the last, a failure or `stop_playing`.
     bool is_playing() const { return plays_; }
     /// Number of events that are done.
@@ -140,22 +99,8 @@ class Session {
     bool has_setting() const;
     /// Returns the name of the running operation, and the fraction done.
     std::pair<std::string, double> progress() const;
-    /// Returns the words opened since the last call.
-    std::optional<std::vector<std::string>> take_opened();
-    /// Returns the number that the last scene saved since the last call was saved with.
-    std::optional<std::uint64_t> take_saved();
-    /// Returns the tools that were found since the last call: file and name of each.
-    std::vector<std::pair<std::string, std::string>> take_tools();
-    /// Returns the picture finished since the last call.
-    std::optional<Shown> take_shown();
-    /// Lines of the console since the last call.
-    std::vector<ConsoleLine> take_lines();
-    /// Returns the completion asked for last, if it was found since the last call.
-    std::optional<Completion> take_completion();
-    /// Returns the parameters that the script has declared, since the last call.
-    std::optional<std::vector<lua::ScriptParameter>> take_parameters();
-    /// Returns the panel's state of the scene and the tool, since the last call.
-    std::optional<ToolState> take_tool_state();
+    /// Returns the results since the last call.
+    SessionNews take_news();
     /// Returns the files of the shown picture: the script, its required modules, or the files.
     std::vector<std::filesystem::path> files() const;
     /// Returns the files of the tool in hand.
@@ -197,8 +142,6 @@ class Session {
     bool open_recording(const std::string& path, bool is_new);
     void play(std::size_t event);
     void let_go();
-    std::string told_path(const std::string& path) const;
-    void begin_records(const std::vector<std::string>& open);
     void settle_scene(const std::vector<std::string>& open, bool takes_tool = true);
     bool settle_tool(const std::string& word);
     void keep_tool(const std::string& word);
@@ -216,8 +159,6 @@ class Session {
     void recover();
     void draw_marks();
     void show_scene(bool always);
-    void save_records();
-    void save_record(const char* what, const std::string& path, std::string& saved);
     void evaluate_line(const std::string& line);
     lua_State* console_state();
     void find_completions(const std::string& text);
@@ -231,32 +172,24 @@ class Session {
     cli::Program& program_;
     std::function<void()> wake_;
 
-    // Shared, under the mutex: requests, and results to be taken.
-    struct News {
+    // Shared, under the mutex: requests, and the state of the work.
+    struct Shared {
+        SessionNews news;
         // Words of the open document, and of the one to be opened.
         std::vector<std::string> words, asked;
-        std::optional<std::vector<std::string>> opened;
-        std::optional<std::uint64_t> saved;
-        std::vector<std::pair<std::string, std::string>> tools;
-        std::optional<Shown> shown;
-        std::vector<ConsoleLine> lines;
-        std::optional<std::vector<lua::ScriptParameter>> parameters;
         std::vector<std::filesystem::path> files, tool_files;
         // Each is taken by a job of its own; the last of them grows while no other job follows it.
         std::deque<std::vector<ToolInput>> inputs;
         bool takes_inputs_last = false;
         // The last waiting job, if it sets a parameter of the tool.
         std::shared_ptr<Setting> last_setting;
-        std::optional<ToolState> tool_state;
-        std::optional<Completion> completion;
-        std::optional<Playback> playback;
         std::string stage;
         double fraction = 0.0;
         Clock::time_point work_began;
         std::uint64_t number = 0;
     };
     mutable std::mutex mutex_;
-    News news_;
+    Shared shared_;
 
     std::atomic<bool> plays_{false};
     // Running work is stopped for something else.
@@ -270,19 +203,19 @@ class Session {
 
     // The worker's own.
     SessionOptions options_;
-    std::size_t event_count_ = 0;
+    Recording recording_;
     bool shows_hand_ = false;
     std::function<void(const Picture&)> listener_;
     std::unique_ptr<cli::Script> script_;
     std::unique_ptr<ToolBench> bench_;
     ToolInput look_;
-    std::string recorded_, told_, draw_error_;
+    RecordFiles records_;
+    std::string draw_error_;
     // The script or tool that failed last, as it was called.
     std::string broken_;
     // The script of the present scene, and its state kept when it runs again.
     std::string ran_, kept_;
     std::uint64_t scene_number_ = 0;
-    bool record_fails_ = false;
     ToolState last_state_;
     FrozenMeshes frozen_;
     SnapshotBounds bounds_;

@@ -10,7 +10,7 @@
 #include "viewer/window/panel/panel.h"
 #include "viewer/window/screen/display.h"
 #include "viewer/window/screen/screen.h"
-#include "viewer/window/session/tool_input.h"
+#include "viewer/window/tools/tool_input.h"
 
 using namespace lissom;
 using namespace lissom::window;

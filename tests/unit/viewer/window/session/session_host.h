@@ -34,6 +34,34 @@ struct SessionHost {
     std::vector<window::ConsoleLine> lines;
     window::SessionOptions options;
     window::Session session{program, [this] { ++wakes; }, options};
+    // News that no test has asked for yet.
+    window::SessionNews news;
+
+    // Returns a result since the last call.
+    template <typename Value>
+    Value take(Value window::SessionNews::*result) {
+        merge(session.take_news());
+        return std::exchange(news.*result, Value());
+    }
+    // Newer results take the place of older ones; lists grow.
+    void merge(window::SessionNews next) {
+        const auto renew = [](auto& kept, auto& value) {
+            if (value) kept = std::move(value);
+        };
+        renew(news.opened, next.opened);
+        renew(news.saved, next.saved);
+        renew(news.shown, next.shown);
+        renew(news.parameters, next.parameters);
+        if (next.tool_state && news.tool_state && !next.tool_state->camera) {
+            next.tool_state->camera = news.tool_state->camera;
+            next.tool_state->up = news.tool_state->up;
+        }
+        renew(news.tool_state, next.tool_state);
+        renew(news.completion, next.completion);
+        renew(news.playback, next.playback);
+        news.tools.insert(news.tools.end(), next.tools.begin(), next.tools.end());
+        news.lines.insert(news.lines.end(), next.lines.begin(), next.lines.end());
+    }
 
     // Milliseconds until nothing runs.
     double wait(double seconds = 60.0) {
@@ -45,7 +73,7 @@ struct SessionHost {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         CHECK_FALSE(session.busy());
-        for (window::ConsoleLine& line : session.take_lines()) {
+        for (window::ConsoleLine& line : take(&window::SessionNews::lines)) {
             lines.push_back(std::move(line));
         }
         return 1e3 * spent();
@@ -64,7 +92,7 @@ struct SessionHost {
     // Lets the script come as far as its first print.
     void wait_for_line() {
         while (lines.empty()) {
-            lines = session.take_lines();
+            lines = take(&window::SessionNews::lines);
             std::this_thread::yield();
         }
     }

@@ -25,7 +25,7 @@ constexpr const char* kBar = "local lissom = require 'lissom'\n";
 TEST_CASE("session: what a script returns is shown, tables and scenes too") {
     Host host;
     host.run(std::string(kBar) + "return lissom.shapes.box{}");
-    auto shown = host.session.take_shown();
+    auto shown = host.take(&SessionNews::shown);
     REQUIRE(shown);
     CHECK(shown->picture->meshes.size() == 1);
     CHECK_FALSE(shown->bounds.empty());
@@ -33,7 +33,7 @@ TEST_CASE("session: what a script returns is shown, tables and scenes too") {
     host.run(std::string(kBar) +
              "local box = lissom.shapes.box{}\n"
              "return { box, again = box, { deeper = lissom.shapes.torus{} } }");
-    shown = host.session.take_shown();
+    shown = host.take(&SessionNews::shown);
     REQUIRE(shown);
     CHECK(shown->picture->meshes.size() == 2);
     host.run(std::string(kBar) +
@@ -41,7 +41,7 @@ TEST_CASE("session: what a script returns is shown, tables and scenes too") {
              "scene:add('box', lissom.shapes.box{}, { transform = "
              "{ {1, 0, 0, 5}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1} } })\n"
              "return scene");
-    shown = host.session.take_shown();
+    shown = host.take(&SessionNews::shown);
     REQUIRE(shown);
     REQUIRE(shown->picture->meshes.size() == 1);
     CHECK(shown->bounds.center().x() == doctest::Approx(5.0));
@@ -51,13 +51,13 @@ TEST_CASE("session: what a script returns is shown, tables and scenes too") {
 TEST_CASE("session: what is shown stays as it was whatever the script does then") {
     Host host;
     host.run(std::string(kBar) + "box = lissom.shapes.box{}\nreturn box");
-    const auto shown = host.session.take_shown();
+    const auto shown = host.take(&SessionNews::shown);
     REQUIRE(shown);
     const Vec3 before = shown->picture->meshes[0].mesh->position(0);
     host.session.evaluate("box:transform{ translate = {9, 9, 9} }");
     host.wait();
     CHECK(shown->picture->meshes[0].mesh->position(0) == before);
-    const auto moved = host.session.take_shown();
+    const auto moved = host.take(&SessionNews::shown);
     REQUIRE(moved);
     CHECK(moved->number > shown->number);
     CHECK(moved->picture->meshes[0].mesh->position(0).x() == doctest::Approx(before.x() + 9.0));
@@ -69,7 +69,7 @@ TEST_CASE("session: parameters come with the script, and its command line sets t
                  "local p = lissom.params{ size = { type = 'number', default = 1, min = 0.1, "
                  "max = 9 } }\nprint('size', p.size)\nreturn lissom.shapes.box{}",
              {"--size=3"});
-    const auto parameters = host.session.take_parameters();
+    const auto parameters = host.take(&SessionNews::parameters);
     REQUIRE(parameters);
     REQUIRE(parameters->size() == 1);
     CHECK(std::get<double>(*parameters->front().value) == 3.0);
@@ -82,10 +82,10 @@ TEST_CASE("session: parameters come with the script, and its command line sets t
 TEST_CASE("session: an error tells file and line, and what was shown is not taken away") {
     Host host;
     host.run(std::string(kBar) + "return lissom.shapes.box{}");
-    REQUIRE(host.session.take_shown());
+    REQUIRE(host.take(&SessionNews::shown));
     host.run("local x = nil\nx()");
     CHECK(host.says(LineKind::error, "script.lua:2:"));
-    CHECK_FALSE(host.session.take_shown());
+    CHECK_FALSE(host.take(&SessionNews::shown));
     host.run("this is no Lua");
     CHECK(host.says(LineKind::error, "script.lua:1:"));
     host.run("print 'nothing to see'");
@@ -168,7 +168,7 @@ TEST_CASE("session: the console has the library, and keeps its variables") {
     CHECK(host.says(LineKind::result, "true"));
     host.session.evaluate("t");
     host.wait();
-    CHECK(host.session.take_shown());
+    CHECK(host.take(&SessionNews::shown));
     host.session.evaluate("t:nothing()");
     host.wait();
     CHECK(host.says(LineKind::error, "nothing"));
@@ -179,7 +179,7 @@ TEST_CASE("session: lines are completed from what can be called and from the scr
     const auto words_for = [&](const std::string& text) {
         host.session.complete(text);
         host.wait();
-        const auto completion = host.session.take_completion();
+        const auto completion = host.take(&SessionNews::completion);
         REQUIRE(completion);
         CHECK(completion->text == text);
         return completion->found.words;
@@ -194,16 +194,16 @@ TEST_CASE("session: lines are completed from what can be called and from the scr
     CHECK(words_for("my_") == std::vector<std::string>{"my_mesh"});
     CHECK(has(words_for("my_mesh:sub"), "subdivide"));
     CHECK(words_for("nothing_like_this").empty());
-    CHECK_FALSE(host.session.take_completion());
+    CHECK_FALSE(host.take(&SessionNews::completion));
     // What runs goes on, and the answer comes after it.
     host.lines.clear();
     host.session.open({host.folder.write("script.lua", "print 'on'\nwhile true do end")});
     host.wait_for_line();
     host.session.complete("lissom.sha");
-    CHECK_FALSE(host.session.take_completion());
+    CHECK_FALSE(host.take(&SessionNews::completion));
     host.session.cancel();
     host.wait();
-    CHECK(host.session.take_completion());
+    CHECK(host.take(&SessionNews::completion));
 }
 
 TEST_CASE("session: mesh files are turned and scaled as they are asked to be, in recordings too") {
@@ -214,7 +214,7 @@ TEST_CASE("session: mesh files are turned and scaled as they are asked to be, in
     Host host({.record = folder.path("done.lua"), .load = options});
     host.session.open({folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 0 2\nf 1 2 3\n")});
     host.wait();
-    const auto shown = host.session.take_shown();
+    const auto shown = host.take(&SessionNews::shown);
     REQUIRE(shown);
     CHECK(shown->bounds.max.y() == doctest::Approx(20.0));
     CHECK(shown->bounds.max.x() == doctest::Approx(10.0));
@@ -239,10 +239,10 @@ TEST_CASE("session: what a script draws is shown, but for a picture that cannot 
         "lissom.render{ meshes = { lissom.shapes.box{}, lissom.shapes.torus{} }, "
         "columns = 2, size = { 64, 48 }, file = ";
     host.run(std::string(kBar) + boxes + "'/nowhere/a.png' }");
-    CHECK_FALSE(host.session.take_shown());
+    CHECK_FALSE(host.take(&SessionNews::shown));
     if (!test::can_draw()) return;
     host.run(std::string(kBar) + boxes + "'" + host.folder.path("a.png") + "' }");
-    const auto shown = host.session.take_shown();
+    const auto shown = host.take(&SessionNews::shown);
     REQUIRE(shown);
     CHECK(shown->picture->meshes.size() == 2);
     CHECK_FALSE(host.says(LineKind::warning, "shows nothing"));

@@ -1,4 +1,4 @@
-#include "viewer/window/session/tool_input.h"
+#include "viewer/window/tools/tool_input.h"
 
 #include <algorithm>
 #include <cctype>

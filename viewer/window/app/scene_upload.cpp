@@ -1,4 +1,4 @@
-#include "viewer/window/app/stage.h"
+#include "viewer/window/app/scene_upload.h"
 
 #include <utility>
 #include <vector>
@@ -24,41 +24,41 @@ Index work_for(const std::vector<SurfaceNeeds>& needs) {
 
 }  // namespace
 
-Stage::Stage(ViewState& state, HairFill& hair, int threads)
+SceneUpload::SceneUpload(ViewState& state, HairFill& hair, int threads)
     : state_(state), hair_(hair), maker_(threads, [] { GlfwWindow::wake(); }) {}
 
-bool Stage::is_sent() const {
+bool SceneUpload::is_sent() const {
     const auto& shown = state_.shown;
     return !shown || (sent_ == shown->picture && sent_settings_ == state_.settings);
 }
 
-void Stage::forget_preparing() {
+void SceneUpload::forget_preparing() {
     preparing_.reset();
     sender_.reset();
     pieces_left_ = false;
 }
 
-void Stage::forget() {
+void SceneUpload::forget() {
     forget_preparing();
     sent_.reset();
     hair_.forget();
 }
 
-void Stage::take() {
+void SceneUpload::take() {
     auto made = maker_.take();
     if (!made) return;
     prepared_ = std::move(made);
     state_.changes.add();
 }
 
-void Stage::send(const Sent& sent, std::span<const PreparedSurface> prepared) {
+void SceneUpload::send(const Sent& sent, std::span<const PreparedSurface> prepared) {
     state_.screen->update(sent.snapshot, prepared);
     hair_.begin(sent.snapshot);
     sent_ = sent.picture;
     sent_settings_ = sent.settings;
 }
 
-void Stage::send_pieces() {
+void SceneUpload::send_pieces() {
     if (!pieces_left_) return;
     const auto start = Clock::now();
     try {
@@ -69,14 +69,14 @@ void Stage::send_pieces() {
     if (!pieces_left_) state_.changes.add();
 }
 
-void Stage::give_up(const Error& error) {
+void SceneUpload::give_up(const Error& error) {
     state_.add_line(LineKind::error, error.message());
     state_.tell("error " + error.message());
     forget_preparing();
     state_.shown.reset();
 }
 
-void Stage::begin_sending() {
+void SceneUpload::begin_sending() {
     auto ready = std::exchange(prepared_, std::nullopt);
     if (!preparing_ || !ready || ready->number != preparations_) return;
     if (!ready->error.empty()) {
@@ -88,7 +88,7 @@ void Stage::begin_sending() {
 }
 
 // Returns false if there is more to wait for.
-bool Stage::end_sending() {
+bool SceneUpload::end_sending() {
     if (!sender_ || pieces_left_) return false;
     const Sent sent = *std::exchange(preparing_, std::nullopt);
     send(sent, sender_->surfaces());
@@ -98,7 +98,7 @@ bool Stage::end_sending() {
 }
 
 // Some of many that follow each other are shown.
-void Stage::send() {
+void SceneUpload::send() {
     if (is_sent()) return forget_preparing();
     begin_sending();
     if (preparing_ && !end_sending()) return;

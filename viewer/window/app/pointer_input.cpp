@@ -1,4 +1,4 @@
-#include "viewer/window/app/hand.h"
+#include "viewer/window/app/pointer_input.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +13,16 @@ constexpr double kZoomStep = 1.15;
 
 }  // namespace
 
-void Hand::take(const Input& input) {
+void PointerInput::take(const Input& input) {
     if (!give_to_tool(input)) navigate(input);
 }
 
-void Hand::let_go() {
+void PointerInput::let_go() {
     dragged_.reset();
     tool_drags_ = false;
 }
 
-void Hand::navigate(const Input& input) {
+void PointerInput::navigate(const Input& input) {
     switch (input.kind) {
         case Input::Kind::press:
             dragged_ = input.modifiers.shift ? MouseButton::middle : input.button;
@@ -56,7 +56,7 @@ void Hand::navigate(const Input& input) {
 
 // With a tool in hand the left button is the tool's, but with alt, and the wheel while that is
 // down or with ctrl; the others move the camera.
-bool Hand::give_to_tool(const Input& input) {
+bool PointerInput::give_to_tool(const Input& input) {
     ToolInput event;
     event.at = state_.pixels.at(input.at);
     event.modifiers = input.modifiers;
@@ -95,7 +95,7 @@ bool Hand::give_to_tool(const Input& input) {
     return true;
 }
 
-void Hand::press_tool_key(const Input& input) {
+void PointerInput::press_tool_key(const Input& input) {
     ToolInput event;
     event.kind = ToolInput::Kind::key;
     event.modifiers = input.modifiers;

@@ -1,4 +1,4 @@
-/// Hand: input over the picture: it moves the camera, or goes to the tool in hand.
+/// PointerInput: input over the picture: it moves the camera, or goes to the tool in hand.
 #pragma once
 
 #include <optional>
@@ -7,10 +7,10 @@
 
 namespace lissom::window {
 
-class Hand {
+class PointerInput {
   public:
     /// `state` must outlive it.
-    explicit Hand(ViewState& state) : state_(state) {}
+    explicit PointerInput(ViewState& state) : state_(state) {}
 
     /// Takes an input of the mouse, in pixels from the top left corner of the picture.
     void take(const Input& input);

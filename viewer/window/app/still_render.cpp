@@ -1,4 +1,4 @@
-#include "viewer/window/app/finishing.h"
+#include "viewer/window/app/still_render.h"
 
 #include <filesystem>
 #include <memory>
@@ -20,11 +20,11 @@ std::string new_picture_path() {
 
 }  // namespace
 
-Finishing::Finishing(ViewState& state, int threads)
+StillRender::StillRender(ViewState& state, int threads)
     : state_(state), painter_(threads, [] { GlfwWindow::wake(); }) {}
 
 // It may take a while to come.
-void Finishing::want_file() {
+void StillRender::want_file() {
     wants_file_ = true;
     state_.content.draws_picture = true;
     state_.tell("taking a picture");
@@ -33,7 +33,7 @@ void Finishing::want_file() {
                                  : "a picture is saved as soon as there is something to see");
 }
 
-void Finishing::take() {
+void StillRender::take() {
     const auto result = painter_.take();
     if (!result || result->number != state_.changes.number()) return;
     drawn_ = result->number;
@@ -53,15 +53,15 @@ void Finishing::take() {
     state_.changes.owe_frames();
 }
 
-bool Finishing::is_owed() const {
+bool StillRender::is_owed() const {
     return drawn_ != state_.changes.number() && state_.settings.sharp;
 }
 
-bool Finishing::is_wanted(bool hair_is_filled) const {
+bool StillRender::is_wanted(bool hair_is_filled) const {
     return state_.shown && ((state_.settings.sharp && hair_is_filled) || wants_file_);
 }
 
-void Finishing::draw(bool at_rest, bool hair_is_filled) {
+void StillRender::draw(bool at_rest, bool hair_is_filled) {
     const std::uint64_t now = state_.changes.number();
     if (!at_rest) {
         if (asked_ == now) return;
@@ -81,7 +81,7 @@ void Finishing::draw(bool at_rest, bool hair_is_filled) {
     drawn_ = 0;
 }
 
-void Finishing::tell_rest(bool at_rest, bool busy) {
+void StillRender::tell_rest(bool at_rest, bool busy) {
     const std::uint64_t now = state_.changes.number();
     const bool done = at_rest && !busy && !draws_file_ && (!is_wanted(true) || drawn_ == now);
     if (done && !was_done_ && (state_.has_told || rested_ != now)) {

@@ -1,4 +1,4 @@
-#include "viewer/window/app/keeping.h"
+#include "viewer/window/app/scene_autosave.h"
 
 #include <algorithm>
 #include <iostream>
@@ -13,7 +13,7 @@ constexpr double kCopyEvery = 1.0;
 
 }  // namespace
 
-void Keeping::begin(const std::string& first) {
+void SceneAutosave::begin(const std::string& first) {
     first_ = first;
     saved_path_.clear();
     opened_ = first_ == asked_ ? asked_ : std::filesystem::path();
@@ -21,7 +21,7 @@ void Keeping::begin(const std::string& first) {
     asked_.clear();
 }
 
-void Keeping::copy() {
+void SceneAutosave::copy() {
     if (change_ == copied_ || seconds_since(last_copy_) < kCopyEvery) return;
     if (state_.session.busy()) return;
     copied_ = change_;
@@ -29,7 +29,7 @@ void Keeping::copy() {
     state_.session.copy_scene(recovery_.file().string(), recovery_.journal().string());
 }
 
-std::optional<std::string> Keeping::answer(const PanelAnswers& answers) {
+std::optional<std::string> SceneAutosave::answer(const PanelAnswers& answers) {
     auto& all = state_.content.left;
     if (all.empty() || !(answers.open_left || answers.forget_left)) return std::nullopt;
     const std::filesystem::path left = all.front();
@@ -44,13 +44,13 @@ std::optional<std::string> Keeping::answer(const PanelAnswers& answers) {
     return left.string();
 }
 
-void Keeping::forget_opened() {
+void SceneAutosave::forget_opened() {
     if (!opened_.empty()) Recovery::remove(std::exchange(opened_, {}));
 }
 
 // A free name here: the scene of armadillo.obj is armadillo.lissom; that of a copy, which may go at
 // any time, is recovered.lissom.
-std::string Keeping::scene_path() const {
+std::string SceneAutosave::scene_path() const {
     const bool is_copy = first_.parent_path() == state_folder();
     if (first_.extension() == ".lissom" && !is_copy) return first_.string();
     const std::string stem = is_copy ? "recovered" : first_.stem().string();
@@ -61,12 +61,12 @@ std::string Keeping::scene_path() const {
     }
 }
 
-void Keeping::save() {
+void SceneAutosave::save() {
     if (saved_path_.empty()) saved_path_ = scene_path();
     state_.session.save_scene(saved_path_, state_.content.tool.scene, change_);
 }
 
-void Keeping::take_saved(std::uint64_t change) {
+void SceneAutosave::take_saved(std::uint64_t change) {
     saved_ = std::max(saved_, change);
     if (saved_ != change_) return;
     copied_ = change_;
@@ -74,7 +74,7 @@ void Keeping::take_saved(std::uint64_t change) {
     forget_opened();
 }
 
-void Keeping::keep_unsaved() {
+void SceneAutosave::keep_unsaved() {
     if (saved_ == change_) return;
     const std::filesystem::path kept = recovery_.keep();
     if (kept.empty()) return;
@@ -83,7 +83,7 @@ void Keeping::keep_unsaved() {
               << std::endl;
 }
 
-void Keeping::replace() {
+void SceneAutosave::replace() {
     const std::filesystem::path kept = saved_ == change_ ? "" : recovery_.keep();
     saved_ = copied_ = ++change_;
     if (kept.empty()) return;
@@ -92,7 +92,7 @@ void Keeping::replace() {
     state_.add_line(LineKind::warning, std::move(text));
 }
 
-void Keeping::offer() {
+void SceneAutosave::offer() {
     const auto& all = state_.content.left = Recovery::left_in(state_folder());
     if (all.empty()) return;
     const std::filesystem::path& left = all.front();

@@ -1,5 +1,5 @@
-/// Stage: brings the shown picture onto the graphics card. Long work is done beside the window and
-/// sent in pieces; the window shows the previous picture meanwhile.
+/// SceneUpload: brings the shown picture onto the graphics card. Long work is done beside the
+/// window and sent in pieces; the window shows the previous picture meanwhile.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@
 
 namespace lissom::window {
 
-class Stage {
+class SceneUpload {
   public:
     /// Makes surfaces ready with so many threads; both must outlive it.
-    Stage(ViewState& state, HairFill& hair, int threads);
+    SceneUpload(ViewState& state, HairFill& hair, int threads);
 
     /// Returns whether the shown picture is on the graphics card.
     bool is_sent() const;

@@ -1,4 +1,4 @@
-#include "viewer/window/app/script_side.h"
+#include "viewer/window/app/script_reload.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -33,16 +33,16 @@ std::vector<std::string> words_of(const std::vector<lua::ScriptParameter>& param
 
 }  // namespace
 
-void ScriptSide::begin(const std::string& first) {
+void ScriptReload::begin(const std::string& first) {
     presets_ = Presets(is_script(first) ? first : "");
     list_presets();
 }
 
-void ScriptSide::run_again() {
+void ScriptReload::run_again() {
     state_.session.run_again(words_of(state_.content.parameters));
 }
 
-void ScriptSide::look() {
+void ScriptReload::look() {
     if (state_.session.is_opening()) return;
     if (!state_.session.busy()) watch();
     tool_watch_.set(state_.session.tool_files());
@@ -59,21 +59,21 @@ void ScriptSide::look() {
     run_again();
 }
 
-void ScriptSide::answer(const PanelAnswers& answers) {
+void ScriptReload::answer(const PanelAnswers& answers) {
     if (answers.run_again) run_again();
     if (answers.parameters_changed) parameters_changed_ = Clock::now();
     if (answers.place) open_editor(*answers.place);
     answer_presets(answers);
 }
 
-void ScriptSide::take_failures() {
+void ScriptReload::take_failures() {
     for (const std::string& failure : programs_.failures()) {
         state_.add_line(LineKind::error, failure);
     }
 }
 
 // Without parameters in sight there is nothing to keep; a broken file is told when it is met.
-void ScriptSide::list_presets() {
+void ScriptReload::list_presets() {
     auto& listed = state_.content.presets;
     listed.reset();
     if (presets_.file().empty()) return;
@@ -85,7 +85,7 @@ void ScriptSide::list_presets() {
     }
 }
 
-void ScriptSide::answer_presets(const PanelAnswers& answers) {
+void ScriptReload::answer_presets(const PanelAnswers& answers) {
     if (!answers.load_preset && !answers.save_preset && !answers.remove_preset) return;
     auto& parameters = state_.content.parameters;
     try {
@@ -104,7 +104,7 @@ void ScriptSide::answer_presets(const PanelAnswers& answers) {
     list_presets();
 }
 
-void ScriptSide::open_editor(const SourcePlace& place) {
+void ScriptReload::open_editor(const SourcePlace& place) {
     const EditorHost host{
         [](const char* name) { return std::getenv(name); },
         [this](const std::vector<std::string>& words) { return programs_.start(words); }};

@@ -1,4 +1,4 @@
-#include "viewer/window/view_words.h"
+#include "viewer/window/view_arguments.h"
 
 #include <algorithm>
 #include <array>
@@ -24,8 +24,8 @@ bool has_value(std::string_view word) {
 
 }  // namespace
 
-ViewWords split_words(const std::vector<std::string>& words) {
-    ViewWords result;
+ViewArguments split_arguments(const std::vector<std::string>& words) {
+    ViewArguments result;
     bool behind = false, all = false, is_value = false;
     for (const std::string& word : words) {
         if (behind && !all && !is_value && word == "--") {

@@ -1,5 +1,5 @@
-/// Keeping: protects unsaved work: copies of the scene while it changes, saving, and the scenes
-/// left by killed windows.
+/// SceneAutosave: protects unsaved work: copies of the scene while it changes, saving, and the
+/// scenes left by killed windows.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace lissom::window {
 
-class Keeping {
+class SceneAutosave {
   public:
     /// `state` must outlive it.
-    explicit Keeping(ViewState& state) : state_(state) {}
+    explicit SceneAutosave(ViewState& state) : state_(state) {}
 
     /// Something else is open: files, or a script.
     void begin(const std::string& first);

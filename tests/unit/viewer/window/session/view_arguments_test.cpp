@@ -1,18 +1,18 @@
-#include "viewer/window/view_words.h"
+#include "viewer/window/view_arguments.h"
 
 #include <doctest/doctest.h>
 
 #include "tests/unit/bindings/cli/program_run.h"
 
 using namespace lissom;
-using window::split_words;
+using window::split_arguments;
 
 namespace {
 
 using Words = std::vector<std::string>;
 
 void check_split(const Words& words, const Words& own, const Words& scripts) {
-    const window::ViewWords split = split_words(words);
+    const window::ViewArguments split = split_arguments(words);
     CHECK(split.own == own);
     CHECK(split.scripts == scripts);
 }

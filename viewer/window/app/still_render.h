@@ -1,4 +1,4 @@
-/// Finishing: the finished picture that is drawn once nothing moves, for the eye and for files.
+/// StillRender: the finished picture that is drawn once nothing moves, for the eye and for files.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace lissom::window {
 
-class Finishing {
+class StillRender {
   public:
     /// Draws with so many threads; `state` must outlive it.
-    Finishing(ViewState& state, int threads);
+    StillRender(ViewState& state, int threads);
 
     /// A person wants it in a file, which is a new one in this folder.
     void want_file();

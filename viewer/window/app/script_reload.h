@@ -1,5 +1,5 @@
-/// ScriptSide: work on files and scripts beside showing their results: runs them again when they or
-/// their parameters change, keeps presets, opens an editor.
+/// ScriptReload: work on files and scripts beside showing their results: runs them again when they
+/// or their parameters change, keeps presets, opens an editor.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@
 
 namespace lissom::window {
 
-class ScriptSide {
+class ScriptReload {
   public:
     /// `state` must outlive it.
-    explicit ScriptSide(ViewState& state) : state_(state) {}
+    explicit ScriptReload(ViewState& state) : state_(state) {}
 
     /// Something else is open: files, or a script.
     void begin(const std::string& first);
