@@ -194,6 +194,19 @@ test("a gizmo is drawn", function()
     expect.equal(#host:draw().lines >= 3, true)
 end)
 
+test("a view whose camera was closed or whose size was changed draws no gizmo", function()
+    local kept
+    local host = host_of(ball_scene(), lissom.tool{ name = "keeps", draw = function(_, view) kept = view end })
+    host:draw()
+    local gizmo = lissom.gizmo{ mode = "move" }
+    expect.equal(rawequal(kept:gizmo(gizmo), kept), true)
+    kept.size[1] = "wide"
+    expect.error(function() kept:gizmo(gizmo) end, "size of the view")
+    kept.size[1] = 640
+    kept.camera:close()
+    expect.error(function() kept:gizmo(gizmo) end, "camera of the view")
+end)
+
 test("parameters are checked, and a tool hears of changes", function()
     local heard = {}
     local tool = pull()

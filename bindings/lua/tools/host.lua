@@ -126,16 +126,18 @@ function Event:select(options) return self.camera:select(filled(self, options)) 
 
 -- What is wrong with a field of an event, which is described as a parameter of a function is; nil if nothing.
 local function event_flaw(name, value, field)
-    if value == nil then return field.required and "needs " .. name or nil end
-    if field.choices then
-        if not set_of(field.choices)[value] then
-            return "has no " .. name .. " '" .. tostring(value) .. "'" .. hint(value, set_of(field.choices))
-        end
-    elseif type(value) ~= field.kind then
-        return "needs " .. name .. ", a " .. field.kind
-    elseif field.kind == "number" and not (value >= field.min and value <= field.max) then
-        return string.format("needs %s, a number from %g to %g", name, field.min, field.max)
+    if value == nil and not field.required then return nil end
+    local choices = field.choices and set_of(field.choices)
+    if choices and not choices[value] then
+        return "has no " .. name .. " '" .. tostring(value) .. "'" .. hint(value, choices)
     end
+    local unit = field.unit ~= "" and " of " .. field.unit or ""
+    local expected = "needs " .. name .. ", a " .. field.kind .. unit
+    if type(value) ~= field.kind then return expected end
+    if field.kind == "number" and not (value >= field.min and value <= field.max) then
+        return expected .. string.format(" from %g to %g", field.min, field.max)
+    end
+    return nil
 end
 
 local function check_event(what, fields)

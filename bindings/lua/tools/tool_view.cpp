@@ -173,6 +173,8 @@ int draw_gizmo(Call& call) {
     push_field(L, "size");
     const int size = lua_gettop(L);
     const double width = item(L, size, 1), height = item(L, size, 2);
+    if (!camera || !camera->object) call.raise("the camera of the view was closed");
+    if (!(width >= 1.0 && height >= 1.0)) call.raise("the size of the view was changed");
     push_field(L, "cursor");
     const int at = lua_gettop(L);
     const bool has_cursor = lua_istable(L, at);

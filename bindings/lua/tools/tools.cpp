@@ -104,7 +104,7 @@ int raise_at_level(lua_State* L) {
     return lua_error(L);
 }
 
-// A field of an event for the text: { kind =, required =, min =, max =, choices = }.
+// A field of an event for the text: { kind =, required =, min =, max =, unit =, choices = }.
 void push_event_field(lua_State* L, const Parameter& field) {
     lua_createtable(L, 0, 5);
     const char* kind = field.kind == Kind::boolean  ? "boolean"
@@ -118,6 +118,8 @@ void push_event_field(lua_State* L, const Parameter& field) {
     lua_setfield(L, -2, "min");
     lua_pushnumber(L, field.max);
     lua_setfield(L, -2, "max");
+    lua_pushstring(L, field.unit.c_str());
+    lua_setfield(L, -2, "unit");
     if (field.choices.empty()) return;
     lua_createtable(L, count_of(field.choices), 0);
     for (std::size_t i = 0; i < field.choices.size(); ++i) {
@@ -393,8 +395,11 @@ std::vector<Parameter> with_modifiers(std::vector<Parameter> fields) {
 }
 
 std::vector<Parameter> place_fields() {
-    return {number("x", "Pixels from the left edge of the picture.").between(-1e9, 1e9),
-            number("y", "Pixels from its top.").between(-1e9, 1e9)};
+    const auto pixels_of = [](const char* name, const char* help) {
+        return number(name, help).between(-1e9, 1e9).in("pixels");
+    };
+    return {pixels_of("x", "From the left edge of the picture."),
+            pixels_of("y", "From the top of the picture.")};
 }
 
 std::vector<Parameter> mouse_fields() {
