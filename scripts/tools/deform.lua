@@ -100,6 +100,15 @@ local function finish(self, one)
     self.told = table.concat(lines, "\n")
 end
 
+local gizmo_radius = 115        -- pixels
+
+-- The place of a label that hides nothing of the gizmo at a point.
+local function below_gizmo(view, at)
+    local x, y, depth = view.camera:project(at, view.size)
+    if x ~= x then return at end                    -- behind the camera
+    return view.camera:unproject(x - gizmo_radius, y + gizmo_radius, depth, view.size)
+end
+
 local keys = {
     enter = function(self, scene)
         self.handle = add_handle(self, scene)
@@ -190,7 +199,9 @@ return lissom.tool{
         end
         if at_gizmo then self.grip:draw(view) end
         local busy = at_gizmo and (self.grip.gizmo:part() or self.grip:is_under(view))
-        if at_gizmo and self.told then view:label{ at = at_gizmo.at, text = self.told } end
+        if at_gizmo and self.told then
+            view:label{ at = below_gizmo(view, self.grip.gizmo:origin()), text = self.told }
+        end
         if not busy then self.brush:draw(view, self.params.radius) end
     end,
     cancel = function(self) self.told = nil; self.grip:cancel(); self.brush:lift() end,

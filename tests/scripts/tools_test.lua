@@ -196,7 +196,8 @@ end)
 
 test("a view whose camera was closed or whose size was changed draws no gizmo", function()
     local kept
-    local host = host_of(ball_scene(), lissom.tool{ name = "keeps", draw = function(_, view) kept = view end })
+    local keeps = lissom.tool{ name = "keeps", draw = function(_, view) kept = view end }
+    local host = host_of(ball_scene(), keeps)
     host:draw()
     local gizmo = lissom.gizmo{ mode = "move" }
     expect.equal(rawequal(kept:gizmo(gizmo), kept), true)
@@ -408,11 +409,14 @@ test("a journal tells methods that change something and return another thing", f
         mesh:remove_attribute("cold")
         mesh:set_region("all", mesh:region{ all = true })
         mesh:remove_region("all")
+        lissom.deform(mesh, { pin = mesh:region{ plane = { point = { 0, -0.5, 0 }, normal = { 0, -1, 0 } } },
+            handles = { { region = mesh:region{ plane = { point = { 0, 0.5, 0 }, normal = { 0, 1, 0 } } },
+                translate = { 0.2, 0, 0 } } } })
     end }
     local scene = ball_scene()
     local host = host_of(scene):keep_journal():use(paint):click(middle)
     local text, other = host:journal_text(), ball_scene()
-    for _, name in ipairs{ "heat", "remove_attribute", "remove_region" } do
+    for _, name in ipairs{ "heat", "remove_attribute", "remove_region", "lissom.deform" } do
         expect.truthy(text:find(name, 1, true))
     end
     assert(load(text))(other)

@@ -31,7 +31,7 @@ namespace lissom::lua {
 
 class Call;
 
-/// What a method does to its object, for journals of calls.
+/// What a call does to its object, or a function of the module to its arguments, for journals.
 enum class Effect {
     /// Changes it if that is what it returns.
     by_result,

@@ -99,6 +99,7 @@ Function deform_function() {
         .arguments = {object("mesh", "lissom.Mesh", "The mesh; it is changed.")},
         .options = once_parameters(),
         .results = {{"lissom.Mesh", "mesh", "The mesh itself."}},
+        .effect = Effect::changes,
         .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
                    ErrorCode::invalid_argument, ErrorCode::handle_outside_region,
                    ErrorCode::handle_overlap, ErrorCode::singular_transform,
