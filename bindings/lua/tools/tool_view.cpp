@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <utility>
@@ -134,7 +135,7 @@ int draw_handle(Call& call) {
 std::string hexadecimal(const Vec3& color) {
     std::array<char, 8> text{};
     const auto byte = [&](int k) {
-        return static_cast<int>(255.0 * std::clamp(color[k], 0.0, 1.0) + 0.5);
+        return static_cast<int>(std::lround(255.0 * std::clamp(color[k], 0.0, 1.0)));
     };
     std::snprintf(text.data(), text.size(), "#%02x%02x%02x", byte(0), byte(1), byte(2));
     return text.data();
@@ -183,7 +184,7 @@ int draw_gizmo(Call& call) {
         const View view{static_cast<CameraObject*>(camera->object.get())->camera, {width, height}};
         const GizmoShape shape = gizmo->shown().shape(view);
         const auto held =
-            part_in_hand(*gizmo.get(), view, has_cursor ? std::optional(Vec2(x, y)) : std::nullopt);
+            part_in_hand(*gizmo, view, has_cursor ? std::optional(Vec2(x, y)) : std::nullopt);
         const std::string chosen = call.has("chosen") ? call.string("chosen") : "";
         const auto color = [&](GizmoPart part, GizmoRole role) {
             if (part_name(part) == chosen) return kChosenColor;
