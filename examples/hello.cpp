@@ -6,36 +6,31 @@
 #include <iostream>
 
 #include <lissom/deform/deformer.h>
+#include <lissom/deform/stats.h>
 #include <lissom/io/mesh_file.h>
 #include <lissom/mesh/shapes/shapes.h>
 
 using namespace lissom;
-
-// Rotates `handle` by `degrees` about the z axis through its own center.
-void turn(Deformer& edit, HandleId handle, double degrees) {
-    edit.set_transform(handle,
-                       rotation(Vec3::UnitZ(), degrees * kPi / 180.0, edit.handle_center(handle)));
-}
 
 int main() try {
     Mesh cactus = make_cactus();
     const Region& base = *cactus.find_region("base");
     const Region& tip = *cactus.find_region("tip");
 
-    // Everything may move; the base holds its place because its handle keeps the identity.
-    Deformer edit(cactus, Region::all(cactus.shared_topology()));
-    edit.add_handle(base);
-    const HandleId top = edit.add_handle(tip);
+    // Everything may move but the base.
+    Deformer deformer(cactus);
+    deformer.pin(base);
+    const HandleId top = deformer.add_handle(tip);
 
     // Each drag solves with factors that were made once.
-    for (const double degrees : {20.0, 40.0, 60.0}) {
-        turn(edit, top, degrees);
-        edit.solve();
+    for (int step = 0; step < 3; ++step) {
+        deformer.rotate(top, Vec3::UnitZ(), 20.0 * kPi / 180.0);
+        deformer.solve();
     }
-    edit.apply_to(cactus);
+    deformer.apply_to(cactus);
 
     save_mesh(cactus, "hello.obj");
-    const DeformStats& stats = edit.stats();
+    const DeformStats stats = stats_of(deformer);
     std::cout << "bent " << stats.free_vertices << " vertices with " << stats.factorizations
               << " factorizations, wrote hello.obj\n";
 } catch (const Error& error) {

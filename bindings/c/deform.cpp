@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "bindings/c/data.h"
+#include "kernel/deform/deform_report.h"
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer.h"
 #include "kernel/io/basis_file.h"
 
@@ -39,13 +41,13 @@ Deformer& deformer_of(lissom_context& context, lissom_deformer deformer) {
 void find_surface(Deformer& deformer, lissom_quality quality, const Context& context) {
     switch (quality) {
         case LISSOM_PREVIEW:
-            deformer.preview(context);
+            deformer.solve(FrameQuality::preview, context);
             return;
         case LISSOM_DRAFT:
-            deformer.solve_draft(context);
+            deformer.solve(FrameQuality::draft, context);
             return;
         case LISSOM_FULL:
-            deformer.solve(context);
+            deformer.solve(FrameQuality::full, context);
             return;
     }
     throw Error(ErrorCode::invalid_argument, "there is no such quality");
@@ -140,7 +142,7 @@ lissom_status lissom_deformer_handle_center(lissom_context* context, lissom_defo
     return run(context, [&] {
         require_given(center, "center");
         const Vec3 own =
-            context->space.to_host(deformer_of(*context, deformer).handle_center(HandleId{handle}));
+            context->space.to_host(deformer_of(*context, deformer).handle(HandleId{handle}).center);
         for (int k = 0; k < 3; ++k) center[k] = own[k];
     });
 }
@@ -158,8 +160,8 @@ lissom_status lissom_deformer_get_transform(lissom_context* context, lissom_defo
                                             int32_t handle, lissom_transform* transform) {
     return run(context, [&] {
         require_given(transform, "transform");
-        *transform =
-            context->space.to_host(deformer_of(*context, deformer).transform(HandleId{handle}));
+        *transform = context->space.to_host(
+            deformer_of(*context, deformer).pose(HandleId{handle}).transform);
     });
 }
 
@@ -236,7 +238,7 @@ lissom_status lissom_deformer_read_positions(lissom_context* context, lissom_def
 lissom_status lissom_deformer_read_normals(lissom_context* context, lissom_deformer deformer,
                                            const lissom_output* normals) {
     return run(context, [&] {
-        const std::vector<Vec3>& own = deformer_of(*context, deformer).normals(context->kernel);
+        const std::vector<Vec3>& own = normals_of(deformer_of(*context, deformer), context->kernel);
         write_points(normals, own.size(), "normals",
                      [&](std::size_t i) { return context->space.to_host(own[i]); });
     });
@@ -268,9 +270,9 @@ lissom_status lissom_deformer_report(lissom_context* context, lissom_deformer de
     return run(context, [&] {
         require_given(report, "report");
         take_options(report, lissom_default_deform_report());
-        lissom_deform_report told = told_report(
-            *context, deformer_of(*context, deformer)
-                          .report(mesh_of(*context, mesh), {crossings}, context->kernel));
+        lissom_deform_report told =
+            told_report(*context, report_of(deformer_of(*context, deformer),
+                                            mesh_of(*context, mesh), {crossings}, context->kernel));
         told.struct_size = report->struct_size;
         std::memcpy(report, &told, std::min(report->struct_size, sizeof told));
     });

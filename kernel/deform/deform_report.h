@@ -6,13 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/core/error.h"
 #include "kernel/core/index.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/self_intersections.h"
 
 namespace lissom {
 
-/// What a report shall have.
+class Deformer;
+const Context& own_context();
+
+/// Options of a report.
 struct DeformReportOptions {
     /// Searches for faces that run through one another, which takes longer than a frame.
     bool crossings = false;
@@ -64,5 +69,15 @@ struct DeformReport {
     /// they were asked for.
     std::vector<DeformWarning> warnings;
 };
+
+/// Measures the result that a deformer shows beside its rest shape, both as they lie in `mesh`.
+/// Errors: as Deformer::apply_to; cancelled.
+DeformReport report_of(const Deformer& deformer, const Mesh& mesh,
+                       const DeformReportOptions& options = {},
+                       const Context& context = own_context());
+
+/// Returns a report in words: "ok", or the kinds of harm; then its measures, and a line for each
+/// warning.
+std::string report_text(const DeformReport& report);
 
 }  // namespace lissom

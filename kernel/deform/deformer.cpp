@@ -8,9 +8,10 @@
 #include <utility>
 
 #include "kernel/core/memory_error.h"
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer_state.h"
 #include "kernel/deform/frame/frame_steps.h"
-#include "kernel/deform/tears.h"
+#include "kernel/deform/frame/tears.h"
 
 namespace lissom {
 namespace {
@@ -37,7 +38,7 @@ void require_options(const DeformOptions& o) {
     require(o.displacement > 0.0 && std::isfinite(o.displacement), "displacement must be above 0");
 }
 
-// Options that a comparison method has no use for must be left alone.
+// Options without a use in a comparison method keep their defaults.
 void require_applicable(const DeformOptions& o) {
     if (o.method == DeformMethod::implicit) return;
     require_comparison(o);
@@ -48,8 +49,8 @@ void require_applicable(const DeformOptions& o) {
     const auto refuse = [&](bool differs, const char* option) {
         if (!differs) return;
         throw Error(ErrorCode::invalid_argument,
-                    std::string(option) + " does not apply to method " +
-                        std::string(method_name(o.method)) + "; leave one of them out");
+                    "option '" + std::string(option) + "' does not apply to method '" +
+                        std::string(method_name(o.method)) + "'; leave one of them out");
     };
     refuse(o.second != defaults.second, "second");
     refuse(o.local_size != defaults.local_size, "local_size");
@@ -58,8 +59,9 @@ void require_applicable(const DeformOptions& o) {
     refuse(o.degenerate_threshold != defaults.degenerate_threshold, "degenerate_threshold");
     refuse(o.displacement != defaults.displacement, "displacement");
     refuse(o.refine != defaults.refine, "refine");
-    refuse(o.refine_borders != defaults.refine_borders, "refine_borders");
+    refuse(o.subdivide_borders != defaults.subdivide_borders, "subdivide_borders");
     refuse(o.flat != defaults.flat, "flat");
+    refuse(o.free_rings != defaults.free_rings, "free_rings");
     refuse(o.loose == UnheldParts::follow, "loose = follow");
     refuse(!laplacian && !o.scale_free, "scale_free");
     refuse(o.method == DeformMethod::geodesic && o.weights != defaults.weights, "weights");
@@ -83,6 +85,14 @@ DeformOptions DeformOptions::thesis() {
     return options;
 }
 
+const Context& own_context() {
+    static const Context context;
+    return context;
+}
+
+Deformer::Deformer(const Mesh& mesh, const DeformOptions& options, const Context& context)
+    : Deformer(mesh, Region::all(mesh.shared_topology()), options, context) {}
+
 Deformer::Deformer(const Mesh& mesh, const Region& region, const DeformOptions& options,
                    const Context& context) {
     require_same_topology(mesh, region.topology(), "the region");
@@ -102,19 +112,19 @@ Deformer& Deformer::operator=(Deformer&&) noexcept = default;
 const Region& Deformer::region() const {
     return state_->rest->region();
 }
-const DeformOptions& Deformer::options() const {
-    return state_->options();
+const DeformOptions& options_of(const Deformer& deformer) {
+    return DeformerAccess::state(deformer).options();
 }
-const Context& Deformer::context() const {
-    return state_->context;
+const Context& context_of(const Deformer& deformer) {
+    return DeformerAccess::state(deformer).context;
 }
 
 // One factor at a time is kept: what is shown is completed before its own is let go.
 const std::shared_ptr<const Preparation>& Deformer::State::prepare(const Context& given) {
-    if (!preparation || preparation->rest != rest || preparation->holds != holds) {
+    if (!preparation || preparation->rest != rest || preparation->constraints != constraints) {
         complete();
         preparation.reset();
-        auto next = prepare_deformation(rest, holds, given);
+        auto next = prepare_deformation(rest, constraints, given);
         const Index count = costs.factorizations;
         costs = next->costs;
         costs.factorizations += count;
@@ -143,29 +153,20 @@ const std::shared_ptr<const DeformFrame>& Deformer::State::complete() {
     return shown;
 }
 
-void Deformer::prepare(const Context& context) {
-    (void)preparation(context);
-}
-
-std::shared_ptr<const Preparation> Deformer::preparation(const Context& context) {
+std::shared_ptr<const Preparation> Deformer::prepare(const Context& context) {
     return with_memory_errors([&] {
-        const auto& prepared = state_->prepare(context);
-        (void)asked_part(prepared, state_->poses.targets, state_->scratch.state().asked);
+        const auto& prepared = state_->prepare(state_->chosen(context));
+        (void)target_rhs(prepared, state_->poses.targets, state_->scratch.state().asked);
         return prepared;
     });
 }
 
-const std::vector<Vec3>& Deformer::preview(const Context& context) {
+const std::vector<Vec3>& Deformer::solve(FrameQuality quality, const Context& given) {
     State& s = *state_;
-    with_memory_errors(
-        [&] { s.show(preview_frame(s.prepare(context), s.poses, s.scratch, context)); });
-    return positions();
-}
-
-const std::vector<Vec3>& Deformer::solve(const Context& context) {
-    State& s = *state_;
+    const Context& context = s.chosen(given);
     with_memory_errors([&] {
-        s.show(solve_frame(s.prepare(context), s.poses, s.scratch, FrameQuality::full, context));
+        s.show(solve_frame(s.prepare(context), s.poses, s.scratch, quality, context));
+        if (quality != FrameQuality::full) return;
         const std::vector<Tear> tears = tears_of(*s.preparation, s.poses);
         if (!tears.empty())
             context.log(LogLevel::warning, tear_warning(*s.preparation, tears).message);
@@ -173,71 +174,44 @@ const std::vector<Vec3>& Deformer::solve(const Context& context) {
     return positions();
 }
 
-const std::vector<Vec3>& Deformer::solve_draft(const Context& context) {
-    State& s = *state_;
-    with_memory_errors([&] {
-        s.show(solve_frame(s.prepare(context), s.poses, s.scratch, FrameQuality::draft, context));
-    });
-    return positions();
-}
-
 const std::vector<Vec3>& Deformer::positions() const {
     return state_->shown->positions;
 }
-const std::vector<Vec3>& Deformer::normals(const Context& context) {
-    State& s = *state_;
+const std::vector<Vec3>& normals_of(Deformer& deformer, const Context& context) {
+    auto& s = DeformerAccess::state(deformer);
     return with_memory_errors([&]() -> const std::vector<Vec3>& {
         if (!s.normals) s.normals = make_region_normals(*s.rest, s.context);
-        return s.normals->evaluate(s.shown->positions, context);
+        return s.normals->evaluate(s.shown->positions, s.chosen(context));
     });
 }
-const std::vector<Vec3>& Deformer::rest_positions() const {
-    return state_->rest->positions;
+const std::vector<Vec3>& rest_positions_of(const Deformer& deformer) {
+    return DeformerAccess::state(deformer).rest->positions;
 }
 
 void Deformer::apply_to(Mesh& mesh) const {
     with_memory_errors([&] { write_frame(*state_->rest, *state_->shown, mesh); });
 }
 
-void Deformer::require_surroundings(const Mesh& mesh) const {
-    require_same_topology(mesh, region().topology(), "the deformer");
-    lissom::require_surroundings(*state_->rest, mesh);
+void require_surroundings(const Deformer& deformer, const Mesh& mesh) {
+    require_same_topology(mesh, deformer.region().topology(), "the deformer");
+    require_surroundings(*DeformerAccess::state(deformer).rest, mesh);
 }
 
-void Deformer::apply_rest_to(Mesh& mesh) const {
-    with_memory_errors([&] { write_rest(*state_->rest, mesh); });
+void apply_rest(const Deformer& deformer, Mesh& mesh) {
+    with_memory_errors([&] { write_rest(*DeformerAccess::state(deformer).rest, mesh); });
 }
 
-std::shared_ptr<const ShownResult> Deformer::result() {
-    return with_memory_errors([&] {
-        const auto result = state_->complete();
-        state_->own = nullptr;
-        return result;
+const std::vector<Mat3>& gradients_of(Deformer& deformer) {
+    return with_memory_errors([&]() -> const std::vector<Mat3>& {
+        return *DeformerAccess::state(deformer).complete()->gradients;
     });
 }
 
-void Deformer::show(const ShownResult& result) {
-    require_frame(*state_->rest, result);
-    with_memory_errors([&] { state_->show(result); });
-}
-
-void Deformer::show(std::shared_ptr<const ShownResult> result) {
-    require(result != nullptr, "there is no result to show");
-    if (!result->gradients) return show(*result);
-    require_frame(*state_->rest, *result);
-    state_->own = nullptr;
-    state_->shown = std::move(result);
-}
-
-const std::vector<Mat3>& Deformer::gradients() {
-    return with_memory_errors(
-        [&]() -> const std::vector<Mat3>& { return *state_->complete()->gradients; });
-}
-
-DeformStats Deformer::stats() const {
-    const RestShape& rest = *state_->rest;
-    const auto& handles = state_->holds->handles;
-    DeformStats stats = state_->costs;
+DeformStats stats_of(const Deformer& deformer) {
+    const auto& s = DeformerAccess::state(deformer);
+    const RestShape& rest = *s.rest;
+    const auto& handles = s.constraints->handles;
+    DeformStats stats = s.costs;
     stats.region_vertices = rest.region().size();
     stats.zero_area_faces = rest.patch().zero_area_faces;
     stats.inserted_vertices = rest.patch().first_normal_point() - rest.patch().real_count;
@@ -250,31 +224,31 @@ void Deformer::reset() {
     State& s = *state_;
     with_memory_errors([&] {
         DeformFrame frame = rest_frame(*s.rest);
-        Poses poses{std::vector<HandlePose>(s.holds->handles.size()), {}};
-        auto holds = s.holds;
-        if (!holds->targets.empty()) {
-            Holds next = *holds;
+        Poses poses{std::vector<HandlePose>(s.constraints->handles.size()), {}};
+        auto constraints = s.constraints;
+        if (!constraints->targets.empty()) {
+            ConstraintSet next = *constraints;
             next.targets.clear();
-            holds = std::make_shared<const Holds>(std::move(next));
+            constraints = std::make_shared<const ConstraintSet>(std::move(next));
         }
-        s.holds = std::move(holds);
-        s.poses = std::move(poses);
         s.show(std::move(frame));
+        s.constraints = std::move(constraints);
+        s.poses = std::move(poses);
     });
 }
 
-// Whatever a target holds stays where it is now.
+// Targets hold their present places.
 void Deformer::rebase() {
     State& s = *state_;
     with_memory_errors([&] {
         const auto rest = rebased(*s.rest, *s.shown);
-        auto holds = std::make_shared<const Holds>(moved_to(*rest, *s.holds));
-        Poses poses = resting_poses(*rest, *holds);
+        auto constraints = std::make_shared<const ConstraintSet>(moved_to(*rest, *s.constraints));
+        Poses poses = resting_poses(*rest, *constraints);
         DeformFrame frame = rest_frame(*rest);
-        s.rest = rest;
-        s.holds = std::move(holds);
-        s.poses = std::move(poses);
         s.show(std::move(frame));
+        s.rest = rest;
+        s.constraints = std::move(constraints);
+        s.poses = std::move(poses);
     });
 }
 
@@ -284,7 +258,7 @@ void deform(Mesh& mesh, const Region& region, std::span<const HandleMove> handle
     for (const HandleMove& move : handles) {
         deformer.set_transform(deformer.add_handle(move.region, move.options), move.transform);
     }
-    deformer.solve(context);
+    deformer.solve();
     deformer.apply_to(mesh);
 }
 

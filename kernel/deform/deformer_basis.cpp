@@ -4,14 +4,16 @@
 #include "kernel/core/extended.h"
 #include "kernel/core/memory_error.h"
 #include "kernel/deform/deformer_state.h"
+#include "kernel/deform/first_solution.h"
 #include "kernel/deform/frame/frame_steps.h"
+#include "kernel/deform/handle_basis.h"
 
 namespace lissom {
 namespace {
 
 // Positions of the region's vertices for deviations `from` the base transform: displaced vertices
 // come back by v = M (v - v') + v' (section 2.4.3).
-std::vector<Vec3> pulled_back(const Motion& motion, const std::vector<Vec3>& from) {
+std::vector<Vec3> pulled_back(const FrameInput& motion, const std::vector<Vec3>& from) {
     const Patch& patch = motion.patch();
     const GradientStencils& g = motion.method().gradients;
     std::vector<Vec3> at = from;
@@ -30,7 +32,7 @@ std::vector<Vec3> pulled_back(const Motion& motion, const std::vector<Vec3>& fro
 
 // Solves for the deviation from the base transform of the rest shape, which the system maps to
 // itself: the rounding of its entries then acts on the deviation only.
-std::vector<Vec3> solved_directly(const Motion& motion) {
+std::vector<Vec3> solved_directly(const FrameInput& motion) {
     const Preparation& prepared = motion.prepared();
     const GradientSystem& first = *motion.method().first;
     const Mat3 base_gradient = motion.base_linear();
@@ -63,7 +65,7 @@ std::vector<Vec4>& weights_of(HandleBasis& basis, Index handle) {
     return basis.weights[place - basis.handles.begin()];
 }
 
-void add_known(const Motion& motion, HandleBasis& basis) {
+void add_known(const FrameInput& motion, HandleBasis& basis) {
     const Preparation& prepared = motion.prepared();
     const RestShape& rest = *prepared.rest;
     for (Index row = 0; row < rest.region().size(); ++row) {
@@ -79,7 +81,7 @@ void add_known(const Motion& motion, HandleBasis& basis) {
 }
 
 // Loose parts stay, or go with the handle that holds all that is near them.
-void add_loose(const Motion& motion, HandleBasis& basis) {
+void add_loose(const FrameInput& motion, HandleBasis& basis) {
     const Preparation& prepared = motion.prepared();
     const RestShape& rest = *prepared.rest;
     for (const Index row : prepared.resting_rows) basis.fixed[row] = rest.positions[row];
@@ -96,7 +98,7 @@ void add_loose(const Motion& motion, HandleBasis& basis) {
 
 // The affine map of the patch by which a part follows its guides: their mean, and the mean of their
 // gradients. Unlike the nearest rotation it is linear in the handles' transforms.
-Affine affine_follow(const Motion& motion, const FollowingPart& part,
+Affine affine_follow(const FrameInput& motion, const FollowingPart& part,
                      std::span<const Vec4> deviation) {
     const double share = 1.0 / static_cast<double>(part.guides.size());
     Vec3 before = Vec3::Zero(), after = Vec3::Zero();
@@ -115,7 +117,7 @@ Affine affine_follow(const Motion& motion, const FollowingPart& part,
 
 // The maps of the parts that follow a surface if the handles stand at `transforms`, in the space of
 // the mesh.
-std::vector<Affine> affine_follows(const Motion& given, const std::vector<Affine>& transforms,
+std::vector<Affine> affine_follows(const FrameInput& given, const std::vector<Affine>& transforms,
                                    const Context& context) {
     const Preparation& prepared = given.prepared();
     const Vec3& o = prepared.patch().origin;
@@ -124,7 +126,7 @@ std::vector<Affine> affine_follows(const Motion& given, const std::vector<Affine
         const Affine& t = transforms[h];
         poses.handles[h] = {t, {t.linear, t.translation + t.linear * o - o}, Vec3::Zero()};
     }
-    const Motion motion(prepared, poses, given.asked());
+    const FrameInput motion(prepared, poses, given.asked());
     Deviation deviation;
     solve_first(motion, context, deviation);
     std::vector<Affine> maps;
@@ -152,7 +154,7 @@ void for_each_follower_row(const Preparation& prepared, const Use& use) {
 
 // The maps of parts that follow a surface are linear in each transform, so that unit transforms
 // tell their weights.
-void add_followers(const Motion& motion, const Context& context, HandleBasis& basis) {
+void add_followers(const FrameInput& motion, const Context& context, HandleBasis& basis) {
     const Preparation& prepared = motion.prepared();
     const std::vector<Vec3>& rest = prepared.rest->positions;
     const Affine zero{Mat3::Zero(), Vec3::Zero()};
@@ -179,7 +181,7 @@ void add_followers(const Motion& motion, const Context& context, HandleBasis& ba
 
 // Weights and fixed part leave the coordinates of the patch: for a transform [L t] of the mesh's
 // space the patch sees [L, L o + t - o].
-void add_free(const Motion& motion, HandleBasis& basis) {
+void add_free(const FrameInput& motion, HandleBasis& basis) {
     const RestShape& rest = *motion.prepared().rest;
     const Vec3& o = rest.origin();
     const LinearSolution& solution = motion.solution();
@@ -205,26 +207,28 @@ void add_free(const Motion& motion, HandleBasis& basis) {
 
 }  // namespace
 
-std::vector<Vec3> Deformer::solve_first_directly(const Context& context) {
-    State& s = *state_;
+std::vector<Vec3> solve_first_directly(Deformer& deformer, const Context& given) {
+    auto& s = DeformerAccess::state(deformer);
+    const Context& context = s.chosen(given);
     require_implicit(s.options(), "the first system");
     return with_memory_errors([&] {
         const auto& prepared = s.prepare(context);
-        const AskedPart& asked = asked_part(prepared, s.poses.targets, s.scratch.state().asked);
-        return solved_directly(Motion(*prepared, s.poses, asked));
+        const TargetRhs& asked = target_rhs(prepared, s.poses.targets, s.scratch.state().asked);
+        return solved_directly(FrameInput(*prepared, s.poses, asked));
     });
 }
 
-HandleBasis Deformer::basis(const Context& context) {
-    State& s = *state_;
+HandleBasis basis_of(Deformer& deformer, const Context& given) {
+    auto& s = DeformerAccess::state(deformer);
+    const Context& context = s.chosen(given);
     require_implicit(s.options(), "the handle basis");
     return with_memory_errors([&] {
         const auto& prepared = s.prepare(context);
-        const AskedPart& asked = asked_part(prepared, s.poses.targets, s.scratch.state().asked);
-        const Motion motion(*prepared, s.poses, asked);
+        const TargetRhs& asked = target_rhs(prepared, s.poses.targets, s.scratch.state().asked);
+        const FrameInput motion(*prepared, s.poses, asked);
         HandleBasis basis;
         basis.vertices = s.rest->region().vertices();
-        basis.handles = handles();
+        basis.handles = deformer.handles();
         const std::size_t rows = basis.vertices.size();
         basis.fixed.assign(rows, Vec3::Zero());
         basis.weights.assign(basis.handles.size(), std::vector<Vec4>(rows, Vec4::Zero()));

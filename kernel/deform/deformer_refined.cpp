@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "kernel/core/memory_error.h"
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer_state.h"
 #include "kernel/mesh/derive.h"
 
@@ -93,11 +94,12 @@ class RefinedMesh {
 
 }  // namespace
 
-Mesh Deformer::refined_mesh(const Mesh& mesh, const Context& context) {
-    State& s = *state_;
+Mesh subdivided_mesh(Deformer& deformer, const Mesh& mesh, const Context& given) {
+    auto& s = DeformerAccess::state(deformer);
+    const Context& context = s.chosen(given);
     return with_memory_errors([&] {
         Mesh deformed = mesh;
-        apply_to(deformed);
+        deformer.apply_to(deformed);
         const std::shared_ptr<const WorkingPatch> work =
             s.shown->patch ? s.shown->patch : s.prepare(context)->work;
         const Patch& patch = work->patch;

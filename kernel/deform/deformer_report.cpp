@@ -1,13 +1,16 @@
-// What a deformation did to the surface.
+// Measures of a deformed surface.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "kernel/core/memory_error.h"
-#include "kernel/deform/deform_warnings.h"
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer_state.h"
-#include "kernel/deform/tears.h"
+#include "kernel/deform/frame/deform_warnings.h"
+#include "kernel/deform/frame/tears.h"
 #include "kernel/mesh/measure/distortion.h"
 #include "kernel/mesh/measure/measures.h"
 
@@ -78,27 +81,61 @@ class Comparison {
     const Context& context_;
 };
 
+std::string counted(std::size_t count, const char* one, const char* many) {
+    return count == 0 ? std::string("no ") + many
+                      : std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string verdict_of(const DeformReport& report) {
+    std::string kinds;
+    for (const DeformWarning& warning : report.warnings) {
+        kinds += (kinds.empty() ? "" : ", ") + std::string(harm_name(warning.harm));
+    }
+    return kinds.empty() ? "ok" : kinds;
+}
+
 }  // namespace
 
-DeformReport Deformer::report(const Mesh& mesh, const DeformReportOptions& options,
-                              const Context& context) const {
+std::string report_text(const DeformReport& report) {
+    char number[64];
+    std::snprintf(number, sizeof number, ": edges stretch up to %.3g times, ", report.stretch);
+    std::string text =
+        verdict_of(report) + number + counted(report.flipped.size(), "folded face", "folded faces");
+    if (report.crossings) {
+        text += ", " +
+                counted(report.crossings->size(), "pair of faces crosses", "pairs of faces cross");
+    }
+    if (!report.tears.empty()) text += ", " + counted(report.tears.size(), "tear", "tears");
+    if (report.volume_change) {
+        std::snprintf(number, sizeof number, ", volume %+.3g %%", 100.0 * *report.volume_change);
+        text += number;
+    }
+    for (const DeformWarning& warning : report.warnings) {
+        text += std::string("\n  ") + harm_name(warning.harm) + ": " + warning.message;
+    }
+    return text;
+}
+
+DeformReport report_of(const Deformer& deformer, const Mesh& mesh,
+                       const DeformReportOptions& options, const Context& given) {
+    const auto& s = DeformerAccess::state(deformer);
     return with_memory_errors([&] {
         Mesh now = mesh, rest = mesh;
-        apply_to(now);
-        apply_rest_to(rest);
-        const Comparison comparison(now, rest, region(), context);
+        deformer.apply_to(now);
+        apply_rest(deformer, rest);
+        const Comparison comparison(now, rest, deformer.region(), s.chosen(given));
         DeformReport report;
-        const AskedSize asked = asked_size(state_->shown->poses);
+        const AskedSize asked = asked_size(s.shown->poses);
         const auto stretched = comparison.measure_edges(stretch_limit(asked), report);
         comparison.measure_volume(report);
         report.flipped = comparison.flipped();
         if (options.crossings) report.crossings = comparison.new_crossings();
-        const auto& preparation = state_->preparation;
-        if (preparation && preparation->rest == state_->rest &&
-            preparation->holds == state_->holds) {
-            report.tears = tears_of(*preparation, state_->poses);
+        const auto& preparation = s.preparation;
+        if (preparation && preparation->rest == s.rest &&
+            preparation->constraints == s.constraints) {
+            report.tears = tears_of(*preparation, s.poses);
         }
-        report.warnings = warnings_of(report, asked, stretched, state_->options());
+        report.warnings = warnings_of(report, asked, stretched, s.options());
         if (!report.tears.empty()) {
             report.warnings.insert(report.warnings.begin(),
                                    tear_warning(*preparation, report.tears));

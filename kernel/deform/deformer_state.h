@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "kernel/core/context.h"
-#include "kernel/core/geometry.h"
+#include "kernel/deform/constraint_edits.h"
 #include "kernel/deform/deformer.h"
-#include "kernel/deform/hold_edits.h"
-#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/constraint_set.h"
+#include "kernel/deform/holds/poses.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/pipeline.h"
 #include "kernel/deform/preparation.h"
@@ -21,17 +21,11 @@
 
 namespace lissom {
 
-struct HandlePoses {
-    std::vector<HandlePose> handles;
-    /// Of the patch, which a new rest shape moves.
-    Vec3 origin;
-};
-
 struct Deformer::State {
     /// Of operations that are given none.
     Context context;
     std::shared_ptr<const RestShape> rest;
-    std::shared_ptr<const Holds> holds;
+    std::shared_ptr<const ConstraintSet> constraints;
     Poses poses;
     /// The last one; it serves as long as it is that of `rest` and `holds`.
     std::shared_ptr<const Preparation> preparation;
@@ -48,17 +42,21 @@ struct Deformer::State {
           const Context& given)
         : context(given),
           rest(make_rest_shape(mesh, region, options, context)),
-          holds(std::make_shared<const Holds>()) {
+          constraints(std::make_shared<const ConstraintSet>()) {
         show(rest_frame(*rest));
     }
 
     const DeformOptions& options() const { return rest->options(); }
-    const Handle& handle(HandleId id) const { return handle_of(*holds, id); }
+    const Handle& handle(HandleId id) const { return handle_of(*constraints, id); }
     const HandlePose& pose(HandleId id) const {
         (void)handle(id);
         return poses.handles[at(id.value)];
     }
 
+    /// The context that a call was given, or else that of the deformer.
+    const Context& chosen(const Context& given) const {
+        return &given == &own_context() ? context : given;
+    }
     const std::shared_ptr<const Preparation>& prepare(const Context& given);
     void show(DeformFrame frame);
     const std::shared_ptr<const DeformFrame>& complete();
@@ -66,24 +64,30 @@ struct Deformer::State {
     /// Changes holds and poses by change(edit) on copies, and keeps those when it is done.
     template <typename Change>
     auto edit(const Change& change) {
-        Holds next_holds = *holds;
+        ConstraintSet next_constraints = *constraints;
         Poses next_poses = poses;
-        HoldEdit step{*rest, next_holds, next_poses};
+        ConstraintEdit step{*rest, next_constraints, next_poses};
         if constexpr (std::is_void_v<decltype(change(step))>) {
             change(step);
-            keep(std::move(next_holds), std::move(next_poses));
+            keep(std::move(next_constraints), std::move(next_poses));
         } else {
             const auto result = change(step);
-            keep(std::move(next_holds), std::move(next_poses));
+            keep(std::move(next_constraints), std::move(next_poses));
             return result;
         }
     }
 
   private:
-    void keep(Holds next_holds, Poses next_poses) {
-        holds = std::make_shared<const Holds>(std::move(next_holds));
+    void keep(ConstraintSet next_constraints, Poses next_poses) {
+        constraints = std::make_shared<const ConstraintSet>(std::move(next_constraints));
         poses = std::move(next_poses);
     }
+};
+
+/// Gives functions beside the class its values.
+struct DeformerAccess {
+    static Deformer::State& state(Deformer& deformer) { return *deformer.state_; }
+    static const Deformer::State& state(const Deformer& deformer) { return *deformer.state_; }
 };
 
 }  // namespace lissom

@@ -3,7 +3,8 @@
 #include <Eigen/LU>
 #include <utility>
 
-#include "kernel/deform/hold_edits.h"
+#include "kernel/deform/constraint_edits.h"
+#include "kernel/deform/deformer_state.h"
 #include "kernel/deform/rest_shape.h"
 
 namespace lissom {
@@ -78,10 +79,10 @@ Handle handle_from(const RestShape& rest, const HandleDescription& given) {
 }
 
 // No vertex is held twice.
-void require_apart(const RestShape& rest, const Holds& holds) {
+void require_apart(const RestShape& rest, const ConstraintSet& constraints) {
     std::vector<char> held(at(rest.patch().vertex_count), 0);
     Elements twice{ElementKind::vertex, 0, {}};
-    for (const auto& handle : holds.handles) {
+    for (const auto& handle : constraints.handles) {
         if (!handle) continue;
         for (const Index v : handle->local) {
             if (std::exchange(held[at(v)], 1)) twice.add(rest.patch().mesh_vertex[at(v)]);
@@ -91,13 +92,13 @@ void require_apart(const RestShape& rest, const Holds& holds) {
     throw Error(ErrorCode::handle_overlap, "two handles hold the same vertices", std::move(twice));
 }
 
-void require_partners(const Holds& holds) {
-    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
-        if (!holds.handles[h] || holds.handles[h]->partner == kNoIndex) continue;
-        const Index partner = holds.handles[h]->partner;
-        const bool mutual = partner >= 0 && partner < count_of(holds.handles) &&
-                            holds.handles[at(partner)] &&
-                            holds.handles[at(partner)]->partner == index_of(h);
+void require_partners(const ConstraintSet& constraints) {
+    for (std::size_t h = 0; h < constraints.handles.size(); ++h) {
+        if (!constraints.handles[h] || constraints.handles[h]->partner == kNoIndex) continue;
+        const Index partner = constraints.handles[h]->partner;
+        const bool mutual = partner >= 0 && partner < count_of(constraints.handles) &&
+                            constraints.handles[at(partner)] &&
+                            constraints.handles[at(partner)]->partner == index_of(h);
         require(mutual, "the mirror image of a handle is not that of its image");
     }
 }
@@ -134,50 +135,58 @@ std::size_t bytes_in(const WeightedTriangles& triangles) {
 
 }  // namespace
 
-DeformDescription describe(const DeformSetup& setup) {
+DeformDescription describe(const DeformSnapshot& snapshot) {
     DeformDescription result;
-    const Patch& patch = setup.rest->patch();
-    const Holds& holds = *setup.holds;
-    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
+    const Patch& patch = snapshot.rest->patch();
+    const ConstraintSet& constraints = *snapshot.constraints;
+    for (std::size_t h = 0; h < constraints.handles.size(); ++h) {
         auto& handle = result.handles.emplace_back();
-        if (!holds.handles[h]) continue;
-        handle = describe(patch, *holds.handles[h], setup.poses.handles[h]);
+        if (!constraints.handles[h]) continue;
+        handle = describe(patch, *constraints.handles[h], snapshot.poses.handles[h]);
     }
-    for (std::size_t t = 0; t < holds.targets.size(); ++t) {
-        const Target& target = *holds.targets[t];
+    for (std::size_t t = 0; t < constraints.targets.size(); ++t) {
+        const Target& target = *constraints.targets[t];
         PointConstraint& asked = result.constraints.emplace_back();
         asked.point = target.point;
         asked.weight = target.weight;
-        if (target.position) asked.position = setup.poses.targets[t].position;
-        if (target.gradient) asked.gradient = setup.poses.targets[t].gradient;
+        if (target.position) asked.position = snapshot.poses.targets[t].position;
+        if (target.gradient) asked.gradient = snapshot.poses.targets[t].gradient;
     }
-    if (holds.stiffness) {
-        for (const Index v : patch.of_region) result.stiffness.push_back((*holds.stiffness)[at(v)]);
+    if (constraints.stiffness) {
+        for (const Index v : patch.of_region)
+            result.stiffness.push_back((*constraints.stiffness)[at(v)]);
     }
     return result;
 }
 
-DeformSetup setup_of(const DeformDescription& description, std::shared_ptr<const RestShape> rest) {
-    Holds holds;
+DeformSnapshot snapshot_of(const DeformDescription& description,
+                           std::shared_ptr<const RestShape> rest) {
+    ConstraintSet constraints;
     Poses poses;
     for (const auto& given : description.handles) {
-        auto& handle = holds.handles.emplace_back();
+        auto& handle = constraints.handles.emplace_back();
         HandlePose& pose = poses.handles.emplace_back();
         if (!given) continue;
         require_pose(given->pose);
         handle = std::make_shared<const Handle>(handle_from(*rest, *given));
         pose = given->pose;
     }
-    require_apart(*rest, holds);
-    require_partners(holds);
-    holds.stiffness = stiffness_of(*rest, description.stiffness);
-    HoldEdit edit{*rest, holds, poses};
+    require_apart(*rest, constraints);
+    require_partners(constraints);
+    constraints.stiffness = stiffness_of(*rest, description.stiffness);
+    ConstraintEdit edit{*rest, constraints, poses};
     for (const PointConstraint& asked : description.constraints) {
-        edit.set_target(checked_target(*rest, holds, asked),
+        edit.set_target(checked_target(*rest, constraints, asked),
                         {asked.position.value_or(Vec3(Vec3::Zero())),
                          asked.gradient.value_or(Mat3(Mat3::Identity()))});
     }
-    return {std::move(rest), std::make_shared<const Holds>(std::move(holds)), std::move(poses)};
+    auto shown = std::make_shared<const DeformFrame>(rest_frame(*rest));
+    return {std::move(rest), std::make_shared<const ConstraintSet>(std::move(constraints)),
+            std::move(poses), std::move(shown)};
+}
+
+std::shared_ptr<const RestShape> rest_of(const Deformer& deformer) {
+    return DeformerAccess::state(deformer).rest;
 }
 
 const Region& region_of(const RestShape& rest) {
@@ -203,18 +212,19 @@ std::size_t memory_bytes(const RestShape& rest) {
            bytes_in(work.laplacian.weight);
 }
 
-std::size_t memory_bytes(const Holds& holds) {
-    std::size_t bytes = holds.stiffness ? bytes_in(*holds.stiffness) : 0;
-    for (const auto& handle : holds.handles) {
+std::size_t memory_bytes(const ConstraintSet& constraints) {
+    std::size_t bytes = constraints.stiffness ? bytes_in(*constraints.stiffness) : 0;
+    for (const auto& handle : constraints.handles) {
         if (!handle) continue;
         bytes += sizeof *handle + 2 * bytes_in(handle->local);
         for (const SparseRow& row : handle->points) bytes += sizeof(SparseRow) + 2 * bytes_in(row);
     }
-    for (const auto& target : holds.targets) bytes += sizeof *target + 2 * bytes_in(target->row);
+    for (const auto& target : constraints.targets)
+        bytes += sizeof *target + 2 * bytes_in(target->row);
     return bytes;
 }
 
-std::size_t memory_bytes(const ShownResult& result) {
+std::size_t memory_bytes(const DeformFrame& result) {
     return bytes_in(result.positions) + bytes_in(result.inserted) +
            bytes_in(result.turns_without_faces) +
            (result.gradients ? bytes_in(*result.gradients) : 0);

@@ -9,16 +9,19 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/deformer.h"
-#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/poses.h"
 #include "kernel/deform/mesh_point.h"
 #include "kernel/deform/options.h"
-#include "kernel/deform/rest_shape.h"
+#include "kernel/deform/pipeline.h"
 #include "kernel/mesh/region.h"
 
 namespace lissom {
 
+struct ConstraintSet;
+struct RestShape;
+
 struct HandleDescription {
-    /// What it holds: vertices of the mesh, in the handle's own order, and points between them.
+    /// Vertices of the mesh, in the handle's own order, and points between them.
     std::vector<Index> vertices;
     std::vector<MeshPoint> points;
     HandleOptions options;
@@ -28,7 +31,7 @@ struct HandleDescription {
     HandlePose pose;
 };
 
-/// Who is held, and where it goes.
+/// Handles and constraints with their poses.
 struct DeformDescription {
     /// By HandleId; empty where one was removed.
     std::vector<std::optional<HandleDescription>> handles;
@@ -37,22 +40,26 @@ struct DeformDescription {
     std::vector<double> stiffness;
 };
 
-DeformDescription describe(const DeformSetup& setup);
+DeformDescription describe(const DeformSnapshot& snapshot);
 
-/// The setup of this description on a rest shape: to the bit the one described where the rest shape
-/// is the same. Errors: those of Deformer's add_handle, set_transform and constrain;
-/// invalid_argument for partners that are not each other's, or a stiffness that has not one factor
-/// a vertex of the region.
-DeformSetup setup_of(const DeformDescription& description, std::shared_ptr<const RestShape> rest);
+/// Returns the snapshot of this description on a rest shape, which it shows: but for that to the
+/// bit the one described if the rest shape is the same. Errors: those of Deformer's add_handle,
+/// set_transform and constrain; invalid_argument for partners that are not each other's, or a
+/// stiffness that has not one factor a vertex of the region.
+DeformSnapshot snapshot_of(const DeformDescription& description,
+                           std::shared_ptr<const RestShape> rest);
+
+/// Returns the rest shape of a deformer.
+std::shared_ptr<const RestShape> rest_of(const Deformer& deformer);
 
 /// The region of a rest shape, its options, and where the region's vertices lie.
 const Region& region_of(const RestShape& rest);
 const DeformOptions& options_of(const RestShape& rest);
 const std::vector<Vec3>& positions_of(const RestShape& rest);
 
-/// Bytes that a rest shape, holds or a result take, about.
+/// Returns the bytes of a rest shape, a constraint set or a result, about.
 std::size_t memory_bytes(const RestShape& rest);
-std::size_t memory_bytes(const Holds& holds);
-std::size_t memory_bytes(const ShownResult& result);
+std::size_t memory_bytes(const ConstraintSet& constraints);
+std::size_t memory_bytes(const DeformFrame& frame);
 
 }  // namespace lissom

@@ -1,7 +1,7 @@
 /// How nearly symmetric a shape is where a handle has a mirror image; private to kernel/deform.
 #pragma once
 
-#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/constraint_set.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/rest_shape.h"
 

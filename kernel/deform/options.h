@@ -94,8 +94,8 @@ struct DeformOptions {
     int free_rings = 0;
     /// Works on a surface that is refined along the borders of what is held, where they are coarse
     /// beside the region (section 2.5): else a few held vertices would say where a detailed region
-    /// goes. The result is that of the mesh's own vertices; see Deformer::refined_mesh.
-    bool refine_borders = true;
+    /// goes. The result is that of the mesh's own vertices; see Deformer::subdivided_mesh.
+    bool subdivide_borders = true;
     /// s_disp of Eq 2.9: how far degenerate vertices are displaced, or points beside flat ones
     /// lie, in mean lengths of their edges; above 0.
     double displacement = 0.2;
@@ -148,23 +148,28 @@ struct HandleId {
     bool operator==(const HandleId&) const = default;
 };
 
-/// Prescribes the position, the deformation gradient, or both, of one vertex.
-struct VertexConstraint {
-    Index vertex = kNoIndex;
+/// Prescribes the position, the deformation gradient, or both, of a vertex or of a point of a face
+/// or an edge. A hard position holds exactly for the mean of the deformed vertices. The gradient is
+/// that of the vertices around the point which nothing else holds.
+struct PointConstraint {
+    MeshPoint point;
     std::optional<Vec3> position = std::nullopt;
     std::optional<Mat3> gradient = std::nullopt;
     /// As HandleOptions::weight.
     std::optional<double> weight = std::nullopt;
 };
 
-/// The same for a point of a face or an edge. A hard position holds exactly for the mean of the
-/// deformed vertices. The gradient is that of the vertices around the point which nothing else
-/// holds.
-struct PointConstraint {
-    MeshPoint point;
+/// The same for one vertex.
+struct VertexConstraint {
+    Index vertex = kNoIndex;
     std::optional<Vec3> position = std::nullopt;
     std::optional<Mat3> gradient = std::nullopt;
     std::optional<double> weight = std::nullopt;
+
+    operator PointConstraint() const;
 };
+
+/// The exactness of a solve: the first system only (Eq 2.8), about five digits of the size, or all.
+enum class FrameQuality { preview, draft, full };
 
 }  // namespace lissom

@@ -24,7 +24,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
-#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/poses.h"
 #include "kernel/deform/options.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
@@ -33,7 +33,9 @@ namespace lissom {
 
 /// The region at rest with the options, and all that follows from them; immutable.
 struct RestShape;
-/// What depends on who is held, but not on where it goes: the factored systems; immutable.
+/// Handles and constraints without their poses; immutable.
+struct ConstraintSet;
+/// The factored systems of a constraint set, for all of its poses; immutable.
 struct Preparation;
 /// A patch with its operators; private to kernel/deform.
 struct WorkingPatch;
@@ -73,9 +75,6 @@ class FrameScratch {
     std::unique_ptr<State> state_;
 };
 
-/// `draft` is for the frames of a drag: about five digits of the size, in half the time.
-enum class FrameQuality { full, draft };
-
 /// Takes the present shape of `mesh` as rest shape. Errors: as Deformer; cancelled.
 std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region& region,
                                                  const DeformOptions& options = {},
@@ -83,11 +82,11 @@ std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region&
 
 /// Assembles and factors what `holds` need. Errors: as Deformer::prepare; invalid_argument where
 /// either is null.
-std::shared_ptr<const Preparation> prepare_deformation(std::shared_ptr<const RestShape> rest,
-                                                       std::shared_ptr<const Holds> holds,
-                                                       const Context& context = {});
+std::shared_ptr<const Preparation> prepare_deformation(
+    std::shared_ptr<const RestShape> rest, std::shared_ptr<const ConstraintSet> constraints,
+    const Context& context = {});
 const std::shared_ptr<const RestShape>& rest_of(const Preparation& preparation);
-const std::shared_ptr<const Holds>& holds_of(const Preparation& preparation);
+const std::shared_ptr<const ConstraintSet>& constraints_of(const Preparation& preparation);
 
 /// As Deformer::set_transform, in `poses`; `turn`, where it is given, says how far the handle
 /// turns. A mirror image moves along. Errors: as there; handle_removed; invalid_argument for

@@ -57,33 +57,33 @@ HandlePose reflected(const RestShape& rest, const MirrorPlane& plane, const Hand
     return image;
 }
 
-const Handle& handle_of(const Holds& holds, HandleId id) {
-    if (id.value < 0 || id.value >= count_of(holds.handles)) {
+const Handle& handle_of(const ConstraintSet& constraints, HandleId id) {
+    if (id.value < 0 || id.value >= count_of(constraints.handles)) {
         throw Error(ErrorCode::handle_removed, "there is no handle with the id " +
                                                    std::to_string(id.value) +
                                                    "; take what add_handle returns");
     }
-    if (!holds.handles[id.value]) {
+    if (!constraints.handles[id.value]) {
         throw Error(ErrorCode::handle_removed, "the handle was removed; add a new one");
     }
-    return *holds.handles[id.value];
+    return *constraints.handles[id.value];
 }
 
-void require_poses(const Holds& holds, const Poses& poses) {
+void require_poses(const ConstraintSet& constraints, const Poses& poses) {
     const auto require_as_many = [](std::size_t given, std::size_t expected, const char* what) {
         if (given == expected) return;
         throw Error(ErrorCode::invalid_argument,
-                    "the poses are of other holds: they have " + std::to_string(given) + " " +
+                    "the poses are of other handles: they have " + std::to_string(given) + " " +
                         what + ", but the preparation has " + std::to_string(expected) +
-                        "; take those of Deformer::setup after the last change of the holds");
+                        "; take those of Deformer::snapshot after the last change of its handles");
     };
-    require_as_many(poses.handles.size(), holds.handles.size(), "handles");
-    require_as_many(poses.targets.size(), holds.targets.size(), "targets");
+    require_as_many(poses.handles.size(), constraints.handles.size(), "handles");
+    require_as_many(poses.targets.size(), constraints.targets.size(), "targets");
 }
 
-void pose_handle(const RestShape& rest, const Holds& holds, Poses& poses, HandleId id,
+void pose_handle(const RestShape& rest, const ConstraintSet& constraints, Poses& poses, HandleId id,
                  const Affine& transform, const Vec3& about, const Vec3& turn) {
-    const Handle& handle = handle_of(holds, id);
+    const Handle& handle = handle_of(constraints, id);
     require_regular(transform, about);
     if (!turn.allFinite()) {
         throw Error(ErrorCode::not_finite, "the turn of a handle must be finite");
@@ -103,12 +103,12 @@ void pose_handle(const RestShape& rest, const Holds& holds, Poses& poses, Handle
     poses.handles[id.value] = pose;
 }
 
-bool at_rest(const RestShape& rest, const Holds& holds, const Poses& poses) {
-    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
-        if (holds.handles[h] && !poses.handles[h].at_rest()) return false;
+bool at_rest(const RestShape& rest, const ConstraintSet& constraints, const Poses& poses) {
+    for (std::size_t h = 0; h < constraints.handles.size(); ++h) {
+        if (constraints.handles[h] && !poses.handles[h].at_rest()) return false;
     }
-    for (std::size_t t = 0; t < holds.targets.size(); ++t) {
-        const Target& target = *holds.targets[t];
+    for (std::size_t t = 0; t < constraints.targets.size(); ++t) {
+        const Target& target = *constraints.targets[t];
         const TargetPose& asked = poses.targets[t];
         const Vec3 at = target.is_hard_vertex()
                             ? rest.positions[rest.region_row[target.row.front().first]]

@@ -19,36 +19,39 @@ void require_area(const Patch& patch) {
                 vertices);
 }
 
-std::shared_ptr<const WorkingPatch> working_patch(const RestShape& rest, const Holds& holds) {
+std::shared_ptr<const WorkingPatch> working_patch(const RestShape& rest,
+                                                  const ConstraintSet& constraints) {
     std::shared_ptr<const WorkingPatch> work = rest.work;
     const DeformOptions& options = rest.options();
-    if (options.refine_borders && options.method == DeformMethod::implicit) {
-        std::optional<Patch> refined = refined_at_borders(work->patch, find_holding(*work, holds));
+    if (options.subdivide_borders && options.method == DeformMethod::implicit) {
+        std::optional<Patch> refined =
+            refined_at_borders(work->patch, find_holding(*work, constraints));
         if (refined) work = std::make_shared<WorkingPatch>(std::move(*refined), options);
     }
-    return changes_patch(holds, options.transition) ? anchored(*work, holds, options.transition)
-                                                    : work;
+    return changes_patch(constraints, options.transition)
+               ? anchored(*work, constraints, options.transition)
+               : work;
 }
 
 // What holds in fact: handles that nearly touch give up rings of their vertices if asked to.
-Holds holding_in_fact(const RestShape& rest, const Holds& holds) {
-    Holds result = holds;
+ConstraintSet holding_in_fact(const RestShape& rest, const ConstraintSet& constraints) {
+    ConstraintSet result = constraints;
     const int rings = rest.options().free_rings;
     if (rings == 0) return result;
-    Holding holding = find_holding(*rest.work, holds);
+    Holding holding = find_holding(*rest.work, constraints);
     free_gap_rings(*rest.work, rings, holding);
     for (std::size_t h = 0; h < result.handles.size(); ++h) {
-        if (!holds.handles[h] || holds.handles[h]->soft()) continue;
-        Handle handle = *holds.handles[h];
+        if (!constraints.handles[h] || constraints.handles[h]->soft()) continue;
+        Handle handle = *constraints.handles[h];
         std::erase_if(handle.local, [&](Index v) { return holding.owner[at(v)] != index_of(h); });
         result.handles[h] = std::make_shared<const Handle>(std::move(handle));
     }
     return result;
 }
 
-void collect_held(Preparation& next, const Holds& holds) {
+void collect_held(Preparation& next, const ConstraintSet& constraints) {
     const Patch& patch = next.patch();
-    for (const auto& handle : holds.handles) {
+    for (const auto& handle : constraints.handles) {
         next.held.push_back(handle ? handle->local : std::vector<Index>());
     }
     for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
@@ -56,15 +59,15 @@ void collect_held(Preparation& next, const Holds& holds) {
     }
 }
 
-void find_who_holds(Preparation& next, const Holds& holds, const Context& context) {
-    Holding holding = find_holding(*next.work, holds);
-    next.gaps = handle_gaps(*next.rest->work, find_holding(*next.rest->work, holds));
+void find_who_holds(Preparation& next, const ConstraintSet& constraints, const Context& context) {
+    Holding holding = find_holding(*next.work, constraints);
+    next.gaps = handle_gaps(*next.rest->work, find_holding(*next.rest->work, constraints));
     next.following = hold_loose_parts(*next.work, next.rest->options().loose, holding, context);
     require_constraints(*next.work, holding.known);
     next.owner = std::move(holding.owner);
     next.known = std::move(holding.known);
     next.asked = std::move(holding.asked);
-    collect_held(next, holds);
+    collect_held(next, constraints);
     for (const Index v : next.patch().of_region) {
         const Index owner = next.owner[v];
         if (owner == kPinned || owner == kLoose)
@@ -74,12 +77,12 @@ void find_who_holds(Preparation& next, const Holds& holds, const Context& contex
 
 // The centre of the first handle, or between it and its mirror image: rarely a centre of the
 // surface itself, at which vertices that differ would lie equally far.
-Vec3 start_of_sequence(const RestShape& rest, const Holds& holds) {
-    for (const auto& h : holds.handles) {
+Vec3 start_of_sequence(const RestShape& rest, const ConstraintSet& constraints) {
+    for (const auto& h : constraints.handles) {
         if (!h) continue;
         const Vec3 center = h->partner == kNoIndex
                                 ? h->center
-                                : Vec3(0.5 * (h->center + holds.handles[h->partner]->center));
+                                : Vec3(0.5 * (h->center + constraints.handles[h->partner]->center));
         return center - rest.origin();
     }
     return Vec3::Zero();
@@ -100,7 +103,7 @@ void factor(System& system, const Patch& patch, const Context& context) {
 void assemble(Preparation& next, ImplicitMethod& method, const Context& context) {
     const DeformOptions& options = next.rest->options();
     method.gradients = make_gradients(next.patch(), next.rings(), next.work->geometry, next.known,
-                                      start_of_sequence(*next.rest, *next.holds), options);
+                                      start_of_sequence(*next.rest, *next.constraints), options);
     context.parallel_for(0, 2, 1, [&](Index begin, Index end) {
         for (Index system = begin; system < end; ++system) {
             if (system == 0) {
@@ -177,21 +180,21 @@ void prepare_implicit(Preparation& next, Progress& progress, const Context& cont
 
 }  // namespace
 
-std::shared_ptr<const Preparation> prepare_deformation(std::shared_ptr<const RestShape> rest,
-                                                       std::shared_ptr<const Holds> holds,
-                                                       const Context& context) {
-    require(rest && holds, "a preparation needs a rest shape and holds");
+std::shared_ptr<const Preparation> prepare_deformation(
+    std::shared_ptr<const RestShape> rest, std::shared_ptr<const ConstraintSet> constraints,
+    const Context& context) {
+    require(rest && constraints, "a preparation needs a rest shape and holds");
     Progress progress(context, "deform: prepare");
     require_area(rest->patch());
-    require_plain_holds(*holds, rest->options());
+    require_plain_holds(*constraints, rest->options());
     // Stencils, right-hand sides, matrices while they are assembled, a frame and its gradients.
     constexpr std::size_t kBytesPerVertex = 1000;
     auto next = std::make_shared<Preparation>();
     next->hold = MemoryHold(context.memory(), "preparing a deformation");
     next->hold.resize(rest->positions.size() * kBytesPerVertex);
     next->rest = std::move(rest);
-    next->holds = std::move(holds);
-    const Holds holds_in_fact = holding_in_fact(*next->rest, *next->holds);
+    next->constraints = std::move(constraints);
+    const ConstraintSet holds_in_fact = holding_in_fact(*next->rest, *next->constraints);
     next->work = working_patch(*next->rest, holds_in_fact);
     find_who_holds(*next, holds_in_fact, context);
     if (next->rest->options().method == DeformMethod::implicit) {
@@ -206,21 +209,21 @@ const std::shared_ptr<const RestShape>& rest_of(const Preparation& preparation) 
     return preparation.rest;
 }
 
-const std::shared_ptr<const Holds>& holds_of(const Preparation& preparation) {
-    return preparation.holds;
+const std::shared_ptr<const ConstraintSet>& constraints_of(const Preparation& preparation) {
+    return preparation.constraints;
 }
 
 void pose_handle(const Preparation& preparation, Poses& poses, HandleId handle,
                  const Affine& transform, const Vec3& about, const std::optional<Vec3>& turn) {
-    (void)handle_of(*preparation.holds, handle);
-    require_poses(*preparation.holds, poses);
-    pose_handle(*preparation.rest, *preparation.holds, poses, handle, transform, about,
+    (void)handle_of(*preparation.constraints, handle);
+    require_poses(*preparation.constraints, poses);
+    pose_handle(*preparation.rest, *preparation.constraints, poses, handle, transform, about,
                 turn.value_or(poses.handles[handle.value].turn));
 }
 
 LinearProblem Preparation::problem() const {
     const ImplicitMethod& m = *implicit();
-    return {patch(), rings(), m.gradients, *m.first, owner, holds->handles};
+    return {patch(), rings(), m.gradients, *m.first, owner, constraints->handles};
 }
 
 GradientLoop Preparation::gradient_loop() const {

@@ -14,9 +14,9 @@
 #include "kernel/core/index.h"
 #include "kernel/core/memory_hold.h"
 #include "kernel/deform/comparison_method.h"
+#include "kernel/deform/holds/constraint_set.h"
 #include "kernel/deform/holds/constraints.h"
 #include "kernel/deform/holds/handle_gaps.h"
-#include "kernel/deform/holds/holds.h"
 #include "kernel/deform/holds/known_mask.h"
 #include "kernel/deform/holds/loose_parts.h"
 #include "kernel/deform/options.h"
@@ -35,7 +35,7 @@ namespace lissom {
 /// How the second system answers to translations of handles: its response to each handle of the
 /// solution, empty where the second system knows nothing of it; and the force on movable handle j
 /// that handle k makes.
-struct TurnAnswers {
+struct HandleResponses {
     std::vector<RotationSystem::Response> of_handles;
     Eigen::MatrixXd stiffness;
 };
@@ -44,7 +44,7 @@ struct TurnAnswers {
 /// does not matter whose is kept where two find it at the same time; nobody waits, as a loop that
 /// is waited in may take up other work.
 template <typename Value>
-class FoundOnce {
+class Lazy {
   public:
     template <typename Find>
     const Value& get(const Find& find) const {
@@ -78,10 +78,10 @@ struct ImplicitMethod {
     /// Vertices of the region and of a refinement without a known gradient: those with a stencil,
     /// and those without, which take the mean of their neighbours.
     std::vector<Index> gathered, averaged;
-    FoundOnce<TurnAnswers> answers;
+    Lazy<HandleResponses> answers;
     /// Gradients of the weights of translations, of each handle of the solution at each of
     /// `gathered`; only where handles turn far, and are few.
-    FoundOnce<std::vector<std::vector<Vec3>>> weight_gradients;
+    Lazy<std::vector<std::vector<Vec3>>> weight_gradients;
 };
 
 /// Vertices whose gradient is prescribed together: those of a handle, one with a constraint, or all
@@ -101,7 +101,7 @@ struct ComparedMethod {
 
 struct Preparation {
     std::shared_ptr<const RestShape> rest;
-    std::shared_ptr<const Holds> holds;
+    std::shared_ptr<const ConstraintSet> constraints;
     /// What it takes beside the factors, and what a frame takes.
     MemoryHold hold;
     /// The patch that it works on: refined at borders, with anchors.
@@ -146,6 +146,6 @@ void require_comparison(const DeformOptions& options);
 void prepare_comparison(Preparation& next, const Context& context);
 
 /// What the options refuse for `holds`: unsupported where a comparison method cannot hold it.
-void require_plain_holds(const Holds& holds, const DeformOptions& options);
+void require_plain_holds(const ConstraintSet& constraints, const DeformOptions& options);
 
 }  // namespace lissom

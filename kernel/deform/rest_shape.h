@@ -8,7 +8,8 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/core/memory_hold.h"
-#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/constraint_set.h"
+#include "kernel/deform/holds/poses.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/patch/sparse_row.h"
@@ -74,19 +75,19 @@ HandlePose placed(const RestShape& rest, const Affine& transform, const Vec3& ab
 HandlePose reflected(const RestShape& rest, const MirrorPlane& plane, const HandlePose& pose);
 
 /// Errors: handle_removed.
-const Handle& handle_of(const Holds& holds, HandleId id);
+const Handle& handle_of(const ConstraintSet& constraints, HandleId id);
 
 /// Errors: invalid_argument where `poses` are not those of `holds`.
-void require_poses(const Holds& holds, const Poses& poses);
+void require_poses(const ConstraintSet& constraints, const Poses& poses);
 
 /// Errors: invalid_argument where `frame` is none of this rest shape.
 void require_frame(const RestShape& rest, const DeformFrame& frame);
 
 /// As pose_handle; `turn` is near the one to take.
-void pose_handle(const RestShape& rest, const Holds& holds, Poses& poses, HandleId id,
+void pose_handle(const RestShape& rest, const ConstraintSet& constraints, Poses& poses, HandleId id,
                  const Affine& transform, const Vec3& about, const Vec3& turn);
 
 /// True where nothing is asked to move.
-bool at_rest(const RestShape& rest, const Holds& holds, const Poses& poses);
+bool at_rest(const RestShape& rest, const ConstraintSet& constraints, const Poses& poses);
 
 }  // namespace lissom

@@ -1,4 +1,4 @@
-/// What a deformation cost.
+/// Sizes and times of a preparation.
 #pragma once
 
 #include <cstddef>
@@ -23,5 +23,8 @@ struct DeformStats {
     /// Factorisations since construction: dragging adds none.
     Index factorizations = 0;
 };
+
+class Deformer;
+DeformStats stats_of(const Deformer& deformer);
 
 }  // namespace lissom

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/handle_basis.h"
 #include "kernel/io/stream/byte_reader.h"
 #include "kernel/io/stream/file.h"
 #include "kernel/io/stream/file_error.h"
@@ -58,7 +60,7 @@ std::vector<EngineHandle> named_handles(const Deformer& deformer, const HandleBa
     std::vector<EngineHandle> handles(basis.handles.size());
     for (std::size_t h = 0; h < handles.size(); ++h) {
         if (h < names.size()) handles[h].name = names[h];
-        handles[h].center = (deformer.handle_center(basis.handles[h]) - origin).cast<float>();
+        handles[h].center = (deformer.handle(basis.handles[h]).center - origin).cast<float>();
     }
     return handles;
 }
@@ -225,9 +227,9 @@ std::vector<Vec3> EngineBasis::positions(std::span<const Affine> transforms) con
 
 EngineBasis make_engine_basis(Deformer& deformer, std::span<const std::string> names,
                               const Context& context) {
-    const HandleBasis exact = deformer.basis(context);
+    const HandleBasis exact = basis_of(deformer, context);
     EngineBasis basis;
-    basis.origin = middle_of(deformer.rest_positions());
+    basis.origin = middle_of(rest_positions_of(deformer));
     const Vec3& o = basis.origin;
     basis.mesh_vertex_count = deformer.region().topology()->vertex_count();
     basis.vertices = exact.vertices;

@@ -41,7 +41,7 @@ void add(Hasher& hasher, const DeformOptions& o) {
          {o.coherence_weight, o.degenerate_threshold, o.displacement, o.transition}) {
         hasher.add(number);
     }
-    hasher.add(o.refine_borders);
+    hasher.add(o.subdivide_borders);
     hasher.add(o.scale_free);
 }
 
@@ -88,23 +88,22 @@ void add_handles(Hasher& hasher, const DeformDescription& description) {
 }  // namespace
 
 DeformContent::DeformContent(Deformer& deformer, ContentStore& store)
-    : DeformContent(deformer.setup(), deformer.result(), store) {}
+    : DeformContent(deformer.snapshot(), store) {}
 
-DeformContent::DeformContent(DeformSetup setup, const std::shared_ptr<const ShownResult>& shown,
-                             ContentStore& store) {
-    rest_ = store.keep_counted(setup.rest, lissom::memory_bytes(*setup.rest));
-    holds_ = store.keep(setup.holds, lissom::memory_bytes(*setup.holds));
-    shown_ = store.keep(shown, lissom::memory_bytes(*shown));
-    poses_ = std::move(setup.poses);
+DeformContent::DeformContent(DeformSnapshot snapshot, ContentStore& store) {
+    rest_ = store.keep_counted(snapshot.rest, lissom::memory_bytes(*snapshot.rest));
+    constraints_ = store.keep(snapshot.constraints, lissom::memory_bytes(*snapshot.constraints));
+    shown_ = store.keep(snapshot.shown, lissom::memory_bytes(*snapshot.shown));
+    poses_ = std::move(snapshot.poses);
 }
 
 bool DeformContent::operator==(const DeformContent& other) const {
-    return rest_ == other.rest_ && holds_ == other.holds_ && poses_ == other.poses_ &&
+    return rest_ == other.rest_ && constraints_ == other.constraints_ && poses_ == other.poses_ &&
            shown_ == other.shown_;
 }
 
 void DeformContent::list_kept(std::vector<const KeptBytes*>& list) const {
-    list.insert(list.end(), {rest_.get(), holds_.get(), shown_.get()});
+    list.insert(list.end(), {rest_.get(), constraints_.get(), shown_.get()});
 }
 
 std::uint64_t DeformContent::compute_hash() const {
@@ -113,12 +112,12 @@ std::uint64_t DeformContent::compute_hash() const {
     hasher.add(region_of(rest).vertices());
     add(hasher, options_of(rest));
     add(hasher, positions_of(rest));
-    const DeformDescription description = describe(setup());
+    const DeformDescription description = describe(snapshot());
     add_handles(hasher, description);
     hasher.add(count_of(description.constraints));
     for (const PointConstraint& constraint : description.constraints) add(hasher, constraint);
     hasher.add(description.stiffness);
-    add(hasher, shown()->positions);
+    add(hasher, shown_->value->positions);
     return hasher.value();
 }
 
@@ -132,8 +131,7 @@ std::shared_ptr<const ItemContent> DeformItem::capture(
 
 void DeformItem::restore(const ItemContent& content, const ItemContent*) {
     const auto& wanted = dynamic_cast<const DeformContent&>(content);
-    deformer_->restore(wanted.setup());
-    deformer_->show(wanted.shown());
+    deformer_->restore(wanted.snapshot());
     restored();
 }
 

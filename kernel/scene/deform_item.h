@@ -8,23 +8,27 @@
 #include <vector>
 
 #include "kernel/deform/deformer.h"
-#include "kernel/deform/holds/holds.h"
-#include "kernel/deform/rest_shape.h"
+#include "kernel/deform/holds/poses.h"
+#include "kernel/deform/stats.h"
 #include "kernel/scene/content_store.h"
 #include "kernel/scene/scene_item.h"
 
 namespace lissom {
 
+struct ConstraintSet;
+struct DeformFrame;
+struct RestShape;
+
 /// Inputs of a deformation, and its shown result.
 class DeformContent : public ItemContent {
   public:
     DeformContent(Deformer& deformer, ContentStore& store);
-    DeformContent(DeformSetup setup, const std::shared_ptr<const ShownResult>& shown,
-                  ContentStore& store);
+    DeformContent(DeformSnapshot snapshot, ContentStore& store);
 
-    /// Returns the arguments of Deformer::restore and Deformer::show.
-    DeformSetup setup() const { return {rest_->value, holds_->value, poses_}; }
-    const std::shared_ptr<const ShownResult>& shown() const { return shown_->value; }
+    /// Returns the argument of Deformer::restore.
+    DeformSnapshot snapshot() const {
+        return {rest_->value, constraints_->value, poses_, shown_->value};
+    }
 
     void list_kept(std::vector<const KeptBytes*>& list) const override;
     bool operator==(const DeformContent& other) const;
@@ -33,9 +37,9 @@ class DeformContent : public ItemContent {
     std::uint64_t compute_hash() const override;
 
     std::shared_ptr<const Kept<RestShape>> rest_;
-    std::shared_ptr<const Kept<Holds>> holds_;
+    std::shared_ptr<const Kept<ConstraintSet>> constraints_;
     Poses poses_;
-    std::shared_ptr<const Kept<ShownResult>> shown_;
+    std::shared_ptr<const Kept<DeformFrame>> shown_;
 };
 
 class DeformItem : public SceneItem {
@@ -52,7 +56,7 @@ class DeformItem : public SceneItem {
     std::shared_ptr<const ItemContent> capture(const std::shared_ptr<const ItemContent>& last,
                                                ContentStore& store) const override;
     void restore(const ItemContent& content, const ItemContent* present) override;
-    std::size_t memory_bytes() const override { return deformer_->stats().factor_bytes; }
+    std::size_t memory_bytes() const override { return stats_of(*deformer_).factor_bytes; }
 
   private:
     /// Called after content was put back.

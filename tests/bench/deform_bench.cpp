@@ -12,9 +12,12 @@
 #include <optional>
 #include <string>
 
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/deform/first_solution.h"
 #include "kernel/deform/preparation.h"
 #include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/stats.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/edit/subdivide.h"
@@ -94,11 +97,11 @@ class Drag {
     Deformer& deformer() { return deformer_; }
     /// Seconds of the two factorisations of the last preparation.
     double factorizations() const {
-        return deformer_.stats().first_factor_seconds + deformer_.stats().second_factor_seconds;
+        return stats_of(deformer_).first_factor_seconds + stats_of(deformer_).second_factor_seconds;
     }
     /// Seconds of ordering and planning them, and of the numbers.
     double analyses() {
-        const ImplicitMethod& method = *deformer_.preparation(context_)->implicit();
+        const ImplicitMethod& method = *deformer_.prepare(context_)->implicit();
         return method.first->stats().analyze_seconds + method.second->stats().analyze_seconds;
     }
     double numeric() { return factorizations() - analyses(); }
@@ -116,26 +119,26 @@ class Drag {
     /// turn; normals() those of reading the normals of the frame that is shown.
     double preview() {
         deformer_.set_transform(high_, task_.move(frame_++));
-        return seconds([&] { deformer_.preview(context_); });
+        return seconds([&] { deformer_.solve(FrameQuality::preview, context_); });
     }
     double frame() {
         deformer_.set_transform(high_, task_.move(frame_++));
-        return seconds([&] { deformer_.solve_draft(context_); });
+        return seconds([&] { deformer_.solve(FrameQuality::draft, context_); });
     }
     double normals() {
-        return seconds([&] { deformer_.normals(context_); });
+        return seconds([&] { normals_of(deformer_, context_); });
     }
     double solve() {
         frame();
-        return seconds([&] { deformer_.solve(context_); });
+        return seconds([&] { deformer_.solve(FrameQuality::full, context_); });
     }
     double full_solve() {
         deformer_.set_transform(high_, task_.move(frame_++));
-        return seconds([&] { deformer_.solve(context_); });
+        return seconds([&] { deformer_.solve(FrameQuality::full, context_); });
     }
     double far_frame() {
         deformer_.set_transform(high_, task_.far_move(frame_++));
-        return seconds([&] { deformer_.solve_draft(context_); });
+        return seconds([&] { deformer_.solve(FrameQuality::draft, context_); });
     }
 
   private:
@@ -160,12 +163,12 @@ Times time_deformer(const Task& task, const DeformOptions& options, int frames,
     times.preprocess = seconds([&] { drag.emplace(task, options, context); });
     times.preview = median_of(4 * frames, [&] { return drag->preview(); });
     times.frame = median_of(frames, [&] { return drag->frame(); });
-    const std::vector<Mat3> gradients = drag->deformer().gradients();
+    const std::vector<Mat3> gradients = gradients_of(drag->deformer());
     double sink = 0.0;
     times.polar = median_seconds(5, [&] {
         for (const Mat3& m : gradients) sink += nearest_rotation(m)(0, 0);
     });
-    const DeformStats& stats = drag->deformer().stats();
+    const DeformStats& stats = stats_of(drag->deformer());
     times.first_factor = stats.first_factor_seconds;
     times.second_factor = stats.second_factor_seconds;
     times.free = sink != 0.0 ? stats.free_vertices : 0;
@@ -240,8 +243,8 @@ double basis_error(const Task& task) {
     deformer.add_handle({task.mesh.shared_topology(), task.low});
     const HandleId high = deformer.add_handle({task.mesh.shared_topology(), task.high});
     deformer.set_transform(high, task.move(0));
-    const std::vector<Vec3> by_basis = deformer.preview();
-    const std::vector<Vec3> directly = deformer.solve_first_directly();
+    const std::vector<Vec3> by_basis = deformer.solve(FrameQuality::preview);
+    const std::vector<Vec3> directly = solve_first_directly(deformer);
     double worst = 0.0;
     for (std::size_t i = 0; i < by_basis.size(); ++i) {
         worst = std::max(worst, (by_basis[i] - directly[i]).norm());
@@ -325,7 +328,7 @@ void run_size(Report& report, const Task& task, int threads, int rounds) {
                          numeric),
                      0.3, Better::less, kAnalysisBound);
     MemoryLimit memory;
-    const double bytes = preview_bytes(drag->deformer().stats());
+    const double bytes = preview_bytes(stats_of(drag->deformer()));
     const Quotient preview = quotient_of(
         rounds, [&] { return drag->preview(); }, [&] { return memory.seconds_to_read(bytes); });
     report.add({name + "preview" + on, 1e3 * preview.above, "ms"});
@@ -412,7 +415,7 @@ double time_small_region(const Mesh& mesh, const Context& context, double* frame
     int step = 0;
     *frame = median_seconds(21, [&] {
         deformer->set_transform(id, rotation(Vec3::UnitZ(), 0.3 + 0.01 * step++, tip));
-        deformer->solve_draft(context);
+        deformer->solve(FrameQuality::draft, context);
     });
     return preprocess;
 }

@@ -136,7 +136,7 @@ class Harness {
             for (int step = 1; step <= move.steps(); ++step) {
                 deformer.set_transform(moved, move.at(static_cast<double>(step) / move.steps()));
                 if (method.preview) {
-                    deformer.preview();
+                    deformer.solve(FrameQuality::preview);
                 } else {
                     deformer.solve();
                 }

@@ -86,8 +86,8 @@ void run_deformation(Report& report) {
     std::vector<double> commits, undos;
     const auto frame = [&] {
         angle += 0.01;
-        edit->set_transform(tip, rotation(Vec3::UnitZ(), angle, edit->handle_center(tip)));
-        edit->solve_draft();
+        edit->set_transform(tip, rotation(Vec3::UnitZ(), angle, edit->handle(tip).center));
+        edit->solve(FrameQuality::draft);
         edit->apply_to(mesh);
     };
     frame();

@@ -34,7 +34,7 @@ Mesh bent(const Mesh& mesh, const char* held, const char* moved, int refine) {
     Deformer edit(mesh, Region::all(mesh.shared_topology()), options);
     edit.add_handle(*mesh.find_region(held));
     const HandleId handle = edit.add_handle(*mesh.find_region(moved));
-    edit.set_transform(handle, rotation(Vec3::UnitZ(), 1.0, edit.handle_center(handle)));
+    edit.set_transform(handle, rotation(Vec3::UnitZ(), 1.0, edit.handle(handle).center));
     edit.solve();
     Mesh result = mesh;
     edit.apply_to(result);

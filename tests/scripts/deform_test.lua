@@ -147,13 +147,16 @@ test("comparison methods: exact handles, preview as solve, no basis", function()
         deformer:solve()
         expect.equal(mesh:hash(), rest)
         expect.truthy(expect.failure("unsupported", deformer.basis, deformer).message:find(method, 1, true))
-        for name, value in pairs{ local_size = "keep", second = "blend", coherence = 1, displacement = 0.2,
-            degenerate_threshold = 1e4, fidelity = "thesis", refine = 1 } do
+        for name, value in pairs{ local_size = "scale", second = "poisson", coherence = 2, displacement = 0.3,
+            degenerate_threshold = 1e4, refine = 1 } do
             expect.error(function()
                 lissom.deformer(mesh, { method = method, [name] = value })
             end, name .. "' does not apply to method '" .. method)
         end
     end
+    expect.error(function()
+        lissom.deformer(mesh, { method = "naive", fidelity = "thesis" })
+    end, "does not apply to method 'naive'")
     lissom.deformer(mesh, { method = "harmonic", weights = "uniform" })
     expect.error(function() lissom.deformer(mesh, { method = "geodesic", weights = "uniform" }) end,
         "weights")
@@ -379,6 +382,8 @@ test("a report says what a result did, and handles that nearly touch tear", func
         end
         expect.equal(#report.tears > 0, rings == 0)
         expect.equal(report.crossings, 0)
+        expect.truthy(tostring(report):find(rings == 0 and "^torn.*folded face.*volume.*\n  torn: .*free_rings"
+            or "^ok: edges stretch up to [%d.]+ times, no folded faces, no pairs of faces cross, volume [+-]"))
         expect.truthy(math.abs(report.volume_change) < 0.5)
         expect.equal(deformer:report().crossings, nil)
         deformer:reset()

@@ -207,7 +207,7 @@ std::vector<Record> kernel_records() {
         {"lissom.Report", "Findings as a list, and each under the name of its kind.",
          finding_fields()},
         {"lissom.DeformReport",
-         "The last result of a deformation beside its rest shape.",
+         "The last result of a deformation beside its rest shape; tostring gives it in words.",
          {{"number", "stretch",
            "The greatest factor by which an edge is longer or shorter than at rest; 1 is none."},
           {"integer[]|nil", "stretched", "The vertices of that edge; nil where none changed."},

@@ -7,12 +7,17 @@
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "bindings/lua/mesh/transform_options.h"
+#include "kernel/deform/deform_report.h"
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/handle_basis.h"
+#include "kernel/deform/handle_changes.h"
+#include "kernel/deform/stats.h"
 
 namespace lissom::lua {
 
 std::size_t DeformObject::memory_bytes() const {
     if (!content) return 0;
-    return content->stats().factor_bytes + content->positions().size() * 4 * sizeof(Mat3);
+    return stats_of(*content).factor_bytes + content->positions().size() * 4 * sizeof(Mat3);
 }
 
 Deformer& DeformObject::deformer() {
@@ -76,7 +81,7 @@ int add_handle(Call& call) {
         // A handle whose mirror image is refused is not made.
         if (mirrors) {
             try {
-                deformer.mirror_handle(id, plane);
+                mirror_handle(deformer, id, plane);
             } catch (...) {
                 deformer.remove_handle(id);
                 throw;
@@ -117,7 +122,7 @@ int set_stiffness(Call& call) {
     const auto region = call.object<RegionObject>("region");
     const double factor = call.number("factor");
     const bool done =
-        call.attempt([&] { edit->deformer().set_stiffness(region->current(), factor); });
+        call.attempt([&] { set_stiffness(edit->deformer(), region->current(), factor); });
     return done ? call.push_argument() : call.fail();
 }
 
@@ -127,7 +132,7 @@ int write_result(Call& call, const Solve& solve) {
     const auto edit = call.self<DeformObject>();
     const bool done = call.attempt([&] {
         Deformer& deformer = edit->deformer();
-        deformer.require_surroundings(edit->mesh->mesh);
+        require_surroundings(deformer, edit->mesh->mesh);
         solve(deformer);
         deformer.apply_to(edit->mesh->mesh);
         edit->mesh->changed();
@@ -138,13 +143,15 @@ int write_result(Call& call, const Solve& solve) {
 }
 
 int preview(Call& call) {
-    return write_result(call, [&](Deformer& deformer) { deformer.preview(call.context()); });
+    return write_result(
+        call, [&](Deformer& deformer) { deformer.solve(FrameQuality::preview, call.context()); });
 }
 
 int solve(Call& call) {
     const bool draft = call.boolean("draft");
     return write_result(call, [&](Deformer& deformer) {
-        draft ? deformer.solve_draft(call.context()) : deformer.solve(call.context());
+        draft ? deformer.solve(FrameQuality::draft, call.context())
+              : deformer.solve(FrameQuality::full, call.context());
     });
 }
 
@@ -161,13 +168,13 @@ int rebase(Call& call) {
 int subdivided_mesh(Call& call) {
     const auto edit = call.self<DeformObject>();
     return new_mesh(
-        call, [&] { return edit->deformer().refined_mesh(edit->mesh->mesh, call.context()); });
+        call, [&] { return lissom::subdivided_mesh(edit->deformer(), edit->mesh->mesh, call.context()); });
 }
 
 int stats(Call& call) {
     const auto edit = call.self<DeformObject>();
     DeformStats s;
-    if (!call.attempt_quick([&] { s = edit->deformer().stats(); })) return call.fail();
+    if (!call.attempt_quick([&] { s = stats_of(edit->deformer()); })) return call.fail();
     const struct {
         const char* name;
         std::size_t value;
@@ -225,12 +232,20 @@ void push_warnings(Call& call, const std::vector<DeformWarning>& warnings) {
     }
 }
 
+int report_tostring(lua_State* L) {
+    lua_pushvalue(L, lua_upvalueindex(1));
+    return 1;
+}
+
 int report(Call& call) {
     const auto edit = call.self<DeformObject>();
     const DeformReportOptions options{call.boolean("crossings")};
     auto& found = call.hold<DeformReport>();
-    const bool done = call.attempt(
-        [&] { found = edit->deformer().report(edit->mesh->mesh, options, call.context()); });
+    auto& text = call.hold<std::string>();
+    const bool done = call.attempt([&] {
+        found = report_of(edit->deformer(), edit->mesh->mesh, options, call.context());
+        text = report_text(found);
+    });
     if (!done) return call.fail();
     lua_createtable(call.lua(), 0, 7);
     call.set_field("stretch", call.push(found.stretch));
@@ -244,6 +259,11 @@ int report(Call& call) {
     call.set_field("tears");
     push_warnings(call, found.warnings);
     call.set_field("warnings");
+    lua_createtable(call.lua(), 0, 1);
+    call.push(std::string_view(text));
+    lua_pushcclosure(call.lua(), report_tostring, 1);
+    lua_setfield(call.lua(), -2, "__tostring");
+    lua_setmetatable(call.lua(), -2);
     return 1;
 }
 
@@ -286,7 +306,8 @@ int basis(Call& call) {
     const auto edit = call.self<DeformObject>();
     lua_State* L = call.lua();
     auto& found = call.hold<HandleBasis>();
-    if (!call.attempt([&] { found = edit->deformer().basis(call.context()); })) return call.fail();
+    if (!call.attempt([&] { found = basis_of(edit->deformer(), call.context()); }))
+        return call.fail();
     call.charge(edit);
     lua_createtable(L, 0, 4);
     call.set_field("vertices", call.push_ids(found.vertices));

@@ -7,6 +7,7 @@
 
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/deform/deform_object.h"
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/io/basis_file.h"
 #include "kernel/io/morph_baker.h"
 #include "kernel/mesh/measure/directions.h"
@@ -30,7 +31,7 @@ std::vector<std::string> handle_names(const Call& call, const DeformObject& edit
     }
     std::vector<std::string> names;
     for (const HandleId id : deformer.handles()) {
-        names.push_back(region_name(edit.mesh->mesh, deformer.handle_region(id)));
+        names.push_back(region_name(edit.mesh->mesh, deformer.handle(id).region));
     }
     return names;
 }
@@ -53,19 +54,17 @@ int save_basis_file(Call& call) {
 
 constexpr int kMaximumFrames = 10000;
 
-// How the handles and the mesh of a deformation stand, to be put back.
+// The state of a deformation and its mesh, to be restored.
 class DeformSnapshot {
   public:
     explicit DeformSnapshot(DeformObject& edit)
         : mesh_(edit.mesh->mesh),
           revision_(edit.mesh->mesh.revision()),
-          poses_(edit.deformer().poses()),
-          result_(edit.deformer().result()) {}
+          snapshot_(edit.deformer().snapshot()) {}
 
     const Mesh& mesh() const { return mesh_; }
 
-    void restore_handles(Deformer& deformer) const { deformer.restore(*poses_); }
-    void restore_result(Deformer& deformer) const { deformer.show(result_); }
+    void restore(Deformer& deformer) const { deformer.restore(snapshot_); }
 
     void restore_mesh(MeshObject& object) const {
         Mesh& mesh = object.mesh;
@@ -82,41 +81,33 @@ class DeformSnapshot {
   private:
     Mesh mesh_;
     std::uint64_t revision_;
-    std::shared_ptr<const HandlePoses> poses_;
-    std::shared_ptr<const ShownResult> result_;
+    DeformSnapshot snapshot_;
 };
 
 // Everything that lives as long as one call of bake.
 struct Baking {
     Baking(std::shared_ptr<DeformObject> owner, BakeOptions options, const Context& context)
-        : edit(std::move(owner)), snapshot(*edit), shape(snapshot.mesh()) {
-        edit->deformer().apply_rest_to(shape);
+        : edit(std::move(owner)), before(*edit), shape(before.mesh()) {
+        apply_rest(edit->deformer(), shape);
         baker = std::make_unique<MorphBaker>(shape, edit->deformer().region(), std::move(options),
                                              context);
     }
 
     void add_pose(double time, bool is_preview, const Context& context) {
         Deformer& deformer = edit->deformer();
-        if (is_preview) {
-            deformer.preview(context);
-        } else {
-            deformer.solve(context);
-        }
+        deformer.solve(is_preview ? FrameQuality::preview : FrameQuality::full, context);
         deformer.apply_to(shape);
         baker->add(time, shape);
     }
 
     // Whatever the script did to the deformation in the meantime.
     void restore() const {
-        if (edit->content) {
-            snapshot.restore_handles(*edit->content);
-            snapshot.restore_result(*edit->content);
-        }
-        snapshot.restore_mesh(*edit->mesh);
+        if (edit->content) before.restore(*edit->content);
+        before.restore_mesh(*edit->mesh);
     }
 
     std::shared_ptr<DeformObject> edit;
-    DeformSnapshot snapshot;
+    DeformSnapshot before;
     Mesh shape;
     std::unique_ptr<MorphBaker> baker;
 };
@@ -158,8 +149,7 @@ int bake_frames(lua_State* L) {
     for (int i = 0; i < request.count; ++i) {
         const double time = request.times[i];
         Baking* const baking = request.baking;
-        if (!call.attempt_quick(
-                [&] { baking->snapshot.restore_handles(baking->edit->deformer()); })) {
+        if (!call.attempt_quick([&] { baking->before.restore(baking->edit->deformer()); })) {
             return 0;
         }
         lua_pushvalue(L, 2);

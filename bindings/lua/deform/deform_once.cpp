@@ -35,17 +35,17 @@ std::span<const HandleSpec> read_handles(Call& call) {
 void add_pins(const Call& call, Deformer& deformer) {
     if (!call.has("pin")) return;
     if (call.kind("pin") == Kind::object) {
-        deformer.add_handle(call.object<RegionObject>("pin")->current());
+        deformer.pin(call.object<RegionObject>("pin")->current());
         return;
     }
     for (std::size_t i = 0; i < call.object_count("pin"); ++i) {
-        deformer.add_handle(call.object_at<RegionObject>("pin", i)->current());
+        deformer.pin(call.object_at<RegionObject>("pin", i)->current());
     }
 }
 
 void add_moved(Deformer& deformer, const HandleSpec& spec) {
     const HandleId id = deformer.add_handle(spec.region->current());
-    const Vec3 center = deformer.handle_center(id);
+    const Vec3 center = deformer.handle(id).center;
     const Affine map = spec.transform.relative_to(center).map(Vec3::Zero());
     deformer.set_transform(id, map, center, spec.transform.turn());
 }
@@ -57,7 +57,7 @@ int deform_mesh(Call& call) {
         Deformer deformer = made_deformer(call, *mesh);
         add_pins(call, deformer);
         for (const HandleSpec& handle : handles) add_moved(deformer, handle);
-        deformer.solve(call.context());
+        deformer.solve(FrameQuality::full, call.context());
         deformer.apply_to(mesh->mesh);
         mesh->changed();
     });

@@ -18,23 +18,6 @@ void take_number(const Call& call, const char* path, double& target) {
     if (call.has(path)) target = call.number(path);
 }
 
-// Options given together with a method that has no use for them.
-void refuse_options(const Call& call, DeformMethod method) {
-    if (method == DeformMethod::implicit) return;
-    const auto refuse = [&](const std::string& option) {
-        throw Error(ErrorCode::invalid_argument,
-                    "option '" + option + "' does not apply to method '" +
-                        std::string(method_name(method)) + "'; leave one of them out");
-    };
-    for (const char* option :
-         {"local_size", "second", "coherence", "displacement", "degenerate_threshold", "refine",
-          "subdivide_borders", "flat", "free_rings"}) {
-        if (call.has(option)) refuse(option);
-    }
-    if (call.integer("fidelity") == 1) refuse("fidelity");
-    if (method == DeformMethod::geodesic && call.has("weights")) refuse("weights");
-}
-
 DeformOptions deform_options(const Call& call) {
     const bool thesis = call.integer("fidelity") == 1;
     DeformOptions options = thesis ? DeformOptions::thesis() : DeformOptions{};
@@ -45,7 +28,7 @@ DeformOptions deform_options(const Call& call) {
     take_choice(call, "weights", options.weights);
     if (call.has("coherence")) options.coherence = call.integer("coherence");
     if (call.has("refine")) options.refine = call.integer("refine");
-    if (call.has("subdivide_borders")) options.refine_borders = call.boolean("subdivide_borders");
+    if (call.has("subdivide_borders")) options.subdivide_borders = call.boolean("subdivide_borders");
     take_choice(call, "flat", options.flat);
     options.loose = call.choice<UnheldParts>("loose");
     if (call.has("free_rings")) options.free_rings = call.integer("free_rings");
@@ -59,7 +42,6 @@ DeformOptions deform_options(const Call& call) {
 
 Deformer made_deformer(const Call& call, const MeshObject& mesh) {
     const DeformOptions options = deform_options(call);
-    refuse_options(call, options.method);
     const Region region = call.has("region") ? call.object<RegionObject>("region")->current()
                                              : Region::all(mesh.mesh.shared_topology());
     return Deformer(mesh.mesh, region, options, call.context());

@@ -3,6 +3,7 @@
 #include "bindings/lua/deform/deform_object.h"
 #include "bindings/lua/deform/deform_texts.h"
 #include "bindings/lua/mesh/transform_options.h"
+#include "kernel/deform/handle_changes.h"
 #include "kernel/deform/rotation/winding.h"
 
 namespace lissom::lua {
@@ -15,8 +16,8 @@ int move_handle(Call& call, const Work& work) {
     const auto handle = call.self<HandleObject>();
     const bool done = call.attempt_quick([&] {
         Deformer& deformer = handle->edit->deformer();
-        const Vec3 center = deformer.handle_center(handle->id);
-        const Affine now = deformer.transform_about(handle->id, center);
+        const Vec3 center = deformer.handle(handle->id).center;
+        const Affine now = transform_about(deformer, handle->id, center);
         deformer.set_transform(handle->id, work(now, center), center);
     });
     return done ? call.push_argument() : call.fail();
@@ -33,11 +34,11 @@ int rotate_handle(Call& call) {
     const auto handle = call.self<HandleObject>();
     const bool done = call.attempt_quick([&] {
         Deformer& deformer = handle->edit->deformer();
-        const Vec3 center = deformer.handle_center(handle->id);
-        const Affine now = deformer.transform_about(handle->id, center);
+        const Vec3 center = deformer.handle(handle->id).center;
+        const Affine now = transform_about(deformer, handle->id, center);
         const Affine next = options.relative_to(center).map(now.translation) * now;
         deformer.set_transform(handle->id, next, center,
-                               turned(deformer.turn(handle->id), options.turn()));
+                               turned(deformer.pose(handle->id).turn, options.turn()));
     });
     return done ? call.push_argument() : call.fail();
 }
@@ -56,7 +57,7 @@ int set_handle(Call& call) {
     const auto handle = call.self<HandleObject>();
     const bool done = call.attempt_quick([&] {
         Deformer& deformer = handle->edit->deformer();
-        const Vec3 center = deformer.handle_center(handle->id);
+        const Vec3 center = deformer.handle(handle->id).center;
         const Affine map = options.relative_to(center).map(Vec3::Zero());
         deformer.set_transform(handle->id, map, center, options.turn());
     });
@@ -88,7 +89,8 @@ int set_handle_matrix(Call& call) {
     const auto handle = call.self<HandleObject>();
     const bool done = call.attempt_quick([&] {
         Deformer& deformer = handle->edit->deformer();
-        const Vec3 near = has_turn ? Vec3(turn[0], turn[1], turn[2]) : deformer.turn(handle->id);
+        const Vec3 near =
+            has_turn ? Vec3(turn[0], turn[1], turn[2]) : deformer.pose(handle->id).turn;
         deformer.set_transform(handle->id, map, Vec3::Zero(), near);
     });
     return done ? call.push_argument() : call.fail();
@@ -108,8 +110,8 @@ int handle_matrix(Call& call) {
     Vec3 turn = Vec3::Zero();
     const bool done = call.attempt_quick([&] {
         const Deformer& deformer = handle->edit->deformer();
-        map = deformer.transform(handle->id);
-        turn = deformer.turn(handle->id);
+        map = deformer.pose(handle->id).transform;
+        turn = deformer.pose(handle->id).turn;
     });
     if (!done) return call.fail();
     call.push_affine(map);
@@ -122,8 +124,8 @@ int handle_center(Call& call) {
     Vec3 center = Vec3::Zero();
     const bool done = call.attempt_quick([&] {
         const Deformer& deformer = handle->edit->deformer();
-        center = deformer.handle_center(handle->id);
-        center += deformer.transform_about(handle->id, center).translation;
+        center = deformer.handle(handle->id).center;
+        center += transform_about(deformer, handle->id, center).translation;
     });
     return done ? call.push_vector(center) : call.fail();
 }
@@ -134,7 +136,7 @@ int handle_region(Call& call) {
     const bool done = call.attempt_quick([&] {
         DeformObject& edit = *handle->edit;
         result.set(
-            std::make_shared<RegionObject>(edit.mesh, edit.deformer().handle_region(handle->id)));
+            std::make_shared<RegionObject>(edit.mesh, edit.deformer().handle(handle->id).region));
     });
     return done ? 1 : call.fail();
 }
@@ -143,7 +145,7 @@ int set_handle_region(Call& call) {
     const auto handle = call.self<HandleObject>();
     const auto region = call.object<RegionObject>("region");
     const bool done = call.attempt(
-        [&] { handle->edit->deformer().set_handle_region(handle->id, region->current()); });
+        [&] { set_handle_region(handle->edit->deformer(), handle->id, region->current()); });
     return done ? call.push_argument() : call.fail();
 }
 
@@ -152,7 +154,7 @@ int mirrored_handle(Call& call) {
     HandleId id;
     const auto result = call.create<HandleObject>();
     const bool done = call.attempt_quick([&] {
-        id = handle->edit->deformer().mirrored_handle(handle->id).value_or(HandleId{});
+        id = handle->edit->deformer().handle(handle->id).image.value_or(HandleId{});
         result.set(std::make_shared<HandleObject>(HandleObject{handle->edit, id}));
     });
     if (!done) return call.fail();
@@ -164,7 +166,7 @@ int mirror_residual(Call& call) {
     const auto handle = call.self<HandleObject>();
     MirrorResidual residual;
     const bool done =
-        call.attempt([&] { residual = handle->edit->deformer().mirror_residual(handle->id); });
+        call.attempt([&] { residual = mirror_residual_of(handle->edit->deformer(), handle->id); });
     if (!done) return call.fail();
     lua_State* L = call.lua();
     lua_createtable(L, 0, 3);
@@ -195,7 +197,7 @@ int handle_text(Call& call) {
     const auto handle = call.self<HandleObject>();
     int vertices = 0;
     const bool present = call.attempt_quick(
-        [&] { vertices = handle->edit->deformer().handle_region(handle->id).size(); });
+        [&] { vertices = handle->edit->deformer().handle(handle->id).region.size(); });
     if (!present) return call.push("lissom.Handle (removed)");
     lua_pushfstring(call.lua(), "lissom.Handle: %d vertices", vertices);
     return 1;

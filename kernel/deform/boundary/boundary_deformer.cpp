@@ -30,10 +30,10 @@ constexpr int kCorrections = 2;
 constexpr double kSameScale = 1e-12;
 // Weights of the harmonic interpolation are at least this, so that it never leaves the range of
 // what it interpolates.
-constexpr double kLeastWeight = 1e-3;
+constexpr double kMinWeight = 1e-3;
 // How far beyond the rotations that fit best a step of a refinement goes, in parts of the way to
 // them; smaller parts than the least count as none. A step that gains less is the last.
-constexpr double kMostFurther = 1.6, kLeastFurther = 0.3, kLeastGain = 1e-4;
+constexpr double kMaxFurther = 1.6, kMinFurther = 0.3, kMinGain = 1e-4;
 
 DeformOptions deform_options(const BoundaryDeformOptions& options) {
     DeformOptions result;
@@ -45,7 +45,7 @@ DeformOptions deform_options(const BoundaryDeformOptions& options) {
     result.degenerate_threshold = options.degenerate_threshold;
     result.displacement = options.displacement;
     result.scale_free = options.scale_free;
-    result.refine_borders = false;
+    result.subdivide_borders = false;
     result.flat = FlatVertices::displaced;
     return result;
 }
@@ -444,7 +444,7 @@ void BoundaryDeformer::State::for_each_harmonic_entry(const Use& use) const {
 }
 
 double BoundaryDeformer::State::harmonic_weight(Index entry) const {
-    return std::max(work.geometry.cotangent[entry], kLeastWeight);
+    return std::max(work.geometry.cotangent[entry], kMinWeight);
 }
 
 // One row a free vertex, and one a feature.
@@ -550,14 +550,14 @@ bool BoundaryDeformer::State::step(FittedTurns& now, double& further, const Cont
         }
         solve_second(context);
         FittedTurns next = fitted(context);
-        if (next.energy < (1.0 - kLeastGain) * now.energy) {
+        if (next.energy < (1.0 - kMinGain) * now.energy) {
             now = std::move(next);
             return true;
         }
         turns = turns_before;
         deviation = deviation_before;
         if (further == 0.0) return false;
-        further = 0.5 * further < kLeastFurther ? 0.0 : 0.5 * further;
+        further = 0.5 * further < kMinFurther ? 0.0 : 0.5 * further;
     }
 }
 
@@ -569,7 +569,7 @@ std::vector<double> BoundaryDeformer::State::refine(int steps, const Context& co
     }
     FittedTurns now = fitted(context);
     std::vector<double> energy{now.energy};
-    double further = kMostFurther;
+    double further = kMaxFurther;
     for (int k = 0; k < steps && step(now, further, context); ++k) energy.push_back(now.energy);
     return energy;
 }

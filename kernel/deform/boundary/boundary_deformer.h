@@ -9,7 +9,6 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
-#include "kernel/deform/deformer.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/stats.h"
 #include "kernel/mesh/mesh.h"

@@ -31,7 +31,7 @@ void refine_result(const SecondInput& input, std::span<const TakenStretch> taken
     const Deviation plain = input.draft ? Deviation() : scratch.deviation;
     const int steps = input.motion.options().refine;
     for (int step = 1; step <= steps; ++step) {
-        const double further = over_relaxation(input.greatest_turn, step == steps);
+        const double further = over_relaxation(input.max_turn, step == steps);
         refine_rotations(input, scratch.deviation, further, scratch.absolute, context,
                          scratch.rotations);
         solve_stretched(input, taken, scratch, context);
@@ -42,11 +42,11 @@ void refine_result(const SecondInput& input, std::span<const TakenStretch> taken
 // Solves for deviations from the similarity nearest to the base transform, so that similarities of
 // the whole are exact. `deviation` is that of the first system, and then of the second.
 void solve_second(const SecondInput& input, FrameScratch::State& scratch, const Context& context) {
-    const Motion& motion = input.motion;
+    const FrameInput& motion = input.motion;
     const Patch& patch = motion.patch();
     Deviation& deviation = scratch.deviation;
     const std::vector<TakenStretch> taken = taken_stretches(motion, deviation);
-    const bool winds = share_of_turns(input.greatest_turn) > 0.0;
+    const bool winds = share_of_turns(input.max_turn) > 0.0;
     if (!winds) find_rotations(input, deviation, scratch.part, context, scratch.rotations);
     const Mat3 remainder = motion.base_linear() - input.base_rotation;
     if (!remainder.isZero(0.0)) {
@@ -63,14 +63,14 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
 
 // Whether the full frame takes the same steps up to the last corrections. Refinements start from
 // all of them, and so do ties.
-bool may_be_finished(const Motion& motion) {
+bool may_be_finished(const FrameInput& motion) {
     return motion.options().refine == 0 && !motion.method().second->has_ties();
 }
 
 // Where the second system puts the free vertices.
 void place_free(const SecondInput& input, std::span<const Vec4> deviation, const Context& context,
                 std::vector<Vec3>& positions) {
-    const Motion& motion = input.motion;
+    const FrameInput& motion = input.motion;
     const Patch& patch = motion.patch();
     const RestShape& rest = *motion.prepared().rest;
     const Vec3 shift = motion.base().topRightCorner<3, 1>();
@@ -94,8 +94,8 @@ std::vector<Vec3> take_positions(FrameScratch::State& scratch, const Preparation
 const Preparation& required(const std::shared_ptr<const Preparation>& preparation,
                             const Poses& poses) {
     require(preparation != nullptr,
-            "there is no preparation; make one by Deformer::preparation or prepare_deformation");
-    require_poses(*preparation->holds, poses);
+            "there is no preparation; make one by Deformer::prepare or prepare_deformation");
+    require_poses(*preparation->constraints, poses);
     return *preparation;
 }
 
@@ -119,10 +119,10 @@ void FrameScratch::recycle(DeformFrame&& frame) {
 DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
                           FrameScratch& scratch, const Context& context) {
     const Preparation& prepared = required(preparation, poses);
-    if (at_rest(*prepared.rest, *prepared.holds, poses)) return resting(prepared, poses);
+    if (at_rest(*prepared.rest, *prepared.constraints, poses)) return resting(prepared, poses);
     if (!prepared.implicit()) return solve_compared(preparation, poses, scratch.state(), context);
-    const AskedPart& asked = asked_part(preparation, poses.targets, scratch.state().asked);
-    const Motion motion(prepared, poses, asked);
+    const TargetRhs& asked = target_rhs(preparation, poses.targets, scratch.state().asked);
+    const FrameInput motion(prepared, poses, asked);
     std::vector<Vec3> positions = take_positions(scratch.state(), prepared);
     if (const LinearSolution* solution = motion.method().solution.get()) {
         const LinearSolution::Places places{motion.base() - matrix_of({}), prepared.patch().origin,
@@ -137,11 +137,12 @@ DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation,
 DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
                         FrameScratch& given, FrameQuality quality, const Context& context) {
     const Preparation& prepared = required(preparation, poses);
+    if (quality == FrameQuality::preview) return preview_frame(preparation, poses, given, context);
     FrameScratch::State& scratch = given.state();
-    if (at_rest(*prepared.rest, *prepared.holds, poses)) return resting(prepared, poses);
+    if (at_rest(*prepared.rest, *prepared.constraints, poses)) return resting(prepared, poses);
     if (!prepared.implicit()) return solve_compared(preparation, poses, scratch, context);
-    const AskedPart& asked = asked_part(preparation, poses.targets, scratch.asked);
-    const Motion motion(prepared, poses, asked);
+    const TargetRhs& asked = target_rhs(preparation, poses.targets, scratch.asked);
+    const FrameInput motion(prepared, poses, asked);
     std::vector<Vec3> positions = take_positions(scratch, prepared);
     const std::optional<DraftMemo> drafted = std::exchange(scratch.draft, std::nullopt);
     const bool draft = quality == FrameQuality::draft;
@@ -150,8 +151,8 @@ DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, c
         solve_first(motion, context, scratch.deviation);
         return framed(preparation, motion, poses, std::move(positions));
     }
-    const SecondInput input{motion, rotation_of(motion, motion.base_linear()),
-                            motion.greatest_turn(), draft};
+    const SecondInput input{motion, rotation_of(motion, motion.base_linear()), motion.max_turn(),
+                            draft};
     if (!draft && drafted && drafted->is_of(preparation, poses)) {
         second.finish_draft(scratch.deviation, scratch.second, context);
     } else {

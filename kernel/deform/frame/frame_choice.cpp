@@ -41,7 +41,7 @@ class RefinementLimit {
 
   private:
     Mesh shape_of(const Deviation& result) const {
-        const Motion& motion = input_.motion;
+        const FrameInput& motion = input_.motion;
         const Preparation& prepared = motion.prepared();
         const Patch& patch = motion.patch();
         const Vec3 shift = motion.base().topRightCorner<3, 1>() + patch.origin;

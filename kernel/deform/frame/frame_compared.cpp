@@ -46,14 +46,14 @@ Affine comparison_base(const Preparation& prepared, const Poses& poses) {
     for (Index v = 0; v < prepared.patch().real_count; ++v) {
         if (prepared.owner[v] == kPinned && rings.count(v) > 0) return {};
     }
-    const auto& handles = prepared.holds->handles;
+    const auto& handles = prepared.constraints->handles;
     for (std::size_t h = 0; h < handles.size(); ++h) {
         if (handles[h] && handles[h]->options.position) return poses.handles[h].local_transform;
     }
     return {};
 }
 
-std::vector<SourceMotion> source_motions(const ComparedMethod& compared, const Motion& motion) {
+std::vector<SourceMotion> source_motions(const ComparedMethod& compared, const FrameInput& motion) {
     std::vector<SourceMotion> motions;
     for (const GradientSource& source : compared.sources) {
         SourceMotion m;
@@ -69,9 +69,9 @@ std::vector<SourceMotion> source_motions(const ComparedMethod& compared, const M
 
 }  // namespace
 
-void require_plain_holds(const Holds& holds, const DeformOptions& options) {
+void require_plain_holds(const ConstraintSet& constraints, const DeformOptions& options) {
     if (options.method == DeformMethod::implicit) return;
-    if (!changes_patch(holds, options.transition)) return;
+    if (!changes_patch(constraints, options.transition)) return;
     throw Error(ErrorCode::unsupported,
                 "method " + std::string(method_name(options.method)) +
                     " holds vertices exactly; weights, stiffness, and points in faces or on edges "
@@ -110,7 +110,7 @@ DeformFrame solve_compared(const std::shared_ptr<const Preparation>& preparation
     const Preparation& prepared = *preparation;
     const Patch& patch = prepared.patch();
     const auto& compared = std::get<ComparedMethod>(prepared.method);
-    const Motion motion(prepared, poses, asked_part(preparation, poses.targets, scratch.asked));
+    const FrameInput motion(prepared, poses, target_rhs(preparation, poses.targets, scratch.asked));
     const std::vector<SourceMotion> motions = source_motions(compared, motion);
     std::vector<Vec3> at(patch.real_count, Vec3::Zero());
     std::vector<Mat3> transforms(at.size(), Mat3::Identity());

@@ -8,7 +8,7 @@
 
 namespace lissom {
 
-void solve_first(const Motion& motion, const Context& context, Deviation& deviation) {
+void solve_first(const FrameInput& motion, const Context& context, Deviation& deviation) {
     const Preparation& prepared = motion.prepared();
     const Patch& patch = motion.patch();
     deviation.assign(patch.vertex_count, Vec4::Zero());
@@ -33,7 +33,7 @@ void solve_first(const Motion& motion, const Context& context, Deviation& deviat
     });
 }
 
-Mat3 gradient_of(const Motion& motion, std::span<const Vec4> deviation, Index v,
+Mat3 gradient_of(const FrameInput& motion, std::span<const Vec4> deviation, Index v,
                  const TurnPart* part) {
     const Preparation& prepared = motion.prepared();
     const std::vector<char>& defined = motion.method().gradients.defined;
@@ -45,7 +45,7 @@ Mat3 gradient_of(const Motion& motion, std::span<const Vec4> deviation, Index v,
         Mat3 m;
         prepared.gradient_loop().gather(&u, x, &m, 0, 1);
         m += base;
-        if (part) turn_on(motion, *part, &u, &m, 0, 1);
+        if (part) extrapolate_rotation(motion, *part, &u, &m, 0, 1);
         return m;
     };
     if (defined[v]) return gathered(v);

@@ -34,7 +34,7 @@ constexpr double kSizeChange = 0.05;
 
 // How handles change the size of the surface, as logarithms in the last entry; empty where none
 // does.
-std::vector<Vec4> size_changes(const Motion& motion, const Context& context) {
+std::vector<Vec4> size_changes(const FrameInput& motion, const Context& context) {
     if (!motion.method().solution) return {};
     const std::vector<Vec4> of_handles = motion.relative_turns();
     const bool any = std::any_of(of_handles.begin(), of_handles.end(),
@@ -44,8 +44,8 @@ std::vector<Vec4> size_changes(const Motion& motion, const Context& context) {
 
 }  // namespace
 
-double over_relaxation(double greatest_turn, bool last) {
-    const double far = smooth_step((greatest_turn - kNearAngle) / (kFarAngle - kNearAngle));
+double over_relaxation(double max_turn, bool last) {
+    const double far = smooth_step((max_turn - kNearAngle) / (kFarAngle - kNearAngle));
     return (last ? kLastFurther : kFurther) * (1.0 - far);
 }
 
@@ -55,7 +55,7 @@ double over_relaxation(double greatest_turn, bool last) {
 // where no rotation fits. Scales stay.
 void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,
                       std::vector<Vec4>& absolute, const Context& context, Rotations& rotations) {
-    const Motion& motion = input.motion;
+    const FrameInput& motion = input.motion;
     const Patch& patch = motion.patch();
     std::vector<Vec4>& x = absolute;
     x.resize(patch.real_count);

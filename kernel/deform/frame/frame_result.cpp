@@ -33,17 +33,17 @@ void for_each_held(const RestShape& rest, const HandlePose& pose, std::span<cons
 // are at rest.
 void place_held(const Preparation& prepared, const Poses& poses, std::vector<Vec3>& positions) {
     const RestShape& rest = *prepared.rest;
-    const Holds& holds = *prepared.holds;
+    const ConstraintSet& constraints = *prepared.constraints;
     for (const Index row : prepared.resting_rows) positions[row] = rest.positions[row];
-    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
-        if (!holds.handles[h]) continue;
-        for_each_held(rest, poses.handles[h], holds.handles[h]->local,
+    for (std::size_t h = 0; h < constraints.handles.size(); ++h) {
+        if (!constraints.handles[h]) continue;
+        for_each_held(rest, poses.handles[h], constraints.handles[h]->local,
                       [&](Index v, const Vec3& at) {
                           if (prepared.known.position[v]) positions[rest.region_row[v]] = at;
                       });
     }
-    for (std::size_t t = 0; t < holds.targets.size(); ++t) {
-        const Target& target = *holds.targets[t];
+    for (std::size_t t = 0; t < constraints.targets.size(); ++t) {
+        const Target& target = *constraints.targets[t];
         if (!target.is_hard_vertex()) continue;
         const Index v = target.row.front().first, row = rest.region_row[v];
         if (target.position) {
@@ -61,8 +61,8 @@ std::vector<Mat3> turns_without_faces(const Preparation& prepared, const Poses& 
     for (const Index row : rest.directions.without_faces()) {
         const Index v = rest.patch().of_region[row];
         result.push_back(Mat3::Identity());
-        for (std::size_t h = 0; h < prepared.holds->handles.size(); ++h) {
-            const Handle* handle = prepared.holds->handles[h].get();
+        for (std::size_t h = 0; h < prepared.constraints->handles.size(); ++h) {
+            const Handle* handle = prepared.constraints->handles[h].get();
             const Affine& moved = poses.handles[h].local_transform;
             if (!handle || !handle->options.gradient || moved.is_identity()) continue;
             const std::vector<Index>& held = handle->local;
@@ -75,7 +75,7 @@ std::vector<Mat3> turns_without_faces(const Preparation& prepared, const Poses& 
 
 }  // namespace
 
-DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const Motion& motion,
+DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const FrameInput& motion,
                    const Poses& poses, std::vector<Vec3> positions) {
     const Preparation& prepared = *preparation;
     const Patch& patch = prepared.patch();
@@ -94,10 +94,10 @@ DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const 
     return frame;
 }
 
-const AskedPart& asked_part(const std::shared_ptr<const Preparation>& preparation,
-                            const std::vector<TargetPose>& targets, AskedMemo& memo) {
+const TargetRhs& target_rhs(const std::shared_ptr<const Preparation>& preparation,
+                            const std::vector<TargetPose>& targets, TargetMemo& memo) {
     if (memo.preparation.lock() != preparation || memo.targets != targets) {
-        AskedMemo next{preparation, targets, asked_part(*preparation, targets)};
+        TargetMemo next{preparation, targets, target_rhs(*preparation, targets)};
         memo = std::move(next);
     }
     return memo.part;
@@ -106,11 +106,11 @@ const AskedPart& asked_part(const std::shared_ptr<const Preparation>& preparatio
 std::vector<Mat3> frame_gradients(const DeformFrame& frame, FrameScratch& given) {
     if (frame.gradients) return *frame.gradients;
     require(frame.preparation != nullptr, "the frame has neither gradients nor a preparation");
-    require_poses(*frame.preparation->holds, frame.poses);
+    require_poses(*frame.preparation->constraints, frame.poses);
     const Preparation& prepared = *frame.preparation;
     FrameScratch::State& scratch = given.state();
-    const Motion motion(prepared, frame.poses,
-                        asked_part(frame.preparation, frame.poses.targets, scratch.asked));
+    const FrameInput motion(prepared, frame.poses,
+                            target_rhs(frame.preparation, frame.poses.targets, scratch.asked));
     scratch.draft.reset();
     solve_first(motion, {}, scratch.deviation);
     std::vector<Mat3> gradients;

@@ -30,8 +30,8 @@ double turn_fraction(double greatest) {
 
 // Where local vertices lie, relative to where the base takes them, if the handles of the solution
 // differ from it by `differences` and nothing else moves.
-void spread_moves(const Motion& motion, std::span<const Mat4> differences, const Context& context,
-                  Deviation& x) {
+void spread_moves(const FrameInput& motion, std::span<const Mat4> differences,
+                  const Context& context, Deviation& x) {
     const std::vector<Index>& handles = motion.solution().handles();
     const Patch& patch = motion.patch();
     const auto number_of = [&](Index owner) {
@@ -57,7 +57,8 @@ void spread_moves(const Motion& motion, std::span<const Mat4> differences, const
 // read than stencils.
 constexpr std::size_t kFewHandles = 4;
 
-std::vector<std::vector<Vec3>> find_weight_gradients(const Motion& motion, const Context& context) {
+std::vector<std::vector<Vec3>> find_weight_gradients(const FrameInput& motion,
+                                                     const Context& context) {
     const std::vector<Index>& vertices = motion.method().gathered;
     const std::size_t handles = motion.solution().handles().size();
     std::vector<std::vector<Vec3>> gradients(handles, std::vector<Vec3>(vertices.size()));
@@ -77,7 +78,7 @@ std::vector<std::vector<Vec3>> find_weight_gradients(const Motion& motion, const
 
 }  // namespace
 
-SpreadMoves::SpreadMoves(const Motion& motion, const std::vector<Vec4>& of_handles,
+SpreadMoves::SpreadMoves(const FrameInput& motion, const std::vector<Vec4>& of_handles,
                          const Context& context)
     : motion_(motion), of_handles_(of_handles) {
     const ImplicitMethod& method = motion.method();
@@ -104,15 +105,15 @@ void SpreadMoves::gather(const Index* vertices, Mat3* m, Index begin, Index end)
     }
 }
 
-Mat3 rotation_of(const Motion& motion, const Mat3& gradient) {
+Mat3 rotation_of(const FrameInput& motion, const Mat3& gradient) {
     const Mat3 r = nearest_rotation(gradient);
     return motion.scales() ? Mat3(uniform_scale(gradient) * r) : r;
 }
 
 // Each handle goes `fraction` of its way from the base, along a screw.
-std::optional<TurnPart> part_of_turns(const Motion& motion, double greatest_turn,
-                                      Deviation& scratch, const Context& context) {
-    const double fraction = turn_fraction(greatest_turn);
+std::optional<TurnPart> part_of_turns(const FrameInput& motion, double max_turn, Deviation& scratch,
+                                      const Context& context) {
+    const double fraction = turn_fraction(max_turn);
     if (fraction >= 1.0) return std::nullopt;
     const std::vector<Index>& handles = motion.solution().handles();
     const Mat4& base = motion.base();
@@ -122,7 +123,7 @@ std::optional<TurnPart> part_of_turns(const Motion& motion, double greatest_turn
     for (std::size_t n = 0; n < turns.size(); ++n) {
         const Affine& moved = motion.pose(handles[n]).local_transform;
         const Vec3 center =
-            motion.prepared().holds->handles[handles[n]]->center - motion.patch().origin;
+            motion.prepared().constraints->handles[handles[n]]->center - motion.patch().origin;
         const Vec4 whole = (matrix_of(moved) - base) * homogeneous(center);
         const Screw screw = screw_of(turns[n].head<3>(), whole.head<3>());
         Affine at;
@@ -136,8 +137,8 @@ std::optional<TurnPart> part_of_turns(const Motion& motion, double greatest_turn
     return TurnPart{fraction, scratch, SpreadMoves(motion, remainders, context)};
 }
 
-void turn_on(const Motion& motion, const TurnPart& part, const Index* vertices, Mat3* gradient,
-             Index begin, Index end) {
+void extrapolate_rotation(const FrameInput& motion, const TurnPart& part, const Index* vertices,
+                          Mat3* gradient, Index begin, Index end) {
     const Mat3 base_linear = motion.base_linear();
     const std::size_t count = end - begin;
     Vec4 base;
@@ -150,18 +151,18 @@ void turn_on(const Motion& motion, const TurnPart& part, const Index* vertices, 
     for (std::size_t i = 0; i < count; ++i) gradient[i] += added[i];
 }
 
-void first_gradients(const Motion& motion, const TurnPart* part, std::span<const Vec4> deviation,
-                     Mat3* m, Index begin, Index end) {
+void first_gradients(const FrameInput& motion, const TurnPart* part,
+                     std::span<const Vec4> deviation, Mat3* m, Index begin, Index end) {
     const Index* vertices = motion.method().gathered.data();
     const Vec4* x = part ? part->deviation.data() : deviation.data();
     const Mat3 base = motion.base_linear();
     motion.prepared().gradient_loop().gather(vertices, x, m, begin, end);
     for (Index i = 0; i < end - begin; ++i) m[i] += base;
-    if (part) turn_on(motion, *part, vertices, m, begin, end);
+    if (part) extrapolate_rotation(motion, *part, vertices, m, begin, end);
 }
 
-void first_rotations(const Motion& motion, const TurnPart* part, std::span<const Vec4> deviation,
-                     Mat3* s, Index begin, Index end) {
+void first_rotations(const FrameInput& motion, const TurnPart* part,
+                     std::span<const Vec4> deviation, Mat3* s, Index begin, Index end) {
     const std::size_t count = end - begin;
     std::array<double, kFrameBlock> scale;
     first_gradients(motion, part, deviation, s, begin, end);
@@ -172,9 +173,9 @@ void first_rotations(const Motion& motion, const TurnPart* part, std::span<const
 }
 
 void turn_held(const SecondInput& input, Rotations& rotations) {
-    const Motion& motion = input.motion;
+    const FrameInput& motion = input.motion;
     const Preparation& prepared = motion.prepared();
-    const auto& handles = prepared.holds->handles;
+    const auto& handles = prepared.constraints->handles;
     for (std::size_t n = 0; n < handles.size(); ++n) {
         const Handle* h = handles[n].get();
         if (!h || h->soft() || !h->options.gradient) continue;
@@ -198,9 +199,8 @@ void turn_held(const SecondInput& input, Rotations& rotations) {
 
 void find_rotations(const SecondInput& input, std::span<const Vec4> deviation, Deviation& scratch,
                     const Context& context, Rotations& rotations) {
-    const Motion& motion = input.motion;
-    const std::optional<TurnPart> part =
-        part_of_turns(motion, input.greatest_turn, scratch, context);
+    const FrameInput& motion = input.motion;
+    const std::optional<TurnPart> part = part_of_turns(motion, input.max_turn, scratch, context);
     const TurnPart* const of = part ? &*part : nullptr;
     const std::vector<Index>& vertices = motion.method().gathered;
     for_each_block(context, count_of(vertices), [&](Index begin, Index end) {

@@ -1,7 +1,8 @@
 /// The steps of a frame: each reads its arguments and gives a value, or writes the one it is given
 /// last; private to kernel/deform.
 ///
-///     Motion -> deviation (first system) -> rotations -> deviation (second system) -> DeformFrame
+///     FrameInput -> deviation (first system) -> rotations -> deviation (second system) ->
+///     DeformFrame
 ///
 /// A deviation is where local vertices lie, degenerate ones displaced, relative to where the base
 /// takes their rest position. Rotations are S_i of the second system, or R_i s_i, less that of the
@@ -16,9 +17,9 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
-#include "kernel/deform/frame/motion.h"
+#include "kernel/deform/frame/frame_input.h"
 #include "kernel/deform/frame/moving_surface.h"
-#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/poses.h"
 #include "kernel/deform/pipeline.h"
 #include "kernel/deform/preparation.h"
 #include "kernel/deform/system/frame_loops.h"
@@ -30,10 +31,10 @@ using Deviation = std::vector<Vec4>;
 using Rotations = std::vector<PaddedMat3>;
 
 /// The asked part of the last frame, which serves as long as the targets stay where they are.
-struct AskedMemo {
+struct TargetMemo {
     std::weak_ptr<const Preparation> preparation;
     std::vector<TargetPose> targets;
-    AskedPart part;
+    TargetRhs part;
 };
 
 /// Whose draft lies in the scratch; a full frame of the same poses goes on from there.
@@ -47,7 +48,7 @@ struct DraftMemo {
 };
 
 struct FrameScratch::State {
-    AskedMemo asked;
+    TargetMemo asked;
     std::optional<DraftMemo> draft;
     /// Of all that is asked for, and of a part of the turns.
     Deviation deviation, part;
@@ -62,21 +63,22 @@ struct FrameScratch::State {
     RotationSystem::Scratch second;
 };
 
-const AskedPart& asked_part(const std::shared_ptr<const Preparation>& preparation,
-                            const std::vector<TargetPose>& targets, AskedMemo& memo);
+const TargetRhs& target_rhs(const std::shared_ptr<const Preparation>& preparation,
+                            const std::vector<TargetPose>& targets, TargetMemo& memo);
 
 /// Translations of the solution's handles, spread as in the first system, together with what
 /// targets ask: their gradients.
 class SpreadMoves {
   public:
-    SpreadMoves(const Motion& motion, const std::vector<Vec4>& of_handles, const Context& context);
+    SpreadMoves(const FrameInput& motion, const std::vector<Vec4>& of_handles,
+                const Context& context);
 
     /// m[i - begin] for the i-th of vertices, i in [begin, end): of those that are gathered, or,
     /// where some are averaged, any.
     void gather(const Index* vertices, Mat3* m, Index begin, Index end) const;
 
   private:
-    const Motion& motion_;
+    const FrameInput& motion_;
     std::vector<Vec4> of_handles_;
     const std::vector<std::vector<Vec3>>* weight_gradients_ = nullptr;
     /// The moves themselves, where gradients of weights do not serve.
@@ -93,21 +95,21 @@ struct TurnPart {
 
 /// What the second system starts from.
 struct SecondInput {
-    const Motion& motion;
+    const FrameInput& motion;
     /// S of the base.
     Mat3 base_rotation;
     /// The greatest turn between handles.
-    double greatest_turn;
+    double max_turn;
     bool draft;
 };
 
 /// S of the second system for a deformation gradient: R, or R s.
-Mat3 rotation_of(const Motion& motion, const Mat3& gradient);
+Mat3 rotation_of(const FrameInput& motion, const Mat3& gradient);
 
 /// S of a vertex that is held and whose gradient is `linear`: all of `linear`, stretch included,
 /// for a second system that knows lengths. With less the held surface would keep asking for the
 /// size it had, and free vertices beside it would pay. The same as rotation_of for rigid motions.
-Mat3 held_transform(const Motion& motion, const Mat3& linear);
+Mat3 held_transform(const FrameInput& motion, const Mat3& linear);
 
 /// The stretch that a vertex takes over from a handle which does not hold its gradient exactly.
 struct TakenStretch {
@@ -117,32 +119,33 @@ struct TakenStretch {
 
 /// Stretches of vertices that stretched handles draw softly, or hold by position alone: as much of
 /// the handle's as the gradients of the first system have. None for rigid motions.
-std::vector<TakenStretch> taken_stretches(const Motion& motion, std::span<const Vec4> deviation);
+std::vector<TakenStretch> taken_stretches(const FrameInput& motion,
+                                          std::span<const Vec4> deviation);
 
-void solve_first(const Motion& motion, const Context& context, Deviation& deviation);
+void solve_first(const FrameInput& motion, const Context& context, Deviation& deviation);
 
 /// M_i after the first system, or what `part` of it leads to; where it does not exist, the mean of
 /// those around it.
-Mat3 gradient_of(const Motion& motion, std::span<const Vec4> deviation, Index v,
+Mat3 gradient_of(const FrameInput& motion, std::span<const Vec4> deviation, Index v,
                  const TurnPart* part = nullptr);
 
 /// The part of the turns that the first system is asked for, where it is not asked for all; its
 /// deviation is in `scratch`.
-std::optional<TurnPart> part_of_turns(const Motion& motion, double greatest_turn,
-                                      Deviation& scratch, const Context& context);
+std::optional<TurnPart> part_of_turns(const FrameInput& motion, double max_turn, Deviation& scratch,
+                                      const Context& context);
 /// Turns gradients of `part` on by what it leaves, and adds the remainders: of vertices [begin,
 /// end).
-void turn_on(const Motion& motion, const TurnPart& part, const Index* vertices, Mat3* gradient,
-             Index begin, Index end);
+void extrapolate_rotation(const FrameInput& motion, const TurnPart& part, const Index* vertices,
+                          Mat3* gradient, Index begin, Index end);
 
 /// The share of the field of turns in the rotations, 0 to 1.
-double share_of_turns(double greatest_turn);
+double share_of_turns(double max_turn);
 /// M_i that the first system leads to, of the vertices [begin, end) of those that are gathered.
-void first_gradients(const Motion& motion, const TurnPart* part, std::span<const Vec4> deviation,
-                     Mat3* m, Index begin, Index end);
+void first_gradients(const FrameInput& motion, const TurnPart* part,
+                     std::span<const Vec4> deviation, Mat3* m, Index begin, Index end);
 /// S_i of the same.
-void first_rotations(const Motion& motion, const TurnPart* part, std::span<const Vec4> deviation,
-                     Mat3* s, Index begin, Index end);
+void first_rotations(const FrameInput& motion, const TurnPart* part,
+                     std::span<const Vec4> deviation, Mat3* s, Index begin, Index end);
 /// Handles turn as a whole, and targets as they are asked to.
 void turn_held(const SecondInput& input, Rotations& rotations);
 /// The rotations that the first system leads to.
@@ -151,7 +154,7 @@ void find_rotations(const SecondInput& input, std::span<const Vec4> deviation, D
 /// The same where handles turn too far for it: by the field of turns, or between both.
 void wind_rotations(const SecondInput& input, FrameScratch::State& scratch, const Context& context);
 /// Over-relaxation of an ARAP iteration: 0 for none.
-double over_relaxation(double greatest_turn, bool last);
+double over_relaxation(double max_turn, bool last);
 /// Takes those that fit the positions of the second system best, and goes on by `further` times the
 /// change.
 void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,
@@ -175,7 +178,7 @@ void turn_followers(const Preparation& prepared, const Poses& poses,
                     const std::vector<Vec3>& positions, std::vector<Mat3>& gradients);
 
 /// The frame with `positions` for what is free; others lie where they are held, to the bit.
-DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const Motion& motion,
+DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const FrameInput& motion,
                    const Poses& poses, std::vector<Vec3> positions);
 
 }  // namespace lissom

@@ -12,11 +12,11 @@ namespace {
 constexpr double kRigid = 1e-9;
 
 // Laplacian coordinates (Eq 2.10) know rotations only.
-bool knows_lengths(const Motion& motion) {
+bool knows_lengths(const FrameInput& motion) {
     return motion.options().second != SecondSystem::laplacian;
 }
 
-bool stretches(const Motion& motion, const Mat3& linear) {
+bool stretches(const FrameInput& motion, const Mat3& linear) {
     const Mat3 turn = rotation_of(motion, linear);
     return (linear - turn).norm() > kRigid * turn.norm();
 }
@@ -30,7 +30,7 @@ Mat3 part_of_stretch(const Mat3& asked, const Mat3& found, double share) {
 
 class StretchTaker {
   public:
-    StretchTaker(const Motion& motion, std::span<const Vec4> deviation)
+    StretchTaker(const FrameInput& motion, std::span<const Vec4> deviation)
         : motion_(motion), deviation_(deviation) {}
 
     std::vector<TakenStretch> run() {
@@ -50,7 +50,7 @@ class StretchTaker {
     }
 
     void take_positions(Index h) {
-        const Handle* handle = motion_.prepared().holds->handles[at(h)].get();
+        const Handle* handle = motion_.prepared().constraints->handles[at(h)].get();
         if (!handle || handle->soft() || handle->options.gradient) return;
         const Mat3& linear = motion_.pose(h).transform.linear;
         for (const Index v : motion_.prepared().held[at(h)]) take(v, linear, 1.0);
@@ -67,19 +67,20 @@ class StretchTaker {
         return rotation_of(motion_, gradient).inverse() * gradient;
     }
 
-    const Motion& motion_;
+    const FrameInput& motion_;
     std::span<const Vec4> deviation_;
     std::vector<TakenStretch> taken_;
 };
 
 }  // namespace
 
-Mat3 held_transform(const Motion& motion, const Mat3& linear) {
+Mat3 held_transform(const FrameInput& motion, const Mat3& linear) {
     const bool whole = knows_lengths(motion) && stretches(motion, linear);
     return whole ? linear : rotation_of(motion, linear);
 }
 
-std::vector<TakenStretch> taken_stretches(const Motion& motion, std::span<const Vec4> deviation) {
+std::vector<TakenStretch> taken_stretches(const FrameInput& motion,
+                                          std::span<const Vec4> deviation) {
     if (!knows_lengths(motion)) return {};
     return StretchTaker(motion, deviation).run();
 }

@@ -24,7 +24,8 @@ constexpr double kLastAngle = 240.0 * kPi / 180.0;
 // the first for handles that the second knows nothing of.
 class MeanOfTurns {
   public:
-    MeanOfTurns(const Motion& motion, const TurnAnswers& answers, const std::vector<Vec4>& value)
+    MeanOfTurns(const FrameInput& motion, const HandleResponses& answers,
+                const std::vector<Vec4>& value)
         : answers_(answers), value_(value) {
         const auto answers_to = [](const auto& response) { return !response.answer.empty(); };
         if (!std::all_of(answers.of_handles.begin(), answers.of_handles.end(), answers_to)) {
@@ -56,7 +57,7 @@ class MeanOfTurns {
     };
 
     // Those of handles that the second system does not answer to.
-    void add_silent(const Motion& motion) {
+    void add_silent(const FrameInput& motion) {
         const Preparation& prepared = motion.prepared();
         const LinearSolution& solution = motion.solution();
         const std::vector<Index>& free = motion.method().first->free_vertices();
@@ -73,7 +74,7 @@ class MeanOfTurns {
         }
     }
 
-    const TurnAnswers& answers_;
+    const HandleResponses& answers_;
     const std::vector<Vec4>& value_;
     std::vector<Sum> silent_;
 };
@@ -82,7 +83,7 @@ class MeanOfTurns {
 std::vector<Index> movable_handles(const Preparation& prepared) {
     std::vector<Index> movable;
     for (const Index h : prepared.implicit()->solution->handles()) {
-        const Handle& handle = *prepared.holds->handles[h];
+        const Handle& handle = *prepared.constraints->handles[h];
         if (handle.options.position && !handle.soft() && !handle.local.empty()) {
             movable.push_back(h);
         }
@@ -91,14 +92,14 @@ std::vector<Index> movable_handles(const Preparation& prepared) {
 }
 
 // Moves each movable handle by one unit in the second system alone.
-TurnAnswers find_answers(const Preparation& prepared, RotationSystem::Scratch& scratch,
-                         const Context& context) {
+HandleResponses find_answers(const Preparation& prepared, RotationSystem::Scratch& scratch,
+                             const Context& context) {
     const RotationSystem& second = *prepared.implicit()->second;
     const std::vector<Index>& all = prepared.implicit()->solution->handles();
     const std::vector<Index> movable = movable_handles(prepared);
     const auto count = count_of(movable);
-    TurnAnswers answers{std::vector<RotationSystem::Response>(all.size()),
-                        Eigen::MatrixXd(count, count)};
+    HandleResponses answers{std::vector<RotationSystem::Response>(all.size()),
+                            Eigen::MatrixXd(count, count)};
     for (Index first = 0; first < count; first += 3) {
         const Index last = std::min(count, first + 3);
         std::vector<Vec4> x(prepared.patch().vertex_count, Vec4::Zero());
@@ -123,7 +124,7 @@ TurnAnswers find_answers(const Preparation& prepared, RotationSystem::Scratch& s
 
 // The forces on movable handles where the second system would take the surface.
 Eigen::MatrixXd forces_on(const SecondInput& input, const std::vector<Index>& movable,
-                          const TurnAnswers& answers, const Rotations& rotations,
+                          const HandleResponses& answers, const Rotations& rotations,
                           std::span<const Vec4> deviation, RotationSystem::Scratch& scratch,
                           const Context& context) {
     const Preparation& prepared = input.motion.prepared();
@@ -151,10 +152,10 @@ Eigen::MatrixXd forces_on(const SecondInput& input, const std::vector<Index>& mo
 }
 
 // How far each handle of the solution is from where the present turns alone would put it.
-std::vector<Vec4> mismatches(const SecondInput& input, const TurnAnswers& answers,
+std::vector<Vec4> mismatches(const SecondInput& input, const HandleResponses& answers,
                              const Rotations& rotations, std::span<const Vec4> deviation,
                              RotationSystem::Scratch& scratch, const Context& context) {
-    const Motion& motion = input.motion;
+    const FrameInput& motion = input.motion;
     const std::vector<Index> movable = movable_handles(motion.prepared());
     const auto count = count_of(movable);
     Eigen::MatrixXd natural(count, 3);
@@ -174,9 +175,9 @@ std::vector<Vec4> mismatches(const SecondInput& input, const TurnAnswers& answer
 }
 
 // Makes `rotations` the means of the handles' turns.
-void take_mean_turns(const SecondInput& input, const TurnAnswers& answers, const Context& context,
-                     Rotations& rotations) {
-    const Motion& motion = input.motion;
+void take_mean_turns(const SecondInput& input, const HandleResponses& answers,
+                     const Context& context, Rotations& rotations) {
+    const FrameInput& motion = input.motion;
     const bool scales = motion.scales();
     const Mat3 base_linear = motion.base_linear();
     const double base_scale = scales ? uniform_scale(base_linear) : 1.0;
@@ -203,7 +204,7 @@ void take_mean_turns(const SecondInput& input, const TurnAnswers& answers, const
 // S_i of a block of vertices, as rotations and scales, nearest to gradients.
 class NearestBlock {
   public:
-    NearestBlock(const Motion& motion, std::span<const Mat3> gradient) {
+    NearestBlock(const FrameInput& motion, std::span<const Mat3> gradient) {
         if (motion.scales()) {
             std::transform(gradient.begin(), gradient.end(), scale_.begin(), uniform_scale);
         } else {
@@ -227,7 +228,7 @@ class NearestBlock {
 };
 
 // The same of one vertex.
-Mat3 blended(const Motion& motion, const Mat3& first, const Mat3& now, double share) {
+Mat3 blended(const FrameInput& motion, const Mat3& first, const Mat3& now, double share) {
     if (!motion.scales()) return rotation_between(first, now, share);
     const double scale = (1.0 - share) * uniform_scale(first) + share * uniform_scale(now);
     return scale * rotation_between(nearest_rotation(first), nearest_rotation(now), share);
@@ -241,7 +242,7 @@ void bend(const SecondInput& input, std::span<const Index> vertices, const Rotat
     }
 }
 
-void take_nearest(const Motion& motion, std::span<Mat3> s) {
+void take_nearest(const FrameInput& motion, std::span<Mat3> s) {
     std::array<double, kFrameBlock> scale;
     const bool scales = motion.scales();
     for (std::size_t i = 0; i < s.size(); ++i) scale[i] = scales ? uniform_scale(s[i]) : 1.0;
@@ -251,8 +252,8 @@ void take_nearest(const Motion& motion, std::span<Mat3> s) {
 
 }  // namespace
 
-double share_of_turns(double greatest_turn) {
-    return smooth_step((greatest_turn - kFirstAngle) / (kLastAngle - kFirstAngle));
+double share_of_turns(double max_turn) {
+    return smooth_step((max_turn - kFirstAngle) / (kLastAngle - kFirstAngle));
 }
 
 // Each vertex turns by the mean of the handles' rotation vectors; the second system says where the
@@ -260,12 +261,12 @@ double share_of_turns(double greatest_turn) {
 // translations do.
 void wind_rotations(const SecondInput& input, FrameScratch::State& scratch,
                     const Context& context) {
-    const double share = share_of_turns(input.greatest_turn);
-    const Motion& motion = input.motion;
+    const double share = share_of_turns(input.max_turn);
+    const FrameInput& motion = input.motion;
     const ImplicitMethod& method = motion.method();
     const Deviation& deviation = scratch.deviation;
     Rotations& rotations = scratch.rotations;
-    const TurnAnswers& answers = method.answers.get(
+    const HandleResponses& answers = method.answers.get(
         [&] { return find_answers(motion.prepared(), scratch.second, context); });
     turn_held(input, rotations);
     take_mean_turns(input, answers, context, rotations);
@@ -273,8 +274,7 @@ void wind_rotations(const SecondInput& input, FrameScratch::State& scratch,
         motion, mismatches(input, answers, rotations, deviation, scratch.second, context), context);
     // Beyond a right angle, and so here, the first system is never asked for all of the turns.
     const std::optional<TurnPart> part =
-        share < 1.0 ? part_of_turns(motion, input.greatest_turn, scratch.part, context)
-                    : std::nullopt;
+        share < 1.0 ? part_of_turns(motion, input.max_turn, scratch.part, context) : std::nullopt;
 
     const std::vector<Index>& vertices = method.gathered;
     for_each_block(context, count_of(vertices), [&](Index begin, Index end) {

@@ -17,8 +17,8 @@ constexpr double kFading = 100.0;
 
 class AnchorBuilder {
   public:
-    AnchorBuilder(const WorkingPatch& rest, const Holds& holds, double transition)
-        : work_(rest), holds_(holds), transition_(transition) {}
+    AnchorBuilder(const WorkingPatch& rest, const ConstraintSet& constraints, double transition)
+        : work_(rest), holds_(constraints), transition_(transition) {}
 
     WorkingPatch build() {
         if (holds_.stiffness) stiffen(*holds_.stiffness);
@@ -145,7 +145,7 @@ class AnchorBuilder {
     }
 
     WorkingPatch work_;
-    const Holds& holds_;
+    const ConstraintSet& holds_;
     double transition_;
 };
 
@@ -212,11 +212,12 @@ void drop_repeated(WorkingPatch& work, const Holding& holding) {
 
 }  // namespace
 
-std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest, const Holds& holds,
-                                             double transition) {
-    auto work = std::make_shared<WorkingPatch>(AnchorBuilder(rest, holds, transition).build());
+std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest,
+                                             const ConstraintSet& constraints, double transition) {
+    auto work =
+        std::make_shared<WorkingPatch>(AnchorBuilder(rest, constraints, transition).build());
     add_empty_anchors(*work);
-    const Holding holding = find_holding(*work, holds);
+    const Holding holding = find_holding(*work, constraints);
     drop_repeated(*work, holding);
     const std::vector<Index> dependent = dependent_ties(work->ties, holding.known.position);
     if (!dependent.empty()) refuse_tie(*work, work->ties.row[dependent.front()]);

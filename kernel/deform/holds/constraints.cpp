@@ -129,7 +129,7 @@ bool is_held(const Part& part) {
                 std::move(vertices));
 }
 
-Holding known_nothing(const WorkingPatch& work) {
+Holding pin_outside_region(const WorkingPatch& work) {
     const std::size_t n = work.patch.vertex_count;
     const std::vector<char> none(n, 0);
     Holding holding{std::vector<Index>(n, kFree), {none, none, none}, {}};
@@ -199,21 +199,22 @@ void hold_anchors(const WorkingPatch& work, Holding& holding) {
 
 }  // namespace
 
-bool changes_patch(const Holds& holds, double transition) {
-    return holds.stiffness || transition > 0.0 ||
-           std::any_of(holds.targets.begin(), holds.targets.end(),
+bool changes_patch(const ConstraintSet& constraints, double transition) {
+    return constraints.stiffness || transition > 0.0 ||
+           std::any_of(constraints.targets.begin(), constraints.targets.end(),
                        [](const auto& target) { return !target->is_hard_vertex(); }) ||
-           std::any_of(holds.handles.begin(), holds.handles.end(), [](const auto& h) {
+           std::any_of(constraints.handles.begin(), constraints.handles.end(), [](const auto& h) {
                return h && (h->soft() || !h->points.empty() || h->options.falloff > 0.0);
            });
 }
 
-Holding find_holding(const WorkingPatch& work, const Holds& holds) {
-    Holding holding = known_nothing(work);
-    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
-        if (holds.handles[h]) hold_handle(work, *holds.handles[h], index_of(h), holding);
+Holding find_holding(const WorkingPatch& work, const ConstraintSet& constraints) {
+    Holding holding = pin_outside_region(work);
+    for (std::size_t h = 0; h < constraints.handles.size(); ++h) {
+        if (constraints.handles[h])
+            hold_handle(work, *constraints.handles[h], index_of(h), holding);
     }
-    for (const auto& target : holds.targets) {
+    for (const auto& target : constraints.targets) {
         if (!target->is_hard_vertex()) continue;
         const Index v = target->row.front().first;
         holding.owner[v] = kConstrained;
@@ -222,15 +223,15 @@ Holding find_holding(const WorkingPatch& work, const Holds& holds) {
     }
     hold_inserted(work.patch, holding);
     // Points come last: vertices that are held keep their holder.
-    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
-        const Handle* handle = holds.handles[h].get();
+    for (std::size_t h = 0; h < constraints.handles.size(); ++h) {
+        const Handle* handle = constraints.handles[h].get();
         if (!handle || handle->soft() || !handle->options.gradient) continue;
         for (const SparseRow& row : handle->points) {
             turn_around(row, index_of(h), kNoIndex, holding);
         }
     }
-    for (std::size_t t = 0; t < holds.targets.size(); ++t) {
-        const Target& target = *holds.targets[t];
+    for (std::size_t t = 0; t < constraints.targets.size(); ++t) {
+        const Target& target = *constraints.targets[t];
         if (target.is_hard_vertex() || target.weight || !target.gradient) continue;
         turn_around(target.row, kConstrained, index_of(t), holding);
     }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kernel/core/index.h"
-#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/constraint_set.h"
 #include "kernel/deform/holds/known_mask.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/working_patch.h"
@@ -27,7 +27,7 @@ using VertexConstraints = std::map<Index, VertexConstraint>;
 
 /// True where a preparation cannot work on the rest patch as it is; `transition` is that of the
 /// options.
-bool changes_patch(const Holds& holds, double transition);
+bool changes_patch(const ConstraintSet& constraints, double transition);
 
 /// Who holds which local vertices of a patch, and what that makes known.
 struct Holding {
@@ -40,12 +40,12 @@ struct Holding {
 /// The patch with the stiffness asked for, and an anchor for every point and every vertex that is
 /// held softly.
 /// Errors: handle_overlap where a point leaves nothing to move, naming its vertices.
-std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest, const Holds& holds,
-                                             double transition);
+std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest,
+                                             const ConstraintSet& constraints, double transition);
 
 /// Outside the region, and without faces, vertices are pinned. A hard point that asks for a
 /// gradient gives it to the vertices around it that nobody else holds.
-Holding find_holding(const WorkingPatch& work, const Holds& holds);
+Holding find_holding(const WorkingPatch& work, const ConstraintSet& constraints);
 
 /// Local vertices, ascending, of each connected part that nothing holds at all.
 std::vector<std::vector<Index>> loose_parts(const WorkingPatch& work, const KnownMask& known);

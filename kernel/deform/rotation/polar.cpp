@@ -23,7 +23,7 @@ constexpr double kSmallestGap = 1e-3;
 constexpr double kGoodColumn = 0.25;
 
 constexpr double kRootTolerance = 1e-10;
-constexpr int kMostIterations = 50;
+constexpr int kMaxIterations = 50;
 constexpr double kRootOfThree = 1.7320508075688772;
 
 Mat3 rotation_by_svd(const Mat3& m) {
@@ -75,7 +75,7 @@ struct Minors {
 template <typename T>
 LISSOM_INLINE void find_greatest_root(const T& c1, const T& c0, T& x) {
     x = T{} + kRootOfThree;
-    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
         const T value = ((x * x - 2.0) * x + c1) * x + c0;
         const T slope = (4.0 * x * x - 4.0) * x + c1;
         const T step = slope > 0.0 ? value / slope : T{};

@@ -14,7 +14,7 @@ constexpr double kNoAngle = 1e-9;
 
 // A path is followed in steps of at most this angle, far below where the nearest turn is in doubt.
 constexpr double kStep = kPi / 8.0;
-constexpr double kMostSteps = 4096.0;
+constexpr double kMaxSteps = 4096.0;
 
 // A screw takes shifts across its axis along from this angle on, and up to the angles between which
 // that fades.
@@ -94,7 +94,7 @@ Screw screw_of(const Vec3& turn, const Vec3& shift) {
 
 Vec3 turned(const Vec3& before, const Vec3& further) {
     if (are_parallel(before, further)) return before + further;
-    const double steps = std::clamp(std::ceil(further.norm() / kStep), 1.0, kMostSteps);
+    const double steps = std::clamp(std::ceil(further.norm() / kStep), 1.0, kMaxSteps);
     const Mat3 step = rotation_of_turn(further / steps);
     Mat3 rotation = rotation_of_turn(before);
     Vec3 turn = before;

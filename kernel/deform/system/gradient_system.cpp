@@ -125,7 +125,7 @@ class Assembler {
     }
 
     // How many columns the rows of coherence over one ring can have at most.
-    std::size_t most_columns(Index begin, Index end) const {
+    std::size_t max_columns(Index begin, Index end) const {
         std::size_t most = 0;
         for (Index a = begin; a < end; ++a) {
             most += 1 + rings_.count(a);
@@ -136,7 +136,7 @@ class Assembler {
 
     CoherenceRows coherence_rows(Index begin, Index end) const {
         CoherenceRows rows;
-        const std::size_t most = most_columns(begin, end);
+        const std::size_t most = max_columns(begin, end);
         rows.column.reserve(most);
         rows.value.reserve(most);
         RowAccumulator<Vec3> row(rings_.size());

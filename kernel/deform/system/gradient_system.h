@@ -24,8 +24,8 @@ namespace lissom {
 /// Weight of a pair of neighbours in the scale-free form of Eq 2.7: the cotangent weight of their
 /// edge. Weights below the least have no say but could make the weighted graph fall apart.
 inline double scale_free_coherence(double cotangent_weight) {
-    constexpr double kLeast = 1e-3;
-    return std::max(cotangent_weight, kLeast);
+    constexpr double kMin = 1e-3;
+    return std::max(cotangent_weight, kMin);
 }
 
 /// Weight of a pair of neighbours in Eq 2.7, which counts every pair from both its ends, in the

@@ -161,7 +161,7 @@ void describe(Archive& a, DeformOptions& options) {
     a.number("coherence_weight", options.coherence_weight);
     a.number("degenerate_threshold", options.degenerate_threshold);
     describe_surface(a, options);
-    a.flag("refine_borders", options.refine_borders);
+    a.flag("refine_borders", options.subdivide_borders);
     a.number("displacement", options.displacement);
     a.flag("scale_free", options.scale_free);
     a.number("transition", options.transition);

@@ -68,8 +68,8 @@ Mesh rest_mesh(const RestShape& rest, const Mesh& mesh) {
     return result;
 }
 
-std::shared_ptr<ShownResult> shown_of(DeformRecord& record) {
-    auto shown = std::make_shared<ShownResult>();
+std::shared_ptr<DeformFrame> shown_of(DeformRecord& record) {
+    auto shown = std::make_shared<DeformFrame>();
     shown->positions = std::move(record.shown);
     shown->gradients = std::move(record.gradients);
     shown->turns_without_faces = std::move(record.turns_without_faces);
@@ -223,12 +223,13 @@ Strands strands_of(StrandsRecord record, const Context& context) {
     return strands;
 }
 
-DeformRecord record_of(const DeformSetup& setup, const ShownResult& shown, const Mesh& mesh) {
-    const RestShape& rest = *setup.rest;
+DeformRecord record_of(const DeformSnapshot& snapshot, const Mesh& mesh) {
+    const RestShape& rest = *snapshot.rest;
+    const DeformFrame& shown = *snapshot.shown;
     DeformRecord record;
     record.region = rest.region().vertices();
     record.options = rest.options();
-    record.description = describe(setup);
+    record.description = describe(snapshot);
     record.rest = rest.positions;
     record.shown = shown.positions;
     record.gradients = shown.gradients.value();
@@ -254,14 +255,14 @@ Deformer deformer_of(DeformRecord record, const Mesh& mesh, const Context& conte
     add_all(at_rest, std::move(record.directions));
     require_complete_attributes(at_rest);
     Deformer deformer(at_rest, region, record.options, context);
-    deformer.restore(setup_of(record.description, deformer.setup().rest));
-    deformer.show(shown_of(record));
+    DeformSnapshot snapshot = snapshot_of(record.description, rest_of(deformer));
+    snapshot.shown = shown_of(record);
+    deformer.restore(snapshot);
     return deformer;
 }
 
-std::pair<DeformSetup, std::shared_ptr<const ShownResult>> setup_of(DeformRecord record,
-                                                                    const Deformer& deformer) {
-    std::shared_ptr<const RestShape> rest = deformer.setup().rest;
+DeformSnapshot snapshot_of(DeformRecord record, const Deformer& deformer) {
+    std::shared_ptr<const RestShape> rest = rest_of(deformer);
     require_valid(record.region == region_of(*rest).vertices() &&
                       record.rest.size() == record.region.size() &&
                       record.shown.size() == record.region.size() &&
@@ -272,8 +273,9 @@ std::pair<DeformSetup, std::shared_ptr<const ShownResult>> setup_of(DeformRecord
         frame.positions = std::move(record.rest);
         rest = rebased(*rest, frame);
     }
-    DeformSetup setup = setup_of(record.description, std::move(rest));
-    return {std::move(setup), shown_of(record)};
+    DeformSnapshot snapshot = snapshot_of(record.description, std::move(rest));
+    snapshot.shown = shown_of(record);
+    return snapshot;
 }
 
 HairstyleRecord record_of(const Hairstyle& style, const StyleInputs& inputs) {

@@ -106,11 +106,10 @@ StrandsRecord record_of(const Strands& strands);
 Strands strands_of(StrandsRecord record, const Context& context);
 
 /// `mesh` is the one that is deformed, in its present shape.
-DeformRecord record_of(const DeformSetup& setup, const ShownResult& shown, const Mesh& mesh);
+DeformRecord record_of(const DeformSnapshot& snapshot, const Mesh& mesh);
 Deformer deformer_of(DeformRecord record, const Mesh& mesh, const Context& context);
-/// Returns the inputs for `deformer`, which has the same region, and the shown result.
-std::pair<DeformSetup, std::shared_ptr<const ShownResult>> setup_of(DeformRecord record,
-                                                                    const Deformer& deformer);
+/// Returns a snapshot for `deformer`, which has the same region.
+DeformSnapshot snapshot_of(DeformRecord record, const Deformer& deformer);
 
 HairstyleRecord record_of(const Hairstyle& style, const StyleInputs& inputs);
 Hairstyle hairstyle_of(const HairstyleRecord& record, const Mesh& head, const Context& context);

@@ -62,9 +62,9 @@ bool StateRecorder::add_deformation(const CapturedItem& captured,
     const auto& content = dynamic_cast<const DeformContent&>(*captured.content);
     const void* mesh_identity = captured.item->parts().front()->identity();
     const auto mesh = std::dynamic_pointer_cast<const MeshContent>(state_.find(mesh_identity));
-    const DeformSetup setup = content.setup();
-    if (region_of(*setup.rest).topology().get() != &mesh->topology()) return false;
-    DeformRecord record = record_of(setup, *content.shown(), mesh->mesh());
+    const DeformSnapshot snapshot = content.snapshot();
+    if (region_of(*snapshot.rest).topology().get() != &mesh->topology()) return false;
+    DeformRecord record = record_of(snapshot, mesh->mesh());
     record.mesh = number_of(items_, mesh_identity);
     put(captured.item->identity(), ItemKind::deformation, records).deformation = std::move(record);
     return true;
@@ -158,8 +158,8 @@ void LiveItems::put_back(Index number, ItemRecord& record) {
             return item.restore(PolylineContent(record.polyline, store), nullptr);
         case ItemKind::deformation: {
             const auto& deformer = dynamic_cast<const DeformItem&>(item).deformer();
-            auto [setup, shown] = setup_of(std::move(record.deformation), deformer);
-            return item.restore(DeformContent(std::move(setup), shown, store), nullptr);
+            DeformSnapshot snapshot = snapshot_of(std::move(record.deformation), deformer);
+            return item.restore(DeformContent(std::move(snapshot), store), nullptr);
         }
         case ItemKind::hairstyle: {
             const auto& style = dynamic_cast<const HairstyleItem&>(item).style();

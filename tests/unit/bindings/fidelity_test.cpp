@@ -38,7 +38,7 @@ Names of_deformer() {
     note(names, "flat", flat != t.flat);
     note(names, "loose", loose != t.loose);
     note(names, "free_rings", free_rings != t.free_rings);
-    note(names, "subdivide_borders", borders != t.refine_borders);
+    note(names, "subdivide_borders", borders != t.subdivide_borders);
     note(names, "displacement", displacement != t.displacement);
     note(names, "transition", transition != t.transition);
     // A matter without an option.

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/stats.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
@@ -72,7 +74,7 @@ TEST_CASE("transforms: singular or not finite, and then the old one stays") {
          {scaling({1, 0, 1}, Vec3::Zero()), scaling({0, 0, 0}, Vec3::Zero()), nan}) {
         CHECK(error_of([&] { edit.deformer.set_transform(edit.high, bad); }).code() ==
               ErrorCode::singular_transform);
-        CHECK(edit.deformer.transform(edit.high) == good);
+        CHECK(edit.deformer.pose(edit.high).transform == good);
     }
     edit.deformer.set_transform(edit.high, scaling({1e-9, 1e-9, 1e-9}, Vec3::Zero()));
     edit.deformer.set_transform(edit.high, scaling({-1, 1, 1}, Vec3::Zero()));
@@ -85,7 +87,7 @@ TEST_CASE("constraints: none, or too few, name the part that nothing holds") {
     CHECK(free.code() == ErrorCode::unconstrained);
     CHECK(free.elements().kind == ElementKind::vertex);
     CHECK(free.elements().count == static_cast<std::size_t>(scene.mesh.vertex_count()));
-    CHECK(none.positions() == none.rest_positions());
+    CHECK(none.positions() == rest_positions_of(none));
 
     Deformer gradients(scene.mesh, scene.all());
     gradients.add_handle(scene.region(scene.low), {false, true});
@@ -99,7 +101,7 @@ TEST_CASE("constraints: none, or too few, name the part that nothing holds") {
     plane.add_handle(scene.region(end), {true, false});
     CHECK(error_of([&] { plane.solve(); }).code() == ErrorCode::unconstrained);
     plane.add_handle(scene.region({scene.high.back()}), {true, false});
-    CHECK(plane.solve() == plane.rest_positions());
+    CHECK(plane.solve() == rest_positions_of(plane));
 }
 
 TEST_CASE("vertex constraints: outside, held by a handle, not finite, out of range") {
@@ -107,16 +109,22 @@ TEST_CASE("vertex constraints: outside, held by a handle, not finite, out of ran
     Deformer d(scene.mesh, scene.region(scene.high));
     d.add_handle(scene.region({scene.high[0]}));
     const Vec3 p(1, 2, 3), bad(std::numeric_limits<double>::infinity(), 0, 0);
-    CHECK(error_of([&] { d.constrain({-4, p, {}}); }).code() == ErrorCode::out_of_range);
-    CHECK(error_of([&] { d.constrain({100000, p, {}}); }).code() == ErrorCode::out_of_range);
     CHECK(error_of([&] {
-              d.constrain({scene.low[0], p, {}});
+              d.constrain(VertexConstraint{-4, p, {}});
+          }).code() == ErrorCode::out_of_range);
+    CHECK(error_of([&] {
+              d.constrain(VertexConstraint{100000, p, {}});
+          }).code() == ErrorCode::out_of_range);
+    CHECK(error_of([&] {
+              d.constrain(VertexConstraint{scene.low[0], p, {}});
           }).code() == ErrorCode::handle_outside_region);
     CHECK(error_of([&] {
-              d.constrain({scene.high[0], p, {}});
+              d.constrain(VertexConstraint{scene.high[0], p, {}});
           }).code() == ErrorCode::handle_overlap);
-    CHECK(error_of([&] { d.constrain({scene.high[1], bad, {}}); }).code() == ErrorCode::not_finite);
-    d.constrain({scene.high[1], p, {}});
+    CHECK(error_of([&] {
+              d.constrain(VertexConstraint{scene.high[1], bad, {}});
+          }).code() == ErrorCode::not_finite);
+    d.constrain(VertexConstraint{scene.high[1], p, {}});
     CHECK(error_of([&] { d.add_handle(scene.region({scene.high[1]})); }).code() ==
           ErrorCode::handle_overlap);
 }
@@ -152,9 +160,9 @@ TEST_CASE("zero area: a vertex without any is named, a single collapsed face is 
     const HandleId high = handles(d);
     d.set_transform(high, translation({0.2, 0, 0}));
     d.solve();
-    CHECK(d.stats().zero_area_faces > 0);
+    CHECK(stats_of(d).zero_area_faces > 0);
     for (const Vec3& p : d.positions()) CHECK(p.allFinite());
-    CHECK(greatest_distance(d.positions(), d.rest_positions()) < 0.3);
+    CHECK(greatest_distance(d.positions(), rest_positions_of(d)) < 0.3);
 
     // All faces around one vertex are on a line.
     Mesh flat = mesh;
@@ -174,12 +182,14 @@ TEST_CASE("cancel and memory limit: the deformer goes on afterwards") {
     edit.deformer.set_transform(edit.high, translation({1, 0, 0}));
     const Context cancelled;
     cancelled.cancel();
-    CHECK(error_of([&] { edit.deformer.solve(cancelled); }).code() == ErrorCode::cancelled);
+    CHECK(error_of([&] { edit.deformer.solve(FrameQuality::full, cancelled); }).code() ==
+          ErrorCode::cancelled);
     ContextOptions options;
     options.memory_limit = 1000;
     const Context tight(options);
-    CHECK(error_of([&] { edit.deformer.solve(tight); }).code() == ErrorCode::memory_limit);
-    CHECK(edit.deformer.positions() == edit.deformer.rest_positions());
+    CHECK(error_of([&] { edit.deformer.solve(FrameQuality::full, tight); }).code() ==
+          ErrorCode::memory_limit);
+    CHECK(edit.deformer.positions() == rest_positions_of(edit.deformer));
     CHECK(edit.deformer.solve()[scene.high[0]] ==
           scene.mesh.position(scene.high[0]) + Vec3(1, 0, 0));
 }
@@ -187,7 +197,7 @@ TEST_CASE("cancel and memory limit: the deformer goes on afterwards") {
 TEST_CASE("cancel at every checkpoint: an error or the full result, never half of it") {
     const Scene scene = bar_scene();
     Edit oracle = make_edit(scene);
-    const Affine move = bend(scene, oracle.deformer.handle_center(oracle.high));
+    const Affine move = bend(scene, oracle.deformer.handle(oracle.high).center);
     oracle.deformer.set_transform(oracle.high, move);
     const std::vector<Vec3> expected = oracle.deformer.solve();
     int interrupted = 0;
@@ -203,11 +213,11 @@ TEST_CASE("cancel at every checkpoint: an error or the full result, never half o
         Edit edit = make_edit(scene);
         edit.deformer.set_transform(edit.high, move);
         try {
-            const std::vector<Vec3> result = edit.deformer.solve(context);
+            const std::vector<Vec3> result = edit.deformer.solve(FrameQuality::full, context);
             CHECK(result == expected);
         } catch (const Error& error) {
             CHECK(error.code() == ErrorCode::cancelled);
-            CHECK(edit.deformer.positions() == edit.deformer.rest_positions());
+            CHECK(edit.deformer.positions() == rest_positions_of(edit.deformer));
             CHECK(edit.deformer.solve() == expected);
             ++interrupted;
         }

@@ -1,6 +1,8 @@
 // A cancel at any moment leaves the deformer as it was, and the same call afterwards gives the same
 // result.
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/pipeline.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/interrupter.h"
 #include "tests/unit/deform/scene.h"
@@ -20,8 +22,9 @@ struct Seen {
 
     Seen(Deformer& deformer, const Mesh& rest) : mesh(rest) {
         positions = deformer.positions();
-        gradients = deformer.gradients();
-        for (const HandleId h : deformer.handles()) transforms.push_back(deformer.transform(h));
+        gradients = gradients_of(deformer);
+        for (const HandleId h : deformer.handles())
+            transforms.push_back(deformer.pose(h).transform);
         deformer.apply_to(mesh);
     }
     bool operator==(const Seen& other) const {
@@ -84,8 +87,8 @@ TEST_CASE("cancel: at every moment of a frame, of either kind") {
     const Scene scene = large_bar();
     Edit edit = make_edit(scene);
     Deformer& d = edit.deformer;
-    const Affine shown = bend(scene, d.handle_center(edit.high), 0.4);
-    const Affine wanted = bend(scene, d.handle_center(edit.high), 1.1);
+    const Affine shown = bend(scene, d.handle(edit.high).center, 0.4);
+    const Affine wanted = bend(scene, d.handle(edit.high).center, 1.1);
     const auto check = [&](const auto& frame) {
         d.set_transform(edit.high, wanted);
         d.reset();
@@ -93,7 +96,7 @@ TEST_CASE("cancel: at every moment of a frame, of either kind") {
         frame(d, Context());
         const Seen expected(d, scene.mesh);
         d.set_transform(edit.high, shown);
-        d.preview();
+        d.solve(FrameQuality::preview);
         d.set_transform(edit.high, wanted);
         const Seen before(d, scene.mesh);
         int cut = 0;
@@ -113,9 +116,15 @@ TEST_CASE("cancel: at every moment of a frame, of either kind") {
         CHECK(Seen(d, scene.mesh) == expected);
         return cut;
     };
-    CHECK(check([](Deformer& deformer, const Context& c) { deformer.preview(c); }) >= 3);
-    CHECK(check([](Deformer& deformer, const Context& c) { deformer.solve_draft(c); }) >= 10);
-    CHECK(check([](Deformer& deformer, const Context& c) { deformer.solve(c); }) >= 20);
+    CHECK(check([](Deformer& deformer, const Context& c) {
+              deformer.solve(FrameQuality::preview, c);
+          }) >= 3);
+    CHECK(check([](Deformer& deformer, const Context& c) {
+              deformer.solve(FrameQuality::draft, c);
+          }) >= 10);
+    CHECK(check([](Deformer& deformer, const Context& c) {
+              deformer.solve(FrameQuality::full, c);
+          }) >= 20);
 }
 
 TEST_CASE("cancel: at every moment of the preparation that a new handle needs") {
@@ -124,7 +133,7 @@ TEST_CASE("cancel: at every moment of the preparation that a new handle needs") 
     const auto start = [&] {
         Edit edit = make_edit(scene);
         edit.deformer.set_transform(edit.high,
-                                    bend(scene, edit.deformer.handle_center(edit.high), 0.4));
+                                    bend(scene, edit.deformer.handle(edit.high).center, 0.4));
         edit.deformer.solve();
         edit.deformer.set_transform(edit.deformer.add_handle(scene.region({middle, middle + 1})),
                                     translation({0.3, 0.0, 0.0}));
@@ -134,8 +143,9 @@ TEST_CASE("cancel: at every moment of the preparation that a new handle needs") 
         return interrupt_everywhere(scene.mesh, start, call);
     };
     CHECK(interrupted([](Deformer& d, const Context& c) { d.prepare(c); }) >= 8);
-    CHECK(interrupted([](Deformer& d, const Context& c) { d.preview(c); }) >= 8);
-    CHECK(interrupted([](Deformer& d, const Context& c) { d.solve(c); }) >= 8);
+    CHECK(interrupted([](Deformer& d, const Context& c) { d.solve(FrameQuality::preview, c); }) >=
+          8);
+    CHECK(interrupted([](Deformer& d, const Context& c) { d.solve(FrameQuality::full, c); }) >= 8);
 }
 
 TEST_CASE("cancel: the one-shot function leaves the mesh as it was") {
@@ -143,7 +153,7 @@ TEST_CASE("cancel: the one-shot function leaves the mesh as it was") {
     Edit edit = make_edit(scene);
     const std::vector<HandleMove> moves{
         {scene.region(scene.low), {}, {}},
-        {scene.region(scene.high), bend(scene, edit.deformer.handle_center(edit.high)), {}}};
+        {scene.region(scene.high), bend(scene, edit.deformer.handle(edit.high).center), {}}};
     const auto before = hash(scene.mesh);
     Mesh mesh = scene.mesh;
     int cut = 0;
@@ -169,29 +179,29 @@ TEST_CASE("cancel: the one-shot function leaves the mesh as it was") {
 TEST_CASE("gradients: those of the shape that is shown, whatever has been asked for since") {
     const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
     Edit reference = make_edit(scene), edit = make_edit(scene);
-    const Affine shown = bend(scene, reference.deformer.handle_center(reference.high), 0.7);
+    const Affine shown = bend(scene, reference.deformer.handle(reference.high).center, 0.7);
     reference.deformer.set_transform(reference.high, shown);
-    reference.deformer.preview();
-    const std::vector<Mat3> expected = reference.deformer.gradients();
+    reference.deformer.solve(FrameQuality::preview);
+    const std::vector<Mat3> expected = gradients_of(reference.deformer);
     const auto show = [&] {
         edit.deformer.set_transform(edit.high, shown);
-        edit.deformer.preview();
+        edit.deformer.solve(FrameQuality::preview);
     };
     show();
     edit.deformer.set_transform(edit.high, translation({1, 0, 0}));
-    CHECK(edit.deformer.gradients() == expected);
+    CHECK(gradients_of(edit.deformer) == expected);
     show();
     const HandleId added = edit.deformer.add_handle(scene.region({scene.mesh.vertex_count() / 2}));
-    CHECK(edit.deformer.gradients() == expected);
+    CHECK(gradients_of(edit.deformer) == expected);
     edit.deformer.remove_handle(added);
     show();
-    edit.deformer.constrain({scene.mesh.vertex_count() / 2, Vec3(1, 2, 3), {}, {}});
-    CHECK(edit.deformer.gradients() == expected);
-    edit.deformer.constrain({scene.mesh.vertex_count() / 2, {}, {}, {}});
+    edit.deformer.constrain(VertexConstraint{scene.mesh.vertex_count() / 2, Vec3(1, 2, 3), {}, {}});
+    CHECK(gradients_of(edit.deformer) == expected);
+    edit.deformer.constrain(VertexConstraint{scene.mesh.vertex_count() / 2, {}, {}, {}});
     edit.deformer.set_transform(edit.high, shown);
     edit.deformer.solve();
     edit.deformer.remove_handle(edit.low);
-    CHECK(edit.deformer.gradients() == expected);
+    CHECK(gradients_of(edit.deformer) == expected);
 }
 
 TEST_CASE("vertices without faces: at rest again when the handle that took them along is gone") {
@@ -209,5 +219,5 @@ TEST_CASE("vertices without faces: at rest again when the handle that took them 
     CHECK(d.solve().back() == Vec3(10, 9, 9));
     d.remove_handle(loose);
     CHECK(d.solve().back() == Vec3(9, 9, 9));
-    CHECK(d.preview().back() == Vec3(9, 9, 9));
+    CHECK(d.solve(FrameQuality::preview).back() == Vec3(9, 9, 9));
 }

@@ -2,6 +2,8 @@
 
 #include <new>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/handle_changes.h"
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -17,14 +19,14 @@ TEST_CASE("a mesh that was moved around the region is refused, and stays as it i
     Mesh mesh = scene.mesh;
     Deformer d(mesh, select_plane(mesh, Vec3::Zero(), Vec3::UnitY()));
     const HandleId high = d.add_handle(scene.region(scene.high));
-    d.set_transform(high, bend(scene, d.handle_center(high)));
+    d.set_transform(high, bend(scene, d.handle(high).center));
     d.solve();
     d.apply_to(mesh);
     transform(mesh, translation({0.1, 0, 0}));
     const auto before = hash(mesh);
-    for (const auto& write : {+[](Deformer&e, Mesh&m) { e.apply_to(m); },
-                              +[](Deformer&e, Mesh&m) { e.apply_rest_to(m); },
-                              +[](Deformer&e, Mesh&m) { (void)e.refined_mesh(m); }}) {
+    for (const auto& write :
+         {+[](Deformer&e, Mesh&m) { e.apply_to(m); }, +[](Deformer&e, Mesh&m) { apply_rest(e, m); },
+          +[](Deformer&e, Mesh&m) { (void)subdivided_mesh(e, m); }}) {
         const Error error = error_of([&] { write(d, mesh); });
         CHECK(error.code() == ErrorCode::topology_mismatch);
         CHECK(error.elements().count > 0);
@@ -52,12 +54,12 @@ TEST_CASE("gradients that run out of memory leave the handles where they were as
     const auto prepared = [&] {
         Edit edit = make_edit(scene);
         edit.deformer.set_transform(edit.high, bend(scene, Vec3(0, 2.5, 0)));
-        edit.deformer.preview();
+        edit.deformer.solve(FrameQuality::preview);
         edit.deformer.set_transform(edit.high, translation({1, 0, 0}));
         return edit;
     };
     Edit whole = prepared();
-    const std::vector<Mat3> gradients = whole.deformer.gradients();
+    const std::vector<Mat3> gradients = gradients_of(whole.deformer);
     const std::vector<Vec3> wanted = whole.deformer.solve();
     int failures = 0;
     for (long count = 0; count < 1000; ++count) {
@@ -65,7 +67,7 @@ TEST_CASE("gradients that run out of memory leave the handles where they were as
         bool failed = false;
         allocations_left = count;
         try {
-            edit.deformer.gradients();
+            gradients_of(edit.deformer);
         } catch (const std::bad_alloc&) {
             failed = true;
         } catch (const Error& error) {
@@ -73,8 +75,8 @@ TEST_CASE("gradients that run out of memory leave the handles where they were as
             failed = true;
         }
         allocations_left = -1;
-        CHECK(edit.deformer.transform_about(edit.high, Vec3::Zero()) == translation({1, 0, 0}));
-        CHECK(edit.deformer.gradients() == gradients);
+        CHECK(transform_about(edit.deformer, edit.high, Vec3::Zero()) == translation({1, 0, 0}));
+        CHECK(gradients_of(edit.deformer) == gradients);
         CHECK(edit.deformer.solve() == wanted);
         if (!failed) break;
         ++failures;

@@ -15,7 +15,7 @@ TEST_CASE("context: later calls run under that of the constructor") {
     Deformer edit(scene.mesh, scene.all(), {}, context);
     edit.add_handle(scene.region(scene.low));
     const HandleId tip = edit.add_handle(scene.region(scene.high));
-    edit.set_transform(tip, bend(scene, edit.handle_center(tip)));
+    edit.set_transform(tip, bend(scene, edit.handle(tip).center));
     edit.solve();
     CHECK(reports > 0);
     const std::vector<Vec3> solved = edit.positions();
@@ -29,12 +29,12 @@ TEST_CASE("context: later calls run under that of the constructor") {
             return error.code() == ErrorCode::cancelled;
         }
     };
-    edit.set_transform(tip, bend(scene, edit.handle_center(tip), 0.2));
+    edit.set_transform(tip, bend(scene, edit.handle(tip).center, 0.2));
     CHECK(cancelled([&] { edit.solve(); }));
-    CHECK(cancelled([&] { edit.solve_draft(); }));
-    CHECK(cancelled([&] { edit.preview(); }));
+    CHECK(cancelled([&] { edit.solve(FrameQuality::draft); }));
+    CHECK(cancelled([&] { edit.solve(FrameQuality::preview); }));
     CHECK(edit.positions() == solved);
-    edit.solve(Context());
+    edit.solve(FrameQuality::full, Context());
     CHECK(edit.positions() != solved);
     context.clear_cancel();
     edit.solve();

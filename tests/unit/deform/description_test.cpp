@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "kernel/deform/handle_changes.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
@@ -25,23 +26,23 @@ struct Held {
         Deformer& d = edit.deformer;
         const HandleId gone = d.add_handle(select_sphere(scene.mesh, {0.5, 1.0, 0.0}, 0.3));
         side = d.add_handle(select_sphere(scene.mesh, {0.5, 0.0, 0.0}, 0.3), {.weight = 3.0});
-        image = d.mirror_handle(side, {Vec3::Zero(), Vec3::UnitX(), 0.0});
+        image = mirror_handle(d, side, {Vec3::Zero(), Vec3::UnitX(), 0.0});
         d.remove_handle(gone);
         const Index face = face_at({0.0, 1.0, 0.5});
         const MeshPoint middle =
             face_point(scene.mesh.topology(), face, std::array{0.25, 0.25, 0.25, 0.25});
         points = d.add_handle(std::span(&middle, 1), {.gradient = false});
         const Index v = vertex_at({0.0, -1.0, 0.5});
-        d.constrain({v, scene.mesh.position(v) + Vec3(0.0, 0.0, 0.1), {}});
-        d.set_stiffness(select_sphere(scene.mesh, {0.0, -0.5, 0.0}, 0.8), 7.0);
-        d.set_transform(edit.high, bend(scene, d.handle_center(edit.high)));
+        d.constrain(VertexConstraint{v, scene.mesh.position(v) + Vec3(0.0, 0.0, 0.1), {}});
+        set_stiffness(d, select_sphere(scene.mesh, {0.0, -0.5, 0.0}, 0.8), 7.0);
+        d.set_transform(edit.high, bend(scene, d.handle(edit.high).center));
         d.set_transform(side, translation({0.1, 0.0, 0.0}));
     }
 
-    DeformDescription described() const { return describe(edit.deformer.setup()); }
-    std::shared_ptr<const RestShape> rest() const { return edit.deformer.setup().rest; }
+    DeformDescription described() { return describe(edit.deformer.snapshot()); }
+    std::shared_ptr<const RestShape> rest() const { return rest_of(edit.deformer); }
     ErrorCode refused(const DeformDescription& description) const {
-        return error_of([&] { setup_of(description, rest()); }).code();
+        return error_of([&] { snapshot_of(description, rest()); }).code();
     }
 
   private:
@@ -89,15 +90,15 @@ TEST_CASE("description: what it makes is described alike, and deforms alike to t
     const DeformDescription given = held.described();
     CHECK(given.handles.size() == 6);
     CHECK(!given.handles[2]);
-    const DeformSetup made = setup_of(given, held.rest());
+    const DeformSnapshot made = snapshot_of(given, held.rest());
     check_same(describe(made), given);
     const std::vector<Vec3> before = held.edit.deformer.solve();
     held.edit.deformer.restore(made);
     CHECK(held.edit.deformer.solve() == before);
     for (const HandleId h : {held.edit.low, held.edit.high, held.side, held.image, held.points}) {
-        CHECK(held.edit.deformer.handle_center(h) == Held().edit.deformer.handle_center(h));
+        CHECK(held.edit.deformer.handle(h).center == Held().edit.deformer.handle(h).center);
     }
-    CHECK(held.edit.deformer.mirrored_handle(held.side)->value == held.image.value);
+    CHECK(held.edit.deformer.handle(held.side).image->value == held.image.value);
 }
 
 TEST_CASE("description: vertices that two handles hold are named, each once") {
@@ -107,7 +108,7 @@ TEST_CASE("description: vertices that two handles hold are named, each once") {
                                        twice.handles[0]->vertices[2]};
     twice.handles[1]->vertices.insert(twice.handles[1]->vertices.end(), shared.begin(),
                                       shared.end());
-    const Error error = error_of([&] { setup_of(twice, held.rest()); });
+    const Error error = error_of([&] { snapshot_of(twice, held.rest()); });
     CHECK(error.code() == ErrorCode::handle_overlap);
     CHECK(error.elements().kind == ElementKind::vertex);
     CHECK(error.elements().count == 2);
@@ -155,7 +156,7 @@ TEST_CASE("description: bad poses, stiffness, weights and vertices are refused")
     for (const double factor : {1e-4, 1e5}) {
         DeformDescription fine = good;
         fine.stiffness[3] = factor;
-        CHECK(describe(setup_of(fine, held.rest())).stiffness == fine.stiffness);
+        CHECK(describe(snapshot_of(fine, held.rest())).stiffness == fine.stiffness);
     }
     CHECK(changed([](auto& d) { d.handles[0]->vertices.clear(); }) == ErrorCode::region_empty);
     CHECK(changed([](auto& d) { d.handles[0]->vertices[0] = -1; }) == ErrorCode::out_of_range);
@@ -171,9 +172,9 @@ TEST_CASE("description: a handle that reaches out of its region is refused by na
         make_scene(make_bar({.width = 1.0, .length = 5.0, .across = 4, .along = 20}));
     Deformer d(scene.mesh, select_plane(scene.mesh, Vec3::Zero(), Vec3::UnitY()));
     d.add_handle(scene.region(scene.high));
-    DeformDescription given = describe(d.setup());
+    DeformDescription given = describe(d.snapshot());
     given.handles[0]->vertices.push_back(scene.low[1]);
-    const Error error = error_of([&] { setup_of(given, d.setup().rest); });
+    const Error error = error_of([&] { snapshot_of(given, rest_of(d)); });
     CHECK(error.code() == ErrorCode::handle_outside_region);
     CHECK(error.elements().count == 1);
     CHECK(error.elements().ids == std::vector<Index>{scene.low[1]});

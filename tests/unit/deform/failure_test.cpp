@@ -4,6 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/deformer_state.h"
+#include "kernel/deform/first_solution.h"
+#include "kernel/deform/handle_basis.h"
+#include "kernel/deform/handle_changes.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/interrupter.h"
 #include "tests/unit/deform/scene.h"
@@ -15,26 +20,31 @@ using namespace lissom::test;
 
 namespace {
 
+DeformSnapshot asked_of(const Deformer& d) {
+    const auto& state = DeformerAccess::state(d);
+    return {state.rest, state.constraints, state.poses, nullptr};
+}
+
 // What was asked of a deformer and what it shows, but for gradients, which are found when asked
 // for.
 struct State {
-    DeformSetup setup;
+    DeformSnapshot setup;
     std::vector<Vec3> positions, rest;
     std::vector<Affine> transforms;
     std::vector<Vec3> turns;
     std::uint64_t mesh;
 
     State(const Deformer& d, Mesh shown)
-        : setup(d.setup()), positions(d.positions()), rest(d.rest_positions()) {
+        : setup(asked_of(d)), positions(d.positions()), rest(rest_positions_of(d)) {
         for (const HandleId h : d.handles()) {
-            transforms.push_back(d.transform(h));
-            turns.push_back(d.turn(h));
+            transforms.push_back(d.pose(h).transform);
+            turns.push_back(d.pose(h).turn);
         }
         d.apply_to(shown);
         mesh = hash(shown);
     }
     bool operator==(const State& other) const {
-        return setup.rest == other.setup.rest && setup.holds == other.setup.holds &&
+        return setup.rest == other.setup.rest && setup.constraints == other.setup.constraints &&
                setup.poses.targets == other.setup.poses.targets && positions == other.positions &&
                rest == other.rest && transforms == other.transforms && turns == other.turns &&
                mesh == other.mesh;
@@ -58,16 +68,18 @@ struct Call {
 
 const Call kCalls[] = {
     {"prepare", [](Deformer& d, const Given&, const Context& c) { d.prepare(c); }},
-    {"preview", [](Deformer& d, const Given&, const Context& c) { d.preview(c); }},
-    {"solve", [](Deformer& d, const Given&, const Context& c) { d.solve(c); }},
-    {"solve_draft", [](Deformer& d, const Given&, const Context& c) { d.solve_draft(c); }},
+    {"preview",
+     [](Deformer& d, const Given&, const Context& c) { d.solve(FrameQuality::preview, c); }},
+    {"solve", [](Deformer& d, const Given&, const Context& c) { d.solve(FrameQuality::full, c); }},
+    {"solve_draft",
+     [](Deformer& d, const Given&, const Context& c) { d.solve(FrameQuality::draft, c); }},
     {"solve_first_directly",
-     [](Deformer& d, const Given&, const Context& c) { d.solve_first_directly(c); }},
-    {"basis", [](Deformer& d, const Given&, const Context& c) { d.basis(c); }},
+     [](Deformer& d, const Given&, const Context& c) { solve_first_directly(d, c); }},
+    {"basis", [](Deformer& d, const Given&, const Context& c) { basis_of(d, c); }},
     {"refined_mesh",
-     [](Deformer& d, const Given& g, const Context& c) { d.refined_mesh(g.scene.mesh, c); }},
-    {"gradients", [](Deformer& d, const Given&, const Context&) { d.gradients(); }, false},
-    {"result", [](Deformer& d, const Given&, const Context&) { d.result(); }, false},
+     [](Deformer& d, const Given& g, const Context& c) { subdivided_mesh(d, g.scene.mesh, c); }},
+    {"gradients", [](Deformer& d, const Given&, const Context&) { gradients_of(d); }, false},
+    {"snapshot", [](Deformer& d, const Given&, const Context&) { d.snapshot(); }, false},
     {"rebase", [](Deformer& d, const Given&, const Context&) { d.rebase(); }, false},
     {"reset", [](Deformer& d, const Given&, const Context&) { d.reset(); }, false},
     {"add_handle", [](Deformer& d, const Given& g, const Context&) { d.add_handle(g.one); }, false},
@@ -75,13 +87,13 @@ const Call kCalls[] = {
      [](Deformer& d, const Given& g, const Context&) { d.add_handle(g.points); }, false},
     {"constrain",
      [](Deformer& d, const Given& g, const Context&) {
-         d.constrain({g.vertex, Vec3(1, 0, 0), {}, {}});
+         d.constrain(VertexConstraint{g.vertex, Vec3(1, 0, 0), {}, {}});
      },
      false},
     {"set_stiffness",
-     [](Deformer& d, const Given& g, const Context&) { d.set_stiffness(g.one, 9.0); }, false},
+     [](Deformer& d, const Given& g, const Context&) { set_stiffness(d, g.one, 9.0); }, false},
     {"set_handle_region",
-     [](Deformer& d, const Given& g, const Context&) { d.set_handle_region(g.low, g.corner); },
+     [](Deformer& d, const Given& g, const Context&) { set_handle_region(d, g.low, g.corner); },
      false},
     {"remove_handle",
      [](Deformer& d, const Given& g, const Context&) { d.remove_handle(g.middle); }, false}};
@@ -93,21 +105,23 @@ class Fixture {
     Fixture() : edit_(make_edit(given.scene)) {
         const Scene& scene = given.scene;
         Deformer& d = edit_.deformer;
-        d.set_transform(edit_.high, bend(scene, d.handle_center(edit_.high), 0.4));
-        shown_ = d.setup();
+        d.set_transform(edit_.high, bend(scene, d.handle(edit_.high).center, 0.4));
+        shown_ = d.snapshot();
         given.low = edit_.low;
         given.middle = d.add_handle(scene.region({scene.between(0)}));
         d.set_transform(given.middle, translation({0.2, 0, 0}));
-        d.constrain({scene.between(7), Vec3(0.8, 0, 0), {}, 3.0});
-        d.set_transform(edit_.high, bend(scene, d.handle_center(edit_.high), 4.0), Vec3::Zero(),
+        d.constrain(VertexConstraint{scene.between(7), Vec3(0.8, 0, 0), {}, 3.0});
+        d.set_transform(edit_.high, bend(scene, d.handle(edit_.high).center, 4.0), Vec3::Zero(),
                         4.0 * scene.across);
-        asked_ = d.setup();
+        asked_ = d.snapshot();
     }
 
     Deformer& start() {
         edit_.deformer.restore(shown_);
         edit_.deformer.solve();
-        edit_.deformer.restore(asked_);
+        auto& state = DeformerAccess::state(edit_.deformer);
+        state.constraints = asked_.constraints;
+        state.poses = asked_.poses;
         return edit_.deformer;
     }
     // Runs the call where it fails as `code`, and checks what is left; false where it passes.
@@ -130,7 +144,7 @@ class Fixture {
 
   private:
     Edit edit_;
-    DeformSetup shown_, asked_;
+    DeformSnapshot shown_, asked_;
 };
 
 }  // namespace
@@ -224,7 +238,7 @@ TEST_CASE("normals: a vertex without faces keeps its own when the handle that tu
     using Between = void (*)(Deformer&, HandleId);
     for (const Between ask : {+[](Deformer&d, HandleId h) { d.remove_handle(h); },
                               +[](Deformer&d, HandleId h) {
-                                  d.set_handle_region(h, Region(d.region().topology(), {0}));
+                                  set_handle_region(d, h, Region(d.region().topology(), {0}));
                               }}) {
         Deformer d(mesh, Region::all(topology));
         d.add_handle(Region(topology, {1, 2}));
@@ -250,11 +264,11 @@ TEST_CASE("vertices without faces: at rest where a constraint says how they turn
     Deformer d(mesh, Region::all(topology));
     d.add_handle(Region(topology, {0, 1}));
     const HandleId other = d.add_handle(Region(topology, {7}));
-    d.constrain(
-        {box.vertex_count(), {}, Mat3(rotation(Vec3::UnitX(), 1.0, Vec3::Zero()).linear), {}});
+    d.constrain(VertexConstraint{
+        box.vertex_count(), {}, Mat3(rotation(Vec3::UnitX(), 1.0, Vec3::Zero()).linear), {}});
     d.set_transform(other, translation({1, 0, 0}));
     CHECK(d.solve().back() == Vec3(9, 9, 9));
-    CHECK(d.preview().back() == Vec3(9, 9, 9));
+    CHECK(d.solve(FrameQuality::preview).back() == Vec3(9, 9, 9));
 }
 
 TEST_CASE("a point that lies partly outside the region is held where it is asked to lie") {

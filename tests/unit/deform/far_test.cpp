@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/handle_changes.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/models.h"
 #include "tests/unit/deform/scene.h"
@@ -39,7 +41,8 @@ double difference(const FarAndNear& pair, const Move& move, const DeformOptions&
     Edit far = make_edit(pair.far, options), near = make_edit(pair.near, options);
     move(far.deformer, far.high, pair.offset);
     move(near.deformer, near.high, Vec3(Vec3::Zero()));
-    return std::max(pair.difference(far.deformer.preview(), near.deformer.preview()),
+    return std::max(pair.difference(far.deformer.solve(FrameQuality::preview),
+                                    near.deformer.solve(FrameQuality::preview)),
                     pair.difference(far.deformer.solve(), near.deformer.solve()));
 }
 
@@ -60,7 +63,7 @@ TEST_CASE("far away: moves about a handle's centre, as after bringing the mesh b
         const double size = pair.near.size;
         const auto check = [&](const Affine& map) {
             CHECK(difference(pair, [&](Deformer& d, HandleId handle, const Vec3&) {
-                      d.set_transform(handle, map, d.handle_center(handle));
+                      d.set_transform(handle, map, d.handle(handle).center);
                   }) < 1e-9);
         };
         check(rotation({1, 2, 3}, 1.1, Vec3::Zero()));
@@ -75,8 +78,8 @@ TEST_CASE("far away: many moves on end, as a drag makes them, lose nothing more"
     const FarAndNear pair(far_bar(), kOffsets[0]);
     const auto drag = [&](Deformer& d, HandleId handle, const Vec3&) {
         for (int i = 0; i < 100; ++i) {
-            const Vec3 center = d.handle_center(handle);
-            const Affine now = d.transform_about(handle, center);
+            const Vec3 center = d.handle(handle).center;
+            const Affine now = transform_about(d, handle, center);
             const Affine step = translation(1e-3 * pair.near.size * Vec3(1, 2, 3)) *
                                 rotation({3, 1, 2}, 0.01, now.translation);
             d.set_transform(handle, step * now, center);
@@ -102,7 +105,7 @@ TEST_CASE("far away: a rotation of the whole space about the handle's centre") {
     for (const Vec3& offset : kOffsets) {
         const FarAndNear pair(far_bar(), offset);
         const auto move = [](Deformer& d, HandleId handle, const Vec3&) {
-            d.set_transform(handle, rotation({1, 2, 3}, 1.1, d.handle_center(handle)));
+            d.set_transform(handle, rotation({1, 2, 3}, 1.1, d.handle(handle).center));
         };
         CHECK(difference(pair, move) < 1e-9);
     }
@@ -112,8 +115,8 @@ TEST_CASE("far away: every second system, vertex constraints, and rest to the bi
     const FarAndNear pair(far_bar(), kOffsets[0]);
     const Index tip = pair.near.mesh.vertex_count() / 2;
     const auto move = [&](Deformer& d, HandleId handle, const Vec3& offset) {
-        d.constrain({tip, Vec3(offset + Vec3(1.5, 0.25, -0.5)), {}});
-        d.set_transform(handle, rotation({1, 2, 3}, 1.1, Vec3::Zero()), d.handle_center(handle));
+        d.constrain(VertexConstraint{tip, Vec3(offset + Vec3(1.5, 0.25, -0.5)), {}});
+        d.set_transform(handle, rotation({1, 2, 3}, 1.1, Vec3::Zero()), d.handle(handle).center);
     };
     for (const SecondSystem second :
          {SecondSystem::blend, SecondSystem::laplacian, SecondSystem::poisson}) {
@@ -122,21 +125,21 @@ TEST_CASE("far away: every second system, vertex constraints, and rest to the bi
         CHECK(difference(pair, move, options) < 1e-9);
     }
     Edit edit = make_edit(pair.far);
-    const Vec3 center = edit.deformer.handle_center(edit.high);
+    const Vec3 center = edit.deformer.handle(edit.high).center;
     const Affine turn = rotation({1, 2, 3}, 1.1, Vec3::Zero());
     edit.deformer.set_transform(edit.high, turn, center);
     edit.deformer.solve();
     const Affine back =
-        rotation({1, 2, 3}, -1.1, Vec3::Zero()) * edit.deformer.transform_about(edit.high, center);
+        rotation({1, 2, 3}, -1.1, Vec3::Zero()) * transform_about(edit.deformer, edit.high, center);
     edit.deformer.set_transform(edit.high, back, center);
-    CHECK(edit.deformer.solve() == edit.deformer.rest_positions());
+    CHECK(edit.deformer.solve() == rest_positions_of(edit.deformer));
 }
 
 TEST_CASE("far away: real meshes") {
     for_each_model([](const Scene& scene) {
         const FarAndNear pair(scene, kOffsets[0]);
         const auto move = [&](Deformer& d, HandleId handle, const Vec3&) {
-            d.set_transform(handle, bend(pair.near, Vec3::Zero()), d.handle_center(handle));
+            d.set_transform(handle, bend(pair.near, Vec3::Zero()), d.handle(handle).center);
         };
         CHECK(difference(pair, move) < 1e-9);
     });

@@ -30,7 +30,7 @@ std::vector<Vec3> bent(const Scene& scene, const DeformOptions& options, const A
     Edit edit = make_edit(scene, options);
     const Affine inverse{map.linear.inverse(), -map.linear.inverse() * map.translation};
     // The bend is told in the space before `map`.
-    const Vec3 center = inverse(edit.deformer.handle_center(edit.high));
+    const Vec3 center = inverse(edit.deformer.handle(edit.high).center);
     const Affine move = translation({0.2, 0.1, -0.1}) * rotation({1.0, 0.2, 0.5}, 0.9, center);
     edit.deformer.set_transform(edit.high, conjugated(move, map));
     return edit.deformer.solve();

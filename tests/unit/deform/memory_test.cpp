@@ -12,7 +12,7 @@ TEST_CASE("memory: where it runs out is an error of the kernel, and the same cal
     Deformer edit(scene.mesh, scene.all());
     edit.add_handle(scene.region(scene.low));
     const HandleId tip = edit.add_handle(scene.region(scene.high));
-    edit.set_transform(tip, bend(scene, edit.handle_center(tip)));
+    edit.set_transform(tip, bend(scene, edit.handle(tip).center));
     const std::vector<Vec3> before = edit.positions();
     int failures = 0;
     for (long allowed = 0;; allowed = allowed * 4 / 3 + 1) {

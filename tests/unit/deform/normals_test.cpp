@@ -3,6 +3,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/handle_basis.h"
+#include "kernel/deform/handle_changes.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -63,15 +66,15 @@ void for_each_bend(const Scene& scene, const Check& check) {
     Edit edit = make_edit(scene);
     Deformer& d = edit.deformer;
     Mesh mesh = scene.mesh;
-    d.set_transform(edit.high, bend(scene, d.handle_center(edit.high), 0.5 * kPi));
+    d.set_transform(edit.high, bend(scene, d.handle(edit.high).center, 0.5 * kPi));
     d.solve();
     d.apply_to(mesh);
     check(mesh);
-    d.preview();
+    d.solve(FrameQuality::preview);
     d.apply_to(mesh);
     check(mesh);
     d.rebase();
-    d.set_transform(edit.high, bend(scene, d.handle_center(edit.high), -0.3));
+    d.set_transform(edit.high, bend(scene, d.handle(edit.high).center, -0.3));
     d.solve();
     d.apply_to(mesh);
     check(mesh);
@@ -110,7 +113,7 @@ TEST_CASE("normals: those around the region follow too, as their faces move") {
     const Region upper = select_plane(scene.mesh, Vec3(0, -0.5, 0), Vec3::UnitY());
     Deformer d(scene.mesh, upper);
     const HandleId high = d.add_handle(scene.region(scene.high));
-    d.set_transform(high, bend(scene, d.handle_center(high), 1.2));
+    d.set_transform(high, bend(scene, d.handle(high).center, 1.2));
     d.solve();
     Mesh mesh = scene.mesh;
     d.apply_to(mesh);
@@ -179,11 +182,11 @@ TEST_CASE("normals: what is asked between a result and its use does not change t
             e.deformer.add_handle(r);
             e.deformer.prepare();
         },
-        [](Edit& e, const Region&) { e.deformer.basis(); },
-        [](Edit& e, const Region&) { e.deformer.gradients(); },
-        [](Edit& e, const Region& r) { e.deformer.set_stiffness(r, 5.0); },
+        [](Edit& e, const Region&) { basis_of(e.deformer); },
+        [](Edit& e, const Region&) { gradients_of(e.deformer); },
+        [](Edit& e, const Region& r) { set_stiffness(e.deformer, r, 5.0); },
         [](Edit& e, const Region& r) {
-            e.deformer.constrain({r.vertices().front(), Vec3(9, 9, 9), {}, {}});
+            e.deformer.constrain(VertexConstraint{r.vertices().front(), Vec3(9, 9, 9), {}, {}});
         },
         [](Edit& e, const Region&) {
             e.deformer.set_transform(e.high, translation({1, 2, 3}));
@@ -195,7 +198,7 @@ TEST_CASE("normals: what is asked between a result and its use does not change t
         Mesh mesh = scene.mesh;
         edit.deformer.apply_to(mesh);
         CHECK(hash(mesh) == hash(wanted));
-        const Mesh refined = edit.deformer.refined_mesh(scene.mesh);
+        const Mesh refined = subdivided_mesh(edit.deformer, scene.mesh);
         const Attribute& normals = *refined.attributes().find("normal");
         double worst = 0.0;
         for (Index v = 0; v < wanted.vertex_count(); ++v) {
@@ -218,22 +221,20 @@ TEST_CASE("a result is shown again, to the bit, after others") {
         e->deformer.solve();
     }
     Deformer& d = edit.deformer;
-    const auto poses = d.poses();
-    const auto result = d.result();
+    const DeformSnapshot before = d.snapshot();
     d.set_transform(edit.high, translation({1, 1, 0}));
-    d.preview();
+    d.solve(FrameQuality::preview);
     d.add_handle(select_sphere(scene.mesh, Vec3::Zero(), 0.55));
     d.solve();
-    d.restore(*poses);
-    d.show(*result);
+    d.restore(before);
     Mesh shown = scene.mesh, wanted = scene.mesh;
     d.apply_to(shown);
     same.deformer.apply_to(wanted);
     CHECK(hash(shown) == hash(wanted));
-    CHECK(d.gradients() == same.deformer.gradients());
-    CHECK(hash(d.refined_mesh(scene.mesh)) == hash(same.deformer.refined_mesh(scene.mesh)));
+    CHECK(gradients_of(d) == gradients_of(same.deformer));
+    CHECK(hash(subdivided_mesh(d, scene.mesh)) == hash(subdivided_mesh(same.deformer, scene.mesh)));
     d.rebase();
-    CHECK(d.rest_positions() == same.deformer.positions());
+    CHECK(rest_positions_of(d) == same.deformer.positions());
 }
 
 TEST_CASE("normals: vertices without faces turn with their handle") {
@@ -268,8 +269,8 @@ TEST_CASE("normals of the surface that is shown are those of the mesh that it is
     const HandleId tip = deformer.add_handle(select_sphere(mesh, Vec3(1, 0, 0), 0.3));
     for (const double angle : {0.0, 0.4, 0.8}) {
         deformer.set_transform(tip, rotation(Vec3::UnitZ(), angle, Vec3(0.5, 0, 0)));
-        angle == 0.4 ? deformer.preview() : deformer.solve_draft();
-        const std::vector<Vec3> normals = deformer.normals();
+        angle == 0.4 ? deformer.solve(FrameQuality::preview) : deformer.solve(FrameQuality::draft);
+        const std::vector<Vec3> normals = normals_of(deformer);
         deformer.apply_to(mesh);
         const std::vector<Vec3> expected = vertex_normals(mesh);
         for (Index row = 0; row < part.size(); ++row) {

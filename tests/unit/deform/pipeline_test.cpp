@@ -1,5 +1,8 @@
 // The values of a deformation: what was asked is put back by assigning it, and frames are values.
 #include "kernel/deform/pipeline.h"
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/handle_changes.h"
+#include "kernel/deform/stats.h"
 
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
@@ -15,9 +18,9 @@ struct Seen {
     std::vector<Vec3> turns;
     std::vector<HandleId> handles;
 
-    explicit Seen(Deformer& d) : previewed(d.preview()), handles(d.handles()) {
+    explicit Seen(Deformer& d) : previewed(d.solve(FrameQuality::preview)), handles(d.handles()) {
         solved = d.solve();
-        for (const HandleId h : handles) turns.push_back(d.turn(h));
+        for (const HandleId h : handles) turns.push_back(d.pose(h).turn);
     }
     bool operator==(const Seen&) const = default;
 };
@@ -27,13 +30,13 @@ struct Seen {
 TEST_CASE("a frame is written and taken as rest shape as a Deformer does it") {
     const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
     Edit edit = make_edit(scene);
-    const Affine move = bend(scene, edit.deformer.handle_center(edit.high));
-    const auto prepared = edit.deformer.preparation();
-    Poses poses = edit.deformer.setup().poses;
+    const Affine move = bend(scene, edit.deformer.handle(edit.high).center);
+    const auto prepared = edit.deformer.prepare();
+    Poses poses = edit.deformer.snapshot().poses;
     pose_handle(*prepared, poses, edit.high, move);
     FrameScratch scratch;
     const DeformFrame frame = solve_frame(prepared, poses, scratch);
-    CHECK(edit.deformer.positions() == edit.deformer.rest_positions());
+    CHECK(edit.deformer.positions() == rest_positions_of(edit.deformer));
     edit.deformer.set_transform(edit.high, move);
     CHECK(edit.deformer.solve() == frame.positions);
     Mesh a = scene.mesh, b = scene.mesh;
@@ -51,12 +54,12 @@ TEST_CASE("poses and frames of other holds or another region are refused") {
     Deformer& d = edit.deformer;
     const Affine move = translation({0.5, 0, 0});
     d.set_transform(edit.low, move);
-    const Poses before = d.setup().poses;
+    const Poses before = d.snapshot().poses;
     const HandleId third = d.add_handle(scene.region({scene.between(0)}));
-    const auto of_third = d.preparation();
-    const Poses three = d.setup().poses;
-    d.constrain({scene.between(9), Vec3(1, 0, 0), {}, {}});
-    const auto prepared = d.preparation();
+    const auto of_third = d.prepare();
+    const Poses three = d.snapshot().poses;
+    d.constrain(VertexConstraint{scene.between(9), Vec3(1, 0, 0), {}, {}});
+    const auto prepared = d.prepare();
     FrameScratch scratch;
     const auto refused = [&](const std::shared_ptr<const Preparation>& by, const Poses& poses) {
         CHECK(error_of([&] { (void)solve_frame(by, poses, scratch); }).code() ==
@@ -70,7 +73,7 @@ TEST_CASE("poses and frames of other holds or another region are refused") {
     CHECK(refused(prepared, three).find("0 targets, but the preparation has 1") !=
           std::string::npos);
     (void)refused(prepared, {});
-    (void)refused(of_third, d.setup().poses);
+    (void)refused(of_third, d.snapshot().poses);
     (void)refused(nullptr, before);
     Poses changed = before;
     CHECK(error_of([&] { pose_handle(*of_third, changed, third, move); }).code() ==
@@ -84,7 +87,7 @@ TEST_CASE("poses and frames of other holds or another region are refused") {
     const Scene other = make_scene(make_bar({1.0, 5.0, 4, 10}));
     Edit of_other = make_edit(other);
     for (const DeformFrame& frame :
-         {DeformFrame(), rest_frame(*rest_of(*of_other.deformer.preparation()))}) {
+         {DeformFrame(), rest_frame(*rest_of(*of_other.deformer.prepare()))}) {
         CHECK(error_of([&] { write_frame(rest, frame, mesh); }).code() ==
               ErrorCode::invalid_argument);
         CHECK(error_of([&] { (void)rebased(rest, frame); }).code() == ErrorCode::invalid_argument);
@@ -104,9 +107,9 @@ TEST_CASE("undo: what was asked is put back to the bit, whatever was asked in be
     const auto full_turn = [&](double angle) {
         d.set_transform(edit.high, rotation(Vec3(0.1, 1, 0).normalized(), angle, Vec3(0, 2, 0)));
     };
-    std::vector<std::pair<DeformSetup, Seen>> history;
+    std::vector<std::pair<DeformSnapshot, Seen>> history;
     const auto step = [&](const auto& change) {
-        history.emplace_back(d.setup(), Seen(d));
+        history.emplace_back(d.snapshot(), Seen(d));
         change();
     };
     step([&] {
@@ -115,38 +118,37 @@ TEST_CASE("undo: what was asked is put back to the bit, whatever was asked in be
     step([&] { full_turn(0.0); });
     step([&] { d.add_handle(scene.region({middle, scene.between(1)})); });
     step([&] { d.set_transform(d.handles().back(), translation({0.3, 0, 0.1})); });
-    step([&] { d.constrain({scene.between(9), Vec3(1, 0, 0), {}, {}}); });
-    step([&] { d.constrain({scene.between(9), Vec3(1, 0.5, 0), {}, {}}); });
-    step([&] { d.set_stiffness(scene.region({scene.between(5), scene.between(6)}), 20.0); });
-    step([&] { d.set_handle_region(edit.low, scene.region({scene.low.front(), scene.low[1]})); });
+    step([&] { d.constrain(VertexConstraint{scene.between(9), Vec3(1, 0, 0), {}, {}}); });
+    step([&] { d.constrain(VertexConstraint{scene.between(9), Vec3(1, 0.5, 0), {}, {}}); });
+    step([&] { set_stiffness(d, scene.region({scene.between(5), scene.between(6)}), 20.0); });
+    step([&] { set_handle_region(d, edit.low, scene.region({scene.low.front(), scene.low[1]})); });
     step([&] { d.rebase(); });
     step([&] { full_turn(3.0); });
     step([&] { d.remove_handle(edit.low); });
     step([&] { d.reset(); });
     for (; !history.empty(); history.pop_back()) {
         CAPTURE(history.size());
-        const std::vector<Vec3> shown = d.positions();
         d.restore(history.back().first);
-        CHECK(d.positions() == shown);
+        CHECK(d.positions() == history.back().first.shown->positions);
         CHECK(Seen(d) == history.back().second);
     }
     Edit other = make_edit(scene);
-    CHECK(error_of([&] { d.restore(other.deformer.setup()); }).code() ==
+    CHECK(error_of([&] { d.restore(other.deformer.snapshot()); }).code() ==
           ErrorCode::invalid_argument);
-    CHECK(error_of([&] { d.restore(DeformSetup()); }).code() == ErrorCode::invalid_argument);
+    CHECK(error_of([&] { d.restore(DeformSnapshot()); }).code() == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("undo: a handle that is added and taken back costs no factorisation") {
     const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
     Edit edit = make_edit(scene);
     Deformer& d = edit.deformer;
-    d.set_transform(edit.high, bend(scene, d.handle_center(edit.high)));
+    d.set_transform(edit.high, bend(scene, d.handle(edit.high).center));
     const std::vector<Vec3> before = d.solve();
-    const DeformSetup setup = d.setup();
+    const DeformSnapshot snapshot = d.snapshot();
     d.add_handle(scene.region({scene.between(0)}));
-    d.restore(setup);
+    d.restore(snapshot);
     CHECK(d.solve() == before);
-    CHECK(d.stats().factorizations == 1);
+    CHECK(stats_of(d).factorizations == 1);
 }
 
 TEST_CASE(
@@ -161,9 +163,9 @@ TEST_CASE(
             Edit edit = make_edit(scene, options);
             const Vec3 turn = angle * scene.across;
             const Affine move = rotation(scene.across, angle, Vec3::Zero());
-            const auto prepared = edit.deformer.preparation();
-            Poses poses = edit.deformer.setup().poses, other = poses;
-            const Vec3 center = edit.deformer.handle_center(edit.high);
+            const auto prepared = edit.deformer.prepare();
+            Poses poses = edit.deformer.snapshot().poses, other = poses;
+            const Vec3 center = edit.deformer.handle(edit.high).center;
             pose_handle(*prepared, poses, edit.high, move, center, turn);
             pose_handle(*prepared, other, edit.high, translation(scene.across));
             FrameScratch fresh, scratch;
@@ -187,7 +189,7 @@ TEST_CASE(
             (void)draft(poses);
             (void)draft(other);
             CHECK(full(scratch) == expected);
-            const auto again = prepare_deformation(rest_of(*prepared), holds_of(*prepared));
+            const auto again = prepare_deformation(rest_of(*prepared), constraints_of(*prepared));
             (void)draft(poses);
             CHECK(solve_frame(again, poses, scratch).positions == expected);
         }

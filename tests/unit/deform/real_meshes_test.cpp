@@ -3,6 +3,9 @@
 #include <random>
 #include <string>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/first_solution.h"
+#include "kernel/deform/stats.h"
 #include "tests/unit/deform/models.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
@@ -13,7 +16,7 @@ using namespace lissom::test;
 namespace {
 
 double tolerance(const Deformer& deformer) {
-    return deformer.stats().displaced_vertices > 0 ? 1e-6 : 1e-9;
+    return stats_of(deformer).displaced_vertices > 0 ? 1e-6 : 1e-9;
 }
 
 // What may differ between frames, in sizes.
@@ -58,11 +61,12 @@ TEST_CASE("real meshes: identity, hard handles, basis as the direct solve, and b
     for_each_model([](const Scene& scene) {
         Edit edit = make_edit(scene);
         Deformer& d = edit.deformer;
-        CHECK(d.solve() == d.rest_positions());
-        CHECK(d.preview() == d.rest_positions());
-        const Affine move = bend(scene, d.handle_center(edit.high));
+        CHECK(d.solve() == rest_positions_of(d));
+        CHECK(d.solve(FrameQuality::preview) == rest_positions_of(d));
+        const Affine move = bend(scene, d.handle(edit.high).center);
         d.set_transform(edit.high, move);
-        CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-11 * scene.size);
+        CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+              1e-11 * scene.size);
         d.solve();
         bool held = true, finite = true;
         for (const Index v : scene.high) {
@@ -72,15 +76,15 @@ TEST_CASE("real meshes: identity, hard handles, basis as the direct solve, and b
         for (const Vec3& p : d.positions()) finite = finite && p.allFinite();
         CHECK(held);
         CHECK(finite);
-        CHECK(greatest_distance(d.positions(), d.rest_positions()) < 10.0 * scene.size);
-        const Vec3 center = d.handle_center(edit.high);
+        CHECK(greatest_distance(d.positions(), rest_positions_of(d)) < 10.0 * scene.size);
+        const Vec3 center = d.handle(edit.high).center;
         d.set_transform(edit.high,
                         rotation({1, 2, 3}, 0.7, center) * rotation({1, 2, 3}, -0.7, center));
-        CHECK(d.solve() == d.rest_positions());
+        CHECK(d.solve() == rest_positions_of(d));
         d.set_transform(edit.high, move);
         d.solve();
         d.reset();
-        CHECK(d.positions() == d.rest_positions());
+        CHECK(d.positions() == rest_positions_of(d));
     });
 }
 
@@ -98,7 +102,7 @@ TEST_CASE("real meshes: outside the region nothing moves, to the bit") {
         const Region region = scene.region(upper);
         Deformer d(mesh, region);
         const HandleId high = d.add_handle(scene.region(scene.high));
-        d.set_transform(high, bend(scene, d.handle_center(high)));
+        d.set_transform(high, bend(scene, d.handle(high).center));
         d.solve();
         d.apply_to(mesh);
         Index moved = 0;
@@ -122,16 +126,16 @@ TEST_CASE("real meshes: a similarity of all handles is reproduced") {
         map.linear *= 1.7;
         edit.deformer.set_transform(edit.low, map);
         edit.deformer.set_transform(edit.high, map);
-        CHECK(
-            greatest_distance(edit.deformer.solve(), mapped(edit.deformer.rest_positions(), map)) <
-            tolerance(edit.deformer) * scene.size);
+        CHECK(greatest_distance(edit.deformer.solve(),
+                                mapped(rest_positions_of(edit.deformer), map)) <
+              tolerance(edit.deformer) * scene.size);
     });
 }
 
 TEST_CASE("real meshes: turned, moved and scaled copies deform alike") {
     for_each_model([](const Scene& scene) {
         Edit a = make_edit(scene);
-        const Affine move = bend(scene, a.deformer.handle_center(a.high));
+        const Affine move = bend(scene, a.deformer.handle(a.high).center);
         a.deformer.set_transform(a.high, move);
         const std::vector<Vec3> expected = a.deformer.solve();
         for (const double scale : {1e-6, 1e6}) {
@@ -155,7 +159,7 @@ TEST_CASE("real meshes: neither the order of vertices nor a mirror changes the s
         if (scene.mesh.vertex_count() > 4000) return;
         const Index n = scene.mesh.vertex_count();
         Edit plain = make_edit(scene);
-        const Affine move = bend(scene, plain.deformer.handle_center(plain.high));
+        const Affine move = bend(scene, plain.deformer.handle(plain.high).center);
         plain.deformer.set_transform(plain.high, move);
         const std::vector<Vec3> expected = plain.deformer.solve();
         const std::vector<Index> to = shuffled(n);
@@ -186,10 +190,10 @@ TEST_CASE("real meshes: the same to the bit for 1, 2 and 4 threads") {
             const Context context(options);
             Edit edit = make_edit(scene, refined);
             edit.deformer.set_transform(edit.high,
-                                        bend(scene, edit.deformer.handle_center(edit.high)));
-            previews.push_back(edit.deformer.preview(context));
-            drafts.push_back(edit.deformer.solve_draft(context));
-            results.push_back(edit.deformer.solve(context));
+                                        bend(scene, edit.deformer.handle(edit.high).center));
+            previews.push_back(edit.deformer.solve(FrameQuality::preview, context));
+            drafts.push_back(edit.deformer.solve(FrameQuality::draft, context));
+            results.push_back(edit.deformer.solve(FrameQuality::full, context));
         }
         for (const std::size_t other : {1U, 2U}) {
             CHECK(previews[0] == previews[other]);
@@ -210,11 +214,11 @@ TEST_CASE("real meshes: large ones, their handles hard, their basis as the direc
         const Context context(options);
         Edit edit = make_edit(scene);
         Deformer& d = edit.deformer;
-        const Affine move = bend(scene, d.handle_center(edit.high));
+        const Affine move = bend(scene, d.handle(edit.high).center);
         d.set_transform(edit.high, move);
-        CHECK(greatest_distance(d.preview(context), d.solve_first_directly(context)) <
-              1e-11 * scene.size);
-        d.solve(context);
+        CHECK(greatest_distance(d.solve(FrameQuality::preview, context),
+                                solve_first_directly(d, context)) < 1e-11 * scene.size);
+        d.solve(FrameQuality::full, context);
         bool held = true, finite = true;
         for (const Index v : scene.high) {
             held = held && d.positions()[v] == move(scene.mesh.position(v));
@@ -229,7 +233,7 @@ TEST_CASE("real meshes: every formulation gives a finite shape near the default 
     for_each_model([](const Scene& scene) {
         if (scene.mesh.vertex_count() > 3000) return;
         Edit reference = make_edit(scene);
-        const Affine move = bend(scene, reference.deformer.handle_center(reference.high), 0.4);
+        const Affine move = bend(scene, reference.deformer.handle(reference.high).center, 0.4);
         reference.deformer.set_transform(reference.high, move);
         std::vector<DeformOptions> list(5);
         list[0].second = SecondSystem::laplacian;

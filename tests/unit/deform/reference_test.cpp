@@ -4,6 +4,8 @@
 #include "tests/unit/deform/reference.h"
 
 #include "kernel/core/lanes.h"
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/first_solution.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/system/gradients.h"
@@ -75,23 +77,23 @@ std::vector<Vec3> displaced_rest(const Scene& scene, const Vec3& start,
 void compare(const Scene& scene, const DeformOptions& options, double loss = 1.0) {
     Edit edit = make_edit(scene, options);
     Deformer& d = edit.deformer;
-    const Affine high = bend(scene, d.handle_center(edit.high), 1.2);
-    const Affine low = scaling({1.2, 0.9, 1.1}, d.handle_center(edit.low));
+    const Affine high = bend(scene, d.handle(edit.high).center, 1.2);
+    const Affine low = scaling({1.2, 0.9, 1.1}, d.handle(edit.low).center);
     d.set_transform(edit.high, high);
     d.set_transform(edit.low, low);
     std::map<Index, Affine> held;
     for (const Index v : scene.high) held[v] = high;
     for (const Index v : scene.low) held[v] = low;
-    const Reference reference(scene.mesh, displaced_rest(scene, d.handle_center(edit.low), options),
+    const Reference reference(scene.mesh, displaced_rest(scene, d.handle(edit.low).center, options),
                               held, options);
     const std::vector<Vec3> displaced = reference.first();
     const std::vector<Vec3> first = reference.pulled_back(displaced);
-    CHECK(greatest_distance(d.preview(), first) < loss * kFirst * scene.size);
-    CHECK(greatest_distance(d.solve_first_directly(), first) < loss * kFirst * scene.size);
+    CHECK(greatest_distance(d.solve(FrameQuality::preview), first) < loss * kFirst * scene.size);
+    CHECK(greatest_distance(solve_first_directly(d), first) < loss * kFirst * scene.size);
     const std::vector<Vec3> second = reference.second(displaced);
     CHECK(greatest_distance(d.solve(), second) < kSecond * scene.size);
-    CHECK(greatest_distance(d.solve_draft(), second) < kDraft * scene.size);
-    const std::vector<Mat3> expected = reference.gradients(displaced), got = d.gradients();
+    CHECK(greatest_distance(d.solve(FrameQuality::draft), second) < kDraft * scene.size);
+    const std::vector<Mat3> expected = reference.gradients(displaced), got = gradients_of(d);
     double worst = 0.0;
     for (std::size_t v = 0; v < got.size(); ++v) {
         worst = std::max(worst, (got[v] - expected[v]).norm());
@@ -150,7 +152,7 @@ TEST_CASE("reference: the thesis's own result up to a right angle, and near it u
         options.flat = FlatVertices::displaced;
         Edit edit = make_edit(scene, options);
         Deformer& d = edit.deformer;
-        const Vec3 low = d.handle_center(edit.low), high = d.handle_center(edit.high);
+        const Vec3 low = d.handle(edit.low).center, high = d.handle(edit.high).center;
         const std::vector<Vec3> displaced_at_rest = displaced_rest(scene, low, {});
         for (const Vec3& axis : {Vec3(Vec3::UnitY()), Vec3(Vec3::UnitX()), Vec3(1.0, 2.0, 0.5)}) {
             for (const double degrees : {45.0, 89.9, 105.0, 120.0}) {
@@ -187,7 +189,7 @@ TEST_CASE("refinement: each step lowers the energy that it is about") {
             double before = 0.0;
             for (options.refine = 0; options.refine <= 2; ++options.refine) {
                 Edit edit = make_edit(scene, options);
-                const Affine move = bend(scene, edit.deformer.handle_center(edit.high));
+                const Affine move = bend(scene, edit.deformer.handle(edit.high).center);
                 edit.deformer.set_transform(edit.high, move);
                 std::map<Index, Affine> held;
                 for (const Index v : scene.high) held[v] = move;
@@ -195,7 +197,8 @@ TEST_CASE("refinement: each step lowers the energy that it is about") {
                 const Reference reference(mesh, {mesh.positions().begin(), mesh.positions().end()},
                                           held, options);
                 // Drafts are not taken back where they run through themselves.
-                const double energy = reference.refined_energy(edit.deformer.solve_draft());
+                const double energy =
+                    reference.refined_energy(edit.deformer.solve(FrameQuality::draft));
                 if (options.refine > 0) CHECK(energy <= before * (1.0 + 1e-6));
                 before = energy;
             }

@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "kernel/deform/deform_report.h"
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/deform/first_solution.h"
 #include "kernel/mesh/measure/distortion.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
@@ -38,7 +41,7 @@ Result reported(const Scene& scene, const Affine& move, const DeformOptions& opt
     Edit edit = make_edit(scene, options);
     edit.deformer.set_transform(edit.high, move);
     std::vector<Vec3> x = edit.deformer.solve();
-    return {edit.deformer.report(scene.mesh, {.crossings = true}), std::move(x)};
+    return {report_of(edit.deformer, scene.mesh, {.crossings = true}), std::move(x)};
 }
 
 Affine turned(const Scene& scene, double degrees) {
@@ -58,14 +61,14 @@ bool contains(const std::vector<Index>& list, Index v) {
 TEST_CASE("report: at rest nothing has changed") {
     const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
     Edit edit = make_edit(scene);
-    const DeformReport report = edit.deformer.report(scene.mesh, {.crossings = true});
+    const DeformReport report = report_of(edit.deformer, scene.mesh, {.crossings = true});
     CHECK(report.stretch == 1.0);
     CHECK(report.flipped.empty());
     CHECK(report.crossings->empty());
     CHECK(*report.volume_change == 0.0);
     CHECK(report.tears.empty());
     CHECK(report.warnings.empty());
-    CHECK(!edit.deformer.report(scene.mesh).crossings);
+    CHECK(!report_of(edit.deformer, scene.mesh).crossings);
 }
 
 TEST_CASE("report: stretch, its edge and the volume are those of the surface") {
@@ -77,13 +80,13 @@ TEST_CASE("report: stretch, its edge and the volume are those of the surface") {
     edit.deformer.set_transform(edit.low, twice);
     edit.deformer.set_transform(edit.high, twice);
     edit.deformer.solve();
-    DeformReport report = edit.deformer.report(scene.mesh);
+    DeformReport report = report_of(edit.deformer, scene.mesh);
     CHECK(report.stretch == doctest::Approx(2.0).epsilon(1e-6));
     CHECK(*report.volume_change == doctest::Approx(7.0).epsilon(1e-6));
     edit.deformer.set_transform(edit.low, {});
     edit.deformer.set_transform(edit.high, translation(2.0 * Vec3::UnitY()));
     const std::vector<Vec3> x = edit.deformer.solve();
-    report = edit.deformer.report(scene.mesh);
+    report = report_of(edit.deformer, scene.mesh);
     const auto [a, b] = report.stretched;
     const double rest = (scene.mesh.position(a) - scene.mesh.position(b)).norm();
     CHECK(report.stretch == doctest::Approx((x[a] - x[b]).norm() / rest));
@@ -164,13 +167,13 @@ TEST_CASE("handles that nearly touch: small ones keep a ring, and rigid motions 
     const HandleId high = d.add_handle(scene.region(ring));
     const Affine rigid = rotation({1, -1, 2}, 1.1, {0, 0, 1});
     for (const HandleId handle : d.handles()) d.set_transform(handle, rigid);
-    CHECK(greatest_distance(d.solve(), mapped(d.rest_positions(), rigid)) < 1e-9);
+    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), rigid)) < 1e-9);
     d.set_transform(high, translation(Vec3::UnitX()) * rigid);
     const std::vector<Vec3> x = d.solve();
     for (const Index v : ring) {
         CHECK(x[v] == (translation(Vec3::UnitX()) * rigid)(scene.mesh.position(v)));
     }
-    CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-9);
+    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) < 1e-9);
 }
 
 namespace {
@@ -203,6 +206,21 @@ TEST_CASE("report: each harm is warned of, with its elements and what helps") {
     }
     const DeformReport wrung = reported(scene, rotation(Vec3::UnitY(), 3.1, Vec3::Zero())).report;
     CHECK(warns_of(wrung, DeformHarm::volume) == (*wrung.volume_change < -0.25));
+}
+
+TEST_CASE("report: its text names the harms, the measures and what helps") {
+    DeformReport report;
+    report.stretch = 1.25;
+    CHECK(report_text(report) == "ok: edges stretch up to 1.25 times, no folded faces");
+    report.flipped = {3};
+    report.crossings.emplace(2);
+    report.volume_change = -0.25;
+    report.tears.resize(1);
+    report.warnings.push_back({DeformHarm::torn, "free them", {}});
+    report.warnings.push_back({DeformHarm::volume, "scale it", {}});
+    CHECK(report_text(report) ==
+          "torn, volume: edges stretch up to 1.25 times, 1 folded face, 2 pairs of faces cross, "
+          "1 tear, volume -25 %\n  torn: free them\n  volume: scale it");
 }
 
 TEST_CASE("report: a good result is warned of nothing, nor is a size that handles ask for") {

@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/first_solution.h"
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/repair/repair.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -89,7 +91,7 @@ TEST_CASE("slivers: a few hardly change the shape around them") {
     for (const bool flat : {true, false}) {
         const Scene plain = make_scene(flat ? bar() : triangulated(make_torus()));
         Edit reference = make_edit(plain);
-        const Affine move = bend(plain, reference.deformer.handle_center(reference.high));
+        const Affine move = bend(plain, reference.deformer.handle(reference.high).center);
         reference.deformer.set_transform(reference.high, move);
         const std::vector<Vec3> expected = reference.deformer.solve();
         for (const double height : {1e-2, 1e-4, 1e-7}) {
@@ -99,8 +101,8 @@ TEST_CASE("slivers: a few hardly change the shape around them") {
             edit.deformer.set_transform(edit.high, move);
             std::vector<Vec3> got = edit.deformer.solve();
             CHECK(all_finite(got));
-            CHECK(greatest_distance(edit.deformer.preview(), edit.deformer.solve_first_directly()) <
-                  1e-11 * scene.size);
+            CHECK(greatest_distance(edit.deformer.solve(FrameQuality::preview),
+                                    solve_first_directly(edit.deformer)) < 1e-11 * scene.size);
             got.resize(expected.size());
             CHECK(mean_distance(got, expected) < 0.03 * plain.size);
             CHECK(greatest_distance(got, expected) < 0.15 * plain.size);
@@ -125,9 +127,9 @@ TEST_CASE("obtuse triangles: sheared rows of them bend as regular ones do") {
             options.second = second;
             Edit edit = make_edit(scene, options);
             edit.deformer.set_transform(edit.high,
-                                        bend(scene, edit.deformer.handle_center(edit.high)));
+                                        bend(scene, edit.deformer.handle(edit.high).center));
             CHECK(all_finite(edit.deformer.solve()));
-            CHECK(greatest_distance(edit.deformer.solve(), edit.deformer.rest_positions()) <
+            CHECK(greatest_distance(edit.deformer.solve(), rest_positions_of(edit.deformer)) <
                   2.0 * scene.size);
         }
     }
@@ -140,20 +142,21 @@ TEST_CASE("planes: where every vertex is degenerate, the sheet follows in and ou
         options.second = second;
         Edit edit = make_edit(scene, options);
         Deformer& d = edit.deformer;
-        CHECK(d.solve() == d.rest_positions());
+        CHECK(d.solve() == rest_positions_of(d));
         // Turned, moved and stretched in its plane, it stays there, but for what the displacement
         // of degenerate vertices leaves in their rotations.
         for (const Affine& map :
-             {rotation(Vec3::UnitY(), 0.6, d.handle_center(edit.high)), translation({0.5, 0, 0.3}),
-              scaling({1.3, 1.3, 1.3}, d.handle_center(edit.high))}) {
+             {rotation(Vec3::UnitY(), 0.6, d.handle(edit.high).center), translation({0.5, 0, 0.3}),
+              scaling({1.3, 1.3, 1.3}, d.handle(edit.high).center)}) {
             d.set_transform(edit.high, map);
-            CHECK(greatest_height(d.preview()) < 1e-3 * scene.size);
+            CHECK(greatest_height(d.solve(FrameQuality::preview)) < 1e-3 * scene.size);
             CHECK(greatest_height(d.solve()) < 1e-2 * scene.size);
         }
         d.set_transform(edit.high, translation({-0.5, 1.5, 0.0}) *
-                                       rotation(Vec3::UnitZ(), 1.0, d.handle_center(edit.high)));
+                                       rotation(Vec3::UnitZ(), 1.0, d.handle(edit.high).center));
         CHECK(all_finite(d.solve()));
-        CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-11 * scene.size);
+        CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+              1e-11 * scene.size);
     }
 }
 
@@ -173,7 +176,7 @@ TEST_CASE("several parts in one region: the error names the one that nothing hol
     CHECK(std::is_sorted(error.elements().ids.begin(), error.elements().ids.end()));
     for (const Index v : error.elements().ids) CHECK((v >= n && v < 2 * n));
     CHECK(error.message().find("vertices " + std::to_string(n)) != std::string::npos);
-    CHECK(d.positions() == d.rest_positions());
+    CHECK(d.positions() == rest_positions_of(d));
 
     // Held by any handle, it goes; a part that is only partly in the region is held by the rest.
     d.add_handle({mesh.shared_topology(), {n}});

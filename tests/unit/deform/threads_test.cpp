@@ -14,9 +14,10 @@ TEST_CASE("threads: two frames of one preparation at once are those solved in tu
     refined.local_size = LocalSize::scale;
     for (const DeformOptions& options : {DeformOptions(), refined}) {
         Edit edit = make_edit(scene, options);
-        const std::vector<Vec3>& rest = edit.deformer.rest_positions();
-        edit.deformer.constrain({middle, rest[middle], {}, {}});
-        edit.deformer.constrain({scene.between(3), rest[scene.between(3)], {}, 5.0});
+        const std::vector<Vec3>& rest = rest_positions_of(edit.deformer);
+        edit.deformer.constrain(VertexConstraint{middle, rest[middle], {}, {}});
+        edit.deformer.constrain(
+            VertexConstraint{scene.between(3), rest[scene.between(3)], {}, 5.0});
         check_threads(scene, edit);
     }
 }

@@ -1,5 +1,6 @@
 // DeformOptions::degenerate_threshold.
 
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
@@ -15,7 +16,7 @@ TEST_CASE("every degenerate threshold above 1 gives a result, and nearly the sam
     for (const Scene& scene : scenes) {
         CAPTURE(scene.mesh.vertex_count());
         Edit usual = make_edit(scene);
-        const Affine move = bend(scene, usual.deformer.handle_center(usual.high));
+        const Affine move = bend(scene, usual.deformer.handle(usual.high).center);
         usual.deformer.set_transform(usual.high, move);
         const std::vector<Vec3> wanted = usual.deformer.solve();
         for (const double threshold : {1.0001, 2.0, 10.0, 30.0, 60.0, 100.0, 300.0, 2e3, 2e6}) {
@@ -23,7 +24,7 @@ TEST_CASE("every degenerate threshold above 1 gives a result, and nearly the sam
             DeformOptions options;
             options.degenerate_threshold = threshold;
             Edit edit = make_edit(scene, options);
-            CHECK(edit.deformer.solve() == edit.deformer.rest_positions());
+            CHECK(edit.deformer.solve() == rest_positions_of(edit.deformer));
             edit.deformer.set_transform(edit.high, move);
             CHECK(greatest_distance(edit.deformer.solve(), wanted) < 0.1 * scene.size);
         }

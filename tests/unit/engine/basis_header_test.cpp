@@ -4,6 +4,7 @@
 #include <cstring>
 #include <vector>
 
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/edit/triangulate.h"
 #include "tests/unit/engine/basis_scene.h"
@@ -31,7 +32,7 @@ std::vector<float> evaluated(const lissom_basis& basis, const std::vector<float>
 
 // The distance of the evaluators in C and C++ from the preview, in sizes.
 double error_of_evaluators(BasisScene scene) {
-    const std::vector<Vec3> wanted = scene.deformer.preview();
+    const std::vector<Vec3> wanted = scene.deformer.solve(FrameQuality::preview);
     const std::string bytes = encode_basis(make_engine_basis(scene.deformer));
     const lissom_basis basis = opened(bytes);
     const std::vector<float> in_cpp = evaluated(basis, local_rows(basis, scene.transforms));
@@ -98,7 +99,7 @@ TEST_CASE("handles at the identity give the rest shape to the bit") {
     for (std::size_t h = 0; h < 3; ++h) lissom_basis_identity(still.data() + 12 * h);
     const std::vector<float> out = evaluated(basis, still);
     CHECK(std::memcmp(out.data(), basis.rest, out.size() * sizeof(float)) == 0);
-    CHECK(greatest_distance(out, basis.origin, scene.deformer.rest_positions()) <
+    CHECK(greatest_distance(out, basis.origin, rest_positions_of(scene.deformer)) <
           kTolerance * scene.size);
 }
 
@@ -106,7 +107,8 @@ TEST_CASE("vertex constraints are part of the rest positions") {
     BasisScene scene = make_basis_scene(make_bar({}), 2);
     for (Index v = 0; v < scene.mesh.vertex_count(); ++v) {
         if (std::abs(places_along(scene.mesh)[static_cast<std::size_t>(v)] - 0.5) > 0.02) continue;
-        scene.deformer.constrain({v, scene.mesh.position(v) + Vec3(0.3, 0.1, 0), std::nullopt});
+        scene.deformer.constrain(
+            VertexConstraint{v, scene.mesh.position(v) + Vec3(0.3, 0.1, 0), std::nullopt});
     }
     CHECK(error_of_evaluators(std::move(scene)) < kTolerance);
 }
@@ -124,7 +126,7 @@ TEST_CASE("soft handles, gradients alone, points of faces and removed handles ar
     edit.remove_handle(gone);
     std::mt19937 random(5);
     for (const HandleId id : edit.handles()) {
-        scene.transforms.push_back(some_move(edit.handle_center(id), scene.size, random));
+        scene.transforms.push_back(some_move(edit.handle(id).center, scene.size, random));
         edit.set_transform(id, scene.transforms.back());
     }
     CHECK(error_of_evaluators(std::move(scene)) < kTolerance);
@@ -174,7 +176,7 @@ TEST_CASE("handles have names and centers") {
     CHECK(lissom_basis_find_handle(&basis, "K\u00f6rper") == 1);
     CHECK(lissom_basis_find_handle(&basis, "hi") == 3);
     CHECK(lissom_basis_find_handle(&basis, "hips") == 3);
-    const Vec3 center = scene.deformer.handle_center(scene.deformer.handles()[1]);
+    const Vec3 center = scene.deformer.handle(scene.deformer.handles()[1]).center;
     for (int k = 0; k < 3; ++k) {
         CHECK(basis.origin[k] + static_cast<double>(basis.handles[1].center[k]) ==
               doctest::Approx(center[k]).epsilon(1e-6));

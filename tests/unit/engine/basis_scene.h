@@ -74,7 +74,7 @@ inline BasisScene make_basis_scene(Mesh mesh, int handles, bool surrounded = fal
     for (int h = 0; h < handles; ++h) {
         const HandleId id =
             scene.deformer.add_handle(slab(mesh, h, handles + (surrounded ? 1 : 0)));
-        const Affine move = some_move(scene.deformer.handle_center(id), scene.size, random);
+        const Affine move = some_move(scene.deformer.handle(id).center, scene.size, random);
         scene.deformer.set_transform(id, move);
         scene.transforms.push_back(move);
     }

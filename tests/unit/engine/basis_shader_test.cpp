@@ -158,7 +158,7 @@ TEST_CASE("the example shader gives the kernel's preview, as GLSL 3.30 and GLSL 
         lissom_basis basis;
         REQUIRE(lissom_basis_open(&basis, bytes.data(), bytes.size()) == LISSOM_BASIS_OK);
         const std::vector<float> transforms = local_rows(basis, scene.transforms);
-        const std::vector<Vec3> wanted = scene.deformer.preview();
+        const std::vector<Vec3> wanted = scene.deformer.solve(FrameQuality::preview);
         for (const std::string version : {"#version 330 core\n", "#version 300 es\n"}) {
             const bool is_es = version.find("es") != std::string::npos;
             if (is_es && !epoxy_has_gl_extension("GL_ARB_ES3_compatibility")) continue;

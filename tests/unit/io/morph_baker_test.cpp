@@ -94,7 +94,7 @@ TEST_CASE("the shapes of a deformation come back at their keys, with their norma
     MorphBaker baker(rest, edit.region());
     std::vector<Mesh> shapes;
     for (int k = 0; k < 4; ++k) {
-        edit.set_transform(tip, rotation(Vec3::UnitZ(), 0.4 * k, edit.handle_center(tip)));
+        edit.set_transform(tip, rotation(Vec3::UnitZ(), 0.4 * k, edit.handle(tip).center));
         edit.solve();
         edit.apply_to(shapes.emplace_back(rest));
         baker.add(0.25 * k, shapes.back());

@@ -131,7 +131,7 @@ Made deformed(const Context& context) {
     Deformer edit(bar, Region::all(bar.shared_topology()), {}, context);
     edit.add_handle(*bar.find_region("bottom"));
     const HandleId top = edit.add_handle(*bar.find_region("top"));
-    edit.set_transform(top, rotation(Vec3::UnitZ(), 0.5, edit.handle_center(top)));
+    edit.set_transform(top, rotation(Vec3::UnitZ(), 0.5, edit.handle(top).center));
     edit.solve();
     edit.apply_to(bar);
     const std::uint64_t value = hash(bar);

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/description.h"
+#include "kernel/deform/handle_changes.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "kernel/scene/mesh_item.h"
@@ -27,7 +29,7 @@ struct BentBar {
         scene.add("bend", std::make_shared<DeformItem>(edit, std::make_shared<MeshItem>(bar)));
     }
     void turn(double degrees) {
-        const Vec3 center = edit->handle_center(top);
+        const Vec3 center = edit->handle(top).center;
         edit->set_transform(top, rotation(Vec3::UnitZ(), degrees * kDegree, center));
         edit->solve();
         edit->apply_to(*bar);
@@ -50,8 +52,8 @@ TEST_CASE("deform item: a drag is undone in the deformation and in its mesh") {
     b.scene.undo();
     CHECK(b.scene.hash() == rest);
     CHECK(hash(*b.bar) == rest_mesh);
-    CHECK(b.edit->transform(b.top).is_identity());
-    CHECK(b.edit->positions() == b.edit->rest_positions());
+    CHECK(b.edit->pose(b.top).transform.is_identity());
+    CHECK(b.edit->positions() == rest_positions_of(*b.edit));
     b.scene.redo();
     CHECK(b.scene.hash() == turned);
     // The next solve goes on from there, to the bit.
@@ -64,12 +66,12 @@ TEST_CASE("deform item: what a preview or a solve left unwritten is undone as we
     const std::uint64_t rest = b.scene.hash();
     b.edit->set_transform(b.top, translation(Vec3(1, 0, 0)));
     CHECK(b.scene.undo() == Scene::kEdited);
-    CHECK(b.edit->transform(b.top).is_identity());
+    CHECK(b.edit->pose(b.top).transform.is_identity());
     b.scene.redo();
-    b.edit->preview();
+    b.edit->solve(FrameQuality::preview);
     CHECK(b.scene.undo() == Scene::kEdited);
-    CHECK(b.edit->positions() == b.edit->rest_positions());
-    CHECK(!b.edit->transform(b.top).is_identity());
+    CHECK(b.edit->positions() == rest_positions_of(*b.edit));
+    CHECK(!b.edit->pose(b.top).transform.is_identity());
     b.scene.undo();
     CHECK(b.scene.hash() == rest);
 }
@@ -92,7 +94,7 @@ TEST_CASE("deform item: handles, constraints, stiffness and a new rest shape are
     change([&] {
         b.edit->constrain(VertexConstraint{b.edit->region().vertices()[40], Vec3(1, 2, 3)});
     });
-    change([&] { b.edit->set_stiffness(b.edit->region(), 2.0); });
+    change([&] { set_stiffness(*b.edit, b.edit->region(), 2.0); });
     change([&] { b.edit->rebase(); });
     change([&] { b.turn(10.0); });
     change([&] { b.edit->reset(); });
@@ -146,19 +148,19 @@ TEST_CASE("description: a setup comes back to the bit") {
     b.edit->constrain(
         PointConstraint{face_point(rest.topology(), 60, std::vector{0.1, 0.2, 0.3, 0.4}),
                         Vec3(0.5, 0.0, 0.0), Mat3(Mat3::Identity()), 10.0});
-    b.edit->set_stiffness(*rest.find_region("top"), 4.0);
+    set_stiffness(*b.edit, *rest.find_region("top"), 4.0);
     b.edit->set_transform(soft, translation(Vec3(0.1, 0, 0)));
     b.turn(50.0);
 
-    const DeformDescription described = describe(b.edit->setup());
+    const DeformDescription described = describe(b.edit->snapshot());
     CHECK(!described.handles.front());
     CHECK(described.constraints.size() == 2);
     Deformer other(rest, Region::all(rest.shared_topology()));
-    other.restore(setup_of(described, other.setup().rest));
+    other.restore(snapshot_of(described, rest_of(other)));
     other.solve();
     CHECK(other.positions() == b.edit->positions());
-    CHECK(other.turn(b.top) == b.edit->turn(b.top));
-    CHECK(other.handle_options(soft).weight == 3.0);
+    CHECK(other.pose(b.top).turn == b.edit->pose(b.top).turn);
+    CHECK(other.handle(soft).options.weight == 3.0);
 }
 
 TEST_CASE("description: what fits no deformation is refused") {
@@ -167,11 +169,11 @@ TEST_CASE("description: what fits no deformation is refused") {
     edit.add_handle(*mesh.find_region("base"));
     const HandleId arm = edit.add_handle(*mesh.find_region("tip"));
     edit.set_transform(arm, translation(Vec3(0, 0.1, 0)));
-    const DeformDescription described = describe(edit.setup());
+    const DeformDescription described = describe(edit.snapshot());
     const auto code_of = [&](const auto& change) {
         DeformDescription wrong = described;
         change(wrong);
-        return error_of([&] { setup_of(wrong, edit.setup().rest); }).code();
+        return error_of([&] { snapshot_of(wrong, rest_of(edit)); }).code();
     };
     CHECK(code_of([](auto& d) { d.handles[0]->partner = HandleId{1}; }) ==
           ErrorCode::invalid_argument);

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/handle_changes.h"
 #include "kernel/hair/strands/strand_measures.h"
 #include "kernel/io/stream/file.h"
 #include "kernel/mesh/edit/subdivide.h"
@@ -47,8 +49,8 @@ struct BentScene {
         edit->constrain(
             PointConstraint{face_point(bar->topology(), 60, std::vector{0.1, 0.2, 0.3, 0.4}),
                             Vec3(0.5, 0.0, 0.0), std::nullopt, 10.0});
-        edit->set_stiffness(*bar->find_region("top"), 4.0);
-        edit->set_transform(top, rotation(Vec3::UnitZ(), 1.0, edit->handle_center(top)));
+        set_stiffness(*edit, *bar->find_region("top"), 4.0);
+        edit->set_transform(top, rotation(Vec3::UnitZ(), 1.0, edit->handle(top).center));
         edit->solve();
         edit->apply_to(*bar);
         scene.add("bend", std::make_shared<DeformItem>(edit, std::make_shared<MeshItem>(bar)));
@@ -168,7 +170,7 @@ TEST_CASE("scene file: a deformation goes on where it was") {
     b.edit->solve();
     CHECK(edit.positions() == b.edit->positions());
     edit.reset();
-    CHECK(edit.positions() == b.edit->rest_positions());
+    CHECK(edit.positions() == rest_positions_of(*b.edit));
 }
 
 TEST_CASE("scene file: a new rest shape and a mesh with normals come back") {
@@ -182,7 +184,7 @@ TEST_CASE("scene file: a new rest shape and a mesh with normals come back") {
     edit->add_handle(*mesh->find_region("base"));
     const HandleId tip = edit->add_handle(*mesh->find_region("tip"));
     for (int turn = 0; turn < 2; ++turn) {
-        edit->set_transform(tip, rotation(Vec3::UnitZ(), 0.5, edit->handle_center(tip)));
+        edit->set_transform(tip, rotation(Vec3::UnitZ(), 0.5, edit->handle(tip).center));
         edit->solve();
         edit->apply_to(*mesh);
         if (turn == 0) edit->rebase();
@@ -622,7 +624,7 @@ TEST_CASE("scene file: a history is undone and done again to the same hashes") {
     for (int i = 0; i < 4; ++i) {
         scene.step("turn", [&] {
             b.edit->set_transform(top,
-                                  rotation(Vec3::UnitZ(), 0.2 * i, b.edit->handle_center(top)));
+                                  rotation(Vec3::UnitZ(), 0.2 * i, b.edit->handle(top).center));
             b.edit->solve();
             b.edit->apply_to(*b.bar);
         });

@@ -30,7 +30,7 @@ struct Bent {
         scene.undo();
     }
     void turn(double angle) {
-        edit->set_transform(top, rotation(Vec3::UnitZ(), angle, edit->handle_center(top)));
+        edit->set_transform(top, rotation(Vec3::UnitZ(), angle, edit->handle(top).center));
         edit->solve();
         edit->apply_to(*bar);
     }

@@ -46,7 +46,7 @@ void add_handles(const Deformer& deformer, MeshStyle& style) {
     const Region& region = deformer.region();
     if (region.size() < region.topology()->vertex_count()) style.region = region;
     for (const HandleId id : deformer.handles()) {
-        style.handles.push_back(deformer.handle_region(id));
+        style.handles.push_back(deformer.handle(id).region);
     }
 }
 

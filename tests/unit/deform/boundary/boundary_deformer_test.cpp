@@ -12,6 +12,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/stats.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"

@@ -6,6 +6,10 @@
 #include <cmath>
 #include <map>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/first_solution.h"
+#include "kernel/deform/handle_changes.h"
+#include "kernel/deform/stats.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
@@ -113,14 +117,14 @@ struct Held {
 };
 
 Held held_ends(const Scene& scene) {
-    Holds holds;
+    ConstraintSet constraints;
     for (const std::vector<Index>* end : {&scene.low, &scene.high}) {
         Handle handle{scene.region(*end), {}};
         handle.local = *end;
-        holds.handles.push_back(std::make_shared<const Handle>(std::move(handle)));
+        constraints.handles.push_back(std::make_shared<const Handle>(std::move(handle)));
     }
     WorkingPatch work(build_patch(scene.mesh, scene.all(), 1), {});
-    Holding holding = find_holding(work, holds);
+    Holding holding = find_holding(work, constraints);
     return {std::move(work), std::move(holding)};
 }
 
@@ -152,7 +156,7 @@ bool same(const Mesh& a, const Mesh& b) {
 
 DeformOptions unrefined() {
     DeformOptions options;
-    options.refine_borders = false;
+    options.subdivide_borders = false;
     return options;
 }
 
@@ -161,7 +165,7 @@ std::vector<Vec3> bent(const Scene& scene, const DeformOptions& options,
                        const Affine& move = twist(), const Context& context = {}) {
     Edit edit = make_edit(scene, options);
     edit.deformer.set_transform(edit.high, move);
-    return edit.deformer.solve(context);
+    return edit.deformer.solve(FrameQuality::full, context);
 }
 
 // Root mean square distance over the first `count` vertices, in sizes.
@@ -177,7 +181,7 @@ Scene refined(const Scene& scene) {
     Edit edit = make_edit(scene);
     edit.deformer.prepare();
     Scene result = scene;
-    result.mesh = edit.deformer.refined_mesh(scene.mesh);
+    result.mesh = subdivided_mesh(edit.deformer, scene.mesh);
     for (Index v = scene.mesh.vertex_count(); v < result.mesh.vertex_count(); ++v) {
         if (result.mesh.position(v).z() < 1e-9) result.low.push_back(v);
         if (result.mesh.position(v).z() > kLength - 1e-9) result.high.push_back(v);
@@ -258,8 +262,8 @@ TEST_CASE("coarse borders: nothing is inserted where they are as dense as the re
     const Scene bar = make_scene(make_bar());
     Edit edit = make_edit(bar);
     edit.deformer.prepare();
-    CHECK(edit.deformer.stats().refined_vertices == 0);
-    CHECK(same(edit.deformer.refined_mesh(bar.mesh), bar.mesh));
+    CHECK(stats_of(edit.deformer).refined_vertices == 0);
+    CHECK(same(subdivided_mesh(edit.deformer, bar.mesh), bar.mesh));
 }
 
 TEST_CASE("coarse borders: the result is that of the refined mesh") {
@@ -292,9 +296,9 @@ TEST_CASE("coarse borders: the refined mesh has the deformed places, and attribu
     Edit edit = make_edit(scene);
     edit.deformer.set_transform(edit.high, twist());
     edit.deformer.solve();
-    const Mesh fine = edit.deformer.refined_mesh(scene.mesh);
+    const Mesh fine = subdivided_mesh(edit.deformer, scene.mesh);
     CHECK(fine.vertex_count() ==
-          scene.mesh.vertex_count() + edit.deformer.stats().refined_vertices);
+          scene.mesh.vertex_count() + stats_of(edit.deformer).refined_vertices);
     CHECK(fine.topology().is_closed() == scene.mesh.topology().is_closed());
     Index moved = 0;
     for (Index v = 0; v < fine.vertex_count(); ++v) {
@@ -328,16 +332,16 @@ TEST_CASE("coarse borders: of quads, and with what is held softly, stiffly and a
     soft.weight = 2.0;
     const Index middle = kSides * kRings / 2;
     const HandleId h = edit.deformer.add_handle(scene.region({middle}), soft);
-    edit.deformer.set_stiffness(scene.region({middle + 5}), 3.0);
-    const Affine move = bend(scene, edit.deformer.handle_center(edit.high), 0.7);
+    set_stiffness(edit.deformer, scene.region({middle + 5}), 3.0);
+    const Affine move = bend(scene, edit.deformer.handle(edit.high).center, 0.7);
     edit.deformer.set_transform(edit.high, move);
     edit.deformer.set_transform(h, translation({0.1, 0.1, 0.1}));
     const std::vector<Vec3> solved = edit.deformer.solve();
-    REQUIRE(edit.deformer.stats().refined_vertices > 0);
+    REQUIRE(stats_of(edit.deformer).refined_vertices > 0);
     for (const Index v : scene.high) CHECK(solved[v] == move(scene.mesh.position(v)));
-    CHECK(greatest_distance(edit.deformer.preview(), edit.deformer.solve_first_directly()) <
-          1e-9 * scene.size);
-    const Mesh fine = edit.deformer.refined_mesh(scene.mesh);
+    CHECK(greatest_distance(edit.deformer.solve(FrameQuality::preview),
+                            solve_first_directly(edit.deformer)) < 1e-9 * scene.size);
+    const Mesh fine = subdivided_mesh(edit.deformer, scene.mesh);
     CHECK(fine.vertex_count() > scene.mesh.vertex_count());
     CHECK(fine.topology().is_closed() == scene.mesh.topology().is_closed());
 }
@@ -348,14 +352,14 @@ TEST_CASE("coarse borders: rest, rotations and threads as without them") {
     edit.deformer.set_transform(edit.high, twist());
     edit.deformer.solve();
     edit.deformer.set_transform(edit.high, {});
-    CHECK(edit.deformer.solve() == edit.deformer.rest_positions());
-    CHECK(edit.deformer.refined_mesh(scene.mesh).vertex_count() > scene.mesh.vertex_count());
+    CHECK(edit.deformer.solve() == rest_positions_of(edit.deformer));
+    CHECK(subdivided_mesh(edit.deformer, scene.mesh).vertex_count() > scene.mesh.vertex_count());
 
     const Affine map = rotation({1, 2, 3}, 1.3, {3, -2, 7});
     Edit both = make_edit(scene);
     both.deformer.set_transform(both.low, map);
     both.deformer.set_transform(both.high, map);
-    CHECK(greatest_distance(both.deformer.solve(), mapped(both.deformer.rest_positions(), map)) <
+    CHECK(greatest_distance(both.deformer.solve(), mapped(rest_positions_of(both.deformer), map)) <
           1e-9 * scene.size);
 
     ContextOptions one, two;
@@ -369,11 +373,11 @@ TEST_CASE("coarse borders: the refined mesh stays that of the result while handl
     Edit edit = make_edit(scene);
     edit.deformer.set_transform(edit.high, twist());
     edit.deformer.solve();
-    const Mesh before = edit.deformer.refined_mesh(scene.mesh);
+    const Mesh before = subdivided_mesh(edit.deformer, scene.mesh);
     edit.deformer.add_handle(scene.region({kSides * kRings / 2}));
-    CHECK(same(edit.deformer.refined_mesh(scene.mesh), before));
+    CHECK(same(subdivided_mesh(edit.deformer, scene.mesh), before));
     edit.deformer.rebase();
-    CHECK(edit.deformer.refined_mesh(scene.mesh).position(0) == before.position(0));
+    CHECK(subdivided_mesh(edit.deformer, scene.mesh).position(0) == before.position(0));
 }
 
 #ifdef LISSOM_HAS_THESIS
@@ -382,8 +386,8 @@ TEST_CASE("coarse borders: comparison methods leave them as they are") {
     const Scene scene = tube(4);
     Edit edit = make_edit(scene, options);
     edit.deformer.prepare();
-    CHECK(edit.deformer.stats().refined_vertices == 0);
-    options.refine_borders = false;
+    CHECK(stats_of(edit.deformer).refined_vertices == 0);
+    options.subdivide_borders = false;
     CHECK(error_of([&] { Deformer(scene.mesh, scene.all(), options); }).code() ==
           ErrorCode::invalid_argument);
 }

@@ -3,6 +3,9 @@
 
 #include <Eigen/Geometry>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/first_solution.h"
+#include "kernel/deform/stats.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
@@ -30,8 +33,8 @@ TEST_CASE("positions only: handles hold, and a similarity of all is reproduced")
     const Affine rigid = rotation({1, -1, 2}, 1.1, {0, 0, 1});
     edit.deformer.set_transform(edit.low, rigid);
     edit.deformer.set_transform(edit.high, rigid);
-    CHECK(greatest_distance(edit.deformer.solve(), mapped(edit.deformer.rest_positions(), rigid)) <
-          1e-9 * scene.size);
+    CHECK(greatest_distance(edit.deformer.solve(),
+                            mapped(rest_positions_of(edit.deformer), rigid)) < 1e-9 * scene.size);
 
     edit.deformer.set_transform(edit.low, {});
     edit.deformer.set_transform(edit.high, translation({1, 0, 0}));
@@ -48,7 +51,7 @@ TEST_CASE("gradients only: the handle turns the surface and its vertices find th
     HandleOptions gradients;
     gradients.position = false;
     const HandleId high = d.add_handle(scene.region(scene.high), gradients);
-    d.set_transform(high, rotation(Vec3::UnitX(), 0.7, d.handle_center(high)));
+    d.set_transform(high, rotation(Vec3::UnitX(), 0.7, d.handle(high).center));
     d.solve();
     // The end is turned, but stays attached at its own distance instead of rotating in place.
     const Vec3 rest =
@@ -56,7 +59,8 @@ TEST_CASE("gradients only: the handle turns the surface and its vertices find th
     const Vec3 now = d.positions()[scene.high.back()] - d.positions()[scene.high.front()];
     CHECK(rest.norm() > 0.1);
     CHECK((now - Eigen::AngleAxisd(0.7, Vec3::UnitX()) * rest).norm() < 0.06 * rest.norm());
-    CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-11 * scene.size);
+    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+          1e-11 * scene.size);
 }
 
 TEST_CASE("vertex constraints: exact positions, and rest again when they go") {
@@ -65,29 +69,32 @@ TEST_CASE("vertex constraints: exact positions, and rest again when they go") {
     d.add_handle(scene.region(scene.low));
     const Index tip = scene.high.back();
     const Vec3 target = scene.mesh.position(tip) + Vec3(0.5, 0.2, -0.1);
-    d.constrain({tip, target, {}});
+    d.constrain(VertexConstraint{tip, target, {}});
     CHECK(d.solve()[tip] == target);
-    CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-11 * scene.size);
+    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+          1e-11 * scene.size);
 
-    const Index count = d.stats().factorizations;
-    d.constrain({tip, target + Vec3(0.1, 0, 0), {}});
+    const Index count = stats_of(d).factorizations;
+    d.constrain(VertexConstraint{tip, target + Vec3(0.1, 0, 0), {}});
     CHECK(d.solve()[tip] == target + Vec3(0.1, 0, 0));
-    CHECK(d.stats().factorizations == count);
+    CHECK(stats_of(d).factorizations == count);
 
-    d.constrain({tip, {}, {}});
-    CHECK(d.solve() == d.rest_positions());
+    d.constrain(VertexConstraint{tip, {}, {}});
+    CHECK(d.solve() == rest_positions_of(d));
 }
 
 TEST_CASE("vertex constraints: many of them do what a handle does") {
     const Scene scene = bar_scene();
     Edit edit = make_edit(scene);
-    const Affine move = bend(scene, edit.deformer.handle_center(edit.high));
+    const Affine move = bend(scene, edit.deformer.handle(edit.high).center);
     edit.deformer.set_transform(edit.high, move);
 
     Deformer d(scene.mesh, scene.all());
     d.add_handle(scene.region(scene.low));
-    for (const Index v : scene.high) d.constrain({v, move(scene.mesh.position(v)), move.linear});
-    CHECK(greatest_distance(d.preview(), edit.deformer.preview()) < 1e-10 * scene.size);
+    for (const Index v : scene.high)
+        d.constrain(VertexConstraint{v, move(scene.mesh.position(v)), move.linear});
+    CHECK(greatest_distance(d.solve(FrameQuality::preview),
+                            edit.deformer.solve(FrameQuality::preview)) < 1e-10 * scene.size);
     CHECK(greatest_distance(d.solve(), edit.deformer.solve()) < 1e-10 * scene.size);
 }
 
@@ -96,11 +103,13 @@ TEST_CASE("vertex constraints: with handles that move, and with gradients alone"
     Edit edit = make_edit(scene);
     Deformer& d = edit.deformer;
     const Index middle = scene.mesh.vertex_count() / 2;
-    d.constrain({middle, {}, Mat3(Eigen::AngleAxisd(0.8, Vec3::UnitY()).toRotationMatrix())});
+    d.constrain(VertexConstraint{
+        middle, {}, Mat3(Eigen::AngleAxisd(0.8, Vec3::UnitY()).toRotationMatrix())});
     d.set_transform(edit.high, translation({0.4, 0, 0}));
-    CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-11 * scene.size);
+    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+          1e-11 * scene.size);
     d.solve();
-    CHECK((d.gradients()[middle] - Mat3(Eigen::AngleAxisd(0.8, Vec3::UnitY()))).norm() < 1e-12);
+    CHECK((gradients_of(d)[middle] - Mat3(Eigen::AngleAxisd(0.8, Vec3::UnitY()))).norm() < 1e-12);
     for (const Index v : scene.low) CHECK(d.positions()[v] == scene.mesh.position(v));
 }
 
@@ -112,14 +121,14 @@ TEST_CASE("vertex constraints: where the surface lies by itself they hardly bend
     // Up to where the field of turns takes over.
     for (const double angle : {0.5, 1.0, 1.5, 2.0}) {
         CAPTURE(angle);
-        const Vec3 center = free.deformer.handle_center(free.high);
+        const Vec3 center = free.deformer.handle(free.high).center;
         const Affine move = translation(shift) * rotation(scene.mesh.position(scene.high.back()) -
                                                               scene.mesh.position(scene.low.back()),
                                                           angle, center);
         free.deformer.set_transform(free.high, move);
         held.deformer.set_transform(held.high, move);
         const std::vector<Vec3> expected = free.deformer.solve();
-        held.deformer.constrain({middle, expected[middle], {}});
+        held.deformer.constrain(VertexConstraint{middle, expected[middle], {}});
         const double off = greatest_distance(held.deformer.solve(), expected) / scene.size;
         CHECK(off < 0.03);
     }
@@ -167,7 +176,7 @@ TEST_CASE("components: each is held by its own handle and does not feel the othe
         moved = std::max(moved, (d.positions()[v] - both.position(v)).norm());
     }
     CHECK(moved < 1e-11);
-    CHECK(greatest_distance(d.positions(), d.rest_positions()) > 0.9);
+    CHECK(greatest_distance(d.positions(), rest_positions_of(d)) > 0.9);
 }
 
 TEST_CASE("open boundaries: a sheet bends, whatever hangs over its rim") {

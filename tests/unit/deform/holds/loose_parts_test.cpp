@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/deform/handle_basis.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
@@ -102,15 +104,17 @@ TEST_CASE("loose parts: they stay to the bit, and the rest moves as without them
     const Dressed d = dressed();
     Edit edit = make_edit(d.scene, loose(UnheldParts::stay));
     Deformer& deformer = edit.deformer;
-    deformer.set_transform(edit.high, bend(d.scene, deformer.handle_center(edit.high)));
+    deformer.set_transform(edit.high, bend(d.scene, deformer.handle(edit.high).center));
     const Scene plain = make_scene(make_bar({1.0, 5.0, 6, 30}));
     Edit alone = make_edit(plain);
-    alone.deformer.set_transform(alone.high, deformer.transform(edit.high));
+    alone.deformer.set_transform(alone.high, deformer.pose(edit.high).transform);
     for (const bool preview : {false, true}) {
-        const std::vector<Vec3>& x = preview ? deformer.preview() : deformer.solve();
-        const std::vector<Vec3>& bar = preview ? alone.deformer.preview() : alone.deformer.solve();
+        const std::vector<Vec3>& x =
+            preview ? deformer.solve(FrameQuality::preview) : deformer.solve();
+        const std::vector<Vec3>& bar =
+            preview ? alone.deformer.solve(FrameQuality::preview) : alone.deformer.solve();
         for (const std::vector<Index>* part : {&d.middle, &d.top}) {
-            CHECK(picked(x, *part) == picked(deformer.rest_positions(), *part));
+            CHECK(picked(x, *part) == picked(rest_positions_of(deformer), *part));
         }
         CHECK(x[d.speck] == d.scene.mesh.position(d.speck));
         const std::vector<Vec3> body(x.begin(), x.begin() + plain.mesh.vertex_count());
@@ -127,18 +131,19 @@ TEST_CASE("loose parts: they follow as rigid pieces and keep their distance") {
         Edit edit = make_edit(d.scene, options);
         Deformer& deformer = edit.deformer;
         for (const double angle : {0.9, 2.5, 5.0}) {
-            const Affine map = rotation(d.scene.across, angle, deformer.handle_center(edit.high));
+            const Affine map = rotation(d.scene.across, angle, deformer.handle(edit.high).center);
             deformer.set_transform(edit.high, map, Vec3::Zero(), angle * d.scene.across);
             for (const bool preview : {false, true}) {
-                const std::vector<Vec3>& x = preview ? deformer.preview() : deformer.solve();
+                const std::vector<Vec3>& x =
+                    preview ? deformer.solve(FrameQuality::preview) : deformer.solve();
                 CHECK(strain(d, x, d.middle) < 1e-9);
                 CHECK(greatest_distance(picked(x, d.top),
-                                        mapped(picked(deformer.rest_positions(), d.top), map)) <
+                                        mapped(picked(rest_positions_of(deformer), d.top), map)) <
                       1e-9);
                 CHECK((x[d.middle.front()] - d.scene.mesh.position(d.middle.front())).norm() >
                       0.05);
                 if (preview) continue;
-                CHECK(deformer.gradients()[d.top.front()].isApprox(map.linear, 1e-9));
+                CHECK(gradients_of(deformer)[d.top.front()].isApprox(map.linear, 1e-9));
             }
         }
     }
@@ -148,7 +153,7 @@ TEST_CASE("loose parts: what follows is near what it was near") {
     const Dressed d = dressed();
     Edit edit = make_edit(d.scene, loose(UnheldParts::follow));
     Deformer& deformer = edit.deformer;
-    deformer.set_transform(edit.high, bend(d.scene, deformer.handle_center(edit.high)));
+    deformer.set_transform(edit.high, bend(d.scene, deformer.handle(edit.high).center));
     const std::vector<Vec3> x = deformer.solve();
     const auto gap = [&](const std::vector<Vec3>& at, Index v) {
         double least = 1e300;
@@ -157,7 +162,7 @@ TEST_CASE("loose parts: what follows is near what it was near") {
         return least;
     };
     for (const Index v : {d.middle.front(), d.middle.back(), d.speck}) {
-        CHECK(gap(x, v) == doctest::Approx(gap(deformer.rest_positions(), v)).epsilon(0.3));
+        CHECK(gap(x, v) == doctest::Approx(gap(rest_positions_of(deformer), v)).epsilon(0.3));
     }
 }
 
@@ -167,11 +172,11 @@ TEST_CASE("loose parts: a similarity of all handles takes them along, and rest i
     options.local_size = LocalSize::scale;
     Edit edit = make_edit(d.scene, options);
     Deformer& deformer = edit.deformer;
-    CHECK(deformer.solve() == deformer.rest_positions());
+    CHECK(deformer.solve() == rest_positions_of(deformer));
     const Affine map = rotation({1, 2, 0}, 1.0, {0, 0, 1}) * scaling({2, 2, 2}, Vec3::Zero());
     deformer.set_transform(edit.low, map);
     deformer.set_transform(edit.high, map);
-    CHECK(greatest_distance(deformer.solve(), mapped(deformer.rest_positions(), map)) < 1e-8);
+    CHECK(greatest_distance(deformer.solve(), mapped(rest_positions_of(deformer), map)) < 1e-8);
 }
 
 TEST_CASE("loose parts: they follow quads that share opposite corners") {
@@ -212,7 +217,7 @@ TEST_CASE("loose parts: they follow quads that share opposite corners") {
         std::vector<Index> end;
         for (Index v = (kLong - 1) * kRow; v < middle; ++v) end.push_back(v);
         const HandleId high = deformer.add_handle(Region(mesh.shared_topology(), end));
-        deformer.set_transform(high, rotation(Vec3::UnitZ(), 0.8, deformer.handle_center(high)));
+        deformer.set_transform(high, rotation(Vec3::UnitZ(), 0.8, deformer.handle(high).center));
         const std::vector<Vec3>& x = deformer.solve();
         const double rest = (mesh.position(first) - mesh.position(middle)).norm();
         CHECK((x[first] - mesh.position(first)).norm() > 0.05);
@@ -225,7 +230,7 @@ namespace {
 std::vector<Vec3> of_basis(const HandleBasis& basis, const Deformer& deformer) {
     std::vector<Vec3> x = basis.fixed;
     for (std::size_t h = 0; h < basis.handles.size(); ++h) {
-        const Affine& t = deformer.transform(basis.handles[h]);
+        const Affine& t = deformer.pose(basis.handles[h]).transform;
         for (std::size_t row = 0; row < x.size(); ++row) {
             const Vec4& w = basis.weights[h][row];
             x[row] += t.linear * w.head<3>() + w[3] * t.translation;
@@ -239,22 +244,23 @@ std::vector<Vec3> of_basis(const HandleBasis& basis, const Deformer& deformer) {
 TEST_CASE("loose parts: in a basis they stay, or follow by an affine map") {
     const Dressed d = dressed();
     Edit still = make_edit(d.scene, loose(UnheldParts::stay));
-    const HandleBasis basis = still.deformer.basis();
+    const HandleBasis basis = basis_of(still.deformer);
     for (const Index v : d.middle) CHECK(basis.fixed[v] == d.scene.mesh.position(v));
 
     Edit edit = make_edit(d.scene, loose(UnheldParts::follow));
     Deformer& deformer = edit.deformer;
-    const HandleBasis follows = deformer.basis();
-    CHECK(greatest_distance(of_basis(follows, deformer), deformer.rest_positions()) < 1e-9);
+    const HandleBasis follows = basis_of(deformer);
+    CHECK(greatest_distance(of_basis(follows, deformer), rest_positions_of(deformer)) < 1e-9);
     const Affine map = rotation({1, 2, 0}, 1.0, {0, 0, 1}) * scaling({2, 1, 3}, Vec3::Zero());
     deformer.set_transform(edit.low, map);
     deformer.set_transform(edit.high, map);
-    CHECK(greatest_distance(of_basis(follows, deformer), mapped(deformer.rest_positions(), map)) <
+    CHECK(greatest_distance(of_basis(follows, deformer), mapped(rest_positions_of(deformer), map)) <
           1e-9);
     deformer.set_transform(edit.low, {});
     deformer.set_transform(edit.high,
-                           rotation(d.scene.across, 0.3, deformer.handle_center(edit.high)));
-    const std::vector<Vec3> x = of_basis(follows, deformer), shown = deformer.preview();
+                           rotation(d.scene.across, 0.3, deformer.handle(edit.high).center));
+    const std::vector<Vec3> x = of_basis(follows, deformer),
+                            shown = deformer.solve(FrameQuality::preview);
     for (const std::vector<Index>* part : {&d.middle, &d.top}) {
         CHECK(greatest_distance(picked(x, *part), picked(shown, *part)) < 0.05 * d.scene.size);
     }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/handle_changes.h"
 #include "kernel/deform/holds/mirror.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/measure/measures.h"
@@ -90,7 +92,7 @@ Pair make_pair(const Scene& scene, const Vec3& at, double radius, const HandleOp
                const DeformOptions& deform = {}) {
     Deformer d(scene.mesh, scene.all(), deform);
     const HandleId right = d.add_handle(select_sphere(scene.mesh, at, radius), options);
-    const HandleId left = d.mirror_handle(right, kPlane);
+    const HandleId left = mirror_handle(d, right, kPlane);
     d.add_handle(held_part(scene));
     return {std::move(d), right, left};
 }
@@ -111,9 +113,10 @@ TEST_CASE("mirrored handles: a symmetric mesh deforms symmetrically") {
             if (kind == 2) options.falloff = 0.5;
             Pair pair = make_pair(scene, at, 0.45, options);
             pair.deformer.set_transform(pair.right, kMove);
-            CHECK(asymmetry(scene.mesh, pair.deformer.preview()) < 1e-9 * scene.size);
+            CHECK(asymmetry(scene.mesh, pair.deformer.solve(FrameQuality::preview)) <
+                  1e-9 * scene.size);
             CHECK(asymmetry(scene.mesh, pair.deformer.solve()) < 1e-9 * scene.size);
-            CHECK(greatest_distance(pair.deformer.positions(), pair.deformer.rest_positions()) >
+            CHECK(greatest_distance(pair.deformer.positions(), rest_positions_of(pair.deformer)) >
                   0.1);
         }
     }
@@ -123,21 +126,21 @@ TEST_CASE("mirrored handles: either moves both, and each goes its own way once o
     const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
     Pair pair = make_pair(scene, {0.5, 0.8, 0}, 0.4);
     Deformer& d = pair.deformer;
-    CHECK(d.mirrored_handle(pair.right) == pair.left);
-    CHECK(d.mirrored_handle(pair.left) == pair.right);
-    CHECK((d.handle_center(pair.left) - reflection(kPlane)(d.handle_center(pair.right))).norm() <
+    CHECK(d.handle(pair.right).image == pair.left);
+    CHECK(d.handle(pair.left).image == pair.right);
+    CHECK((d.handle(pair.left).center - reflection(kPlane)(d.handle(pair.right).center)).norm() <
           1e-12);
     d.set_transform(pair.right, kMove);
     const Vec3 p(0.4, 1.0, 0.2), q = reflection(kPlane)(p);
-    CHECK((d.transform(pair.left)(q) - reflection(kPlane)(kMove(p))).norm() < 1e-12);
+    CHECK((d.pose(pair.left).transform(q) - reflection(kPlane)(kMove(p))).norm() < 1e-12);
     d.set_transform(pair.left, kMove);
-    CHECK((d.transform(pair.right)(q) - reflection(kPlane)(kMove(p))).norm() < 1e-12);
+    CHECK((d.pose(pair.right).transform(q) - reflection(kPlane)(kMove(p))).norm() < 1e-12);
     d.set_transform(pair.left, {});
-    CHECK(d.transform(pair.right).is_identity());
-    CHECK(d.solve() == d.rest_positions());
+    CHECK(d.pose(pair.right).transform.is_identity());
+    CHECK(d.solve() == rest_positions_of(d));
 
     d.remove_handle(pair.left);
-    CHECK(!d.mirrored_handle(pair.right));
+    CHECK(!d.handle(pair.right).image);
     d.set_transform(pair.right, kMove);
     d.solve();
 }
@@ -147,8 +150,8 @@ TEST_CASE("mirrored handles: other vertices for one are other vertices for both"
     Pair pair = make_pair(scene, {0.5, 0.8, 0}, 0.4);
     Deformer& d = pair.deformer;
     d.set_transform(pair.right, kMove);
-    d.set_handle_region(pair.right, select_sphere(scene.mesh, {0.5, 0.4, 0}, 0.45));
-    CHECK(d.handle_region(pair.left) == select_sphere(scene.mesh, {-0.5, 0.4, 0}, 0.45));
+    set_handle_region(d, pair.right, select_sphere(scene.mesh, {0.5, 0.4, 0}, 0.45));
+    CHECK(d.handle(pair.left).region == select_sphere(scene.mesh, {-0.5, 0.4, 0}, 0.45));
     CHECK(asymmetry(scene.mesh, d.solve()) < 1e-9 * scene.size);
 }
 
@@ -161,7 +164,7 @@ TEST_CASE("mirrored handles: of points of faces") {
     const std::vector<MeshPoint> points{
         face_point(scene.mesh.topology(), face, std::array{0.4, 0.3, 0.2, 0.1})};
     const HandleId right = d.add_handle(points);
-    d.mirror_handle(right, kPlane);
+    mirror_handle(d, right, kPlane);
     d.set_transform(right, kMove);
     CHECK(asymmetry(scene.mesh, d.solve()) < 1e-9 * scene.size);
 }
@@ -179,14 +182,14 @@ TEST_CASE("mirrored handles: a real mesh, as far as it is symmetric") {
     const MirrorPlane plane{Vec3::Zero(), Vec3::UnitX(), 0.01 * scene.size};
     const Region horn = select_sphere(scene.mesh, scene.mesh.position(tip), 0.1 * scene.size);
     const HandleId h = d.add_handle(horn);
-    const HandleId image = d.mirror_handle(h, plane);
-    CHECK(d.handle_region(image).size() == doctest::Approx(horn.size()).epsilon(0.1));
-    CHECK(d.mirror_residual(h).max < 0.02);
+    const HandleId image = mirror_handle(d, h, plane);
+    CHECK(d.handle(image).region.size() == doctest::Approx(horn.size()).epsilon(0.1));
+    CHECK(mirror_residual_of(d, h).max < 0.02);
     d.add_handle(scene.region(scene.low));
     d.set_transform(h, translation({0.0, 0.2 * scene.size, 0.0}));
     d.solve();
-    for (const Index v : d.handle_region(image).vertices()) {
-        CHECK(d.positions()[v].y() > d.rest_positions()[v].y() + 0.19 * scene.size);
+    for (const Index v : d.handle(image).region.vertices()) {
+        CHECK(d.positions()[v].y() > rest_positions_of(d)[v].y() + 0.19 * scene.size);
     }
 }
 
@@ -200,9 +203,9 @@ TEST_CASE(
         const Scene scene = make_scene(mesh);
         Pair pair = make_pair(scene, at, 0.45);
         Deformer& d = pair.deformer;
-        CHECK(area_of(scene.mesh, d.handle_region(pair.left)) ==
-              doctest::Approx(area_of(scene.mesh, d.handle_region(pair.right))).epsilon(0.3));
-        const MirrorResidual residual = d.mirror_residual(pair.right);
+        CHECK(area_of(scene.mesh, d.handle(pair.left).region) ==
+              doctest::Approx(area_of(scene.mesh, d.handle(pair.right).region)).epsilon(0.3));
+        const MirrorResidual residual = mirror_residual_of(d, pair.right);
         CHECK(residual.mean <= residual.max);
         CHECK(residual.max < 0.03);
         d.set_transform(pair.right, translation({0.3, 0.2, 0.15}));
@@ -216,14 +219,14 @@ TEST_CASE("mirrored handles: what differs much is told with what helps, and is d
     Deformer d(scene.mesh, scene.all());
     const HandleId side = d.add_handle(select_sphere(scene.mesh, {0.5, 0.8, 0}, 0.4));
     // Beside the middle.
-    d.mirror_handle(side, {Vec3(0.05, 0, 0), Vec3::UnitX(), 0.0});
-    const MirrorResidual residual = d.mirror_residual(side);
+    mirror_handle(d, side, {Vec3(0.05, 0, 0), Vec3::UnitX(), 0.0});
+    const MirrorResidual residual = mirror_residual_of(d, side);
     CHECK(residual.max * scene.size == doctest::Approx(0.1).epsilon(0.5));
     CHECK(residual.warning.find("through the middle") != std::string::npos);
     const HandleId other = d.add_handle(select_sphere(scene.mesh, {0.5, -1.2, 0}, 0.4));
-    CHECK(error_of([&] { d.mirror_residual(other); }).code() == ErrorCode::invalid_argument);
-    d.mirror_handle(other, {Vec3(0.05, 0, 0), Vec3::UnitX(), 0.2});
-    CHECK(d.mirror_residual(other).warning.empty());
+    CHECK(error_of([&] { mirror_residual_of(d, other); }).code() == ErrorCode::invalid_argument);
+    mirror_handle(d, other, {Vec3(0.05, 0, 0), Vec3::UnitX(), 0.2});
+    CHECK(mirror_residual_of(d, other).warning.empty());
 }
 
 TEST_CASE("mirrored handles: the rim of an image gives way to what another handle holds") {
@@ -238,9 +241,9 @@ TEST_CASE("mirrored handles: the rim of an image gives way to what another handl
     }
     d.add_handle(scene.region(low));
     const HandleId right = d.add_handle(scene.region(high));
-    const HandleId left = d.mirror_handle(right, kPlane);
-    CHECK(d.handle_region(left).size() > count_of(high) / 2);
-    for (const Index v : d.handle_region(left).vertices()) CHECK(mesh.position(v).y() >= 0.0);
+    const HandleId left = mirror_handle(d, right, kPlane);
+    CHECK(d.handle(left).region.size() > count_of(high) / 2);
+    for (const Index v : d.handle(left).region.vertices()) CHECK(mesh.position(v).y() >= 0.0);
 }
 
 TEST_CASE("mirrored handles: the front of a thin plate is not mirrored onto its back") {
@@ -260,28 +263,28 @@ TEST_CASE("mirrored handles: the front of a thin plate is not mirrored onto its 
         }
     }
     const HandleId right = d.add_handle(scene.region(front));
-    const HandleId left = d.mirror_handle(right, kPlane);
-    CHECK(d.handle_region(left).size() == count_of(front));
-    for (const Index v : d.handle_region(left).vertices()) CHECK(normals[v].z() > 0.0);
+    const HandleId left = mirror_handle(d, right, kPlane);
+    CHECK(d.handle(left).region.size() == count_of(front));
+    for (const Index v : d.handle(left).region.vertices()) CHECK(normals[v].z() > 0.0);
 }
 
 TEST_CASE("mirrored handles: no counterpart, and handles across the plane, are refused") {
     const Scene scene = make_scene(make_bar({1.0, 5.0, 4, 20}));
     Deformer d(scene.mesh, scene.all());
     const HandleId low = d.add_handle(scene.region(scene.low));
-    const Error meets = error_of([&] { d.mirror_handle(low, kPlane); });
+    const Error meets = error_of([&] { mirror_handle(d, low, kPlane); });
     CHECK(meets.code() == ErrorCode::handle_overlap);
     CHECK(meets.elements().count == scene.low.size());
     const Error alone = error_of([&] {
-        d.mirror_handle(low, {Vec3(7, 0, 0), Vec3::UnitX(), 0.0});
+        mirror_handle(d, low, {Vec3(7, 0, 0), Vec3::UnitX(), 0.0});
     });
     CHECK(alone.code() == ErrorCode::invalid_argument);
     CHECK(alone.elements().count == scene.low.size());
     CHECK(error_of([&] {
-              d.mirror_handle(low, {Vec3::Zero(), Vec3::Zero(), 0.0});
+              mirror_handle(d, low, {Vec3::Zero(), Vec3::Zero(), 0.0});
           }).code() == ErrorCode::invalid_argument);
     const HandleId side = d.add_handle(select_sphere(scene.mesh, {0.5, 0.8, 0}, 0.4));
-    d.mirror_handle(side, kPlane);
-    CHECK(error_of([&] { d.mirror_handle(side, kPlane); }).code() == ErrorCode::invalid_argument);
+    mirror_handle(d, side, kPlane);
+    CHECK(error_of([&] { mirror_handle(d, side, kPlane); }).code() == ErrorCode::invalid_argument);
     CHECK(d.handles().size() == 3);
 }

@@ -4,6 +4,9 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/first_solution.h"
+#include "kernel/deform/stats.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
@@ -60,19 +63,20 @@ TEST_CASE("face points: a constraint is met by the deformed face, in previews an
             d.add_handle(scene.region({scene.low[0], scene.low[1]}));
             const MeshPoint point = high_face(scene);
             const Vec3 target =
-                place_of(point, d.rest_positions()) + scene.size * Vec3(0.3, 0.4, -0.2);
+                place_of(point, rest_positions_of(d)) + scene.size * Vec3(0.3, 0.4, -0.2);
             d.constrain({point, target});
-            CHECK((place_of(point, d.preview()) - target).norm() < 1e-9 * scene.size);
-            CHECK(greatest_distance(d.positions(), d.solve_first_directly()) < 1e-9 * scene.size);
+            CHECK((place_of(point, d.solve(FrameQuality::preview)) - target).norm() <
+                  1e-9 * scene.size);
+            CHECK(greatest_distance(d.positions(), solve_first_directly(d)) < 1e-9 * scene.size);
             CHECK((place_of(point, d.solve()) - target).norm() < 1e-9 * scene.size);
 
-            const Index count = d.stats().factorizations;
+            const Index count = stats_of(d).factorizations;
             d.constrain({point, target + Vec3(0.1, 0, 0)});
             CHECK((place_of(point, d.solve()) - target - Vec3(0.1, 0, 0)).norm() <
                   1e-9 * scene.size);
-            CHECK(d.stats().factorizations == count);
+            CHECK(stats_of(d).factorizations == count);
             d.constrain({point});
-            CHECK(d.solve() == d.rest_positions());
+            CHECK(d.solve() == rest_positions_of(d));
         }
     }
 }
@@ -89,12 +93,12 @@ TEST_CASE("face points: real meshes meet them too") {
         const std::vector<MeshPoint> points{point_near(scene, scene.high), high_face(scene)};
         if (points[0].vertices == points[1].vertices) continue;
         const HandleId high = d.add_handle(points);
-        const Affine move = bend(scene, d.handle_center(high));
+        const Affine move = bend(scene, d.handle(high).center);
         d.set_transform(high, move);
         for (const bool preview : {true, false}) {
-            const std::vector<Vec3>& x = preview ? d.preview() : d.solve();
+            const std::vector<Vec3>& x = preview ? d.solve(FrameQuality::preview) : d.solve();
             for (const MeshPoint& p : points) {
-                CHECK((place_of(p, x) - move(place_of(p, d.rest_positions()))).norm() <
+                CHECK((place_of(p, x) - move(place_of(p, rest_positions_of(d)))).norm() <
                       1e-9 * scene.size);
             }
         }
@@ -110,24 +114,25 @@ TEST_CASE("face points: a handle of them turns the faces, and follows similariti
     const HandleId low = d.add_handle(scene.region(scene.low));
     const std::vector<MeshPoint> points{high_face(scene)};
     const HandleId high = d.add_handle(points);
-    CHECK((d.handle_center(high) - points[0].position(scene.mesh)).norm() < 1e-12);
-    d.set_transform(high, rotation(Vec3::UnitY(), 0.7, d.handle_center(high)));
+    CHECK((d.handle(high).center - points[0].position(scene.mesh)).norm() < 1e-12);
+    d.set_transform(high, rotation(Vec3::UnitY(), 0.7, d.handle(high).center));
     d.solve();
     for (const Index v : points[0].vertices) {
-        CHECK(Eigen::AngleAxisd(d.gradients()[v]).angle() == doctest::Approx(0.7));
+        CHECK(Eigen::AngleAxisd(gradients_of(d)[v]).angle() == doctest::Approx(0.7));
     }
     // The face lies as its gradient says, and so does what the second system makes of it.
     const std::vector<Index>& face = points[0].vertices;
     const Vec3 side = scene.mesh.position(face[1]) - scene.mesh.position(face[0]);
     const Vec3 now = d.positions()[face[1]] - d.positions()[face[0]];
     CHECK((now - Eigen::AngleAxisd(0.7, Vec3::UnitY()) * side).norm() < 0.1 * side.norm());
-    CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-11 * scene.size);
+    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+          1e-11 * scene.size);
 
     Affine map = rotation({1, 2, 3}, 1.4, {5, 0, 0});
     map.linear *= 1.7;
     d.set_transform(low, map);
     d.set_transform(high, map);
-    CHECK(greatest_distance(d.solve(), mapped(d.rest_positions(), map)) < 1e-9 * scene.size);
+    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), map)) < 1e-9 * scene.size);
 }
 
 TEST_CASE("face points: four of them hold a surface without any handle") {
@@ -140,8 +145,9 @@ TEST_CASE("face points: four of them hold a surface without any handle") {
             face_point(scene.mesh.topology(), f, std::array{0.1, 0.2, 0.3, 0.4});
         d.constrain({point, move(point.position(scene.mesh))});
     }
-    CHECK(greatest_distance(d.preview(), mapped(d.rest_positions(), move)) < 1e-8 * scene.size);
-    CHECK(greatest_distance(d.solve(), mapped(d.rest_positions(), move)) < 1e-8 * scene.size);
+    CHECK(greatest_distance(d.solve(FrameQuality::preview), mapped(rest_positions_of(d), move)) <
+          1e-8 * scene.size);
+    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), move)) < 1e-8 * scene.size);
 }
 
 TEST_CASE("face points: soft ones are drawn") {
@@ -186,7 +192,7 @@ TEST_CASE("edge points and paths: a handle moves the curve as one") {
     const std::vector<Index> along{scene.high[0], scene.high[1], scene.high[0]};
     const Path vertices(scene.mesh.shared_topology(), along, false);
     const HandleId held = d.add_handle(path_points(scene.mesh, vertices));
-    CHECK(d.handle_region(held).size() == 2);
+    CHECK(d.handle(held).region.size() == 2);
     d.set_transform(drawn, translation({0.1, 0.2, 0.3}));
     d.set_transform(held, translation({0.3, 0.0, 0.0}));
     d.solve();
@@ -207,7 +213,7 @@ TEST_CASE("points of one handle may determine each other") {
                                     std::array{t, 0.5 * (1 - t), 0.3 * (1 - t), 0.2 * (1 - t)}));
     }
     const HandleId h = d.add_handle(points);
-    const Affine move = rotation({1, 0, 0}, 0.3, d.handle_center(h));
+    const Affine move = rotation({1, 0, 0}, 0.3, d.handle(h).center);
     d.set_transform(h, move);
     d.solve();
     for (const MeshPoint& p : points) {
@@ -229,7 +235,7 @@ TEST_CASE("points that others determine already are refused") {
     CHECK(error.elements().count == 4);
     // A weight makes it a wish that cannot be met.
     d.constrain({point, Vec3(0, 0, 0), {}, 1.0});
-    CHECK(d.solve() == d.rest_positions());
+    CHECK(d.solve() == rest_positions_of(d));
 
     Deformer twice(scene.mesh, scene.all());
     twice.add_handle(scene.region(scene.low));

@@ -2,6 +2,10 @@
 
 #include <Eigen/Geometry>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/first_solution.h"
+#include "kernel/deform/handle_basis.h"
+#include "kernel/deform/stats.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
@@ -34,7 +38,7 @@ double shortfall(const Scene& scene, const HandleOptions& handle, const DeformOp
     d.add_handle(scene.region(scene.low));
     const HandleId high = d.add_handle(scene.region(scene.high), handle);
     d.set_transform(high, translation(scene.size * scene.across));
-    const std::vector<Vec3>& x = preview ? d.preview() : d.solve();
+    const std::vector<Vec3>& x = preview ? d.solve(FrameQuality::preview) : d.solve();
     double sum = 0.0;
     for (const Index v : scene.high) sum += (x[v] - scene.mesh.position(v)).dot(scene.across);
     return 1.0 - sum / (scene.size * static_cast<double>(scene.high.size()));
@@ -98,12 +102,12 @@ TEST_CASE("soft handles: similarities of everything are exact") {
         map.linear *= 1.7;
         d.set_transform(low, map);
         d.set_transform(high, map);
-        const std::vector<Vec3> expected = mapped(d.rest_positions(), map);
-        CHECK(greatest_distance(d.preview(), expected) < 1e-9 * scene.size);
+        const std::vector<Vec3> expected = mapped(rest_positions_of(d), map);
+        CHECK(greatest_distance(d.solve(FrameQuality::preview), expected) < 1e-9 * scene.size);
         CHECK(greatest_distance(d.solve(), expected) < 1e-9 * scene.size);
         d.set_transform(low, {});
         d.set_transform(high, {});
-        CHECK(d.solve() == d.rest_positions());
+        CHECK(d.solve() == rest_positions_of(d));
     }
 }
 
@@ -116,8 +120,8 @@ TEST_CASE("soft handles: a preview before a solution changes no bit of it") {
             Deformer d(scene.mesh, scene.all(), options);
             d.add_handle(scene.region(scene.low));
             const HandleId high = d.add_handle(scene.region(scene.high), weighted(2.0));
-            d.set_transform(high, bend(scene, d.handle_center(high)));
-            if (preview) d.preview();
+            d.set_transform(high, bend(scene, d.handle(high).center));
+            if (preview) d.solve(FrameQuality::preview);
             return d.solve();
         };
         CHECK(solved(false) == solved(true));
@@ -129,18 +133,18 @@ TEST_CASE("soft handles: the basis is the direct solution, and linear in their t
     Deformer d(scene.mesh, scene.all());
     d.add_handle(scene.region(scene.low));
     const HandleId high = d.add_handle(scene.region(scene.high), weighted(2.0));
-    const Affine move = bend(scene, d.handle_center(high));
+    const Affine move = bend(scene, d.handle(high).center);
     d.set_transform(high, move);
-    const std::vector<Vec3> x = d.preview();
-    CHECK(greatest_distance(x, d.solve_first_directly()) < 1e-11 * scene.size);
+    const std::vector<Vec3> x = d.solve(FrameQuality::preview);
+    CHECK(greatest_distance(x, solve_first_directly(d)) < 1e-11 * scene.size);
 
-    const HandleBasis basis = d.basis();
+    const HandleBasis basis = basis_of(d);
     REQUIRE(basis.handles.size() == 2);
     double worst = 0.0;
     for (std::size_t row = 0; row < x.size(); ++row) {
         Vec3 at = basis.fixed[row];
         for (std::size_t h = 0; h < 2; ++h) {
-            const Affine& t = d.transform(basis.handles[h]);
+            const Affine& t = d.pose(basis.handles[h]).transform;
             at += t.linear * basis.weights[h][row].head<3>() +
                   t.translation * basis.weights[h][row][3];
         }
@@ -157,9 +161,9 @@ TEST_CASE("soft handles: gradients alone turn the end some of the way") {
         HandleOptions options = weighted(weight);
         options.position = false;
         const HandleId high = d.add_handle(scene.region(scene.high), options);
-        d.set_transform(high, rotation(Vec3::UnitX(), 0.8, d.handle_center(high)));
+        d.set_transform(high, rotation(Vec3::UnitX(), 0.8, d.handle(high).center));
         d.solve();
-        return Eigen::AngleAxisd(d.gradients()[scene.high.back()]).angle();
+        return Eigen::AngleAxisd(gradients_of(d)[scene.high.back()]).angle();
     };
     CHECK(turned(0.5) > 0.1);
     CHECK(turned(0.5) < 0.7);
@@ -174,23 +178,24 @@ TEST_CASE("soft constraints: a vertex is drawn, and is free again when they go")
     const Index tip = scene.high.back();
     const Vec3 target = scene.mesh.position(tip) + Vec3(1.0, 0.0, 0.0);
     const auto distance = [&](double weight) {
-        d.constrain({tip, target, {}, weight});
+        d.constrain(VertexConstraint{tip, target, {}, weight});
         return (d.solve()[tip] - target).norm();
     };
     CHECK(distance(0.1) > 0.5);
     CHECK(distance(1.0) < 0.9);
     CHECK(distance(1e6) < 1e-4);
-    CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-11 * scene.size);
+    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+          1e-11 * scene.size);
 
     // Another target of the same weight costs no factorisation; a hard one replaces it.
-    const Index count = d.stats().factorizations;
-    d.constrain({tip, target + Vec3(0, 0, 1), {}, 1e6});
+    const Index count = stats_of(d).factorizations;
+    d.constrain(VertexConstraint{tip, target + Vec3(0, 0, 1), {}, 1e6});
     CHECK((d.solve()[tip] - target - Vec3(0, 0, 1)).norm() < 1e-4);
-    CHECK(d.stats().factorizations == count);
-    d.constrain({tip, target, {}});
+    CHECK(stats_of(d).factorizations == count);
+    d.constrain(VertexConstraint{tip, target, {}});
     CHECK(d.solve()[tip] == target);
-    d.constrain({tip, {}, {}});
-    CHECK(d.solve() == d.rest_positions());
+    d.constrain(VertexConstraint{tip, {}, {}});
+    CHECK(d.solve() == rest_positions_of(d));
 }
 
 TEST_CASE("soft handles: they alone hold a surface") {
@@ -199,7 +204,7 @@ TEST_CASE("soft handles: they alone hold a surface") {
     d.add_handle(scene.region(scene.low), weighted(1.0));
     const Affine move = rotation(Vec3::UnitX(), 2.0, Vec3(0, 1, 0));
     d.set_transform(d.handles()[0], move);
-    CHECK(greatest_distance(d.solve(), mapped(d.rest_positions(), move)) < 1e-9 * scene.size);
+    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), move)) < 1e-9 * scene.size);
 }
 
 TEST_CASE("weights: zero, negative and not finite ones are refused") {
@@ -209,7 +214,7 @@ TEST_CASE("weights: zero, negative and not finite ones are refused") {
         CHECK(error_of([&] { d.add_handle(scene.region(scene.low), weighted(weight)); }).code() ==
               ErrorCode::invalid_argument);
         CHECK(error_of([&] {
-                  d.constrain({scene.high[0], Vec3(0, 0, 0), {}, weight});
+                  d.constrain(VertexConstraint{scene.high[0], Vec3(0, 0, 0), {}, weight});
               }).code() == ErrorCode::invalid_argument);
     }
     CHECK(d.handles().empty());
@@ -221,7 +226,7 @@ TEST_CASE("soft handles: a vertex has one handle, hard or soft") {
     d.add_handle(scene.region(scene.high), weighted(1.0));
     CHECK(error_of([&] { d.add_handle(scene.region({scene.high[0]})); }).code() ==
           ErrorCode::handle_overlap);
-    d.constrain({scene.low[0], Vec3(0, 0, 0), {}, 1.0});
+    d.constrain(VertexConstraint{scene.low[0], Vec3(0, 0, 0), {}, 1.0});
     CHECK(error_of([&] { d.add_handle(scene.region(scene.low)); }).code() ==
           ErrorCode::handle_overlap);
 }

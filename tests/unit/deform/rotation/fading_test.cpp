@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/first_solution.h"
 #include "kernel/deform/patch/patch_distance.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/query/distances.h"
@@ -34,7 +36,8 @@ double slack(const Scene& scene, const HandleOptions& options, double radius,
     const HandleId h = d.add_handle(select_sphere(scene.mesh, {0, 0, 0}, 0.3 * unit), options);
     const Affine move = translation({0, unit, 0}) * rotation(Vec3::UnitX(), 0.5, Vec3::Zero());
     d.set_transform(h, move);
-    CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-9 * scene.size);
+    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+          1e-9 * scene.size);
     const std::vector<Vec3>& x = d.solve();
     double sum = 0.0;
     int count = 0;
@@ -103,11 +106,11 @@ TEST_CASE("falloff: similarities of everything are exact, and so is rest") {
     map.linear *= 1.7;
     edit.deformer.set_transform(edit.low, map);
     edit.deformer.set_transform(edit.high, map);
-    CHECK(greatest_distance(edit.deformer.solve(), mapped(edit.deformer.rest_positions(), map)) <
+    CHECK(greatest_distance(edit.deformer.solve(), mapped(rest_positions_of(edit.deformer), map)) <
           1e-9 * scene.size);
     edit.deformer.set_transform(edit.low, {});
     edit.deformer.set_transform(edit.high, {});
-    CHECK(edit.deformer.solve() == edit.deformer.rest_positions());
+    CHECK(edit.deformer.solve() == rest_positions_of(edit.deformer));
 }
 
 TEST_CASE("transition: the deformation fades towards the outline, and 0 is as usual") {
@@ -120,11 +123,12 @@ TEST_CASE("transition: the deformation fades towards the outline, and 0 is as us
         const HandleId h = d.add_handle(select_sphere(scene.mesh, {0, 0, 0}, 0.3), options);
         d.set_transform(h, translation({0, 1, 0}) * rotation(Vec3::UnitX(), 0.3, Vec3::Zero()));
         const std::vector<Vec3> x = d.solve();
-        CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-9 * scene.size);
+        CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+              1e-9 * scene.size);
         double rim = 0.0;
         for (std::size_t row = 0; row < x.size(); ++row) {
-            const double r = d.rest_positions()[row].norm();
-            if (r > 1.3) rim = std::max(rim, (x[row] - d.rest_positions()[row]).norm());
+            const double r = rest_positions_of(d)[row].norm();
+            if (r > 1.3) rim = std::max(rim, (x[row] - rest_positions_of(d)[row]).norm());
         }
         return rim;
     };
@@ -151,7 +155,7 @@ TEST_CASE("fading: real meshes stay finite and held") {
         CAPTURE(name);
         const Scene scene = make_scene(load_mesh(*path));
         Edit edit = make_edit(scene, {}, fading(0.5 * scene.size));
-        const Affine move = bend(scene, edit.deformer.handle_center(edit.high));
+        const Affine move = bend(scene, edit.deformer.handle(edit.high).center);
         edit.deformer.set_transform(edit.high, move);
         bool finite = true;
         for (const Vec3& p : edit.deformer.solve()) finite = finite && p.allFinite();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/deform/deform_report.h"
 #include "kernel/deform/deformer.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -41,7 +42,7 @@ std::vector<Vec3> solved(const Pose& pose, LocalSize size, int refine) {
     Deformer deformer(pose.mesh, Region::all(topology), options);
     deformer.add_handle(Region(topology, pose.still));
     const HandleId moved = deformer.add_handle(Region(topology, pose.moved));
-    deformer.set_transform(moved, pose.move, deformer.handle_center(moved));
+    deformer.set_transform(moved, pose.move, deformer.handle(moved).center);
     return deformer.solve();
 }
 
@@ -113,10 +114,10 @@ Harm harm_of(const Scene& scene, const Affine& turn, int refine) {
     DeformOptions options;
     options.refine = refine;
     Edit edit = make_edit(scene, options);
-    const Vec3 center = edit.deformer.handle_center(edit.high);
+    const Vec3 center = edit.deformer.handle(edit.high).center;
     edit.deformer.set_transform(edit.high, turn, center);
     edit.deformer.solve();
-    const DeformReport report = edit.deformer.report(scene.mesh, {.crossings = true});
+    const DeformReport report = report_of(edit.deformer, scene.mesh, {.crossings = true});
     return {report.crossings->size(), report.flipped.size(), report.stretch};
 }
 
@@ -184,9 +185,9 @@ TEST_CASE("refine: a part of a mesh does not cross what lies beyond it more than
             deformer.add_handle(Region(mesh.shared_topology(), first.low));
             const HandleId high = deformer.add_handle(Region(mesh.shared_topology(), first.high));
             deformer.set_transform(high, rotation(-Vec3::UnitZ(), degrees * kDegree, Vec3::Zero()),
-                                   deformer.handle_center(high));
+                                   deformer.handle(high).center);
             deformer.solve();
-            crossings.push_back(deformer.report(mesh, {.crossings = true}).crossings->size());
+            crossings.push_back(report_of(deformer, mesh, {.crossings = true}).crossings->size());
         }
         CHECK(crossings[1] <= crossings[0]);
     }

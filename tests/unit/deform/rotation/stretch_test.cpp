@@ -44,7 +44,7 @@ std::vector<Vec3> scaled(const Scene& scene, const Vec3& factors, const DeformOp
     Deformer d(scene.mesh, scene.all(), options);
     d.add_handle(scene.region(scene.low));
     const HandleId high = d.add_handle(scene.region(scene.high), handle);
-    d.set_transform(high, scaling(factors, Vec3::Zero()), d.handle_center(high));
+    d.set_transform(high, scaling(factors, Vec3::Zero()), d.handle(high).center);
     return d.solve();
 }
 

@@ -212,8 +212,8 @@ std::vector<Index> free_of(const Scene& scene) {
 TurnReport follow_turns(const Scene& scene, const Way& way, const DeformOptions& options,
                         double step, double monotonic) {
     Edit edit = make_edit(scene, options);
-    const Vec3 from = edit.deformer.handle_center(edit.low);
-    const Vec3 center = edit.deformer.handle_center(edit.high);
+    const Vec3 from = edit.deformer.handle(edit.low).center;
+    const Vec3 center = edit.deformer.handle(edit.high).center;
     const Rigidity rigidity(scene.mesh);
     const Width width(scene, from, center - from);
     const std::vector<Index> free = free_of(scene);
@@ -225,7 +225,7 @@ TurnReport follow_turns(const Scene& scene, const Way& way, const DeformOptions&
         edit.deformer.set_transform(edit.high, stand.transform, stand.about, stand.turn);
         // Refined results that run through themselves are taken back, but drafts are not.
         const std::vector<Vec3> now =
-            options.refine > 0 ? edit.deformer.solve_draft() : edit.deformer.solve();
+            options.refine > 0 ? edit.deformer.solve(FrameQuality::draft) : edit.deformer.solve();
         if (!before.empty()) {
             report.speed.take(
                 greatest_motion(before, now, free) / greatest_motion(before, now, scene.high),
@@ -283,7 +283,7 @@ TEST_CASE("turn path: nothing jumps, widens or relaxes from none to two full tur
         for (int refine = 0; refine <= 2; ++refine) {
             DeformOptions options;
             options.refine = refine;
-            options.refine_borders = false;
+            options.subdivide_borders = false;
             const TurnReport report =
                 follow_turns(path.scene, path.way, options, fine ? 1.0 : 5.0, path.monotonic);
             CAPTURE(path.name);

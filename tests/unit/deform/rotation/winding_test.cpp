@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
@@ -21,7 +22,7 @@ Scene bar_scene() {
 
 // Turns the top of the bar about its long axis by `degrees`.
 void twist(Edit& edit, double degrees) {
-    const Vec3 center = edit.deformer.handle_center(edit.high);
+    const Vec3 center = edit.deformer.handle(edit.high).center;
     const Vec3 turn = degrees * kDegree * Vec3::UnitY();
     edit.deformer.set_transform(edit.high, rotation(Vec3::UnitY(), turn.norm(), Vec3::Zero()),
                                 center, turn);
@@ -79,18 +80,18 @@ TEST_CASE("winding: a drag through half a turn goes on, and leaves no trace when
     const Scene scene = bar_scene();
     Edit edit = make_edit(scene);
     const auto drag = [&](double degrees) {
-        const Vec3 center = edit.deformer.handle_center(edit.high);
+        const Vec3 center = edit.deformer.handle(edit.high).center;
         edit.deformer.set_transform(edit.high, rotation(Vec3::UnitY(), degrees * kDegree, center));
     };
     drag(100.0);
     const std::vector<Vec3> before = edit.deformer.solve();
     for (double degrees = 110.0; degrees <= 360.0; degrees += 10.0) drag(degrees);
-    CHECK((edit.deformer.turn(edit.high) - 2.0 * kPi * Vec3::UnitY()).norm() < 1e-9);
+    CHECK((edit.deformer.pose(edit.high).turn - 2.0 * kPi * Vec3::UnitY()).norm() < 1e-9);
     CHECK(middle_angle(scene, edit.deformer.solve()) == doctest::Approx(180.0).epsilon(0.01));
     for (double degrees = 350.0; degrees >= 100.0; degrees -= 10.0) drag(degrees);
     CHECK(edit.deformer.solve() == before);
     for (double degrees = 90.0; degrees >= 0.0; degrees -= 10.0) drag(degrees);
-    CHECK(edit.deformer.solve() == edit.deformer.rest_positions());
+    CHECK(edit.deformer.solve() == rest_positions_of(edit.deformer));
 }
 
 TEST_CASE("winding: no step where one field takes over from the other") {

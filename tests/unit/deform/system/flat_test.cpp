@@ -4,7 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/deform/first_solution.h"
+#include "kernel/deform/handle_basis.h"
+#include "kernel/deform/stats.h"
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
@@ -49,10 +53,10 @@ std::vector<Vec3> bent(const Sheet& sheet, double degrees, const DeformOptions& 
                        const HandleOptions& handle = {}, Solve solve = Solve::full) {
     Edit edit = make_edit(sheet.scene, options, handle);
     Deformer& d = edit.deformer;
-    const Vec3 about = 0.5 * (d.handle_center(edit.low) + d.handle_center(edit.high));
+    const Vec3 about = 0.5 * (d.handle(edit.low).center + d.handle(edit.high).center);
     d.set_transform(edit.high, rotation(sheet.normal, degrees * kPi / 180.0, about));
-    if (solve == Solve::preview) return d.preview();
-    return solve == Solve::draft ? d.solve_draft() : d.solve();
+    if (solve == Solve::preview) return d.solve(FrameQuality::preview);
+    return solve == Solve::draft ? d.solve(FrameQuality::draft) : d.solve();
 }
 
 // A draft has about five digits.
@@ -118,7 +122,7 @@ TEST_CASE("flat: only a part of the sheet moves, and vertices come and go") {
     CHECK(off_plane(sheet, d.solve()) < kFlat);
     const std::vector<Vec3> before = d.solve();
     const Index middle = part[part.size() / 2];
-    d.constrain(VertexConstraint{middle, d.rest_positions()[part.size() / 2], {}, {}});
+    d.constrain(VertexConstraint{middle, rest_positions_of(d)[part.size() / 2], {}, {}});
     CHECK(off_plane(sheet, d.solve()) < kFlat);
     d.constrain(VertexConstraint{middle, {}, {}, {}});
     CHECK(greatest_distance(d.solve(), before) == 0.0);
@@ -126,20 +130,21 @@ TEST_CASE("flat: only a part of the sheet moves, and vertices come and go") {
     const HandleId again = d.add_handle(Region(topology, tip));
     d.set_transform(again, rotation(sheet.normal, 0.8, Vec3::Zero()));
     CHECK(greatest_distance(d.solve(), before) == 0.0);
-    CHECK(greatest_distance(d.preview(), d.solve_first_directly()) < 1e-11 * sheet.scene.size);
+    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+          1e-11 * sheet.scene.size);
 }
 
 TEST_CASE("flat: the basis of handles is the preview") {
     const Sheet sheet = sheet_of(true, Vec3(0.3, 0.0, 0.0));
     Edit edit = make_edit(sheet.scene);
     Deformer& d = edit.deformer;
-    d.set_transform(edit.high, rotation(sheet.normal, 0.5, d.handle_center(edit.low)));
-    const HandleBasis basis = d.basis();
-    const std::vector<Vec3> x = d.preview();
+    d.set_transform(edit.high, rotation(sheet.normal, 0.5, d.handle(edit.low).center));
+    const HandleBasis basis = basis_of(d);
+    const std::vector<Vec3> x = d.solve(FrameQuality::preview);
     for (std::size_t row = 0; row < x.size(); ++row) {
         Vec3 sum = basis.fixed[row];
         for (std::size_t h = 0; h < basis.handles.size(); ++h) {
-            const Affine& map = d.transform(basis.handles[h]);
+            const Affine& map = d.pose(basis.handles[h]).transform;
             const Vec4& w = basis.weights[h][row];
             sum += map.linear * w.head<3>() + map.translation * w[3];
         }
@@ -153,15 +158,16 @@ TEST_CASE("flat: similarities of the whole are exact, and the rest shape to the 
     options.local_size = LocalSize::scale;
     Edit edit = make_edit(sheet.scene, options);
     Deformer& d = edit.deformer;
-    CHECK(greatest_distance(d.solve(), d.rest_positions()) == 0.0);
+    CHECK(greatest_distance(d.solve(), rest_positions_of(d)) == 0.0);
     const Affine map = translation(Vec3(1.0, 2.0, 3.0)) *
                        rotation(Vec3::UnitX(), 1.0, Vec3::Zero()) *
                        scaling(Vec3::Constant(1.5), Vec3::Zero());
     for (const HandleId handle : d.handles()) d.set_transform(handle, map);
-    CHECK(greatest_distance(d.solve(), mapped(d.rest_positions(), map)) < 1e-9);
-    CHECK(greatest_distance(d.preview(), mapped(d.rest_positions(), map)) < 1e-9);
-    CHECK(d.stats().displaced_vertices == 0);
-    CHECK(d.stats().extended_vertices > 0);
+    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), map)) < 1e-9);
+    CHECK(greatest_distance(d.solve(FrameQuality::preview), mapped(rest_positions_of(d), map)) <
+          1e-9);
+    CHECK(stats_of(d).displaced_vertices == 0);
+    CHECK(stats_of(d).extended_vertices > 0);
 }
 
 TEST_CASE("flat: the thesis displaces, and then the sheet leaves its plane") {
@@ -172,6 +178,6 @@ TEST_CASE("flat: the thesis displaces, and then the sheet leaves its plane") {
     CHECK(DeformOptions::thesis().flat == FlatVertices::displaced);
     Edit edit = make_edit(sheet.scene, DeformOptions::thesis());
     edit.deformer.prepare();
-    CHECK(edit.deformer.stats().displaced_vertices > 0);
-    CHECK(edit.deformer.stats().extended_vertices == 0);
+    CHECK(stats_of(edit.deformer).displaced_vertices > 0);
+    CHECK(stats_of(edit.deformer).extended_vertices == 0);
 }

@@ -2,6 +2,10 @@
 
 #include <Eigen/Geometry>
 
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/first_solution.h"
+#include "kernel/deform/handle_changes.h"
+#include "kernel/deform/stats.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -44,14 +48,14 @@ double bent_middle(const Scene& scene, double stiffness, const DeformOptions& op
     reach[axis] = quarter[axis];
     const Region middle = select_box(scene.mesh, {center - reach, center + reach});
     Edit edit = make_edit(scene, options);
-    edit.deformer.set_stiffness(middle, stiffness);
-    const Affine move = bend(scene, edit.deformer.handle_center(edit.high), 1.2);
+    set_stiffness(edit.deformer, middle, stiffness);
+    const Affine move = bend(scene, edit.deformer.handle(edit.high).center, 1.2);
     edit.deformer.set_transform(edit.high, move);
-    CHECK(greatest_distance(edit.deformer.preview(), edit.deformer.solve_first_directly()) <
-          1e-8 * scene.size);
+    CHECK(greatest_distance(edit.deformer.solve(FrameQuality::preview),
+                            solve_first_directly(edit.deformer)) < 1e-8 * scene.size);
     const std::vector<Vec3>& x = edit.deformer.solve();
     for (const Index v : scene.high) CHECK(x[v] == move(scene.mesh.position(v)));
-    return unrigidity(edit.deformer.rest_positions(), x, middle) / scene.size;
+    return unrigidity(rest_positions_of(edit.deformer), x, middle) / scene.size;
 }
 
 }  // namespace
@@ -73,12 +77,12 @@ TEST_CASE("stiffness: stiff parts move nearly rigidly, soft ones take more of th
 TEST_CASE("stiffness: of all vertices it changes nothing, and 1 is as usual") {
     const Scene scene = bar_scene();
     Edit plain = make_edit(scene), stiff = make_edit(scene);
-    const Affine move = bend(scene, plain.deformer.handle_center(plain.high));
+    const Affine move = bend(scene, plain.deformer.handle(plain.high).center);
     plain.deformer.set_transform(plain.high, move);
     stiff.deformer.set_transform(stiff.high, move);
-    stiff.deformer.set_stiffness(scene.all(), 1.0);
+    set_stiffness(stiff.deformer, scene.all(), 1.0);
     CHECK(greatest_distance(plain.deformer.solve(), stiff.deformer.solve()) < 1e-12 * scene.size);
-    stiff.deformer.set_stiffness(scene.all(), 37.0);
+    set_stiffness(stiff.deformer, scene.all(), 37.0);
     CHECK(greatest_distance(plain.deformer.solve(), stiff.deformer.solve()) < 1e-9 * scene.size);
 }
 
@@ -102,11 +106,11 @@ TEST_CASE(
     }
     REQUIRE(corners == 2);
     Edit plain = make_edit(scene), stiff = make_edit(scene);
-    const Affine move = bend(scene, plain.deformer.handle_center(plain.high));
+    const Affine move = bend(scene, plain.deformer.handle(plain.high).center);
     plain.deformer.set_transform(plain.high, move);
     stiff.deformer.set_transform(stiff.high, move);
     for (const double stiffness : {0.2, 37.0}) {
-        stiff.deformer.set_stiffness(scene.all(), stiffness);
+        set_stiffness(stiff.deformer, scene.all(), stiffness);
         CHECK(greatest_distance(plain.deformer.solve(), stiff.deformer.solve()) <
               1e-9 * scene.size);
     }
@@ -124,16 +128,16 @@ TEST_CASE("stiffness: similarities of everything stay exact, and changing it ref
     options.local_size = LocalSize::scale;
     Edit edit = make_edit(scene, options);
     Deformer& d = edit.deformer;
-    d.set_stiffness(select_sphere(scene.mesh, {0, 0, 0}, 1.0), 50.0);
+    set_stiffness(d, select_sphere(scene.mesh, {0, 0, 0}, 1.0), 50.0);
     Affine map = rotation({1, 2, 3}, 1.4, {5, 0, 0});
     map.linear *= 1.7;
     d.set_transform(edit.low, map);
     d.set_transform(edit.high, map);
-    CHECK(greatest_distance(d.solve(), mapped(d.rest_positions(), map)) < 1e-9 * scene.size);
-    const Index count = d.stats().factorizations;
-    d.set_stiffness(scene.region(scene.low), 2.0);
+    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), map)) < 1e-9 * scene.size);
+    const Index count = stats_of(d).factorizations;
+    set_stiffness(d, scene.region(scene.low), 2.0);
     d.solve();
-    CHECK(d.stats().factorizations == count + 1);
+    CHECK(stats_of(d).factorizations == count + 1);
 }
 
 TEST_CASE("stiffness: a real mesh keeps its stiff part") {
@@ -150,10 +154,10 @@ TEST_CASE("stiffness: zero, what loses digits and vertices outside are refused")
     const Scene scene = bar_scene();
     Deformer d(scene.mesh, scene.region(scene.high));
     for (const double factor : {0.0, -1.0, 9e-5, 1.1e5, 1e10, std::nan(""), HUGE_VAL}) {
-        CHECK(error_of([&] { d.set_stiffness(scene.region(scene.high), factor); }).code() ==
+        CHECK(error_of([&] { set_stiffness(d, scene.region(scene.high), factor); }).code() ==
               ErrorCode::invalid_argument);
     }
-    for (const double factor : {1e-4, 1e5}) d.set_stiffness(scene.region(scene.high), factor);
-    CHECK(error_of([&] { d.set_stiffness(scene.region(scene.low), 2.0); }).code() ==
+    for (const double factor : {1e-4, 1e5}) set_stiffness(d, scene.region(scene.high), factor);
+    CHECK(error_of([&] { set_stiffness(d, scene.region(scene.low), 2.0); }).code() ==
           ErrorCode::handle_outside_region);
 }

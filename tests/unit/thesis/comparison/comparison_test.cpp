@@ -6,7 +6,10 @@
 #include <string>
 
 #include "kernel/core/error.h"
+#include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/handle_basis.h"
 #include "kernel/deform/rotation/polar.h"
+#include "kernel/deform/stats.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "kernel/thesis/comparison/fields.h"
@@ -74,7 +77,7 @@ double greatest_turn(const std::vector<Mat3>& gradients) {
 double miss(const Scene& scene, Edit& edit, const Affine& map) {
     edit.deformer.set_transform(edit.low, map);
     edit.deformer.set_transform(edit.high, map);
-    return greatest_distance(edit.deformer.solve(), mapped(edit.deformer.rest_positions(), map)) /
+    return greatest_distance(edit.deformer.solve(), mapped(rest_positions_of(edit.deformer), map)) /
            scene.size;
 }
 
@@ -83,10 +86,10 @@ double miss(const Scene& scene, Edit& edit, const Affine& map) {
 TEST_CASE("comparison: held vertices to the bit, finite, back to rest to the bit, one factoring") {
     for_each_edit(kMethods, [](const Scene& scene, Edit& edit) {
         Deformer& d = edit.deformer;
-        CHECK(d.solve() == d.rest_positions());
-        CHECK(d.stats().factorizations == 1);
+        CHECK(d.solve() == rest_positions_of(d));
+        CHECK(stats_of(d).factorizations == 1);
         for (const double angle : {0.3, 0.9}) {
-            const Affine move = bend(scene, d.handle_center(edit.high), angle);
+            const Affine move = bend(scene, d.handle(edit.high).center, angle);
             d.set_transform(edit.high, move);
             d.solve();
             bool held = true, finite = true;
@@ -99,11 +102,11 @@ TEST_CASE("comparison: held vertices to the bit, finite, back to rest to the bit
             for (const Vec3& p : d.positions()) finite = finite && p.allFinite();
             CHECK(held);
             CHECK(finite);
-            CHECK(greatest_distance(d.positions(), d.rest_positions()) < 5.0 * scene.size);
+            CHECK(greatest_distance(d.positions(), rest_positions_of(d)) < 5.0 * scene.size);
         }
         d.set_transform(edit.high, {});
-        CHECK(d.solve() == d.rest_positions());
-        CHECK(d.stats().factorizations == 1);
+        CHECK(d.solve() == rest_positions_of(d));
+        CHECK(stats_of(d).factorizations == 1);
     });
 }
 
@@ -151,7 +154,7 @@ TEST_CASE(
             Edit edit = make_edit(scene, options_of(method));
             edit.deformer.set_transform(edit.high, translation(1.5 * scene.size * scene.across));
             edit.deformer.solve();
-            return greatest_turn(edit.deformer.gradients());
+            return greatest_turn(gradients_of(edit.deformer));
         };
         CHECK(turn(DeformMethod::naive) == 0.0);
         for (const DeformMethod method : kExplicit) CHECK(turn(method) < 1e-12);
@@ -166,8 +169,8 @@ TEST_CASE("comparison: preview gives what solve gives") {
     const Scene scene = compared_bar();
     for (const DeformMethod method : kMethods) {
         Edit edit = make_edit(scene, options_of(method));
-        edit.deformer.set_transform(edit.high, bend(scene, edit.deformer.handle_center(edit.high)));
-        const std::vector<Vec3> preview = edit.deformer.preview();
+        edit.deformer.set_transform(edit.high, bend(scene, edit.deformer.handle(edit.high).center));
+        const std::vector<Vec3> preview = edit.deformer.solve(FrameQuality::preview);
         CHECK(edit.deformer.solve() == preview);
     }
 }
@@ -179,7 +182,7 @@ TEST_CASE("comparison: a turned copy deforms alike where no rotation is linearis
     other.mesh = moved(scene.mesh, map);
     for (const DeformMethod method : kMethods) {
         Edit a = make_edit(scene, options_of(method)), b = make_edit(other, options_of(method));
-        const Affine move = bend(scene, a.deformer.handle_center(a.high));
+        const Affine move = bend(scene, a.deformer.handle(a.high).center);
         a.deformer.set_transform(a.high, move);
         b.deformer.set_transform(b.high, conjugated(move, map));
         CHECK(greatest_distance(mapped(a.deformer.solve(), map), b.deformer.solve()) <
@@ -197,7 +200,7 @@ TEST_CASE("comparison: small and large copies deform alike") {
             CAPTURE(scale);
             CAPTURE(method_name(method));
             Edit a = make_edit(scene, options_of(method)), b = make_edit(other, options_of(method));
-            const Affine move = bend(scene, a.deformer.handle_center(a.high));
+            const Affine move = bend(scene, a.deformer.handle(a.high).center);
             a.deformer.set_transform(a.high, move);
             b.deformer.set_transform(b.high, conjugated(move, map));
             CHECK(greatest_distance(mapped(a.deformer.solve(), map), b.deformer.solve()) <
@@ -216,7 +219,7 @@ TEST_CASE("comparison: handles that were removed, or hold no positions, hold not
         d.add_handle(scene.region(scene.low));
         const HandleId high = d.add_handle(scene.region(scene.high));
         d.remove_handle(gone);
-        const Affine move = bend(scene, d.handle_center(high));
+        const Affine move = bend(scene, d.handle(high).center);
         d.set_transform(high, move);
         plain.deformer.set_transform(plain.high, move);
         CHECK(d.solve() == plain.deformer.solve());
@@ -228,10 +231,10 @@ TEST_CASE("comparison: handles that were removed, or hold no positions, hold not
         const HandleId all = d.add_handle(scene.region(scene.low), {false, true});
         const Index v = scene.low[0];
         d.set_transform(all, rotation({1, 2, 3}, 0.7, Vec3::Zero()));
-        d.constrain({scene.high[0], scene.mesh.position(scene.high[0]), {}});
+        d.constrain(VertexConstraint{scene.high[0], scene.mesh.position(scene.high[0]), {}});
         d.solve();
         CHECK(d.positions()[scene.high[0]] == scene.mesh.position(scene.high[0]));
-        CHECK((d.gradients()[v] - rotation({1, 2, 3}, 0.7, Vec3::Zero()).linear).norm() < 1e-9);
+        CHECK((gradients_of(d)[v] - rotation({1, 2, 3}, 0.7, Vec3::Zero()).linear).norm() < 1e-9);
     }
 }
 
@@ -279,7 +282,7 @@ TEST_CASE("comparison: only the region moves, and what surrounds it holds it") {
         Mesh mesh = scene.mesh;
         Deformer d(mesh, scene.region(inner), options_of(method));
         const HandleId high = d.add_handle(scene.region(scene.high));
-        d.set_transform(high, bend(scene, d.handle_center(high)));
+        d.set_transform(high, bend(scene, d.handle(high).center));
         d.solve();
         d.apply_to(mesh);
         bool still = true;
@@ -297,7 +300,7 @@ TEST_CASE("comparison: gradients of handles are propagated without their positio
         Deformer d(scene.mesh, scene.all(), options_of(method));
         d.add_handle(scene.region(scene.low));
         const HandleId high = d.add_handle(scene.region(scene.high), {false, true});
-        const Affine turn = rotation(scene.across, 0.8, d.handle_center(high));
+        const Affine turn = rotation(scene.across, 0.8, d.handle(high).center);
         d.set_transform(high, turn);
         d.solve();
         // The far end is free, and turned as asked.
@@ -327,12 +330,12 @@ TEST_CASE("comparison: constrained vertices count as sources of their own") {
     Edit edit = make_edit(scene, options_of(DeformMethod::harmonic));
     const Index v = scene.mesh.vertex_count() / 2;
     const Mat3 turn = rotation(Vec3::UnitY(), 0.5, Vec3::Zero()).linear;
-    edit.deformer.constrain({v, scene.mesh.position(v) + Vec3(0.1, 0, 0), turn});
+    edit.deformer.constrain(VertexConstraint{v, scene.mesh.position(v) + Vec3(0.1, 0, 0), turn});
     edit.deformer.solve();
     CHECK(edit.deformer.positions()[v] == scene.mesh.position(v) + Vec3(0.1, 0, 0));
-    CHECK((edit.deformer.gradients()[v] - turn).norm() < 1e-12);
-    edit.deformer.constrain({v, {}, {}});
-    CHECK(edit.deformer.solve() == edit.deformer.rest_positions());
+    CHECK((gradients_of(edit.deformer)[v] - turn).norm() < 1e-12);
+    edit.deformer.constrain(VertexConstraint{v, {}, {}});
+    CHECK(edit.deformer.solve() == rest_positions_of(edit.deformer));
 }
 
 TEST_CASE("comparison: options without a use and the handle basis are refused") {
@@ -349,7 +352,7 @@ TEST_CASE("comparison: options without a use and the handle basis are refused") 
         options.local_size = LocalSize::scale;
         CHECK(refused(options) == ErrorCode::invalid_argument);
         Edit edit = make_edit(scene, options_of(method));
-        CHECK(error_of([&] { edit.deformer.basis(); }).code() == ErrorCode::unsupported);
+        CHECK(error_of([&] { basis_of(edit.deformer); }).code() == ErrorCode::unsupported);
     }
 }
 
@@ -407,7 +410,7 @@ TEST_CASE("comparison: a rotation beyond pi is propagated as it was asked for") 
         for (Index v = 0; v < scene.mesh.vertex_count(); ++v) {
             const Vec3& p = scene.mesh.position(v);
             if (std::abs(p.y()) > 1e-6) continue;
-            worst = std::max(worst, (edit.deformer.gradients()[v] - half).norm());
+            worst = std::max(worst, (gradients_of(edit.deformer)[v] - half).norm());
             worst = std::max(worst, (edit.deformer.positions()[v] - half * p).norm() / scene.size);
         }
         CHECK(worst < 0.2);

@@ -103,12 +103,12 @@ TEST_CASE("without weight it is Eq 2.8 of each mesh by itself") {
     const ThesisTransition result = thesis_transition(side, tube(mesh, {}), 0.0);
 
     DeformOptions options = DeformOptions::thesis();
-    options.refine_borders = false;
+    options.subdivide_borders = false;
     Deformer deformer(mesh, Region::all(mesh.shared_topology()), options);
     deformer.add_handle(Region(mesh.shared_topology(), low));
     const HandleId top = deformer.add_handle(Region(mesh.shared_topology(), high));
     deformer.set_transform(top, turn);
-    const std::vector<Vec3> expected = deformer.preview();
+    const std::vector<Vec3> expected = deformer.solve(FrameQuality::preview);
     double greatest = 0.0;
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
         greatest = std::max(greatest, (result.target.positions[v] - expected[v]).norm());

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "kernel/core/index.h"
-#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/constraint_set.h"
 #include "kernel/deform/holds/mirror_surface.h"
+#include "kernel/deform/holds/poses.h"
 #include "kernel/deform/mesh_point.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/sparse_row.h"
@@ -18,9 +19,9 @@ namespace lissom {
 
 /// Holds and poses under construction. After an error they are not to be used: work on copies, and
 /// keep them when all is done.
-struct HoldEdit {
+struct ConstraintEdit {
     const RestShape& rest;
-    Holds& holds;
+    ConstraintSet& constraints;
     Poses& poses;
 
     // Errors of these are those of the functions of Deformer of the same names.
@@ -45,19 +46,20 @@ struct HoldEdit {
 };
 
 /// The target of a constraint, which is checked. Errors: as Deformer::constrain.
-Target checked_target(const RestShape& rest, const Holds& holds, const PointConstraint& given);
+Target checked_target(const RestShape& rest, const ConstraintSet& constraints,
+                      const PointConstraint& given);
 
 /// Place of the target of the same point, where there is one, or where it would be put.
 struct TargetPlace {
     std::size_t at = 0;
     bool found = false;
 };
-TargetPlace find_target(const Holds& holds, const Target& target);
+TargetPlace find_target(const ConstraintSet& constraints, const Target& target);
 
 /// The poses of everything at rest: handles stay where they are now, and so do targets.
-Poses resting_poses(const RestShape& rest, const Holds& holds);
+Poses resting_poses(const RestShape& rest, const ConstraintSet& constraints);
 
 /// `holds` for another rest shape of the same region.
-Holds moved_to(const RestShape& rest, const Holds& holds);
+ConstraintSet moved_to(const RestShape& rest, const ConstraintSet& constraints);
 
 }  // namespace lissom

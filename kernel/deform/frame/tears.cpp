@@ -1,4 +1,4 @@
-#include "kernel/deform/tears.h"
+#include "kernel/deform/frame/tears.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,15 +10,15 @@ namespace {
 
 // Slips up to so many lengths of the gap can be bridged without harm.
 constexpr double kBridged = 1.5;
-constexpr int kMostRings = 10;
+constexpr int kMaxRings = 10;
 
 // Where the holder of local vertex v takes p: constraints by their own vertex, others stay.
 Vec3 taken(const Preparation& prepared, const Poses& poses, Index v, const Vec3& p) {
     const Index owner = prepared.owner[at(v)];
     if (owner >= 0) return poses.handles[at(owner)].local_transform(p);
     if (owner != kConstrained) return p;
-    for (std::size_t t = 0; t < prepared.holds->targets.size(); ++t) {
-        const Target& target = *prepared.holds->targets[t];
+    for (std::size_t t = 0; t < prepared.constraints->targets.size(); ++t) {
+        const Target& target = *prepared.constraints->targets[t];
         if (!target.is_hard_vertex() || target.row.front().first != v) continue;
         const Patch& patch = prepared.patch();
         return p + poses.targets[t].position - patch.origin - patch.rest[at(v)];
@@ -62,7 +62,7 @@ DeformWarning tear_warning(const Preparation& preparation, const std::vector<Tea
         "handles nearly touch and part by %.3g times the length between them, so that the "
         "surface there is torn; leave more of it free between them, or make the "
         "deformation with free_rings = %d",
-        worst.slip, std::min(rings, kMostRings));
+        worst.slip, std::min(rings, kMaxRings));
     Elements vertices{ElementKind::vertex, 0, {}};
     for (const Tear& tear : tears) {
         for (const Index v : tear.vertices) vertices.add(v);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kernel/deform/deform_report.h"
-#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/poses.h"
 #include "kernel/deform/preparation.h"
 
 namespace lissom {

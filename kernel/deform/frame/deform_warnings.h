@@ -5,7 +5,7 @@
 
 #include "kernel/core/index.h"
 #include "kernel/deform/deform_report.h"
-#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/poses.h"
 #include "kernel/deform/options.h"
 
 namespace lissom {
@@ -15,7 +15,7 @@ struct AskedSize {
     /// The greatest factor by which one stretches or shrinks a direction, at least 1.
     double length = 1.0;
     /// The least and the greatest factor of a volume, and 1 between them.
-    double least_volume = 1.0, greatest_volume = 1.0;
+    double min_volume = 1.0, max_volume = 1.0;
 };
 
 AskedSize asked_size(const Poses& poses);

@@ -1,4 +1,4 @@
-#include "kernel/deform/deform_warnings.h"
+#include "kernel/deform/frame/deform_warnings.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -94,11 +94,11 @@ void warn_of_volume(const DeformReport& report, const AskedSize& asked,
     if (!report.volume_change) return;
     const double now = 1.0 + *report.volume_change;
     const char* message = nullptr;
-    if (now < (1.0 - kLostVolume) * asked.least_volume) {
+    if (now < (1.0 - kLostVolume) * asked.min_volume) {
         message =
             "the volume is %.0f %% smaller than at rest: parts that are turned far get thin; "
             "spread the turn over a longer free part, or over further handles between";
-    } else if (now > (1.0 + kAddedVolume) * asked.greatest_volume) {
+    } else if (now > (1.0 + kAddedVolume) * asked.max_volume) {
         message =
             "the volume is %.0f %% larger than at rest; move the handles less, or hold the parts "
             "that swell by handles of their own";
@@ -123,8 +123,8 @@ AskedSize asked_size(const Poses& poses) {
         if (!(lengths[2] > 0.0)) continue;
         asked.length = std::max({asked.length, lengths[0], 1.0 / lengths[2]});
         const double volume = std::abs(linear.determinant());
-        asked.least_volume = std::min(asked.least_volume, volume);
-        asked.greatest_volume = std::max(asked.greatest_volume, volume);
+        asked.min_volume = std::min(asked.min_volume, volume);
+        asked.max_volume = std::max(asked.max_volume, volume);
     }
     return asked;
 }

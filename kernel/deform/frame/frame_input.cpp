@@ -1,4 +1,4 @@
-#include "kernel/deform/frame/motion.h"
+#include "kernel/deform/frame/frame_input.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ VertexConstraint constraint_of(const Target& target, const TargetPose& pose) {
 }
 
 VertexConstraints asked_of(const Preparation& prepared, const std::vector<TargetPose>& poses) {
-    const auto& targets = prepared.holds->targets;
+    const auto& targets = prepared.constraints->targets;
     VertexConstraints asked;
     for (std::size_t t = 0; t < targets.size(); ++t) {
         if (!targets[t]->is_hard_vertex()) continue;
@@ -36,8 +36,8 @@ VertexConstraints asked_of(const Preparation& prepared, const std::vector<Target
 
 }  // namespace
 
-AskedPart asked_part(const Preparation& prepared, const std::vector<TargetPose>& targets) {
-    AskedPart part{asked_of(prepared, targets), {}};
+TargetRhs target_rhs(const Preparation& prepared, const std::vector<TargetPose>& targets) {
+    TargetRhs part{asked_of(prepared, targets), {}};
     const ImplicitMethod* method = prepared.implicit();
     if (method && method->solution) {
         part.fixed = method->solution->fixed_part(prepared.problem(), part.at);
@@ -45,7 +45,7 @@ AskedPart asked_part(const Preparation& prepared, const std::vector<TargetPose>&
     return part;
 }
 
-Motion::Motion(const Preparation& prepared, const Poses& poses, const AskedPart& asked)
+FrameInput::FrameInput(const Preparation& prepared, const Poses& poses, const TargetRhs& asked)
     : prepared_(prepared), poses_(poses), asked_(asked), base_(matrix_of({})) {
     const ImplicitMethod* method = prepared.implicit();
     if (!method || !method->solution) return;
@@ -56,7 +56,7 @@ Motion::Motion(const Preparation& prepared, const Poses& poses, const AskedPart&
     }
 }
 
-Vec3 Motion::known_position(Index v) const {
+Vec3 FrameInput::known_position(Index v) const {
     const Index o = prepared_.owner[v];
     if (o >= 0) return pose(o).local_transform(patch().rest[v]);
     if (o == kConstrained && asked_.at.at(v).position) {
@@ -65,21 +65,21 @@ Vec3 Motion::known_position(Index v) const {
     return patch().rest[v];
 }
 
-Vec3 Motion::known_deviation(Index v) const {
+Vec3 FrameInput::known_deviation(Index v) const {
     const Index o = prepared_.owner[v];
     const Vec4 rest_point = homogeneous(patch().rest[v]);
     if (o < 0) return known_position(v) - (base_ * rest_point).head<3>();
     return ((matrix_of(pose(o).local_transform) - base_) * rest_point).head<3>();
 }
 
-Mat3 Motion::known_gradient(Index v) const {
+Mat3 FrameInput::known_gradient(Index v) const {
     const Index o = prepared_.owner[v];
     if (o >= 0) return pose(o).local_transform.linear;
     if (o != kConstrained) return Mat3::Identity();
     return asked_.at.at(v).gradient.value_or(Mat3(Mat3::Identity()));
 }
 
-std::vector<Vec4> Motion::relative_turns() const {
+std::vector<Vec4> FrameInput::relative_turns() const {
     const bool based = solution().base() != kNoIndex;
     const Mat3 base =
         based ? pose(solution().base()).local_transform.linear : Mat3(Mat3::Identity());
@@ -96,7 +96,7 @@ std::vector<Vec4> Motion::relative_turns() const {
     return turns;
 }
 
-double Motion::greatest_turn() const {
+double FrameInput::max_turn() const {
     if (!method().solution || !options().scale_free) return 0.0;
     std::vector<Vec4> ends = relative_turns();
     ends.push_back(Vec4::Zero());
@@ -107,7 +107,7 @@ double Motion::greatest_turn() const {
     return greatest;
 }
 
-std::vector<Vec4> Motion::spread(const std::vector<Vec4>& value, const Context& context) const {
+std::vector<Vec4> FrameInput::spread(const std::vector<Vec4>& value, const Context& context) const {
     const std::vector<Index>& free = method().first->free_vertices();
     std::vector<Vec4> field(patch().vertex_count, Vec4::Zero());
     for (std::size_t n = 0; n < value.size(); ++n) {
@@ -125,7 +125,7 @@ std::vector<Vec4> Motion::spread(const std::vector<Vec4>& value, const Context& 
     return field;
 }
 
-void Motion::add_asked_moves(std::vector<Vec4>& field) const {
+void FrameInput::add_asked_moves(std::vector<Vec4>& field) const {
     if (asked_.at.empty()) return;
     for (const auto& entry : asked_.at) field[entry.first] += padded(known_deviation(entry.first));
     const std::vector<Index>& free = method().first->free_vertices();

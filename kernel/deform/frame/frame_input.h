@@ -7,7 +7,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/deform/holds/constraints.h"
-#include "kernel/deform/holds/holds.h"
+#include "kernel/deform/holds/poses.h"
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/preparation.h"
@@ -16,18 +16,18 @@
 namespace lissom {
 
 /// What targets ask of local vertices and anchors, and what that adds to the free vertices.
-struct AskedPart {
+struct TargetRhs {
     VertexConstraints at;
     FixedPart fixed;
 };
 
 /// Costs a solve with the first system, where there are targets.
-AskedPart asked_part(const Preparation& prepared, const std::vector<TargetPose>& targets);
+TargetRhs target_rhs(const Preparation& prepared, const std::vector<TargetPose>& targets);
 
 /// Positions are relative to the patch's origin. All that it is made from lives as long.
-class Motion {
+class FrameInput {
   public:
-    Motion(const Preparation& prepared, const Poses& poses, const AskedPart& asked);
+    FrameInput(const Preparation& prepared, const Poses& poses, const TargetRhs& asked);
 
     const Preparation& prepared() const { return prepared_; }
     const ImplicitMethod& method() const { return *prepared_.implicit(); }
@@ -37,7 +37,7 @@ class Motion {
     const Patch& patch() const { return prepared_.patch(); }
     const Poses& poses() const { return poses_; }
     const HandlePose& pose(Index handle) const { return poses_.handles[at(handle)]; }
-    const AskedPart& asked() const { return asked_; }
+    const TargetRhs& asked() const { return asked_; }
 
     /// The transform that deviations are relative to: of the solution's base, or the identity.
     const Mat4& base() const { return base_; }
@@ -53,7 +53,7 @@ class Motion {
     /// Turns and logarithms of scale of the solution's handles, relative to the base.
     std::vector<Vec4> relative_turns() const;
     /// The greatest turn between two handles. The thesis's literal formulation knows no turns.
-    double greatest_turn() const;
+    double max_turn() const;
     /// sum over h of w_h value_h at every local vertex, where w_h are the weights of translations
     /// in the first system.
     std::vector<Vec4> spread(const std::vector<Vec4>& value, const Context& context) const;
@@ -63,7 +63,7 @@ class Motion {
   private:
     const Preparation& prepared_;
     const Poses& poses_;
-    const AskedPart& asked_;
+    const TargetRhs& asked_;
     Mat4 base_;
     std::vector<Mat4> differences_;
 };

@@ -1,4 +1,4 @@
-#include "kernel/deform/hold_edits.h"
+#include "kernel/deform/constraint_edits.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 
 // Beyond these a bent cactus changes by less than a millionth of its size; from 1e6 its systems
 // lose so many digits that it shows.
-constexpr double kLeastStiffness = 1e-4, kGreatestStiffness = 1e5;
+constexpr double kMinStiffness = 1e-4, kMaxStiffness = 1e5;
 
 // In radii of the surface: what lies farther from its mirror image has none, and what lies nearer
 // is the same place.
@@ -85,10 +85,11 @@ std::string handle_text(std::size_t number, std::size_t vertices) {
 
 // Errors: handle_overlap where handles but `except`, or targets, hold some of `vertices`, which
 // `who` is to hold.
-void require_unheld(const RestShape& rest, const Holds& holds, const std::vector<Index>& vertices,
-                    const std::string& who, std::span<const Index> except = {}) {
+void require_unheld(const RestShape& rest, const ConstraintSet& constraints,
+                    const std::vector<Index>& vertices, const std::string& who,
+                    std::span<const Index> except = {}) {
     std::vector<char> held(rest.patch().vertex_count, 0);
-    for (const auto& target : holds.targets) {
+    for (const auto& target : constraints.targets) {
         if (target->row.size() == 1) held[target->row.front().first] = 1;
     }
     const bool by_target = std::any_of(vertices.begin(), vertices.end(),
@@ -96,10 +97,10 @@ void require_unheld(const RestShape& rest, const Holds& holds, const std::vector
     std::string holders = by_target ? "a constraint" : "";
     std::vector<char> wanted(held.size(), 0);
     for (const Index v : vertices) wanted[rest.local_vertex(v)] = 1;
-    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
+    for (std::size_t h = 0; h < constraints.handles.size(); ++h) {
         const bool left_out = std::find(except.begin(), except.end(), index_of(h)) != except.end();
-        if (left_out || !holds.handles[h]) continue;
-        const Handle& handle = *holds.handles[h];
+        if (left_out || !constraints.handles[h]) continue;
+        const Handle& handle = *constraints.handles[h];
         for (const Index v : handle.local) held[v] = 1;
         const bool meets = std::any_of(handle.local.begin(), handle.local.end(),
                                        [&](Index v) { return wanted[v] != 0; });
@@ -127,25 +128,27 @@ bool before(const Target& a, const Target& b) {
 
 }  // namespace
 
-HandleId HoldEdit::add(Handle handle, const HandlePose& pose) {
+HandleId ConstraintEdit::add(Handle handle, const HandlePose& pose) {
     handle.center = rest.center_of(handle);
-    holds.handles.push_back(std::make_shared<const Handle>(std::move(handle)));
+    constraints.handles.push_back(std::make_shared<const Handle>(std::move(handle)));
     poses.handles.push_back(pose);
-    return {count_of(holds.handles) - 1};
+    return {count_of(constraints.handles) - 1};
 }
 
 // Errors: as add_handle, beside the handles with numbers in `except`.
-void HoldEdit::require_handle_region(const Region& vertices, std::span<const Index> except) const {
+void ConstraintEdit::require_handle_region(const Region& vertices,
+                                           std::span<const Index> except) const {
     require_topology(rest.region(), vertices);
     if (vertices.empty()) throw Error(ErrorCode::region_empty, "the handle has no vertices");
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
                     "the handle reaches outside the region at ",
                     [&](Index v) { return !rest.region().contains(v); });
-    const std::size_t number = except.empty() ? holds.handles.size() : at(except.front());
-    require_unheld(rest, holds, vertices.vertices(), handle_text(number, vertices.size()), except);
+    const std::size_t number = except.empty() ? constraints.handles.size() : at(except.front());
+    require_unheld(rest, constraints, vertices.vertices(), handle_text(number, vertices.size()),
+                   except);
 }
 
-HandleId HoldEdit::add_handle(const Region& vertices, const HandleOptions& options) {
+HandleId ConstraintEdit::add_handle(const Region& vertices, const HandleOptions& options) {
     require_handle_options(options);
     require_handle_region(vertices);
     Handle handle{vertices, options};
@@ -153,7 +156,8 @@ HandleId HoldEdit::add_handle(const Region& vertices, const HandleOptions& optio
     return add(std::move(handle), {});
 }
 
-HandleId HoldEdit::add_handle(std::span<const MeshPoint> points, const HandleOptions& options) {
+HandleId ConstraintEdit::add_handle(std::span<const MeshPoint> points,
+                                    const HandleOptions& options) {
     if (points.empty()) throw Error(ErrorCode::region_empty, "the handle has no points");
     require_handle_options(options);
     const auto& topology = rest.region().topology();
@@ -169,7 +173,7 @@ HandleId HoldEdit::add_handle(std::span<const MeshPoint> points, const HandleOpt
             rows.push_back(local_row(rest, point));
         }
     }
-    require_unheld(rest, holds, held, handle_text(holds.handles.size(), held.size()));
+    require_unheld(rest, constraints, held, handle_text(constraints.handles.size(), held.size()));
     Handle handle{Region(topology, around), options};
     const Region held_region(topology, held);
     for (const Index v : held_region.vertices()) handle.local.push_back(rest.local_vertex(v));
@@ -177,8 +181,8 @@ HandleId HoldEdit::add_handle(std::span<const MeshPoint> points, const HandleOpt
     return add(std::move(handle), {});
 }
 
-void HoldEdit::set_handle_region(HandleId id, const Region& vertices) {
-    Handle changed = handle_of(holds, id);
+void ConstraintEdit::set_handle_region(HandleId id, const Region& vertices) {
+    Handle changed = handle_of(constraints, id);
     const Index partner = changed.partner;
     require_handle_region(vertices, std::array{id.value, partner});
     changed.region = vertices;
@@ -187,17 +191,17 @@ void HoldEdit::set_handle_region(HandleId id, const Region& vertices) {
     for (const Index v : vertices.vertices()) changed.local.push_back(rest.local_vertex(v));
     changed.center = rest.center_of(changed);
     if (partner != kNoIndex) {
-        holds.handles[partner] =
+        constraints.handles[partner] =
             std::make_shared<const Handle>(mirror_image(id.value, changed, changed.mirror));
         poses.handles[partner] = reflected(rest, changed.mirror, poses.handles[id.value]);
     }
-    holds.handles[id.value] = std::make_shared<const Handle>(std::move(changed));
+    constraints.handles[id.value] = std::make_shared<const Handle>(std::move(changed));
 }
 
 // Vertices that the image holds. Errors: invalid_argument if most of it lies beside the region, or
 // the plane leaves no surface near it.
-std::vector<Index> HoldEdit::mirrored_vertices(const MirrorSurface& surface,
-                                               const Handle& handle) const {
+std::vector<Index> ConstraintEdit::mirrored_vertices(const MirrorSurface& surface,
+                                                     const Handle& handle) const {
     if (handle.local.empty()) return {};
     const Patch& patch = rest.patch();
     MirroredVertices found = surface.mirrored(handle.local);
@@ -220,8 +224,8 @@ std::vector<Index> HoldEdit::mirrored_vertices(const MirrorSurface& surface,
 }
 
 // The mirror image of a point in a face: of the same weights if its vertices have counterparts.
-SparseRow HoldEdit::mirrored_point(const MirrorSurface& surface, const SparseRow& row,
-                                   const MirrorPlane& plane) const {
+SparseRow ConstraintEdit::mirrored_point(const MirrorSurface& surface, const SparseRow& row,
+                                         const MirrorPlane& plane) const {
     const Patch& patch = rest.patch();
     std::vector<Index> around;
     for (const auto& [v, c] : row) around.push_back(v);
@@ -245,7 +249,7 @@ SparseRow HoldEdit::mirrored_point(const MirrorSurface& surface, const SparseRow
 
 // What a handle and its image would both hold goes to the handle, unless it reaches its plane.
 // Errors: handle_overlap then.
-void HoldEdit::part_from_image(const Handle& handle, Handle& image) const {
+void ConstraintEdit::part_from_image(const Handle& handle, Handle& image) const {
     const Patch& patch = rest.patch();
     const Vec3 normal = image.mirror.normal.normalized();
     const auto height = [&](const Vec3& p) { return normal.dot(p - image.mirror.point); };
@@ -273,7 +277,7 @@ void HoldEdit::part_from_image(const Handle& handle, Handle& image) const {
 
 // The rim of an image that was found on another tessellation gives way to what others hold, unless
 // that takes most of it; vertices that are exact counterparts do not.
-void HoldEdit::yield_to_others(const Handle& handle, Index number, Handle& image) const {
+void ConstraintEdit::yield_to_others(const Handle& handle, Index number, Handle& image) const {
     const Patch& patch = rest.patch();
     const Affine mirror = reflection({image.mirror.point - patch.origin, image.mirror.normal, 0.0});
     std::vector<char> fixed(patch.rest.size(), 0), held(patch.rest.size(), 0);
@@ -281,12 +285,12 @@ void HoldEdit::yield_to_others(const Handle& handle, Index number, Handle& image
                                       kSameMirrorPlace * rest.work->radius)) {
         if (v != kNoIndex) fixed[at(v)] = 1;
     }
-    for (std::size_t h = 0; h < holds.handles.size(); ++h) {
+    for (std::size_t h = 0; h < constraints.handles.size(); ++h) {
         const bool is_own = index_of(h) == number || index_of(h) == handle.partner;
-        if (is_own || !holds.handles[h]) continue;
-        for (const Index v : holds.handles[h]->local) held[at(v)] = 1;
+        if (is_own || !constraints.handles[h]) continue;
+        for (const Index v : constraints.handles[h]->local) held[at(v)] = 1;
     }
-    for (const auto& target : holds.targets) {
+    for (const auto& target : constraints.targets) {
         if (target->row.size() == 1) held[at(target->row.front().first)] = 1;
     }
     std::vector<Index> left = image.local;
@@ -296,7 +300,8 @@ void HoldEdit::yield_to_others(const Handle& handle, Index number, Handle& image
 
 // The mirror image of a handle, which keeps clear of that handle and of all others but its present
 // image.
-Handle HoldEdit::mirror_image(Index number, const Handle& handle, const MirrorPlane& plane) const {
+Handle ConstraintEdit::mirror_image(Index number, const Handle& handle,
+                                    const MirrorPlane& plane) const {
     const Patch& patch = rest.patch();
     const MirrorSurface surface(patch, reflection({plane.point - patch.origin, plane.normal, 0.0}));
     Handle image = handle;
@@ -311,7 +316,7 @@ Handle HoldEdit::mirror_image(Index number, const Handle& handle, const MirrorPl
     for (const SparseRow& row : image.points) {
         for (const auto& [v, c] : row) vertices.push_back(patch.mesh_vertex[at(v)]);
     }
-    require_unheld(rest, holds, held,
+    require_unheld(rest, constraints, held,
                    "the mirror image of " + handle_text(at(number), handle.region.size()),
                    std::array{number, handle.partner});
     image.partner = number;
@@ -320,8 +325,8 @@ Handle HoldEdit::mirror_image(Index number, const Handle& handle, const MirrorPl
     return image;
 }
 
-HandleId HoldEdit::mirror_handle(HandleId id, const MirrorPlane& plane) {
-    Handle handle = handle_of(holds, id);
+HandleId ConstraintEdit::mirror_handle(HandleId id, const MirrorPlane& plane) {
+    Handle handle = handle_of(constraints, id);
     if (handle.partner != kNoIndex) {
         throw Error(ErrorCode::invalid_argument, "the handle has a mirror image already");
     }
@@ -329,23 +334,23 @@ HandleId HoldEdit::mirror_handle(HandleId id, const MirrorPlane& plane) {
         add(mirror_image(id.value, handle, plane), reflected(rest, plane, poses.handles[id.value]));
     handle.partner = added.value;
     handle.mirror = plane;
-    holds.handles[id.value] = std::make_shared<const Handle>(std::move(handle));
+    constraints.handles[id.value] = std::make_shared<const Handle>(std::move(handle));
     return added;
 }
 
-void HoldEdit::remove_handle(HandleId id) {
-    const Index partner = handle_of(holds, id).partner;
-    holds.handles[id.value] = nullptr;
+void ConstraintEdit::remove_handle(HandleId id) {
+    const Index partner = handle_of(constraints, id).partner;
+    constraints.handles[id.value] = nullptr;
     poses.handles[id.value] = {};
     if (partner == kNoIndex) return;
-    Handle alone = *holds.handles[partner];
+    Handle alone = *constraints.handles[partner];
     alone.partner = kNoIndex;
-    holds.handles[partner] = std::make_shared<const Handle>(std::move(alone));
+    constraints.handles[partner] = std::make_shared<const Handle>(std::move(alone));
 }
 
-void HoldEdit::set_stiffness(const Region& vertices, double factor) {
+void ConstraintEdit::set_stiffness(const Region& vertices, double factor) {
     require_topology(rest.region(), vertices);
-    if (!(factor >= kLeastStiffness && factor <= kGreatestStiffness)) {
+    if (!(factor >= kMinStiffness && factor <= kMaxStiffness)) {
         throw Error(ErrorCode::invalid_argument,
                     "a stiffness must be from 1e-4, where the part resists nothing, to 1e5, where "
                     "it is rigid; 1 is as usual");
@@ -353,27 +358,28 @@ void HoldEdit::set_stiffness(const Region& vertices, double factor) {
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
                     "outside the region there is nothing to make stiff, at ",
                     [&](Index v) { return !rest.region().contains(v); });
-    auto stiffness = holds.stiffness
-                         ? std::make_shared<std::vector<double>>(*holds.stiffness)
+    auto stiffness = constraints.stiffness
+                         ? std::make_shared<std::vector<double>>(*constraints.stiffness)
                          : std::make_shared<std::vector<double>>(at(rest.patch().real_count), 1.0);
     for (const Index v : vertices.vertices()) (*stiffness)[rest.local_vertex(v)] = factor;
-    holds.stiffness = std::move(stiffness);
+    constraints.stiffness = std::move(stiffness);
 }
 
-void HoldEdit::set_target(Target target, const TargetPose& pose) {
-    if (const TargetPlace old = find_target(holds, target); old.found) {
+void ConstraintEdit::set_target(Target target, const TargetPose& pose) {
+    if (const TargetPlace old = find_target(constraints, target); old.found) {
         const auto place = static_cast<std::ptrdiff_t>(old.at);
-        holds.targets.erase(holds.targets.begin() + place);
+        constraints.targets.erase(constraints.targets.begin() + place);
         poses.targets.erase(poses.targets.begin() + place);
     }
     if (!target.position && !target.gradient) return;
-    const auto place = static_cast<std::ptrdiff_t>(find_target(holds, target).at);
-    holds.targets.insert(holds.targets.begin() + place,
-                         std::make_shared<const Target>(std::move(target)));
+    const auto place = static_cast<std::ptrdiff_t>(find_target(constraints, target).at);
+    constraints.targets.insert(constraints.targets.begin() + place,
+                               std::make_shared<const Target>(std::move(target)));
     poses.targets.insert(poses.targets.begin() + place, pose);
 }
 
-Target checked_target(const RestShape& rest, const Holds& holds, const PointConstraint& given) {
+Target checked_target(const RestShape& rest, const ConstraintSet& constraints,
+                      const PointConstraint& given) {
     require_weight(given.weight);
     PointConstraint asked = given;
     asked.point = checked_point(*rest.region().topology(), given.point);
@@ -382,23 +388,23 @@ Target checked_target(const RestShape& rest, const Holds& holds, const PointCons
     Target target{asked.point, local_row(rest, asked.point), asked.position.has_value(),
                   asked.gradient.has_value(), asked.weight};
     if (target.row.size() > 1) return target;
-    for (const auto& handle : holds.handles) {
+    for (const auto& handle : constraints.handles) {
         if (!handle) continue;
         const bool held = std::find(handle->local.begin(), handle->local.end(),
                                     target.row.front().first) != handle->local.end();
-        if (held) require_unheld(rest, holds, asked.point.vertices, "a constraint");
+        if (held) require_unheld(rest, constraints, asked.point.vertices, "a constraint");
     }
     return target;
 }
 
 // A point may have been asked for as a hard vertex before, and softly now.
-TargetPlace find_target(const Holds& holds, const Target& target) {
+TargetPlace find_target(const ConstraintSet& constraints, const Target& target) {
     const auto place_of = [&](const Target& of) -> TargetPlace {
         const auto place =
-            std::lower_bound(holds.targets.begin(), holds.targets.end(), of,
+            std::lower_bound(constraints.targets.begin(), constraints.targets.end(), of,
                              [](const auto& a, const Target& b) { return before(*a, b); });
-        return {at(place - holds.targets.begin()),
-                place != holds.targets.end() && !before(of, **place)};
+        return {at(place - constraints.targets.begin()),
+                place != constraints.targets.end() && !before(of, **place)};
     };
     const TargetPlace place = place_of(target);
     if (place.found || target.row.size() > 1) return place;
@@ -408,9 +414,9 @@ TargetPlace find_target(const Holds& holds, const Target& target) {
     return elsewhere.found ? elsewhere : place;
 }
 
-Poses resting_poses(const RestShape& rest, const Holds& holds) {
-    Poses poses{std::vector<HandlePose>(holds.handles.size()), {}};
-    for (const auto& target : holds.targets) {
+Poses resting_poses(const RestShape& rest, const ConstraintSet& constraints) {
+    Poses poses{std::vector<HandlePose>(constraints.handles.size()), {}};
+    for (const auto& target : constraints.targets) {
         const Vec3 at = target->is_hard_vertex()
                             ? rest.positions[rest.region_row[target->row.front().first]]
                             : Vec3(rest.position_of(target->row) + rest.origin());
@@ -419,8 +425,8 @@ Poses resting_poses(const RestShape& rest, const Holds& holds) {
     return poses;
 }
 
-Holds moved_to(const RestShape& rest, const Holds& holds) {
-    Holds moved = holds;
+ConstraintSet moved_to(const RestShape& rest, const ConstraintSet& constraints) {
+    ConstraintSet moved = constraints;
     for (auto& handle : moved.handles) {
         if (!handle) continue;
         Handle next = *handle;
