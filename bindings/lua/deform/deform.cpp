@@ -167,8 +167,9 @@ int rebase(Call& call) {
 
 int subdivided_mesh(Call& call) {
     const auto edit = call.self<DeformObject>();
-    return new_mesh(
-        call, [&] { return lissom::subdivided_mesh(edit->deformer(), edit->mesh->mesh, call.context()); });
+    return new_mesh(call, [&] {
+        return lissom::subdivided_mesh(edit->deformer(), edit->mesh->mesh, call.context());
+    });
 }
 
 int stats(Call& call) {

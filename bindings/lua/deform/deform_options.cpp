@@ -28,7 +28,8 @@ DeformOptions deform_options(const Call& call) {
     take_choice(call, "weights", options.weights);
     if (call.has("coherence")) options.coherence = call.integer("coherence");
     if (call.has("refine")) options.refine = call.integer("refine");
-    if (call.has("subdivide_borders")) options.subdivide_borders = call.boolean("subdivide_borders");
+    if (call.has("subdivide_borders"))
+        options.subdivide_borders = call.boolean("subdivide_borders");
     take_choice(call, "flat", options.flat);
     options.loose = call.choice<UnheldParts>("loose");
     if (call.has("free_rings")) options.free_rings = call.integer("free_rings");
