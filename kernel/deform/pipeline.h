@@ -9,7 +9,7 @@
 /// but what it is given. A Deformer keeps one value of each kind; two threads may pose two copies:
 ///
 ///     const auto prepared = edit.preparation();
-///     Poses left = edit.setup().poses, right = left;
+///     Poses left = edit.snapshot().poses, right = left;
 ///     pose_handle(*prepared, left, tip, turned, center);
 ///     pose_handle(*prepared, right, tip, lifted, center);
 ///     // each on a thread of its own, with scratch of its own:

@@ -539,7 +539,7 @@ void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& con
     if (!sparse && !(at.smallest_angle() < kSliver)) return;
     // Needles would become thousands of triangles each if none were to be longer than they are
     // wide.
-    side_edge = std::max(side_edge, at.edge_to_seam());
+    if (!sparse) side_edge = std::max(side_edge, at.edge_to_seam());
     const SeamSizes sizes(at.points(), side_edge);
     const std::vector<Index> faces = at.faces(sizes, side_edge);
     const SeamQuality now = seam_quality(sewn.mesh, sewn.seams);

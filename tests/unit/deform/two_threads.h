@@ -16,9 +16,9 @@ inline bool same_frame(const DeformFrame& a, const DeformFrame& b) {
 // Turns below and beyond half a turn, so that threads find what turns need at the same time.
 inline std::vector<Poses> poses_of(const Scene& scene, Edit& edit, const Preparation& prepared) {
     std::vector<Poses> poses;
-    const Vec3 center = edit.deformer.handle_center(edit.high);
+    const Vec3 center = edit.deformer.handle(edit.high).center;
     for (const double angle : {0.7, 3.5, 4.5, 1.6}) {
-        poses.push_back(edit.deformer.setup().poses);
+        poses.push_back(edit.deformer.snapshot().poses);
         const Affine move = translation({0.1 * angle, 0.2, 0.0}) *
                             rotation(scene.across + Vec3(0.1, 0.5, 0.2), angle, Vec3::Zero());
         pose_handle(prepared, poses.back(), edit.high, move, center, Vec3(0.0, angle, 0.0));
@@ -29,7 +29,7 @@ inline std::vector<Poses> poses_of(const Scene& scene, Edit& edit, const Prepara
 
 // Solves each pose in turn, and then on two threads at once, which begin with different ones.
 inline void check_threads(const Scene& scene, Edit& edit) {
-    const auto prepared = edit.deformer.preparation();
+    const auto prepared = edit.deformer.prepare();
     const std::vector<Poses> poses = poses_of(scene, edit, *prepared);
     const auto solve_all = [&](const std::shared_ptr<const Preparation>& by, std::size_t first) {
         FrameScratch scratch;
@@ -47,7 +47,7 @@ inline void check_threads(const Scene& scene, Edit& edit) {
     b = solve_all(prepared, 2);
     other.join();
     // Of another preparation, which no two threads have seen.
-    const auto alone = prepare_deformation(rest_of(*prepared), holds_of(*prepared));
+    const auto alone = prepare_deformation(rest_of(*prepared), constraints_of(*prepared));
     const std::vector<DeformFrame> in_turn = solve_all(alone, 0);
     for (std::size_t n = 0; n < in_turn.size(); ++n) {
         CAPTURE(n);
