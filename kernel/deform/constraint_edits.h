@@ -17,7 +17,7 @@
 
 namespace lissom {
 
-/// Holds and poses under construction. After an error they are not to be used: work on copies, and
+/// Constraints and poses under construction. After an error they are not to be used: work on copies, and
 /// keep them when all is done.
 struct ConstraintEdit {
     const RestShape& rest;

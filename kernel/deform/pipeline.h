@@ -1,15 +1,15 @@
 /// Deformation as a pipeline of values, for hosts that need more than one Deformer gives: several
 /// frames at the same time, or an undo.
 ///
-///     RestShape, Holds -> Preparation
+///     RestShape, ConstraintSet -> Preparation
 ///     Preparation, Poses -> DeformFrame
 ///     DeformFrame -> positions of a mesh, or the next RestShape
 ///
-/// Rest shape, holds and preparation do not change once they are made, and a step reads nothing
-/// but what it is given. A Deformer keeps one value of each kind; two threads may pose two copies:
+/// Rest shape, constraint set and preparation do not change once they are made, and a step reads
+/// nothing but its arguments. A Deformer keeps one value of each kind; two threads may pose two copies:
 ///
-///     const auto prepared = edit.preparation();
-///     Poses left = edit.snapshot().poses, right = left;
+///     const auto prepared = deformer.prepare();
+///     Poses left = deformer.snapshot().poses, right = left;
 ///     pose_handle(*prepared, left, tip, turned, center);
 ///     pose_handle(*prepared, right, tip, lifted, center);
 ///     // each on a thread of its own, with scratch of its own:

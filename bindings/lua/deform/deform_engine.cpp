@@ -55,9 +55,9 @@ int save_basis_file(Call& call) {
 constexpr int kMaximumFrames = 10000;
 
 // The state of a deformation and its mesh, to be restored.
-class DeformSnapshot {
+class BakedState {
   public:
-    explicit DeformSnapshot(DeformObject& edit)
+    explicit BakedState(DeformObject& edit)
         : mesh_(edit.mesh->mesh),
           revision_(edit.mesh->mesh.revision()),
           snapshot_(edit.deformer().snapshot()) {}
@@ -107,7 +107,7 @@ struct Baking {
     }
 
     std::shared_ptr<DeformObject> edit;
-    DeformSnapshot before;
+    BakedState before;
     Mesh shape;
     std::unique_ptr<MorphBaker> baker;
 };

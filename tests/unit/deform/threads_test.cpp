@@ -1,5 +1,6 @@
 // Frames of one preparation are solved on several threads at the same time: a program of its own,
 // to be built quickly with the thread sanitizer (preset tsan).
+#include "kernel/deform/deformed_surface.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/two_threads.h"
 
