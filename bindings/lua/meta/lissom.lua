@@ -110,7 +110,7 @@
 ---@field files_missing lissom.Finding|nil Textures and other files that were not found.
 ---@field extensions_dropped lissom.Finding|nil Extensions of the format that are not understood; dropped.
 
----The last result of a deformation beside its rest shape.
+---The last result of a deformation beside its rest shape; tostring gives it in words.
 ---@class lissom.DeformReport
 ---@field stretch number The greatest factor by which an edge is longer or shorter than at rest; 1 is none.
 ---@field stretched integer[]|nil The vertices of that edge; nil where none changed.
@@ -137,7 +137,7 @@
 ---@field displaced_vertices integer Degenerate vertices displaced.
 ---@field extended_vertices integer Flat vertices with an unknown beside them.
 ---@field inserted_vertices integer Vertices inserted at corners of the boundary.
----@field refined_vertices integer Vertices that a refinement of coarse borders added.
+---@field subdivided_vertices integer Vertices that a refinement of coarse borders added.
 ---@field zero_area_faces integer Faces without area.
 ---@field first_nonzeros integer Entries of the first system's factor.
 ---@field second_nonzeros integer Entries of the second system's factor.
@@ -268,9 +268,9 @@
 ---@field target_turn number The same of the target's.
 ---@field source_trimmed boolean It was jagged and has been trimmed.
 ---@field target_trimmed boolean The same of the target's.
----@field refined boolean Faces of the source were split there.
----@field target_refined boolean Faces of the target were split there.
----@field fits boolean The boundaries are one curve, as they lie or, in the free configuration, up to a similarity, and the surface goes on across it: all vertices are kept there, and nothing is smoothed, trimmed or refined.
+---@field subdivided boolean Faces of the source were split there.
+---@field target_subdivided boolean Faces of the target were split there.
+---@field fits boolean The boundaries are one curve, as they lie or, in the free configuration, up to a similarity, and the surface goes on across it: all vertices are kept there, and nothing is smoothed, trimmed or subdivided.
 ---@field same_side boolean In the fixed configuration: both parts lie on the same side of the boundary, so that the source turns over.
 ---@field band lissom.BandQuality The surface around the seam, against both sides before; zeros of a draft.
 
@@ -280,19 +280,20 @@
 ---@field rest_roughness number The same beside both boundaries before.
 ---@field bend number The RMS angle between planes fitted to the surface on either side of points of the seam, to strips a third of the radius wide.
 ---@field rest_bend number The same before on the side that bends more, from the strip at the boundary to the one behind it.
----@field greatest_bend number The greatest of the angles in `bend`.
----@field rest_greatest_bend number The greatest of those in `rest_bend`.
+---@field greatest_bend number What a tenth of the angles in `bend` exceed.
+---@field rest_greatest_bend number What a tenth of those in `rest_bend` exceed.
 ---@field folded number Length of the edges within one radius at which the surface folds back by more than 135 degrees, in radii of the seam.
 ---@field rest_folded number That of the edges of both sides before that turned by more than 105 degrees.
+---@field flare number The RMS angle by which the rim of the source turns outward beside the seam more than at rest; 0 of a paste.
 ---@field source_volume number Volume between source and seam, over that of the source at rest at its scale: 1 where it was kept, negative where it turned inside out.
 ---@field target_volume number The same of the target; 1 of a paste.
 ---@field radius number Radius of the seam.
 
 ---Why a merge is not good. tostring gives text and remedy.
 ---@class lissom.MergeReason
----@field fault string crossings, side, folds, roughness, volume, bend, bite, seam, place or slivers; of a scatter "left out" as well.
+---@field fault string crossings, side, folds, roughness, volume, bend, flare, bite, seam, place or slivers; of a scatter "left out" as well.
 ---@field join integer|nil The join that it is of; nil of all of them.
----@field value number What was measured: degrees for roughness, bend, seam and slivers; radii of the seam for folds and bites; pairs of faces for crossings; the part that was kept for volume; the certainty for place.
+---@field value number What was measured: degrees for roughness, bend, flare, seam and slivers; radii of the seam for folds and bites; pairs of faces for crossings; the part that was kept for volume; the certainty for place.
 ---@field limit number The limit that it passes.
 ---@field faces integer[]|nil Of crossings: the faces of the merged mesh concerned.
 ---@field text string What is wrong, in plain words.
@@ -306,7 +307,7 @@
 ---What a merge found and did.
 ---@class lissom.MergeReport
 ---@field bite lissom.TargetBite What a paste took of the sharp edges of its target.
----@field ok boolean Whether the result is good: no faces run through one another that did not before; the surface around the seam does not fold back, is at most 1.4 times as rough as the parts were there (or turns by less than 8 degrees an edge), and bends by no more than 25 degrees from one side to the other and 50 at one place, or 1.3 times what it did before (and by the crease of a paste); a paste takes no sharp edge of its target along more than .3 of its radius or deeper than .15; each part keeps three fifths of its volume; the seam turns by no more than 30 degrees and 20 in the mean, or than the surfaces did beside the boundaries; no place is a toss; no triangle at the seam has less than 2 degrees, or than there were.
+---@field ok boolean Whether the result is good: no faces run through one another that did not before, but for those that only touch; the surface around the seam does not fold back, is at most 1.4 times as rough as the parts were there (or turns by less than 8 degrees an edge), and bends by no more than 35 degrees from one side to the other and 60 along a tenth of it, or 1.3 times what it did before (and by the crease of a paste); the rim of the source of a merge turns outward by no more than 33 degrees more than before; a paste takes no sharp edge of its target along more than .3 of its radius or deeper than .15; each part keeps three fifths of its volume; the seam turns by no more than 30 degrees and 20 in the mean, or than the surfaces did beside the boundaries; no place is a toss; no triangle at the seam has less than 2 degrees, or than there were.
 ---@field verdict string The same in one line: what holds, or what does not.
 ---@field reasons lissom.MergeReason[] Each fault with what was measured, its limit and what may help; empty if ok. tostring(report) lists them.
 ---@field joins lissom.JoinReport[] One a join.
@@ -391,6 +392,7 @@
 ---@field outline_near lissom.PasteDistortion|nil Near the outline of the region, were it the boundary.
 ---@field clearing lissom.PasteClearing|nil What was removed of the target under the part, if something was.
 ---@field kept_outline boolean The outline was pasted along, since the surface there is distorted less.
+---@field tight boolean The feature's own outline was pasted along, since more of the target's sharp edges stays there.
 ---@field smooth boolean The boundary runs through faces.
 ---@field draft boolean It is a draft: merged without that option its seam is better.
 ---@field euler_characteristic integer Of the result.
@@ -680,8 +682,8 @@
 ---@field move fun(self: any, event: lissom.MouseEvent): lissom.ToolHost The cursor moved: a drag while a button is down.
 ---@field release fun(self: any, event: lissom.MouseEvent): lissom.ToolHost The button came up: the step ends.
 ---@field click fun(self: any, event: lissom.MouseEvent): lissom.ToolHost Press and release.
----@field wheel fun(self: any, event: table): lissom.ToolHost {x=, y=, lines=, shift=, ctrl=, alt=}: the wheel turned, upwards where lines are above 0. Part of the gesture while a button is down, else a step of its own.
----@field key fun(self: any, event: table): lissom.ToolHost {key=, shift=, ctrl=, alt=}: "enter", "escape", "a", ...
+---@field wheel fun(self: any, event: lissom.WheelEvent): lissom.ToolHost The wheel turned: part of the gesture while a button is down, else a step of its own.
+---@field key fun(self: any, event: lissom.KeyEvent): lissom.ToolHost A key was pressed.
 ---@field type fun(self: any, text: string): lissom.ToolHost A key for each character.
 ---@field set fun(self: any, values: table): lissom.ToolHost Sets parameters of the tool.
 ---@field cancel fun(self: any): lissom.ToolHost Escape: takes the present gesture back; the tool forgets what it began.
@@ -698,13 +700,29 @@
 
 ---What a mouse did.
 ---@class lissom.MouseEvent
----@field x number Pixels from the left edge of the picture.
----@field y number Pixels from its top.
----@field button string? left (default), right or middle; of a press.
+---@field x number From the left edge of the picture.
+---@field y number From the top of the picture.
+---@field button string? The button, left if it is left out; of a press.
+---@field late boolean? Whether a later place of the same drag is known already; of a move.
 ---@field shift boolean? Whether this key is down.
 ---@field ctrl boolean? Likewise.
 ---@field alt boolean? Likewise.
----@field late boolean? A later place of the same drag is known already; of a move.
+
+---What the wheel did: part of the gesture while a button is down, else a step of its own.
+---@class lissom.WheelEvent
+---@field x number From the left edge of the picture.
+---@field y number From the top of the picture.
+---@field lines number How far the wheel turned: upwards is above 0.
+---@field shift boolean? Whether this key is down.
+---@field ctrl boolean? Likewise.
+---@field alt boolean? Likewise.
+
+---A key that was pressed.
+---@class lissom.KeyEvent
+---@field key string "enter", "escape", "a", ...
+---@field shift boolean? Whether this key is down.
+---@field ctrl boolean? Likewise.
+---@field alt boolean? Likewise.
 
 ---What a tool is called with.
 ---@class lissom.ToolEvent
@@ -722,29 +740,12 @@
 ---@field camera lissom.Camera What the scene is seen by.
 ---@field scene lissom.Scene The scene.
 ---@field size integer[] {width, height} of the picture in pixels.
+---@field up "y"|"z" The axis of the world that points up in views.
 ---@field ray fun(self: any): any Origin and direction, as camera:ray.
 ---@field hit fun(self: any): lissom.PickHit? The surface under the cursor.
 ---@field pick fun(self: any, options: table?): lissom.PickHit? camera:pick of the scene at the cursor.
 ---@field select fun(self: any, options: table): lissom.Selected[] camera:select of the scene.
 ---@field look fun(self: any, camera: lissom.Camera) From now on the scene is seen by this camera; no step of the scene.
-
----What a tool draws on, over the picture. Colours are "#rrggbb"; each method returns the view.
----@class lissom.ToolView
----@field camera lissom.Camera What the scene is seen by.
----@field scene lissom.Scene The scene.
----@field size integer[] {width, height} of the picture in pixels.
----@field cursor number[]? Where the cursor is.
----@field points fun(self: any, options: table) {points=, color=, radius= in pixels}
----@field line fun(self: any, options: table) {points=, color=, width= in pixels, closed=}
----@field curve fun(self: any, options: table) The same.
----@field label fun(self: any, options: table) {at=, text=, color=}
----@field handle fun(self: any, options: table) {at=, color=, radius=}: a ball to take hold of.
----@field gizmo fun(self: any, gizmo: lissom.Gizmo, chosen: string?) The gizmo as it is seen now; the part `chosen` as the one in hand.
----@field region fun(self: any, options: table) {mesh=, region=, color=}: colours it.
----@field mesh fun(self: any, options: table) {mesh=, transform=, color=}: one that is not in the scene, before what it lies on; it must not change afterwards.
----@field outline fun(self: any, options: table) {pixels=, color=, width=, closed=, opacity=}: a line in the picture, of {x, y}.
----@field circle fun(self: any, options: table) {at={x, y}, radius=, color=}: in pixels of the picture.
----@field surface fun(self: any, options: table) {from=, to=, color=, opacity=}: seen through, between two lines of as many points.
 
 ---What a tool shows, as the tables it was drawn with.
 ---@class lissom.ToolMarks
@@ -1073,11 +1074,11 @@ function Mesh:path(options) end
 
 ---@class lissom.Mesh.FillOptions
 ---@field method? "angle"|"area" Begins with the triangles whose greatest angle to one another and to the mesh is least, or with those of the least area, a lid. Default: "angle".
----@field refine? boolean Makes the patch as dense as the mesh around it. Default: true.
+---@field subdivide? boolean Makes the patch as dense as the mesh around it. Default: true.
 ---@field density? number How dense, over the mesh around it; more than 1 lets a patch bend whose rim has few vertices. Default: 1.
 ---@field fair? boolean Bends the patch to continue the surface smoothly. Default: true.
 ---@field continuity? "tangents"|"curvature" What of the surface a faired patch continues. With curvature a large patch in a round surface is round. Default: "tangents".
----@field maximum_vertices? integer Vertices that refinement may insert. Default: 200000.
+---@field maximum_vertices? integer Vertices that `subdivide` may insert. Default: 200000.
 
 ---Closes an open boundary by a patch of triangles that continues the surface, in place. Old ids stay.
 ---@param boundary lissom.Path An open boundary of this mesh.
@@ -1372,28 +1373,33 @@ function Buffer:table() end
 function Buffer:close() end
 
 ---Deforms a region of a mesh by handles. Its rest shape is the mesh as it was when the deformation was made; its factors are kept, so that moving a handle costs no factorisation.
----@class lissom.Deformation
-local Deformation = {}
+---@class lissom.Deformer
+local Deformer = {}
 
----@class lissom.Deformation.HandleOptions.Mirror
+---@class lissom.Deformer.Add_handleOptions.Mirror
 ---@field point lissom.Vector A point of the plane.
 ---@field normal lissom.Vector Its normal, of any length.
 ---@field tolerance? number Distance of the mirror image from the surface beyond which mirror_residual warns. In mesh units. Default: a fiftieth of the size.
 
----@class lissom.Deformation.HandleOptions
+---@class lissom.Deformer.Add_handleOptions
 ---@field position? boolean Holds their positions. Default: true.
 ---@field gradient? boolean Holds their orientation and scale. Default: true.
 ---@field weight? number Draws instead of holding exactly: 1 is a compromise with the shape of the surface, 1e6 nearly exact. Depends on neither scale nor resolution. Default: held exactly.
 ---@field falloff? number Within this geodesic distance the surface follows softly, less and less. In mesh units. Default: 0.
----@field mirror? lissom.Deformation.HandleOptions.Mirror Adds a second handle, the mirror image, and moves it along: see mirrored. It lies where the surface is nearest to the reflected one, so that both sides may have different vertices: see mirror_residual. Default: none.
+---@field mirror? lissom.Deformer.Add_handleOptions.Mirror Adds a second handle, the mirror image, and moves it along: see mirrored. It lies where the surface is nearest to the reflected one, so that both sides may have different vertices: see mirror_residual. Default: none.
 
 ---Makes a handle of some vertices of the region, of a path, or of points of faces and edges. Points go exactly where the handle takes them: the points of the deformed faces with the same weights do.
 ---@param where lissom.Region|lissom.Path|table What it holds.
----@param options? lissom.Deformation.HandleOptions
+---@param options? lissom.Deformer.Add_handleOptions
 ---@return lissom.Handle handle # Where it is; move it and solve.
-function Deformation:handle(where, options) end
+function Deformer:add_handle(where, options) end
 
----@class lissom.Deformation.ConstrainOptions
+---Holds a region where it is: a handle with the identity as transform. Returns the deformer.
+---@param region lissom.Region The vertices that stay.
+---@return lissom.Deformer deformer # The deformer itself.
+function Deformer:pin(region) end
+
+---@class lissom.Deformer.ConstrainOptions
 ---@field vertex? integer A vertex.
 ---@field edge? integer[] The two vertices of an edge.
 ---@field at? number Where on the edge: 0 is its first vertex, 1 its second. Default: 0.5.
@@ -1405,78 +1411,78 @@ function Deformation:handle(where, options) end
 ---@field weight? number Draws instead of holding exactly: 1 is a compromise with the shape of the surface, 1e6 nearly exact. Depends on neither scale nor resolution. Default: held exactly.
 
 ---Holds one vertex, or a point of an edge or face, in place of an earlier constraint; without position and gradient it is free again. Returns the deformation.
----@param options? lissom.Deformation.ConstrainOptions
----@return lissom.Deformation edit # The deformation itself.
-function Deformation:constrain(options) end
+---@param options? lissom.Deformer.ConstrainOptions
+---@return lissom.Deformer deformer # The deformer itself.
+function Deformer:constrain(options) end
 
 ---Sets how much a part of the surface resists being bent and stretched: stiff parts move rigidly, soft ones take the bend.
 ---@param region lissom.Region The part.
 ---@param factor number 1 is as usual.
----@return lissom.Deformation edit # The deformation itself.
-function Deformation:stiffness(region, factor) end
+---@return lissom.Deformer deformer # The deformer itself.
+function Deformer:stiffness(region, factor) end
 
 ---Its handles.
 ---@return lissom.Handle[] handles # In the order they were made.
-function Deformation:handles() end
+function Deformer:handles() end
 
 ---The region that may move.
 ---@return lissom.Region region # The region.
-function Deformation:region() end
+function Deformer:region() end
 
 ---The mesh that it deforms.
 ---@return lissom.Mesh mesh # The mesh.
-function Deformation:mesh() end
+function Deformer:mesh() end
 
 ---Solves the first system only and writes the result into the mesh: quick enough to follow a drag, with some shear.
 ---@return lissom.Mesh mesh # The mesh.
-function Deformation:preview() end
+function Deformer:preview() end
 
----@class lissom.Deformation.SolveOptions
+---@class lissom.Deformer.SolveOptions
 ---@field draft? boolean For the frames of a drag: about five digits in half the time. Solve once more when the drag ends. Default: false.
 
 ---Solves both systems and writes the result into the mesh. Handles that are where they began give the rest shape, to the bit. What else has moved the region's vertices is overwritten; where the mesh around the region was moved, so that the result would tear, it is an error.
----@param options? lissom.Deformation.SolveOptions
+---@param options? lissom.Deformer.SolveOptions
 ---@return lissom.Mesh mesh # The mesh.
-function Deformation:solve(options) end
+function Deformer:solve(options) end
 
 ---Handles and mesh go back to the rest shape, to the bit; vertex constraints go.
----@return lissom.Deformation edit # The deformation itself.
-function Deformation:reset() end
+---@return lissom.Deformer deformer # The deformer itself.
+function Deformer:reset() end
 
 ---The deformed mesh with the vertices that the deformation worked on where the border of what is held is coarse beside the region: behind the mesh's own, on faces that become triangles. Without such vertices it is a copy.
----@return lissom.Mesh refined # A new mesh.
-function Deformation:refined_mesh() end
+---@return lissom.Mesh fine # A new mesh.
+function Deformer:subdivided_mesh() end
 
 ---Takes the last result as the new rest shape. Handles keep their vertices and hold where they are now, with the identity as transform; constraints hold where their points are now. Factors are rebuilt at the next solve, and reset returns to this shape.
----@return lissom.Deformation edit # The deformation itself.
-function Deformation:apply() end
+---@return lissom.Deformer deformer # The deformer itself.
+function Deformer:rebase() end
 
 ---Sizes and times of the last preparation.
 ---@return lissom.DeformStats stats # Times are in seconds, sizes in bytes.
-function Deformation:stats() end
+function Deformer:stats() end
 
----@class lissom.Deformation.ReportOptions
+---@class lissom.Deformer.ReportOptions
 ---@field crossings? boolean Counts faces that run through one another, which takes longer than to solve. Default: false.
 
 ---Measures the last result beside the rest shape: stretched edges, folded faces, tears between handles that nearly touch and, on request, crossings, with a warning of each harm that a user would see.
----@param options? lissom.Deformation.ReportOptions
+---@param options? lissom.Deformer.ReportOptions
 ---@return lissom.DeformReport report # Measures, and warnings with remedies.
-function Deformation:report(options) end
+function Deformer:report(options) end
 
 ---The first system's solution as a linear function of the handles: what an engine needs to follow a drag by itself.
 ---@return lissom.HandleBasis basis # Weights of every vertex for every handle.
-function Deformation:basis() end
+function Deformer:basis() end
 
----@class lissom.Deformation.Save_basisOptions
----@field names? string[] Names of the handles, in the order of edit:handles(): a program finds them by these. Default: that of the mesh's region with the same vertices.
+---@class lissom.Deformer.Save_basisOptions
+---@field names? string[] Names of the handles, in the order of deformer:handles(): a program finds them by these. Default: that of the mesh's region with the same vertices.
 
 ---Writes the basis to a file for a program without a solver: 4 floats a vertex and handle, relative to the middle of the region. bindings/engine/lissom_basis.h, one C header, describes the file and gives what preview gives.
 ---@param path string The file.
----@param options? lissom.Deformation.Save_basisOptions
----@return lissom.Deformation edit # The deformation itself.
-function Deformation:save_basis(path, options) end
+---@param options? lissom.Deformer.Save_basisOptions
+---@return lissom.Deformer deformer # The deformer itself.
+function Deformer:save_basis(path, options) end
 
----@class lissom.Deformation.BakeOptions
+---@class lissom.Deformer.BakeOptions
 ---@field pose fun(time: number, frame: integer) Moves handles; called for each frame with its time and its number from 1.
 ---@field duration? number Length of the animation; it starts at 0 and has a frame at its end. In seconds. Default: times are given.
 ---@field fps? number Frames a second. Default: 24.
@@ -1487,12 +1493,12 @@ function Deformation:save_basis(path, options) end
 ---@field name? string Name of the animation. Default: "deformation".
 
 ---Makes an animation of a sequence of poses: a new mesh with a morph target for each different shape, which mesh:save writes as .glb or .gltf and any viewer of such files plays. For each frame the handles stand where they stand now, the function moves them, and the deformation is solved. Handles, mesh and last result are afterwards as they were, also where the function fails.
----@param options lissom.Deformation.BakeOptions
+---@param options lissom.Deformer.BakeOptions
 ---@return lissom.Mesh mesh # The rest shape with its targets and the animation.
-function Deformation:bake(options) end
+function Deformer:bake(options) end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
-function Deformation:close() end
+function Deformer:close() end
 
 ---Vertices of a deformation that follow one transform.
 ---@class lissom.Handle
@@ -1505,14 +1511,17 @@ local Handle = {}
 function Handle:translate(offset) end
 
 ---@class lissom.Handle.RotateOptions
----@field axis "x"|"y"|"z"|lissom.Vector Axis of the rotation.
----@field angle number Angle, counter-clockwise seen against the axis. In degrees.
 ---@field about? lissom.Vector A point on the axis. Default: the handle's center where it is now.
+---@field axis? "x"|"y"|"z"|lissom.Vector Axis of the rotation.
+---@field angle? number Angle, counter-clockwise seen against the axis. In degrees.
 
 ---Turns the handle on.
----@param options lissom.Handle.RotateOptions
+---@param axis "x"|"y"|"z"|lissom.Vector Axis of the rotation.
+---@param angle number Angle, counter-clockwise seen against the axis. In degrees.
+---@param options? lissom.Handle.RotateOptions
 ---@return lissom.Handle handle # The handle itself.
-function Handle:rotate(options) end
+---@overload fun(self: lissom.Handle, options: lissom.Handle.RotateOptions): lissom.Handle
+function Handle:rotate(axis, angle, options) end
 
 ---@class lissom.Handle.ScaleOptions
 ---@field about? lissom.Vector The point that stays. Default: the handle's center where it is now.
@@ -1580,26 +1589,26 @@ function Handle:remove() end
 function Handle:close() end
 
 ---A merge that is solved again, without factoring again, after its keys have moved: what a tool keeps while the user drags a key.
----@class lissom.Merging
-local Merging = {}
+---@class lissom.Merger
+local Merger = {}
 
 ---Replaces the keys of one join, and returns the merge. Keys that do not fit are an error at once, and those of before stay.
 ---@param join integer Number of the join, from 1.
 ---@param keys table List of { s, t }, as in lissom.merge.
----@return lissom.Merging merging # The same merge.
-function Merging:set_keys(join, keys) end
+---@return lissom.Merger merger # The same merger.
+function Merger:set_keys(join, keys) end
 
 ---Merges, and returns a new mesh and what was done.
 ---@return lissom.Mesh mesh # The merged mesh.
 ---@return lissom.MergeReport report # What was found and done.
-function Merging:solve() end
+function Merger:solve() end
 
 ---Returns what was found before anything is solved, such as a thin outline that is to meet a round one; the report has it as well.
 ---@return string[] warnings # In plain words.
-function Merging:warnings() end
+function Merger:warnings() end
 
 ---Frees what the object holds. It may be called again; any other use is an error then.
-function Merging:close() end
+function Merger:close() end
 
 ---Where the elements of a merged mesh come from: elements of the source and of the targets as they were given.
 ---@class lissom.Provenance
@@ -1696,11 +1705,20 @@ local Scalp = {}
 ---@field elevation number 0 is level, 90 up. In degrees.
 ---@field lift? number How far above the head. In metres. Default: 0.
 
----A point over the head, in a direction from the center of its frame. At the end of a list of points write (scalp:at{...}), which is the point alone; lists of points refuse the normal.
+---Returns a point over the head, in a direction from the center of its frame.
 ---@param options lissom.Scalp.AtOptions
 ---@return number[] point # {x, y, z}, in mesh units.
----@return number[] normal # Of the head, outward, of length 1.
 function Scalp:at(options) end
+
+---@class lissom.Scalp.Normal_atOptions
+---@field azimuth number 0 in front, 90 at the head's left, 180 behind. In degrees.
+---@field elevation number 0 is level, 90 up. In degrees.
+---@field lift? number How far above the head. In metres. Default: 0.
+
+---Returns the normal of the head below the point that `at` returns.
+---@param options lissom.Scalp.Normal_atOptions
+---@return number[] normal # {x, y, z}, outward, of length 1.
+function Scalp:normal_at(options) end
 
 ---Where hair grows.
 ---@return lissom.Region region # Vertices of the head.
@@ -1774,11 +1792,20 @@ local Hairstyle = {}
 ---@field elevation number 0 is level, 90 up. In degrees.
 ---@field lift? number How far above the head. In metres. Default: 0.
 
----A point over the head, in a direction from the center of its frame. At the end of a list of points write (style:at{...}), which is the point alone; lists of points refuse the normal.
+---Returns a point over the head, in a direction from the center of its frame.
 ---@param options lissom.Hairstyle.AtOptions
 ---@return number[] point # {x, y, z}, in mesh units.
----@return number[] normal # Of the head, outward, of length 1.
 function Hairstyle:at(options) end
+
+---@class lissom.Hairstyle.Normal_atOptions
+---@field azimuth number 0 in front, 90 at the head's left, 180 behind. In degrees.
+---@field elevation number 0 is level, 90 up. In degrees.
+---@field lift? number How far above the head. In metres. Default: 0.
+
+---Returns the normal of the head below the point that `at` returns.
+---@param options lissom.Hairstyle.Normal_atOptions
+---@return number[] normal # {x, y, z}, outward, of length 1.
+function Hairstyle:normal_at(options) end
 
 ---Its curves in their order.
 ---@return lissom.Curve[] curves # A list.
@@ -1809,21 +1836,22 @@ function Hairstyle:save(path, options) end
 ---@return lissom.HairstyleStats stats # Numbers.
 function Hairstyle:stats() end
 
----@class lissom.Hairstyle.StreamOptions
----@field points lissom.Vector[] From the root to the tip; the curve runs smoothly through them. In mesh units.
+---@class lissom.Hairstyle.Add_streamOptions
 ---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
 ---@field clearance? number The curve is moved out to this height. In metres. Default: 0.004; as in the thesis 0.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
 ---@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
+---@field points? lissom.Vector[] From the root to the tip; the curve runs smoothly through them. In mesh units.
 
 ---Adds a stream curve: hair flows along it.
----@param options lissom.Hairstyle.StreamOptions
+---@param points lissom.Vector[] From the root to the tip; the curve runs smoothly through them. In mesh units.
+---@param options? lissom.Hairstyle.Add_streamOptions
 ---@return lissom.Curve curve # The curve, behind all others.
-function Hairstyle:stream(options) end
+---@overload fun(self: lissom.Hairstyle, options: lissom.Hairstyle.Add_streamOptions): lissom.Curve
+function Hairstyle:add_stream(points, options) end
 
----@class lissom.Hairstyle.DividingOptions
----@field points lissom.Vector[] On the scalp, or near it. In mesh units.
+---@class lissom.Hairstyle.Add_dividingOptions
 ---@field tilt? number[] {at its first point, at its last}: by how much hair on both sides is turned towards the curve's end, in degrees. Default: {0, 0}.
 ---@field left? number[] The same for one side, as seen along the curve from outside. Default: tilt.
 ---@field right? number[] The same for the other. Default: tilt.
@@ -1839,14 +1867,16 @@ function Hairstyle:stream(options) end
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
 ---@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
+---@field points? lissom.Vector[] On the scalp, or near it. In mesh units.
 
 ---Adds a dividing curve: hair parts along it. In a grid of more points the same lengths in metres mean the same style; the defaults follow the grid.
----@param options lissom.Hairstyle.DividingOptions
+---@param points lissom.Vector[] On the scalp, or near it. In mesh units.
+---@param options? lissom.Hairstyle.Add_dividingOptions
 ---@return lissom.Curve curve # The curve, behind all others.
-function Hairstyle:dividing(options) end
+---@overload fun(self: lissom.Hairstyle, options: lissom.Hairstyle.Add_dividingOptions): lissom.Curve
+function Hairstyle:add_dividing(points, options) end
 
----@class lissom.Hairstyle.PonytailOptions
----@field spine lissom.Vector[] From the tie to the tip of the tail. In mesh units.
+---@class lissom.Hairstyle.Add_ponytailOptions
 ---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
 ---@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
 ---@field section? lissom.Vector[] A closed curve around the spine, seen from anywhere: the tie stands there, and is as wide as it is across the spine.
@@ -1866,11 +1896,14 @@ function Hairstyle:dividing(options) end
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
 ---@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
+---@field spine? lissom.Vector[] From the tie to the tip of the tail. In mesh units.
 
 ---Adds a ponytail: hair is drawn into a tie and goes on along a spine.
----@param options lissom.Hairstyle.PonytailOptions
+---@param spine lissom.Vector[] From the tie to the tip of the tail. In mesh units.
+---@param options? lissom.Hairstyle.Add_ponytailOptions
 ---@return lissom.Curve curve # The curve, behind all others.
-function Hairstyle:ponytail(options) end
+---@overload fun(self: lissom.Hairstyle, options: lissom.Hairstyle.Add_ponytailOptions): lissom.Curve
+function Hairstyle:add_ponytail(spine, options) end
 
 ---Brings the field up to date with the curves. `grow` and `field` do so by themselves.
 ---@return lissom.Hairstyle style # The hairstyle itself.
@@ -1902,7 +1935,6 @@ function Hairstyle:forget_scalp() end
 ---@field ragged? number Strands meet the plane moved by this at most. In metres. Default: 0.006.
 
 ---@class lissom.Hairstyle.GrowOptions
----@field count? integer How many strands; the first n of more are the same. Default: 100000.
 ---@field seed? integer Another seed gives other roots and other chance. Default: 1.
 ---@field length? number|(fun(vertex: integer, x: number, y: number, z: number): number) Of a strand, at most twice the diagonal of the volume. By function(vertex, x, y, z) in metres, for instance for a fringe that is shorter than the rest: it is asked for each vertex of the head with its number and its place in mesh units. In metres. Default: 0.25; as in the thesis as the field carries it.
 ---@field variation? number Share by which strands are longer or shorter at most. Default: 0.1; as in the thesis 0.
@@ -1920,11 +1952,14 @@ function Hairstyle:forget_scalp() end
 ---@field greatest_turn? number A strand ends before a segment that turns by more than this, as about a sink of the field; 180 lets strands turn as they like. In degrees. Default: 88; as in the thesis 180.
 ---@field most_segments? integer A strand has no more segments. Default: 400.
 ---@field into? lissom.Strands Strands whose place the new ones take. After an error they are as they were, or empty if growth had begun. Default: new strands.
+---@field count? integer How many strands; the first n of more are the same. Default: 100000.
 
 ---Grows hair that follows the field from its roots on the scalp. Lengths are those of a style, in metres of an average head. Strands that pass through the tie of a ponytail are in the group of its name.
+---@param count? integer How many strands; the first n of more are the same. Default: 100000.
 ---@param options? lissom.Hairstyle.GrowOptions
 ---@return lissom.Strands hair # The strands.
-function Hairstyle:grow(options) end
+---@overload fun(self: lissom.Hairstyle, options: lissom.Hairstyle.GrowOptions): lissom.Strands
+function Hairstyle:grow(count, options) end
 
 ---@class lissom.Hairstyle.MaskOptions
 ---@field kind "length"|"density" Factors of the length of hair, or the relative density of its roots.
@@ -2394,7 +2429,7 @@ local Scene = {}
 
 ---Adds an object under a name, behind all others. The scene holds the object itself, not a copy: who changes it changes what the scene shows.
 ---@param name string A name that no object of the scene has.
----@param object lissom.Mesh|lissom.Deformation|lissom.Strands|lissom.Hairstyle|lissom.Polyline What is added.
+---@param object lissom.Mesh|lissom.Deformer|lissom.Strands|lissom.Hairstyle|lissom.Polyline What is added.
 ---@param options? lissom.Scene.AddOptions
 ---@return any object # The object.
 function Scene:add(name, object, options) end
@@ -2884,6 +2919,129 @@ function Support:pick(origin, direction) end
 ---Frees what the object holds. It may be called again; any other use is an error then.
 function Support:close() end
 
+---A tool draws on it, over the picture. Each method returns the view.
+---@class lissom.ToolView
+---@field camera lissom.Camera What the scene is seen by.
+---@field scene lissom.Scene The scene.
+---@field size integer[] {width, height} of the picture in pixels.
+---@field up "y"|"z" The axis of the world that points up in views.
+---@field cursor number[]? Where the cursor is, if it is known.
+local ToolView = {}
+
+---@class lissom.ToolView.PointsOptions
+---@field points lissom.Vector[] The points.
+---@field color? string "#rrggbb". Default: the usual one.
+---@field radius? number Their radius. In pixels. Default: 5.
+
+---Draws balls at points of the world.
+---@param options lissom.ToolView.PointsOptions
+---@return lissom.ToolView view # The view itself.
+function ToolView:points(options) end
+
+---@class lissom.ToolView.HandleOptions
+---@field at lissom.Vector A point of the world.
+---@field color? string "#rrggbb". Default: "#e8a33d".
+---@field radius? number Its radius. In pixels. Default: 7.
+
+---Draws a ball to take hold of.
+---@param options lissom.ToolView.HandleOptions
+---@return lissom.ToolView view # The view itself.
+function ToolView:handle(options) end
+
+---@class lissom.ToolView.LabelOptions
+---@field at lissom.Vector The point.
+---@field text? string The text. Default: "".
+---@field color? string "#rrggbb". Default: the usual one.
+
+---Writes text at a point of the world; long lines are wrapped.
+---@param options lissom.ToolView.LabelOptions
+---@return lissom.ToolView view # The view itself.
+function ToolView:label(options) end
+
+---@class lissom.ToolView.LineOptions
+---@field points lissom.Vector[] Points of the world.
+---@field color? string "#rrggbb". Default: the usual one.
+---@field width? number Its width. In pixels. Default: 3.
+---@field closed? boolean Goes back to its first point. Default: false.
+
+---Draws a line in the world.
+---@param options lissom.ToolView.LineOptions
+---@return lissom.ToolView view # The view itself.
+function ToolView:line(options) end
+
+---@class lissom.ToolView.CurveOptions
+---@field points lissom.Vector[] Points of the world.
+---@field color? string "#rrggbb". Default: the usual one.
+---@field width? number Its width. In pixels. Default: 3.
+---@field closed? boolean Goes back to its first point. Default: false.
+
+---Draws a line in the world, as line.
+---@param options lissom.ToolView.CurveOptions
+---@return lissom.ToolView view # The view itself.
+function ToolView:curve(options) end
+
+---@class lissom.ToolView.OutlineOptions
+---@field pixels number[][] From the top left corner of the picture.
+---@field color? string "#rrggbb". Default: the usual one.
+---@field width? number Its width. In pixels. Default: 1.5.
+---@field closed? boolean Goes back to its first pixel. Default: false.
+---@field opacity? number From 0, nothing, to 1. Default: 1.
+
+---Draws a line in the picture.
+---@param options lissom.ToolView.OutlineOptions
+---@return lissom.ToolView view # The view itself.
+function ToolView:outline(options) end
+
+---@class lissom.ToolView.CircleOptions
+---@field at number[] Its middle, {x, y}.
+---@field radius? number Its radius. In pixels. Default: 20.
+---@field color? string "#rrggbb". Default: the usual one.
+
+---Draws a circle in the picture.
+---@param options lissom.ToolView.CircleOptions
+---@return lissom.ToolView view # The view itself.
+function ToolView:circle(options) end
+
+---@class lissom.ToolView.RegionOptions
+---@field region lissom.Region The vertices.
+---@field mesh? lissom.Mesh The mesh. Default: the region's.
+---@field color? string "#rrggbb". Default: the usual one.
+
+---Colours vertices of a mesh of the scene.
+---@param options lissom.ToolView.RegionOptions
+---@return lissom.ToolView view # The view itself.
+function ToolView:region(options) end
+
+---@class lissom.ToolView.SurfaceOptions
+---@field from lissom.Vector[] A line of the world.
+---@field to lissom.Vector[] The other line.
+---@field color? string "#rrggbb". Default: the usual one.
+---@field opacity? number From 0, nothing, to 1. Default: 0.25.
+
+---Draws a surface between two lines of as many points, which is seen through.
+---@param options lissom.ToolView.SurfaceOptions
+---@return lissom.ToolView view # The view itself.
+function ToolView:surface(options) end
+
+---@class lissom.ToolView.MeshOptions
+---@field mesh lissom.Mesh The mesh.
+---@field transform? number[][] Its place in the world. Default: the identity.
+---@field color? string "#rrggbb". Default: the usual one.
+
+---Draws a mesh that is not in the scene, before the surfaces that it lies on; it must not change afterwards.
+---@param options lissom.ToolView.MeshOptions
+---@return lissom.ToolView view # The view itself.
+function ToolView:mesh(options) end
+
+---Draws a gizmo as it is seen now.
+---@param gizmo lissom.Gizmo The gizmo.
+---@param chosen? string The part that is drawn as the one in hand. Default: the one under the cursor.
+---@return lissom.ToolView view # The view itself.
+function ToolView:gizmo(gizmo, chosen) end
+
+---Frees what the object holds. It may be called again; any other use is an error then.
+function ToolView:close() end
+
 ---Values of a script's parameters: `params.length`. Values that are set are checked as those of the command line.
 ---@class lissom.Params
 ---@field [string] any
@@ -3017,6 +3175,18 @@ function lissom.shapes.cactus(options) end
 ---@return lissom.Mesh mesh # A new mesh that faces outward.
 function lissom.shapes.head(options) end
 
+---@class lissom.DeformOptions.Handles.Rotate
+---@field axis "x"|"y"|"z"|lissom.Vector Axis of the rotation.
+---@field angle number Angle, counter-clockwise seen against the axis. In degrees.
+---@field about? lissom.Vector A point on the axis. Default: the option `about`.
+
+---@class lissom.DeformOptions.Handles
+---@field region lissom.Region Its vertices.
+---@field translate? lissom.Vector Added last. In mesh units. Default: {0, 0, 0}.
+---@field rotate? lissom.DeformOptions.Handles.Rotate Applied after the scale. Default: none.
+---@field scale? number|lissom.Vector Factor for all axes, or one for each; applied first. Default: 1.
+---@field about? lissom.Vector The point that scale and rotation keep. Default: the center of the region.
+
 ---@class lissom.DeformOptions
 ---@field region? lissom.Region What may move. Outside nothing does. Default: all.
 ---@field method? "implicit"|"naive"|"rotation_estimate"|"similarity"|"geodesic"|"harmonic"|"frames" implicit is this kernel's own method. The others are for comparison: Laplacian coordinates as they are; turned by rotations estimated from that (Lipman 2004); by similarities implicit in the positions (Sorkine 2004); handle rotations propagated by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-invariant coordinates (Lipman 2005). Of the other options they take `weights` only, and geodesic not even that; they have no basis, and preview is as solve. Default: "implicit".
@@ -3027,18 +3197,43 @@ function lissom.shapes.head(options) end
 ---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Where it would fold, cross or stretch the surface more than without, it is taken back as far as that, but a draft does not look. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
 ---@field loose? "error"|"stay"|"follow" What becomes of separate parts that no handle holds, as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece; in a basis as an affine one. Default: "error".
 ---@field free_rings? integer Rings of vertices that handles give up where they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
----@field refine_borders? boolean Works on a surface that is refined where the border of what is held is coarse beside the region; the mesh keeps its faces. Default: true.
+---@field subdivide_borders? boolean Works on a surface that is subdivided where the border of what is held is coarse beside the region; the mesh keeps its faces. Default: true.
+---@field flat? "extended"|"displaced" How a vertex whose surroundings are flat knows how it turns: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
+---@field displacement? number How far degenerate vertices are displaced, and how far beside flat ones their unknown lies. In mean lengths of their edges. Default: 0.2.
+---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate and is displaced. Below about 100 that is nearly every vertex. Default: 20000; as in the thesis 200000.
+---@field transition? number Within this geodesic distance of the region's outline the deformation fades into what stays. In mesh units. Default: 0.
+---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "default".
+---@field pin? lissom.Region|lissom.Region[] The region, or the regions, that stay where they are. Default: none.
+---@field handles? lissom.DeformOptions.Handles[] Regions that are moved as wholes: scaled, then rotated, then translated. Default: required.
+
+---Deforms a mesh once: regions that are pinned stay, those of the handles go where their transforms take them, and the surface between follows. Returns the mesh. `lissom.deformer` keeps its factors, for handles that move again.
+---@param mesh lissom.Mesh The mesh; it is changed.
+---@param options? lissom.DeformOptions
+---@return lissom.Mesh mesh # The mesh itself.
+function lissom.deform(mesh, options) end
+
+---@class lissom.DeformerOptions
+---@field region? lissom.Region What may move. Outside nothing does. Default: all.
+---@field method? "implicit"|"naive"|"rotation_estimate"|"similarity"|"geodesic"|"harmonic"|"frames" implicit is this kernel's own method. The others are for comparison: Laplacian coordinates as they are; turned by rotations estimated from that (Lipman 2004); by similarities implicit in the positions (Sorkine 2004); handle rotations propagated by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-invariant coordinates (Lipman 2005). Of the other options they take `weights` only, and geodesic not even that; they have no basis, and preview is as solve. Default: "implicit".
+---@field local_size? "keep"|"scale" Whether details keep their size or scale with the surface around them. Default: "keep".
+---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian where the surface has to be as smooth as can be and may stretch, poisson where it may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend"; as in the thesis "laplacian".
+---@field coherence? integer Rings of neighbours that turn alike. Default: 1; as in the thesis 2.
+---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
+---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Where it would fold, cross or stretch the surface more than without, it is taken back as far as that, but a draft does not look. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
+---@field loose? "error"|"stay"|"follow" What becomes of separate parts that no handle holds, as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece; in a basis as an affine one. Default: "error".
+---@field free_rings? integer Rings of vertices that handles give up where they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
+---@field subdivide_borders? boolean Works on a surface that is subdivided where the border of what is held is coarse beside the region; the mesh keeps its faces. Default: true.
 ---@field flat? "extended"|"displaced" How a vertex whose surroundings are flat knows how it turns: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
 ---@field displacement? number How far degenerate vertices are displaced, and how far beside flat ones their unknown lies. In mean lengths of their edges. Default: 0.2.
 ---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate and is displaced. Below about 100 that is nearly every vertex. Default: 20000; as in the thesis 200000.
 ---@field transition? number Within this geodesic distance of the region's outline the deformation fades into what stays. In mesh units. Default: 0.
 ---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "default".
 
----Prepares the deformation of a mesh, or of a region of it, by handles.
+---Makes a deformer of a mesh, or of a region of it: give it handles, move them, solve. `lissom.deform` deforms once.
 ---@param mesh lissom.Mesh The mesh, in its rest shape.
----@param options? lissom.DeformOptions
----@return lissom.Deformation edit # Give it handles, move them, solve.
-function lissom.deform(mesh, options) end
+---@param options? lissom.DeformerOptions
+---@return lissom.Deformer deformer # Give it handles, move them, solve.
+function lissom.deformer(mesh, options) end
 
 ---@class lissom.MergeOptions.Transition
 ---@field source? number Width on the source. In units of the source. Default: 0.
@@ -3046,9 +3241,7 @@ function lissom.deform(mesh, options) end
 ---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
 ---@class lissom.MergeOptions
----@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the directions below decide, or else `place`; the report says which turn was taken and how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
----@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
----@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@field joins? table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the directions below decide, or else `place`; the report says which turn was taken and how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join. Default: the boundaries of source and target that lie nearest to each other, one join for each target.
 ---@field place? "as placed"|"shape" How joins without keys and directions are turned about the axis of the boundary. as placed: least from how the source lies beside the target, so that a part that was laid roughly, or both as they were modelled, come right; the result is the same if both are moved together, or if the source is moved without a turn and scaled. shape: as the shapes of both parts suggest, the same wherever the source lies; the report says how certain that is. A part that must be turned over by more than 150 degrees is placed by shape as well. Default: "as placed".
 ---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
 ---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
@@ -3065,25 +3258,28 @@ function lissom.deform(mesh, options) end
 ---@field transition? lissom.MergeOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true; as in the thesis false.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
----@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
+---@field subdivide? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: true.
----@field fidelity? "lissom"|"thesis" thesis: section 3.3 to the letter, for comparison, where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "lissom".
+---@field fidelity? "default"|"thesis" thesis: section 3.3 to the letter, for comparison, where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "default".
+---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
+---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
 
 ---Joins a source to one or several targets along open boundaries, into a new mesh. The source is deformed so that its boundaries meet those of the targets, wherever it lies and whatever its size; the targets stay. Vertices and faces of the targets come first, in their order, then those of the source; attributes, labels and regions of all are kept. Where one side has no colors it is white, where it has no texture coordinates they are 0, 0, and a warning says so. If source and target are one mesh, two of its boundaries are joined by a bridge of triangles, and nothing moves: options that say how a source is deformed are refused.
----@param options lissom.MergeOptions
+---@param source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
+---@param target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@param options? lissom.MergeOptions
 ---@return lissom.Mesh mesh # The merged mesh.
 ---@return lissom.MergeReport report # What was found and done.
-function lissom.merge(options) end
+---@overload fun(options: lissom.MergeOptions): lissom.Mesh
+function lissom.merge(source, target, options) end
 
----@class lissom.MergingOptions.Transition
+---@class lissom.MergerOptions.Transition
 ---@field source? number Width on the source. In units of the source. Default: 0.
 ---@field target? number Width on the target. In units of the target. Default: 0.
 ---@field weight? number w_T of thesis 3.3.3, for fidelity = "thesis", which needs both widths. Default: 0.1.
 
----@class lissom.MergingOptions
----@field joins table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the directions below decide, or else `place`; the report says which turn was taken and how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join.
----@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
----@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@class lissom.MergerOptions
+---@field joins? table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the directions below decide, or else `place`; the report says which turn was taken and how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join. Default: the boundaries of source and target that lie nearest to each other, one join for each target.
 ---@field place? "as placed"|"shape" How joins without keys and directions are turned about the axis of the boundary. as placed: least from how the source lies beside the target, so that a part that was laid roughly, or both as they were modelled, come right; the result is the same if both are moved together, or if the source is moved without a turn and scaled. shape: as the shapes of both parts suggest, the same wherever the source lies; the report says how certain that is. A part that must be turned over by more than 150 degrees is placed by shape as well. Default: "as placed".
 ---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
 ---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
@@ -3097,17 +3293,22 @@ function lissom.merge(options) end
 ---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform"; as in the thesis "band".
 ---@field smooth? integer Umbrella steps at the seam, at most: the first that would fold it is the last. With 0 and without a collar no vertex of the target moves. Default: 3.
 ---@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true; as in the thesis false.
----@field transition? lissom.MergingOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
+---@field transition? lissom.MergerOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true; as in the thesis false.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
----@field refine? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
+---@field subdivide? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: false.
----@field fidelity? "lissom"|"thesis" thesis: section 3.3 to the letter, for comparison, where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "lissom".
+---@field fidelity? "default"|"thesis" thesis: section 3.3 to the letter, for comparison, where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "default".
+---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
+---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
 
 ---As lissom.merge, but returns an object that keeps what was prepared, so that a moved key costs a fraction of the first merge.
----@param options lissom.MergingOptions
----@return lissom.Merging merging # The merge, not solved yet.
-function lissom.merging(options) end
+---@param source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
+---@param target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
+---@param options? lissom.MergerOptions
+---@return lissom.Merger merger # The merger, not solved yet.
+---@overload fun(options: lissom.MergerOptions): lissom.Merger
+function lissom.merger(source, target, options) end
 
 ---@class lissom.PasteOptions.Placement
 ---@field at lissom.Vector The middle of the feature comes to lie on the point of the target that is nearest to this.
@@ -3310,7 +3511,7 @@ function lissom.frame(mesh, options) end
 ---@return lissom.Gizmo gizmo # The gizmo.
 function lissom.gizmo(options) end
 
----Makes a tool: functions that are called with what a hand does. press, drag and release, or run, a coroutine that asks by lissom.pick; move, wheel, key, changed (of a parameter), draw, activate, deactivate, cancel. All take the tool itself and a lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the scene, any other call is one of its own; after an error the scene is as before. drag is called with every place that the hand came to. The table's other keys are the tool's own.
+---Makes a tool: functions that are called with what a hand does. press, drag and release, or run, a coroutine that asks by lissom.pick, of which clicks are the answers unless press returns true; move, wheel, key, changed (of a parameter), draw, activate, deactivate, cancel. All take the tool itself and a lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the scene, any other call is one of its own; after an error the scene is as before. drag is called with every place that the hand came to. The table's other keys are the tool's own.
 ---@param tool table name, help, params (as for lissom.params) and functions.
 ---@return table tool # The same table; `tool.params` are the values now.
 function lissom.tool(tool) end
@@ -3324,6 +3525,7 @@ function lissom.load_tool(name) end
 ---@field scene lissom.Scene What the tools work on.
 ---@field camera lissom.Camera What it is seen by.
 ---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
+---@field up? "y"|"z" The axis of the world that points up in views. Default: "y".
 ---@field tool? table The first tool. Default: none.
 
 ---Runs tools without a window: what a hand would do is called. Errors of a tool go on once the scene is as before.
