@@ -17,8 +17,8 @@
 
 namespace lissom {
 
-/// Constraints and poses under construction. After an error they are not to be used: work on copies, and
-/// keep them when all is done.
+/// Constraints and poses under construction. After an error they are not to be used: work on
+/// copies, and keep them when all is done.
 struct ConstraintEdit {
     const RestShape& rest;
     ConstraintSet& constraints;

@@ -6,7 +6,8 @@
 ///     DeformFrame -> positions of a mesh, or the next RestShape
 ///
 /// Rest shape, constraint set and preparation do not change once they are made, and a step reads
-/// nothing but its arguments. A Deformer keeps one value of each kind; two threads may pose two copies:
+/// nothing but its arguments. A Deformer keeps one value of each kind; two threads may pose two
+/// copies:
 ///
 ///     const auto prepared = deformer.prepare();
 ///     Poses left = deformer.snapshot().poses, right = left;

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "kernel/core/context.h"
-#include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/self_intersections.h"
 

@@ -147,8 +147,7 @@ struct ItemType {
 
 constexpr ItemType kItemTypes[] = {
     {MeshObject::kTypeName, "mesh", "A mesh.", item_of<MeshObjectItem, MeshObject>},
-    {DeformObject::kTypeName, "deformer", "A deformer, with its mesh.",
-     deformation_item},
+    {DeformObject::kTypeName, "deformer", "A deformer, with its mesh.", deformation_item},
     {StrandsObject::kTypeName, "strands", "Hair.", item_of<StrandsObjectItem, StrandsObject>},
     {HairstyleObject::kTypeName, "style", "A hairstyle with its curves.", hairstyle_item},
     {PolylineObject::kTypeName, "line", "A free curve.",

@@ -26,12 +26,10 @@
 #include "kernel/merge/blend/band_system.h"
 #include "kernel/merge/blend/overlap_transition.h"
 #include "kernel/merge/blend/transition.h"
-#include "kernel/merge/loop/loop_pair.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 #include "kernel/thesis/transition/thesis_band.h"
-#include "kernel/thesis/transition/thesis_overlap.h"
 #include "kernel/thesis/transition/thesis_transition.h"
 
 namespace lissom {

@@ -238,11 +238,12 @@ TEST_CASE("a listener cannot call the binding") {
 
 TEST_CASE("what a listener collects by hand lives until the operation has ended") {
     LuaState lua;
-    CHECK(lua.run("sphere = lissom.shapes.sphere() collect, heard = debug.getmetatable(sphere).__gc, 0 "
-                  "lissom.listen{ progress = function() "
-                  "  heard = heard + 1 collect(sphere) collectgarbage() "
-                  "end } "
-                  "copy = sphere:subdivide(3) lissom.listen{}") == "");
+    CHECK(lua.run(
+              "sphere = lissom.shapes.sphere() collect, heard = debug.getmetatable(sphere).__gc, 0 "
+              "lissom.listen{ progress = function() "
+              "  heard = heard + 1 collect(sphere) collectgarbage() "
+              "end } "
+              "copy = sphere:subdivide(3) lissom.listen{}") == "");
     CHECK(lua.eval("heard > 0") == "true");
     CHECK(lua.eval("copy:vertex_count() > 1000") == "true");
     CHECK(lua.run("sphere:area()").find("closed") != std::string::npos);

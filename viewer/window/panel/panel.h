@@ -67,9 +67,8 @@ struct PanelContent {
 
 /// Requests of a person in one frame.
 struct PanelAnswers {
-    bool frame_all = false, toggle_ortho = false, screenshot = false, save = false,
-         exports = false, toggle_up = false, run_again = false, cancel = false,
-         compare_with_this = false;
+    bool frame_all = false, toggle_ortho = false, screenshot = false, save = false, exports = false,
+         toggle_up = false, run_again = false, cancel = false, compare_with_this = false;
     /// Action on the newest left scene.
     bool open_left = false, forget_left = false;
     std::optional<StandardView> view = std::nullopt;
