@@ -161,7 +161,7 @@ LISSOM_API const char* lissom_status_explanation(lissom_status status);
 
 /// Returns 10000 * major + 100 * minor + patch of the library. [any thread]
 LISSOM_API int32_t lissom_version(void);
-/// Returns "0.1.0". [any thread]
+/// Returns "0.2.0". [any thread]
 LISSOM_API const char* lissom_version_text(void);
 /// Returns whether scripts and lissom_call are part of this library. [any thread]
 LISSOM_API bool lissom_has_scripts(void);

@@ -2,10 +2,10 @@
 #pragma once
 
 #define LISSOM_VERSION_MAJOR 0
-#define LISSOM_VERSION_MINOR 1
+#define LISSOM_VERSION_MINOR 2
 #define LISSOM_VERSION_PATCH 0
 
-/// "0.1.0"
+/// "0.2.0"
 #define LISSOM_VERSION                                                           \
     LISSOM_VERSION_TEXT_OF(LISSOM_VERSION_MAJOR)                                 \
     "." LISSOM_VERSION_TEXT_OF(LISSOM_VERSION_MINOR) "." LISSOM_VERSION_TEXT_OF( \

@@ -53,7 +53,7 @@ const std::vector<Rule>& rules() {
         {"bindings/c/script", {"kernel", "bindings/c", "bindings/lua"}, {"Eigen", "Lua", "JSON"}},
         {"bindings/engine", {}, {"platform"}},
         {"bindings/lua", {"kernel", "bindings/lua"}, {"Eigen", "Lua"}},
-        {"bindings/lua/core/thesis_parts.cpp", {"kernel", "kernel/thesis", "bindings/lua"}, {}},
+        {"bindings/lua/deform/thesis_parts.cpp", {"kernel", "kernel/thesis", "bindings/lua"}, {}},
         {"bindings/cli",
          {"kernel", "bindings"},
          {"Eigen", "Lua", "CLI11", "JSON", "printing", "platform"}},

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bindings/lua/core/kernel_library.h"
-#include "bindings/lua/core/thesis_parts.h"
+#include "bindings/lua/deform/thesis_parts.h"
 
 namespace lissom::lua {
 namespace {

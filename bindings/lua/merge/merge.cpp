@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "bindings/lua/core/kernel_library.h"
-#include "bindings/lua/core/thesis_parts.h"
+#include "bindings/lua/deform/thesis_parts.h"
 #include "bindings/lua/merge/merge_object.h"
 #include "kernel/merge/merge_once.h"
 #include "kernel/merge/merge_within.h"

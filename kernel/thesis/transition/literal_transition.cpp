@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kernel/thesis/transition/thesis_merge.h"
+#include "kernel/thesis/transition/thesis_overlap.h"
 
 namespace lissom {
 namespace {

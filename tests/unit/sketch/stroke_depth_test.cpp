@@ -87,7 +87,7 @@ std::string refusal(const Vec2& start, const View& view) {
     const std::vector<Vec2> stroke{start, start + Vec2(0, 5), start + Vec2(0, 10)};
     const Error error = test::error_of(
         [&] { (void)stroke_over_head(stroke, view, head().surface(), head().options()); });
-    CHECK(error.code() == ErrorCode::invalid_argument);
+    CHECK(error.code() == ErrorCode::out_of_range);
     return error.what();
 }
 

@@ -1,8 +1,8 @@
 rockspec_format = "3.0"
 package = "lissom"
-version = "0.1.0-1"
+version = "0.2.0-1"
 -- An archive of the sources that lies beside this file; `luarocks make` takes the folder that it is called in.
-source = { url = "lissom-0.1.0.tar.gz" }
+source = { url = "lissom-0.2.0.tar.gz" }
 description = {
     summary = "Deforms detailed meshes with a few handles, merges parts of models, and grows hair.",
     detailed = "A modeling kernel in C++20. Its build needs a C++ compiler, CMake, Eigen, OpenMesh, oneTBB, tinygltf and "

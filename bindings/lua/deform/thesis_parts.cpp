@@ -1,4 +1,4 @@
-#include "bindings/lua/core/thesis_parts.h"
+#include "bindings/lua/deform/thesis_parts.h"
 
 #ifdef LISSOM_HAS_THESIS
 #include "kernel/thesis/comparison/methods.h"
