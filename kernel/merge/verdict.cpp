@@ -293,6 +293,8 @@ void judge_places(const MergeReport& report, const OpenOptions& open, Reasons& r
 }
 
 void judge_slivers(const MergeReport& report, const OpenOptions& open, Reasons& reasons) {
+    // Every vertex is kept, also where those of one part lie close to those of the other.
+    if (all_fit(report)) return;
     const SeamQuality& seam = report.seam.after;
     double thinnest = kThin;
     for (const SeamQuality* rim : {&report.source_rim, &report.target_rim}) {

@@ -8,7 +8,7 @@
 namespace lissom::cli {
 namespace {
 
-struct Token {
+struct SessionToken {
     std::size_t begin = 0, end = 0;
     std::string_view text;
 };
@@ -48,8 +48,8 @@ std::size_t after_token(std::string_view text, std::size_t at) {
     return end;
 }
 
-std::vector<Token> tokens_of(std::string_view text) {
-    std::vector<Token> tokens;
+std::vector<SessionToken> tokens_of(std::string_view text) {
+    std::vector<SessionToken> tokens;
     for (std::size_t at = 0; at < text.size();) {
         if (std::isspace(static_cast<unsigned char>(text[at])) != 0) {
             ++at;
@@ -66,7 +66,7 @@ std::vector<Token> tokens_of(std::string_view text) {
 
 // How a token changes the depth of blocks and brackets. `do` ends the head of a loop, whose depth
 // `for` and `while` have counted.
-int depth_change(const Token& token, bool& in_head) {
+int depth_change(const SessionToken& token, bool& in_head) {
     const auto is_one = [&](std::initializer_list<std::string_view> words) {
         return std::find(words.begin(), words.end(), token.text) != words.end();
     };
@@ -86,7 +86,7 @@ struct Change {
 };
 
 // The change for the `local` at tokens[i].
-std::vector<Change> changes_of(const std::vector<Token>& tokens, std::size_t i) {
+std::vector<Change> changes_of(const std::vector<SessionToken>& tokens, std::size_t i) {
     const auto text_at = [&](std::size_t k) {
         return k < tokens.size() ? tokens[k].text : std::string_view();
     };
@@ -110,7 +110,7 @@ std::vector<Change> changes_of(const std::vector<Token>& tokens, std::size_t i) 
 }  // namespace
 
 std::string with_session_variables(std::string_view chunk) {
-    const std::vector<Token> tokens = tokens_of(chunk);
+    const std::vector<SessionToken> tokens = tokens_of(chunk);
     std::string result;
     std::size_t copied = 0;
     int depth = 0;

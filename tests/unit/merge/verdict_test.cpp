@@ -264,3 +264,13 @@ TEST_CASE(
     known.known_intersections = 53;
     CHECK(says(verdict_of(known, {}), "did not before (53 pairs did)"));
 }
+
+TEST_CASE("slivers are no fault of parts that fit, which keep every vertex") {
+    MergeReport report = report_with(good_band());
+    report.seam.after.smallest_angle = 1e-4;
+    REQUIRE(!report.joins.empty());
+    for (const bool fits : {false, true}) {
+        for (JoinReport& join : report.joins) join.fits = fits;
+        CHECK(verdict_of(report, {}).reasons.empty() == fits);
+    }
+}
