@@ -37,9 +37,15 @@ constexpr long kPollNanoseconds = 10'000'000;
 constexpr rlim_t kFiles = 256;
 constexpr int kCrash = 128;
 
+// Shadow memory of a sanitizer is far beyond any limit.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// Shadow memory is far beyond any limit.
 constexpr bool kLimitsMemory = false;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool kLimitsMemory = false;
+#else
+constexpr bool kLimitsMemory = true;
+#endif
 #else
 constexpr bool kLimitsMemory = true;
 #endif
@@ -206,6 +212,10 @@ WallSupport wall_support() {
     return {landlock_version(), can_filter_calls()};
 }
 
+bool wall_limits_memory() {
+    return kLimitsMemory;
+}
+
 }  // namespace lissom::cli
 
 #else
@@ -222,6 +232,10 @@ std::optional<WallEnd> go_behind_wall(const WallRights&) {
 
 WallSupport wall_support() {
     return {};
+}
+
+bool wall_limits_memory() {
+    return false;
 }
 
 }  // namespace lissom::cli

@@ -36,6 +36,9 @@ struct WallSupport {
 
 WallSupport wall_support();
 
+/// Returns whether the wall limits memory: not under a sanitizer, whose shadow is beyond any limit.
+bool wall_limits_memory();
+
 /// Returns what the wall lacks there, as "Landlock (rights of files)"; empty if nothing.
 std::string missing_wall(const WallSupport& support);
 
