@@ -83,7 +83,7 @@ void drop_capabilities() {
     }
 }
 
-// In this order: what comes later is refused by what came before, or binds it.
+// The order matters: later steps are allowed by earlier ones, or need them.
 void enclose(const WallRights& rights, pid_t parent) {
     set_limits(rights);
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) std::_Exit(1);

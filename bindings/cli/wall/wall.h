@@ -1,6 +1,6 @@
 /// A second wall around an untrusted script: the script runs in a child process that the system
-/// keeps from files, network, programs and other processes; the parent ends it at its limits. What
-/// a script does to the process does not matter then. All code of the platform is in this folder;
+/// keeps from files, network, programs and other processes; the parent ends it at its limits. A
+/// script that takes the process over gains nothing. All code of the platform is in this folder;
 /// Linux has the wall, on x86-64 and 64-bit ARM.
 #pragma once
 
@@ -39,7 +39,7 @@ WallSupport wall_support();
 /// Returns whether the wall limits memory: not under a sanitizer, whose shadow is beyond any limit.
 bool wall_limits_memory();
 
-/// Returns what the wall lacks there, as "Landlock (rights of files)"; empty if nothing.
+/// Returns the missing parts of the wall, as "Landlock (rights of files)"; empty if nothing.
 std::string missing_wall(const WallSupport& support);
 
 /// End of the child, as the parent tells it.

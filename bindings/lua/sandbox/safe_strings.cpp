@@ -251,7 +251,7 @@ int gsub(lua_State* L) {
     return 2;
 }
 
-// Upvalue 1: Lua's, which counts to n even where it repeats nothing.
+// Upvalue 1: Lua's, which counts to n even if it repeats nothing.
 int repeat(lua_State* L) {
     const std::size_t size = text_at(L, 1).size();
     const lua_Integer times = luaL_checkinteger(L, 2);

@@ -48,7 +48,7 @@ lua_Integer own_length(lua_State* L) {
     return static_cast<lua_Integer>(raw_length(L, 1));
 }
 
-// table.insert and table.remove move what lies behind the position, if one is given.
+// table.insert and table.remove move the elements behind the position, if one is given.
 int insert_or_remove(lua_State* L, int position) {
     const lua_Integer length = own_length(L);
     const bool moves = lua_gettop(L) >= position && lua_isinteger(L, 2);

@@ -18,7 +18,7 @@ namespace lissom::lua {
 namespace {
 
 // Instructions between two looks at the limits. Any count takes Lua's loops off their fast path; so
-// few keep short what a script does between them by operators on long strings. Calls are looked at
+// few bound the work of operators on long strings between them. Calls are looked at
 // as well: each may be of a C function that takes its time, or begin a coroutine, whose own count
 // begins anew.
 constexpr int kInstructions = 20;
