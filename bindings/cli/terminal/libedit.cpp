@@ -23,6 +23,7 @@ bool load(Libedit& functions) {
     find(library, "el_init", functions.init, complete);
     find(library, "el_end", functions.end, complete);
     find(library, "el_set", functions.set, complete);
+    find(library, "el_wset", functions.wide_set, complete);
     find(library, "el_get", functions.get, complete);
     find(library, "el_gets", functions.gets, complete);
     find(library, "el_line", functions.line, complete);
@@ -38,7 +39,7 @@ bool load(Libedit& functions) {
 #else
 
 bool load(Libedit& functions) {
-    functions = {el_init,   el_end,       el_set,       el_get,  el_gets,      el_line,
+    functions = {el_init,   el_end,       el_set,       el_wset, el_get,       el_gets,    el_line,
                  el_source, el_insertstr, el_deletestr, history, history_init, history_end};
     return true;
 }

@@ -10,6 +10,7 @@ struct Libedit {
     decltype(&::el_init) init = nullptr;
     decltype(&::el_end) end = nullptr;
     decltype(&::el_set) set = nullptr;
+    decltype(&::el_wset) wide_set = nullptr;
     decltype(&::el_get) get = nullptr;
     decltype(&::el_gets) gets = nullptr;
     decltype(&::el_line) line = nullptr;

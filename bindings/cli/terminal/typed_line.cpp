@@ -103,7 +103,8 @@ class EditedLines final : public TypedLines {
         lib_.set(editor_, EL_SIGNAL, 0);
         lib_.set(editor_, EL_HIST, lib_.history, history_);
         lib_.set(editor_, EL_GETCFN, next_character);
-        lib_.set(editor_, EL_ADDFN, "lissom-complete", "Completes the word", complete_word);
+        // el_set copies both names and never frees them.
+        lib_.wide_set(editor_, EL_ADDFN, L"lissom-complete", L"Completes the word", complete_word);
         lib_.set(editor_, EL_EDITOR, "emacs");
         bind_keys();
         lib_.source(editor_, nullptr);
