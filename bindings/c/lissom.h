@@ -939,8 +939,9 @@ LISSOM_API lissom_status lissom_strands_read_offsets(lissom_context* context,
 // A context runs its scripts in one Lua state of its own, whose memory counts to the context. They
 // have Lua's libraries, except functions that end the process (os.exit) or write to its output
 // (print goes to the log), and the `lissom` of the reference, in the kernel's space. The library
-// opens files for them as for the host; Lua's own io opens any. Their ids count from 1 and their
-// angles are in degrees.
+// opens files for them as for the host; Lua's own io opens any. The shared library has a Lua of its
+// own inside, beside that of the host, and loads no Lua modules written in C. Ids of scripts count
+// from 1 and their angles are in degrees.
 
 /// Limits of untrusted scripts. Times and instructions are for one run or call; 0 is no
 /// limit.

@@ -26,6 +26,10 @@ echo "apt-get $*" >>"$SANDBOX/log"
 [ ! -e "$SANDBOX/no-network" ] || exit 100
 if [ "$1" = install ]; then printf '%s\n' "$@" >>"$SANDBOX/installed"; fi
 STUB
+stub cmake <<'STUB'
+echo "$*" >>"$SANDBOX/fetched"
+[ ! -e "$SANDBOX/no-network" ] || exit 1
+STUB
 stub sudo <<'STUB'
 echo "sudo" >>"$SANDBOX/log"
 "$@"
@@ -70,6 +74,7 @@ expect "the package lists are fetched first" logged '^apt-get update'
 expect "missing packages are installed" logged '^apt-get install .*libopenmesh-dev'
 expect "packages of other commands are not" eval '! logged "clang-tidy|libcgal-dev|valgrind"'
 expect "root needs no sudo" eval '! logged sudo'
+expect "the sources of Lua are fetched" grep -qE -- '^-P .*/cmake/FetchLua.cmake$' "$sandbox/fetched"
 
 : >"$sandbox/log"
 dev setup build
@@ -103,6 +108,11 @@ touch "$sandbox/no-network"
 dev setup bench
 expect "a failing apt-get stops it" test "$status" = 1
 expect "and names the packages" says "try again: libcgal-dev"
+
+printf '%s\n' libcgal-dev libopenblas-dev >"$sandbox/installed"
+dev setup bench
+expect "without a network the sources of Lua may be absent" test "$status" = 0
+expect "which is said" says "links the system's: not for hosts that have LuaJIT"
 
 reset 0 arch ""
 path=$sandbox/tools
@@ -139,6 +149,7 @@ expect "and the build tool says nothing" test "$(cat "$sandbox/output")" = "prog
 
 # A fresh clone gets the program by the preset `quick`, a changed one by `release`.
 stub cmake <<'STUB'
+[ "$1" = --preset ] || exit 0
 mkdir -p "$SANDBOX/project/build/$2"
 touch "$SANDBOX/project/build/$2/build.ninja"
 STUB

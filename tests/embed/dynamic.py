@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """What is loaded with a program or a library, and which of its names others see.
 
-    tests/embed/dynamic.py [--gpl] KIND=FILE...
+    tests/embed/dynamic.py [--gpl] [--own-lua] KIND=FILE...
 
 KIND is `program`, `library` (the C ABI) or `module` (of Lua). Counts the shared libraries that a process loads with
 FILE, those of those included, and holds them against a limit; with --gpl CHOLMOD may be among them, and without
-it none under the GPL. A library shows lissom_ functions alone, a module its entry point.
+it none under the GPL. A library shows lissom_ functions alone, a module its entry point; with --own-lua a library has
+its Lua inside.
 """
 import argparse
 import re
@@ -27,7 +28,7 @@ def loaded(text):
     return [name for name in names if not re.match(r"linux-(vdso|gate)|ld-|statically", name)]
 
 
-def findings(kind, libraries, symbols, gpl):
+def findings(kind, libraries, symbols, gpl, own_lua=False):
     """What is wrong with a file of `kind` that loads `libraries` and shows `symbols`."""
     counted = [name for name in libraries if not (gpl and CHOLMOD.match(name))]
     found = []
@@ -37,7 +38,7 @@ def findings(kind, libraries, symbols, gpl):
     if licensed:
         found.append(f"loads libraries under the GPL: {' '.join(licensed)}")
     lua = [name for name in libraries if re.match(r"liblua", name)]
-    if kind == "module" and lua:
+    if lua and (kind == "module" or (kind == "library" and own_lua)):
         found.append(f"brings a second Lua: {' '.join(lua)}")
     others = [name for name in symbols if kind in SHOWN and not SHOWN[kind].match(name)]
     if others:
@@ -55,13 +56,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("files", nargs="+", metavar="KIND=FILE")
     parser.add_argument("--gpl", action="store_true", help="CHOLMOD is linked")
+    parser.add_argument("--own-lua", action="store_true", help="the library has its Lua inside")
     # CMake passes an empty word for an option that is off.
     options = parser.parse_args([word for word in sys.argv[1:] if word])
     count = 0
     for kind, path in (word.split("=", 1) for word in options.files):
         libraries = loaded(output_of("ldd", path))
         symbols = [line.split()[-1].split("@")[0] for line in output_of("nm", "-D", "--defined-only", path).splitlines()]
-        found = findings(kind, libraries, symbols, options.gpl)
+        found = findings(kind, libraries, symbols, options.gpl, options.own_lua)
         count += len(found)
         print(f"{path}: {len(libraries)} libraries: {' '.join(libraries)}")
         print("".join(f"  {finding}\n" for finding in found), end="")

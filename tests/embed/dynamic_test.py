@@ -38,6 +38,12 @@ class DynamicTest(unittest.TestCase):
     def test_a_module_with_lua(self):
         self.assertIn("second Lua", findings("module", ["liblua5.4.so.0"], ["luaopen_lissom"], False)[0])
 
+    def test_a_library_with_lua_inside(self):
+        beside = (["liblua5.4.so.0"], ["lissom_call"], False)
+        self.assertEqual(findings("library", *beside), [])
+        self.assertIn("second Lua", findings("library", *beside, own_lua=True)[0])
+        self.assertIn("shows 1 names", findings("library", [], ["lissom_call", "lua_call"], False, True)[0])
+
 
 if __name__ == "__main__":
     unittest.main()
