@@ -17,13 +17,13 @@
 
 namespace lissom {
 
-/// What a comparison method is prepared for. It outlives the method.
+/// Input of a comparison method. It outlives the method.
 struct ComparisonProblem {
     const Patch& patch;
-    /// Of real vertices first, as everywhere; virtual ones are not looked at.
+    /// Real vertices first, as everywhere; virtual ones are not read.
     const KnownMask& known;
-    /// What prescribes the gradient of each local vertex, or kNoIndex where nothing does. Sources
-    /// count from 0: handles, constrained vertices, and what is pinned.
+    /// Source of the gradient of each local vertex, or kNoIndex if it has none. Sources count from
+    /// 0: handles, constrained vertices, and the pinned part.
     const std::vector<Index>& source;
     Index source_count = 0;
     const DeformOptions& options;
@@ -39,7 +39,7 @@ struct SourceMotion {
 /// One frame. Positions and the base are in the coordinates of the patch.
 struct ComparisonFrame {
     std::span<const SourceMotion> sources;
-    /// Transform of what is pinned, or else of the first handle. Solving for deviations from it
+    /// Transform of the pinned part, or else of the first handle. Solving for deviations from it
     /// makes the motions exact that a method reproduces.
     Affine base;
 };

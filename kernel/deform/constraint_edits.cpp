@@ -16,8 +16,8 @@ namespace {
 // lose so many digits that it shows.
 constexpr double kMinStiffness = 1e-4, kMaxStiffness = 1e5;
 
-// In radii of the surface: what lies farther from its mirror image has none, and what lies nearer
-// is the same place.
+// In radii of the surface: a part farther from its mirror image has none, and one nearer is the
+// same place.
 constexpr double kNoMirrorImage = 0.25, kSameMirrorPlace = 1e-3;
 
 // Throws `code` about those of `vertices` for which `bad` holds, if there are any.
@@ -42,7 +42,7 @@ void require_topology(const Region& region, const Region& vertices) {
 void require_weight(const std::optional<double>& weight) {
     if (!weight || (*weight > 0.0 && std::isfinite(*weight))) return;
     throw Error(ErrorCode::invalid_argument,
-                "a weight must be above 0; leave it out where the constraint is to hold exactly");
+                "a weight must be above 0; leave it out for an exact constraint");
 }
 
 void require_handle_options(const HandleOptions& options) {
@@ -68,7 +68,7 @@ void require_finite(const PointConstraint& constraint) {
                 std::move(vertices));
 }
 
-// Errors: handle_outside_region where no vertex of the point may move.
+// Errors: handle_outside_region if no vertex of the point may move.
 void require_inside(const Region& region, const MeshPoint& point) {
     const bool inside = std::any_of(point.vertices.begin(), point.vertices.end(),
                                     [&](Index v) { return region.contains(v); });
@@ -83,8 +83,8 @@ std::string handle_text(std::size_t number, std::size_t vertices) {
            (vertices == 1 ? " vertex)" : " vertices)");
 }
 
-// Errors: handle_overlap where handles but `except`, or targets, hold some of `vertices`, which
-// `who` is to hold.
+// Errors: handle_overlap if handles but `except`, or targets, hold some of `vertices`, which `who`
+// is to hold.
 void require_unheld(const RestShape& rest, const ConstraintSet& constraints,
                     const std::vector<Index>& vertices, const std::string& who,
                     std::span<const Index> except = {}) {
@@ -108,8 +108,7 @@ void require_unheld(const RestShape& rest, const ConstraintSet& constraints,
         holders += (holders.empty() ? "" : ", ") + handle_text(h, handle.region.size());
     }
     refuse_vertices(vertices, ErrorCode::handle_overlap,
-                    who + " meets what already holds vertices of it, " + holders +
-                        "; leave out of one of them ",
+                    who + " overlaps " + holders + "; leave out of one of them ",
                     [&](Index v) { return held[rest.local_vertex(v)] != 0; });
 }
 
@@ -247,7 +246,7 @@ SparseRow ConstraintEdit::mirrored_point(const MirrorSurface& surface, const Spa
     return image;
 }
 
-// What a handle and its image would both hold goes to the handle, unless it reaches its plane.
+// Vertices shared by a handle and its image go to the handle, unless it reaches its plane.
 // Errors: handle_overlap then.
 void ConstraintEdit::part_from_image(const Handle& handle, Handle& image) const {
     const Patch& patch = rest.patch();
@@ -267,16 +266,17 @@ void ConstraintEdit::part_from_image(const Handle& handle, Handle& image) const 
         for (const auto& [v, c] : row) share(v);
     }
     if (reaches || (!shared.empty() && shared.size() == image.local.size())) {
-        refuse_vertices(shared, ErrorCode::handle_overlap,
-                        "the handle meets its mirror image; leave out what is near the plane, as ",
-                        [](Index) { return true; });
+        refuse_vertices(
+            shared, ErrorCode::handle_overlap,
+            "the handle overlaps its mirror image; leave out the part near the plane, as ",
+            [](Index) { return true; });
     }
     std::erase_if(image.local,
                   [&](Index v) { return handle.region.contains(patch.mesh_vertex[at(v)]); });
 }
 
-// The rim of an image that was found on another tessellation gives way to what others hold, unless
-// that takes most of it; vertices that are exact counterparts do not.
+// The rim of an image found on another tessellation yields vertices that others hold, unless that
+// takes most of it; vertices that are exact counterparts do not.
 void ConstraintEdit::yield_to_others(const Handle& handle, Index number, Handle& image) const {
     const Patch& patch = rest.patch();
     const Affine mirror = reflection({image.mirror.point - patch.origin, image.mirror.normal, 0.0});
@@ -352,8 +352,8 @@ void ConstraintEdit::set_stiffness(const Region& vertices, double factor) {
     require_topology(rest.region(), vertices);
     if (!(factor >= kMinStiffness && factor <= kMaxStiffness)) {
         throw Error(ErrorCode::invalid_argument,
-                    "a stiffness must be from 1e-4, where the part resists nothing, to 1e5, where "
-                    "it is rigid; 1 is as usual");
+                    "a stiffness must be from 1e-4, without resistance, to 1e5, rigid; 1 is as "
+                    "usual");
     }
     refuse_vertices(vertices.vertices(), ErrorCode::handle_outside_region,
                     "outside the region there is nothing to make stiff, at ",

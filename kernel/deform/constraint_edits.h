@@ -31,7 +31,7 @@ struct ConstraintEdit {
     void set_handle_region(HandleId id, const Region& vertices);
     void remove_handle(HandleId id);
     void set_stiffness(const Region& vertices, double factor);
-    /// Replaces what is asked of a point by `asked`, which may be nothing.
+    /// Replaces the target of a point by `asked`, which may be empty.
     void set_target(Target target, const TargetPose& pose);
 
   private:
@@ -49,14 +49,14 @@ struct ConstraintEdit {
 Target checked_target(const RestShape& rest, const ConstraintSet& constraints,
                       const PointConstraint& given);
 
-/// Place of the target of the same point, where there is one, or where it would be put.
+/// Place of the target of the same point, if any, or its place of insertion.
 struct TargetPlace {
     std::size_t at = 0;
     bool found = false;
 };
 TargetPlace find_target(const ConstraintSet& constraints, const Target& target);
 
-/// The poses of everything at rest: handles stay where they are now, and so do targets.
+/// Returns the poses of everything at rest: handles and targets keep their present places.
 Poses resting_poses(const RestShape& rest, const ConstraintSet& constraints);
 
 /// `holds` for another rest shape of the same region.

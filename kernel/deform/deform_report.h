@@ -59,11 +59,11 @@ struct DeformReport {
     std::array<Index, 2> stretched{kNoIndex, kNoIndex};
     /// Faces that look against those around them, and did not at rest; ascending.
     std::vector<Index> flipped;
-    /// Pairs of faces that run through one another, and did not at rest, where asked for.
+    /// Pairs of faces that intersect and did not at rest, if asked for.
     std::optional<std::vector<FacePair>> crossings;
     /// Volume of the mesh over that at rest, less 1; absent without a volume.
     std::optional<double> volume_change;
-    /// Where handles nearly touch and tear the surface between them, the worst first.
+    /// Tears between handles that nearly touch, the worst first.
     std::vector<Tear> tears;
     /// The harms that a user would see, by the limits in deform_warnings.cpp; of crossings only if
     /// they were asked for.

@@ -16,7 +16,7 @@
 namespace lissom {
 namespace {
 
-// Of the vertices of the region.
+// Normals of the vertices of the region.
 std::unique_ptr<RegionNormals> make_region_normals(const RestShape& rest, const Context& context) {
     const std::map<Index, Vec3> around(rest.surroundings.begin(), rest.surroundings.end());
     return std::make_unique<RegionNormals>(
@@ -119,7 +119,7 @@ const Context& context_of(const Deformer& deformer) {
     return DeformerAccess::state(deformer).context;
 }
 
-// One factor at a time is kept: what is shown is completed before its own is let go.
+// One factor at a time is kept: the shown frame is completed before its own factor is released.
 const std::shared_ptr<const Preparation>& Deformer::State::prepare(const Context& given) {
     if (!preparation || preparation->rest != rest || preparation->constraints != constraints) {
         complete();
@@ -144,7 +144,7 @@ void Deformer::State::show(DeformFrame frame) {
     shown = std::move(next);
 }
 
-// What others hold is complete.
+// Frames shared with others are complete.
 const std::shared_ptr<const DeformFrame>& Deformer::State::complete() {
     if (own) {
         if (!own->gradients) own->gradients = frame_gradients(*own, scratch);

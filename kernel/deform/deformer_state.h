@@ -22,7 +22,7 @@
 namespace lissom {
 
 struct Deformer::State {
-    /// Of operations that are given none.
+    /// Context of operations called without one.
     Context context;
     std::shared_ptr<const RestShape> rest;
     std::shared_ptr<const ConstraintSet> constraints;
@@ -33,7 +33,7 @@ struct Deformer::State {
     /// `shown` as long as nobody else holds it: others see no change of theirs.
     DeformFrame* own = nullptr;
     FrameScratch scratch;
-    /// Of the last preparation, and how many there were.
+    /// Costs of the last preparation, and the number of preparations.
     DeformStats costs;
     /// Made at the first call; it follows from the region and its surroundings, which never change.
     std::unique_ptr<RegionNormals> normals;

@@ -55,7 +55,7 @@ void require_held(const RestShape& rest, const HandleDescription& given) {
     }
 }
 
-// As the handle was made, its vertices and points in the order that it had them in.
+// Makes the handle again, with its vertices and points in their order.
 Handle handle_from(const RestShape& rest, const HandleDescription& given) {
     require_held(rest, given);
     std::vector<Index> around = given.vertices;

@@ -33,10 +33,10 @@ struct HandleDescription {
 
 /// Handles and constraints with their poses.
 struct DeformDescription {
-    /// By HandleId; empty where one was removed.
+    /// By HandleId; empty for a removed one.
     std::vector<std::optional<HandleDescription>> handles;
     std::vector<PointConstraint> constraints;
-    /// Stiffness of each vertex of the region, in its order; empty where all are 1.
+    /// Stiffness of each vertex of the region, in its order; empty if all are 1.
     std::vector<double> stiffness;
 };
 
@@ -52,7 +52,7 @@ DeformSnapshot snapshot_of(const DeformDescription& description,
 /// Returns the rest shape of a deformer.
 std::shared_ptr<const RestShape> rest_of(const Deformer& deformer);
 
-/// The region of a rest shape, its options, and where the region's vertices lie.
+/// The region of a rest shape, its options, and the positions of the region's vertices.
 const Region& region_of(const RestShape& rest);
 const DeformOptions& options_of(const RestShape& rest);
 const std::vector<Vec3>& positions_of(const RestShape& rest);

@@ -15,15 +15,15 @@
 
 namespace lissom {
 
-/// The mean of vertices of one face with weights that sum to 1: it stays where they put it, however
-/// they move.
+/// The mean of vertices of one face with weights that sum to 1: it moves with
+/// them.
 struct MeshPoint {
     std::vector<Index> vertices;
     std::vector<double> weights;
 
     bool operator==(const MeshPoint&) const = default;
 
-    /// Where it lies. Errors: out_of_range.
+    /// Returns its position. Errors: out_of_range.
     Vec3 position(const Mesh& mesh) const;
 };
 
@@ -34,16 +34,16 @@ MeshPoint edge_point(Index a, Index b, double t);
 /// The point of a face whose corners have the given weights, in the order of its vertices.
 /// Errors: out_of_range; invalid_argument unless there is one weight a corner.
 MeshPoint face_point(const Topology& topology, Index face, std::span<const double> weights);
-/// What SpatialTree found.
+/// Returns the point that SpatialTree found.
 MeshPoint mesh_point(const SurfacePoint& point);
 
 /// The points that a path runs through: its vertices, or the points of the mesh nearest to its own
 /// points. Repeats are left out. Errors: topology_mismatch; mesh_empty.
 std::vector<MeshPoint> path_points(const Mesh& mesh, const Path& path, const Context& context = {});
 
-/// The point without vertices of weight zero, in ascending order of vertices, with weights that sum
-/// to 1 exactly. Errors: out_of_range; invalid_argument where the weights are negative, not finite,
-/// or do not sum to 1, or where no face has all the vertices.
+/// Returns the point without vertices of weight zero, in ascending order of vertices, with weights
+/// that sum to 1 exactly. Errors: out_of_range; invalid_argument if the weights are negative, not
+/// finite, or do not sum to 1, or if no face has all the vertices.
 MeshPoint checked_point(const Topology& topology, const MeshPoint& point);
 
 }  // namespace lissom

@@ -1,4 +1,4 @@
-/// How nearly symmetric a shape is where a handle has a mirror image; private to kernel/deform.
+/// Deviation of a shape from symmetry at handles with a mirror image; private to kernel/deform.
 #pragma once
 
 #include "kernel/deform/holds/constraint_set.h"

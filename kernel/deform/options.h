@@ -1,4 +1,4 @@
-/// Options of deformation, and what is prescribed at handles, vertices and points.
+/// Options of deformation, and values prescribed at handles, vertices and points.
 #pragma once
 
 #include <memory>
@@ -30,20 +30,20 @@ enum class SecondSystem { blend, laplacian, poisson };
 /// Whether details keep their size (Eq 2.10) or scale with the surface around them (Eq 2.11).
 enum class LocalSize { keep, scale };
 
-/// How a vertex whose ring is flat gets a deformation gradient: by a point beside it on its normal,
-/// with an unknown of its own, so that what is flat stays flat in motions within its plane; or by
-/// its own displacement (section 2.4.3, Eq 2.9).
+/// Source of the deformation gradient of a vertex with a flat ring: a point beside it on its
+/// normal, with an unknown of its own, so that a plane stays flat in motions within it; or its own
+/// displacement (section 2.4.3, Eq 2.9).
 enum class FlatVertices { extended, displaced };
 
-/// What becomes of connected parts that no handle and no constraint holds: an error; they stay; or
-/// each follows the nearest held part as a rigid piece.
+/// Treatment of connected parts without any handle or constraint: an error; they stay; or each
+/// follows the nearest held part as a rigid piece.
 enum class UnheldParts { error, stay, follow };
 
 /// How the region follows its handles. All but `implicit` are the methods that the thesis compares
 /// its own with (sections 2.3 to 2.5), and need DeformOptions::comparison. They use the same
 /// operators and keep the same promises: hard positions, the rest shape to the bit, nothing moves
 /// outside the region, no factorisation for a new transform. They have one quality only, so
-/// `preview` and `solve_draft` give what `solve` gives, and no handle basis; weights of handles,
+/// `preview` and `solve_draft` give the result of `solve`, and no handle basis; weights of handles,
 /// and points that are not vertices, are refused as `unsupported`.
 enum class DeformMethod {
     /// Fu 2007: gradients implicit in the positions, then shear taken out.
@@ -73,28 +73,28 @@ struct DeformOptions {
     LocalSize local_size = LocalSize::keep;
     LaplacianWeights weights = LaplacianWeights::cotangent;
     /// How often, 0 to 2, the rotations are fitted to the result and it is solved for again: less
-    /// distortion, for half a frame each. ARAP iterations, over-relaxed, so that two do what
-    /// four or five would; more would wear twisted parts thin. Left alone are places where no
-    /// rotation fits, as the surface has caved in, and those whose size handles change. Refined
-    /// parts get thinner; a full frame that would run through itself, and without does not, is
-    /// taken back as far as that. Drafts are not checked.
+    /// distortion, for half a frame each. ARAP iterations, over-relaxed: two do the work of four or
+    /// five; more thin twisted parts. Left alone are places that no rotation fits, as the surface
+    /// has caved in, and places that handles scale. Refined parts get thinner; a full frame that
+    /// would run through itself, and without does not, is taken back as far as that. Drafts are not
+    /// checked.
     int refine = 0;
     /// Rings of neighbours whose gradients are kept similar (the pairs SF of Eq 2.7): 1 or 2.
     int coherence = 1;
     /// Weight of the coherence term beside the Laplacian term; the result hardly depends on it.
     double coherence_weight = 1.0;
-    /// A vertex is degenerate, and displaced once, where the condition number of V_i V_i^T exceeds
+    /// A vertex is degenerate, and displaced once, if the condition number of V_i V_i^T exceeds
     /// this (section 2.4.3); above 1. Whatever it is below 2e4, gradients are used up to 2e4: no
     /// displacement brings a ring much below 100.
     double degenerate_threshold = 2e4;
     FlatVertices flat = FlatVertices::extended;
     UnheldParts loose = UnheldParts::error;
-    /// Rings of vertices that hard handles give up at their borders where another is nearer than
-    /// three edges: the surface between has room for what would tear it. From 0 to 10.
+    /// Rings of vertices that hard handles release at borders less than three edges from another
+    /// handle: the surface between would tear without that room. From 0 to 10.
     int free_rings = 0;
-    /// Works on a surface that is refined along the borders of what is held, where they are coarse
-    /// beside the region (section 2.5): else a few held vertices would say where a detailed region
-    /// goes. The result is that of the mesh's own vertices; see Deformer::subdivided_mesh.
+    /// Works on a surface that is refined along the borders of handles, if they are coarse
+    /// beside the region (section 2.5): without it a few held vertices would steer a detailed
+    /// region. The result is that of the mesh's own vertices; see Deformer::subdivided_mesh.
     bool subdivide_borders = true;
     /// s_disp of Eq 2.9: how far degenerate vertices are displaced, or points beside flat ones
     /// lie, in mean lengths of their edges; above 0.
@@ -102,8 +102,8 @@ struct DeformOptions {
     /// Weights each vertex by its area and each coherence pair by its cotangent, so that the result
     /// does not depend on scale or resolution. Off: both terms literally as Eq 2.6 and 2.7.
     bool scale_free = true;
-    /// Within this geodesic distance of the region's outline the surface is drawn to rest, more and
-    /// more, so that the deformation fades into what stays; in units of length.
+    /// Width of the zone along the region's outline over which the deformation fades into the fixed
+    /// part, in geodesic distance; in units of length.
     double transition = 0.0;
     /// Makes `method` unless it is `implicit`; null refuses the others as `unsupported`.
     /// make_comparison of kernel/thesis makes all of them.
@@ -114,13 +114,13 @@ struct DeformOptions {
     static DeformOptions thesis();
 };
 
-/// What a handle prescribes at its vertices: their positions, their deformation gradients, or both.
+/// Values that a handle prescribes at its vertices: positions, deformation gradients, or both.
 struct HandleOptions {
     bool position = true;
     bool gradient = true;
-    /// Absent: the handle is hard, and its vertices lie exactly where it takes them. Otherwise they
-    /// are drawn there: at 1 a compromise with the shape of the surface, at 1e6 nearly hard. What a
-    /// weight does depends on neither scale nor resolution.
+    /// Absent: the handle is hard, and its vertices lie exactly at its transform. Otherwise they
+    /// are drawn there: at 1 a compromise with the shape of the surface, at 1e6 nearly hard. Its
+    /// effect depends on neither scale nor resolution.
     std::optional<double> weight = std::nullopt;
     /// Within this geodesic distance of the handle the surface follows it softly, less and less; in
     /// units of length.
@@ -138,7 +138,7 @@ struct MirrorPlane {
 /// How far the mirror image of a handle lies from the surface, in parts of the surface's radius.
 struct MirrorResidual {
     double max = 0.0, mean = 0.0;
-    /// Says if it is more than the tolerance of the plane, and what helps; else empty.
+    /// A sentence with a remedy if it is more than the tolerance of the plane; else empty.
     std::string warning = {};
 };
 
@@ -155,7 +155,7 @@ struct PointConstraint {
     MeshPoint point;
     std::optional<Vec3> position = std::nullopt;
     std::optional<Mat3> gradient = std::nullopt;
-    /// As HandleOptions::weight.
+    /// Same as HandleOptions::weight.
     std::optional<double> weight = std::nullopt;
 };
 

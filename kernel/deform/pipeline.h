@@ -43,10 +43,10 @@ struct WorkingPatch;
 
 /// One result. Assigning it keeps it: nothing that is solved later changes it.
 struct DeformFrame {
-    /// What it was solved by, as far as gradients may still be asked for, and where all went.
+    /// Its preparation, kept while gradients may be asked for, and the poses.
     std::shared_ptr<const Preparation> preparation;
     Poses poses;
-    /// Of the region's vertices, in the region's order.
+    /// Positions of the region's vertices, in the region's order.
     std::vector<Vec3> positions;
     /// Vertices that a refinement of coarse borders inserted, and the patch that they belong to;
     /// null at rest.
@@ -54,11 +54,11 @@ struct DeformFrame {
     std::shared_ptr<const WorkingPatch> patch;
     /// How vertices of the region that have no faces have turned.
     std::vector<Mat3> turns_without_faces;
-    /// Deformation gradients, where they are known already; see frame_gradients.
+    /// Deformation gradients, if they are known already; see frame_gradients.
     std::optional<std::vector<Mat3>> gradients;
 };
 
-/// What frames write to while they are made, and what they find once and use again; one for each
+/// Buffers of frames in the making, with values that they find once and use again; one for each
 /// thread. It changes no result.
 class FrameScratch {
   public:
@@ -81,17 +81,17 @@ std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region&
                                                  const DeformOptions& options = {},
                                                  const Context& context = {});
 
-/// Assembles and factors what `holds` need. Errors: as Deformer::prepare; invalid_argument where
-/// either is null.
+/// Assembles and factors the systems for `holds`.
+/// Errors: as Deformer::prepare; invalid_argument if either is null.
 std::shared_ptr<const Preparation> prepare_deformation(
     std::shared_ptr<const RestShape> rest, std::shared_ptr<const ConstraintSet> constraints,
     const Context& context = {});
 const std::shared_ptr<const RestShape>& rest_of(const Preparation& preparation);
 const std::shared_ptr<const ConstraintSet>& constraints_of(const Preparation& preparation);
 
-/// As Deformer::set_transform, in `poses`; `turn`, where it is given, says how far the handle
-/// turns. A mirror image moves along. Errors: as there; handle_removed; invalid_argument for
-/// poses of other holds; and then `poses` are as they were.
+/// Moves a handle in `poses` as Deformer::set_transform does; `turn`, if given, is its rotation
+/// vector. A mirror image moves along. Errors: as there; handle_removed; invalid_argument for poses
+/// of other holds; and then `poses` are as they were.
 void pose_handle(const Preparation& preparation, Poses& poses, HandleId handle,
                  const Affine& transform, const Vec3& about = Vec3::Zero(),
                  const std::optional<Vec3>& turn = std::nullopt);
@@ -105,10 +105,10 @@ DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation,
 DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
                         FrameScratch& scratch, FrameQuality quality = FrameQuality::full,
                         const Context& context = {});
-/// As Deformer::gradients, of a frame. Errors: invalid_argument for a frame that no step made.
+/// Returns Deformer::gradients of a frame. Errors: invalid_argument for a frame that no step made.
 std::vector<Mat3> frame_gradients(const DeformFrame& frame, FrameScratch& scratch);
 
-/// As Deformer::apply_to. Errors of both: also invalid_argument for a frame of another region.
+/// Writes a frame as Deformer::apply_to. Errors: also invalid_argument for another region's frame.
 void write_frame(const RestShape& rest, const DeformFrame& frame, Mesh& mesh);
 /// The rest shape that lies as the frame does; see Deformer::rebase.
 std::shared_ptr<const RestShape> rebased(const RestShape& rest, const DeformFrame& frame);

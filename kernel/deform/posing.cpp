@@ -1,4 +1,4 @@
-// Where handles and targets go.
+// Poses of handles and targets.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -61,7 +61,7 @@ const Handle& handle_of(const ConstraintSet& constraints, HandleId id) {
     if (id.value < 0 || id.value >= count_of(constraints.handles)) {
         throw Error(ErrorCode::handle_removed, "there is no handle with the id " +
                                                    std::to_string(id.value) +
-                                                   "; take what add_handle returns");
+                                                   "; take the number that add_handle returns");
     }
     if (!constraints.handles[id.value]) {
         throw Error(ErrorCode::handle_removed, "the handle was removed; add a new one");

@@ -33,7 +33,7 @@ std::shared_ptr<const WorkingPatch> working_patch(const RestShape& rest,
                : work;
 }
 
-// What holds in fact: handles that nearly touch give up rings of their vertices if asked to.
+// Effective constraints: handles that nearly touch release rings of their vertices if asked to.
 ConstraintSet holding_in_fact(const RestShape& rest, const ConstraintSet& constraints) {
     ConstraintSet result = constraints;
     const int rings = rest.options().free_rings;
@@ -88,7 +88,7 @@ Vec3 start_of_sequence(const RestShape& rest, const ConstraintSet& constraints) 
     return Vec3::Zero();
 }
 
-// Factors `system`, where it has unknowns.
+// Factors `system` if it has unknowns.
 template <typename System>
 void factor(System& system, const Patch& patch, const Context& context) {
     if (system.free_vertices().empty()) return;

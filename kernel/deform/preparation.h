@@ -1,4 +1,4 @@
-/// What depends on which vertices are held, but not on where they go; private to kernel/deform.
+/// Factors and operators that depend on the held vertices alone; private to kernel/deform.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,17 +32,17 @@
 
 namespace lissom {
 
-/// How the second system answers to translations of handles: its response to each handle of the
-/// solution, empty where the second system knows nothing of it; and the force on movable handle j
-/// that handle k makes.
+/// Responses of the second system to translations of handles: the response to each handle of the
+/// solution, empty for one unknown to the second system; and the force on movable handle j that
+/// handle k makes.
 struct HandleResponses {
     std::vector<RotationSystem::Response> of_handles;
     Eigen::MatrixXd stiffness;
 };
 
-/// A value that threads find when they first need it. It follows from what is immutable, so that it
-/// does not matter whose is kept where two find it at the same time; nobody waits, as a loop that
-/// is waited in may take up other work.
+/// A value that threads find when they first need it. It follows from immutable input, so that
+/// either of two values found at the same time may be kept; nobody waits, as a loop that waits may
+/// take up other work.
 template <typename Value>
 class Lazy {
   public:
@@ -70,7 +70,7 @@ struct ImplicitMethod {
     GradientStencils gradients;
     std::unique_ptr<GradientSystem> first;
     std::unique_ptr<RotationSystem> second;
-    /// Null where nothing is free.
+    /// Null if nothing is free.
     std::unique_ptr<LinearSolution> solution;
     /// Row among the positions of a frame of each row of the solution, or kNoIndex for virtual
     /// vertices.
@@ -80,7 +80,7 @@ struct ImplicitMethod {
     std::vector<Index> gathered, averaged;
     Lazy<HandleResponses> answers;
     /// Gradients of the weights of translations, of each handle of the solution at each of
-    /// `gathered`; only where handles turn far, and are few.
+    /// `gathered`; only for few handles that turn far.
     Lazy<std::vector<std::vector<Vec3>>> weight_gradients;
 };
 
@@ -102,7 +102,7 @@ struct ComparedMethod {
 struct Preparation {
     std::shared_ptr<const RestShape> rest;
     std::shared_ptr<const ConstraintSet> constraints;
-    /// What it takes beside the factors, and what a frame takes.
+    /// Memory beside the factors, and that of a frame.
     MemoryHold hold;
     /// The patch that it works on: refined at borders, with anchors.
     std::shared_ptr<const WorkingPatch> work;
@@ -110,16 +110,16 @@ struct Preparation {
     /// The local vertices of each handle, with those that a refinement inserted between them.
     std::vector<std::vector<Index>> held;
     KnownMask known;
-    /// Parts that follow the surface near them, once it is where it goes.
+    /// Parts that follow the surface near them, once it is solved.
     std::vector<FollowingPart> following;
-    /// Where handles nearly touch.
+    /// Gaps between handles that nearly touch.
     std::vector<HandleGap> gaps;
-    /// Local vertices and anchors that take what a target asks, with its number.
+    /// Local vertices and anchors that take the values of a target, with its number.
     std::vector<std::pair<Index, Index>> asked;
     /// Rows of the region whose vertices stay at rest, as nothing that moves holds them.
     std::vector<Index> resting_rows;
     std::variant<ImplicitMethod, ComparedMethod> method;
-    /// Of this preparation alone.
+    /// Costs of this preparation alone.
     DeformStats costs;
 
     const Patch& patch() const { return work->patch; }
@@ -130,12 +130,12 @@ struct Preparation {
     GradientLoop gradient_loop() const;
 };
 
-/// Says in terms of vertices what a solver said in terms of rows, which stand for the vertices
-/// `free`: throws unconstrained.
+/// Translates a solver's error from rows, which stand for the vertices `free`, to vertices: throws
+/// unconstrained.
 [[noreturn]] void refuse_singular(const Patch& patch, const Error& error,
                                   const std::vector<Index>& free);
 
-/// Throws `unsupported`, with `what` as subject, where the method is not the implicit one.
+/// Throws `unsupported`, with `what` as subject, unless the method is the implicit one.
 void require_implicit(const DeformOptions& options, const char* what);
 
 /// Throws `unsupported` if the options name a comparison method without its maker.
@@ -145,7 +145,7 @@ void require_comparison(const DeformOptions& options);
 /// prepare_deformation.
 void prepare_comparison(Preparation& next, const Context& context);
 
-/// What the options refuse for `holds`: unsupported where a comparison method cannot hold it.
+/// Checks `holds` against the options: unsupported if a comparison method cannot hold them.
 void require_plain_holds(const ConstraintSet& constraints, const DeformOptions& options);
 
 }  // namespace lissom

@@ -11,17 +11,17 @@ namespace {
 // Rings around the region that the stencils of its vertices reach.
 constexpr Index kPatchRings = 1;
 
-// A mesh is far away where its coordinates spend three digits on its place.
+// Distance from the origin, in sizes of a mesh, that costs three digits of its coordinates.
 constexpr double kFarAway = 1e3;
 
-// Vertices around the region that have moved by less than this fraction of its size are where they
-// were: no tear would be seen.
+// Vertices around the region that have moved by less than this fraction of its size count as
+// unmoved: no tear would be seen.
 constexpr double kMoved = 1e-6;
 
-// What a rest shape takes for a vertex of the region, and while it is made.
+// Memory of a rest shape for each vertex of the region, its construction included.
 constexpr std::size_t kBytesPerVertex = 800;
 
-// What follows from the patch.
+// Measures the patch.
 void measure(RestShape& rest) {
     const Patch& patch = rest.patch();
     const Region& region = rest.region();
@@ -81,7 +81,7 @@ std::shared_ptr<const RestShape> make_rest_shape(const Mesh& mesh, const Region&
     return rest;
 }
 
-// The patch keeps its faces and numbers; what is around the region stays.
+// The patch keeps its faces and numbers; vertices around the region stay.
 std::shared_ptr<const RestShape> rebased(const RestShape& rest, const DeformFrame& frame) {
     require_frame(rest, frame);
     const Patch& before = rest.patch();

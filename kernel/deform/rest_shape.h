@@ -21,7 +21,7 @@
 
 namespace lissom {
 
-/// What is deformed, and how. All rest shapes of a Deformer share it.
+/// Scope and options of a deformation. All rest shapes of a Deformer share it.
 struct DeformScope {
     Region region;
     DeformOptions options;
@@ -33,37 +33,37 @@ struct RestShape {
     std::shared_ptr<const WorkingPatch> work;
     /// Row in the region of each local vertex of `work`, or kNoIndex.
     std::vector<Index> region_row;
-    /// Of the region's vertices.
+    /// Positions of the region's vertices.
     std::vector<Vec3> positions;
     /// Greatest distance of a vertex of the region from the origin of the patch.
     double size = 0.0;
     /// Whether coordinates of the mesh have fewer digits for its shape than those of the patch.
     bool far_away = false;
     RestDirections directions;
-    /// Vertices around the region and where they lie.
+    /// Vertices around the region and their positions.
     std::vector<std::pair<Index, Vec3>> surroundings;
     /// Positions of all vertices of the mesh, for refinements of a part of it; else empty.
     std::vector<Vec3> beyond = {};
-    /// What all of it takes.
+    /// Memory of all parts.
     MemoryHold hold = {};
 
     const Region& region() const { return scope->region; }
     const DeformOptions& options() const { return scope->options; }
     const Patch& patch() const { return work->patch; }
     const Vec3& origin() const { return work->patch.origin; }
-    /// Of a vertex of the region or next to it.
+    /// Returns the local number of a vertex of the region or next to it.
     Index local_vertex(Index mesh_vertex) const;
     /// Relative to the origin of the patch.
     Vec3 position_of(const SparseRow& row) const;
     Vec3 center_of(const Handle& handle) const;
-    /// Where a frame on `of`, a refinement of the patch, keeps the position of local vertex v.
+    /// Returns the row of local vertex v in a frame's positions on `of`, a refinement of the patch.
     Index frame_row(const Patch& of, Index v) const;
 };
 
-/// Errors: topology_mismatch, naming vertices around the region that are not where they were.
+/// Errors: topology_mismatch, naming vertices around the region that have moved.
 void require_surroundings(const RestShape& rest, const Mesh& mesh);
 
-/// As write_frame, of the rest shape.
+/// Writes the rest shape, as write_frame does.
 void write_rest(const RestShape& rest, Mesh& mesh);
 
 /// The pose that takes p to about + transform(p - about), without a turn. Both forms of the
@@ -77,17 +77,17 @@ HandlePose reflected(const RestShape& rest, const MirrorPlane& plane, const Hand
 /// Errors: handle_removed.
 const Handle& handle_of(const ConstraintSet& constraints, HandleId id);
 
-/// Errors: invalid_argument where `poses` are not those of `holds`.
+/// Errors: invalid_argument if `poses` are not those of `holds`.
 void require_poses(const ConstraintSet& constraints, const Poses& poses);
 
-/// Errors: invalid_argument where `frame` is none of this rest shape.
+/// Errors: invalid_argument if `frame` is none of this rest shape.
 void require_frame(const RestShape& rest, const DeformFrame& frame);
 
-/// As pose_handle; `turn` is near the one to take.
+/// Moves a handle, as pose_handle of pipeline.h; `turn` is near the one to take.
 void pose_handle(const RestShape& rest, const ConstraintSet& constraints, Poses& poses, HandleId id,
                  const Affine& transform, const Vec3& about, const Vec3& turn);
 
-/// True where nothing is asked to move.
+/// Returns true if no pose differs from rest.
 bool at_rest(const RestShape& rest, const ConstraintSet& constraints, const Poses& poses);
 
 }  // namespace lissom

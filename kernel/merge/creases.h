@@ -11,9 +11,9 @@ namespace lissom {
 
 /// Returns those of `asked` at which an edge of a crease ends, ascending. A crease turns by more
 /// than 30 degrees at the edge, and from the mean of the faces around one side of it to that around
-/// the other as well: single edges of rough surfaces do not. On an open boundary, where a seam will
-/// be, only creases of clean shapes count: edges beside them that are no creases turn by less than
-/// 10 degrees.
+/// the other as well: single edges of rough surfaces do not. On an open boundary, the place of a
+/// future seam, only creases of clean shapes count: edges beside them that are no creases turn by
+/// less than 10 degrees.
 std::vector<Index> creased_vertices(const Mesh& mesh, std::span<const Index> asked);
 
 /// Returns the vertices of `loops` and of two rings of faces around them, ascending.

@@ -1,5 +1,5 @@
-/// Faces of a merged mesh that run through one another: the new ones, and where they lie; private
-/// to kernel/merge.
+/// Self-intersections of a merged mesh: the new pairs of faces, and their places; private to
+/// kernel/merge.
 #pragma once
 
 #include <span>

@@ -12,7 +12,7 @@ namespace {
 // Parts that were laid together exactly may meet at a crease up to the first angle, as a flat lid
 // and a tube; loops that only have one shape, as all regular ones have, up to the second.
 constexpr double kLaidTurn = 105.0 * kDegree, kFoundTurn = 15.0 * kDegree;
-// Fits of several joins are one where each brings the loops of all this close, in lengths.
+// Fits of several joins are one if each brings the loops of all this close, in lengths.
 constexpr double kOneFit = 1e-5;
 // Directions across the loops that differ by more than 120 degrees lead to the same side.
 constexpr double kSameSide = -0.5;

@@ -23,10 +23,10 @@ struct FitSides {
     const Loop& target_loop;
 };
 
-/// Finds how the parts of a join fit: as they lie, if the surface turns by less than 105 degrees
-/// across the seam in the median; in the free configuration also where a similarity brings them
-/// together, if it turns by less than 15 degrees. Where the surface bends it turns by what it does
-/// beyond that. Nothing where they do not fit, or not with `keys`; without keys only as they lie.
+/// Finds the fit of the parts of a join: as they lie, if the surface turns by less than 105 degrees
+/// across the seam in the median; in the free configuration also under a similarity, if it turns by
+/// less than 15 degrees. On a bent surface only the turn beyond its own bend counts. Returns
+/// nothing if they do not fit, or not with `keys`; without keys only as they lie.
 std::optional<CurveFit> part_fit(const FitSides& sides, std::span<const ParameterPair> keys,
                                  Configuration configuration);
 
@@ -39,7 +39,7 @@ std::optional<CurveFit> part_fit_near(const FitSides& sides, const ParameterPair
 /// Whether parts fit in one way at least, wherever keys may be.
 bool parts_may_fit(const FitSides& sides, Configuration configuration);
 
-/// The fit that all joins have in common; nothing where one has none, or another.
+/// Returns the fit that all joins share; nothing if one has none, or another.
 std::optional<CurveFit> common_fit(std::span<const std::optional<CurveFit>> fits,
                                    std::span<const Loop> sources, std::span<const Loop> targets);
 

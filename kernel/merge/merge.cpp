@@ -15,7 +15,7 @@
 namespace lissom {
 namespace {
 
-// In the fixed configuration they stay where they are, as they do without a merge.
+// Loose parts stay in the fixed configuration, as they do without a merge.
 void note_loose_parts(const MergePreparation& preparation, std::vector<std::string>& warnings) {
     const LooseParts& loose = preparation.loose;
     if (loose.parts == 0 || preparation.options.configuration == Configuration::fixed) return;
@@ -24,7 +24,8 @@ void note_loose_parts(const MergePreparation& preparation, std::vector<std::stri
         std::to_string(loose.parts) + (one ? " part" : " parts") + " of the source (" +
         std::to_string(loose.vertices) + " vertices) " + (one ? "has" : "have") +
         " no boundary that is joined and " + (one ? "moves" : "move") +
-        " along with what is nearest; take what does not belong to it out of the source first");
+        " along with the nearest joined part; remove parts that do not belong to it from the "
+        "source first");
 }
 
 }  // namespace
@@ -92,7 +93,7 @@ BandQuality band_of(const MergePreparation& preparation, const Sewn& sewn, const
                         preparation.options.configuration == Configuration::fixed, context);
 }
 
-// What the caller could still change of a merge.
+// Options of a merge that the caller could still change.
 OpenOptions open_options(const MergePreparation& preparation, const Matching& matching,
                          const MergeReport& report) {
     const MergeOptions& options = preparation.options;

@@ -37,17 +37,17 @@ namespace lissom {
 
 class OverlapTransition;
 
-/// Whether the source comes to the target from wherever it lies, turned and scaled as fits (3.3.1),
-/// or stays where it was put and only bends to meet the target (3.3.2).
+/// Whether the source comes to the target from any place, turned and scaled to fit (3.3.1), or
+/// stays in place and only bends to meet the target (3.3.2).
 enum class Configuration { free, fixed };
 
-/// How a free source without keys is turned about the axis of its boundary: least from how it lies
-/// beside the target, as people lay parts where they belong or leave both as they were modelled; or
-/// as the shapes of the parts suggest, wherever it lies. Directions that belong together
-/// (MergeOptions::directions) come before either.
+/// Rotation of a free source without keys about the axis of its boundary: the least from its
+/// place beside the target, for parts laid or modelled in place; or by the shapes of the parts,
+/// wherever it lies. Directions that belong together (MergeOptions::directions) come before
+/// either.
 enum class Place { as_placed, shape };
 
-/// What decided which points of two boundaries meet.
+/// Criterion that decided which points of two boundaries meet.
 enum class Placing { keys, as_placed, directions, shape };
 
 /// How a feature that keeps its shape in the free configuration finds the similarity it moves by.
@@ -55,10 +55,10 @@ enum class FeatureMotion {
     /// Its Laplacian coordinates share a deformation gradient that is an unknown of the systems
     /// (section 3.5). One factorisation less; the surface around features is distorted more.
     common,
-    /// The surface is deformed without it first, and the similarity that fits what became of the
-    /// feature is kept in a second deformation, with factors of its own. On four merges of real
-    /// models the surface outside the features was distorted 5 to 44 % less than with `common`,
-    /// by energy, in up to twice the time.
+    /// The surface is deformed without it first, and the similarity that fits the feature then is
+    /// kept in a second deformation, with factors of its own. On four merges of real models the
+    /// surface outside the features was distorted 5 to 44 % less than with `common`, by energy, in
+    /// up to twice the time.
     fitted,
 };
 
@@ -74,18 +74,18 @@ struct Join {
 
 struct MergeOptions {
     Configuration configuration = Configuration::free;
-    /// How joins without keys are placed. In the fixed configuration the source lies where it is,
-    /// so that only `as_placed` applies.
+    /// How joins without keys are placed. In the fixed configuration the source keeps its place, so
+    /// that only `as_placed` applies.
     Place place = Place::as_placed;
     /// Features of the source that keep their shape. In the free configuration each moves as a
     /// whole, by a similarity of its own (the extension of thesis section 3.5); in the fixed one it
-    /// stays where it is.
+    /// stays in place.
     std::vector<Region> fixed = {};
-    /// Of the free configuration.
+    /// Motion of features in the free configuration.
     FeatureMotion feature_motion = FeatureMotion::fitted;
-    /// In the fixed configuration: how far from its boundaries the source deforms, along its edges
-    /// and in its unit; what is farther stays. Absent: all of it where features are fixed, else
-    /// three radii of the largest boundary.
+    /// In the fixed configuration: distance from its boundaries within which the source deforms,
+    /// along its edges and in its unit; farther vertices stay. Absent: all of it if features are
+    /// fixed, else three radii of the largest boundary.
     std::optional<double> reach = std::nullopt;
     /// In the fixed configuration: the surface at the boundary turns as the target's does there, or
     /// keeps its directions (the thesis's way, which leaves a crease).
@@ -93,9 +93,9 @@ struct MergeOptions {
     SeamKind seam = SeamKind::conform;
     /// Umbrella steps at the seam, at most: the first that would fold it is the last.
     int smooth = 3;
-    /// Remeshes the faces beside a seam on a side that is sparser than the seam (SewOptions). Where
-    /// the seam shows less without, as where the sides fold, it is left out. False, with `smooth`
-    /// 0, leaves the targets as they are, to the bit. The thesis's way has none.
+    /// Remeshes the faces beside a seam on a side that is sparser than the seam (SewOptions). It is
+    /// left out if the seam shows less without, as on sides that fold. False, with `smooth` 0,
+    /// leaves the targets as they are, to the bit. The thesis's way has none.
     bool collar = true;
     /// Widths of the transition region (3.3.3) on each side, in the units of source and target; 0
     /// is none. The thesis's transition needs both, and regions that are bands: its widths are
@@ -113,10 +113,10 @@ struct MergeOptions {
     /// than a regular polygon: the seam would show every tooth of them.
     bool trim = true;
     double greatest_turn = 20.0 * kPi / 180.0;
-    /// Splits the faces at a boundary of the source once where its edges are more than 1.5 times as
-    /// long as those it meets. Where they are more than 3 times as long as edges inside the source,
-    /// a few vertices rule many (section 2.5): they are split until they are not, 4 times at most,
-    /// and those of the target with them, until its edges are at most 1.5 times as long.
+    /// Splits the faces at a boundary of the source once if its edges are more than 1.5 times as
+    /// long as those it meets. A boundary with edges more than 3 times as long as edges inside the
+    /// source is coarse (section 2.5): its faces are split until it is not, 4 times at most, and
+    /// those of the target with them, until its edges are at most 1.5 times as long.
     bool refine = true;
     /// Looks for faces that run through others and did not before; see
     /// MergeReport::intersections.
@@ -124,25 +124,25 @@ struct MergeOptions {
     /// Directions of source and targets that are to lie the same way, for joins without keys. They
     /// count as far as they lie in the planes of the boundaries.
     std::vector<DirectionPair> directions = {};
-    /// The thesis's formulas (3.3): arc length, normals and frames of the loops as they are, scales
-    /// from tangent lengths, vertices that meet only where they coincide; its operators, |M| / sqrt
-    /// 3 and (2.11); umbrella steps without a guard, no edges flipped after them, no collar; its
-    /// transition. The other options are as chosen: `literal` chooses them too.
+    /// The thesis's formulas (3.3): arc length, normals and frames of the loops without smoothing,
+    /// scales from tangent lengths, vertices that meet only if they coincide; its operators, |M| /
+    /// sqrt 3 and (2.11); umbrella steps without a guard, no edges flipped after them, no collar;
+    /// its transition. The other options are as chosen: `literal` chooses them too.
     bool thesis = false;
 
     /// Section 3.3 to the letter: `thesis`, seams by a band, no collar, no trimming, no refinement,
     /// and in the fixed configuration frames that keep their directions. `smooth` stays: the thesis
-    /// makes "several" umbrella steps, but none with a transition, where it is to be 0.
+    /// makes "several" umbrella steps, but none with a transition, which needs 0.
     static MergeOptions literal(Configuration configuration = Configuration::free);
 };
 
-/// What was found and done at one join.
+/// Results at one join.
 struct JoinReport {
     /// Vertices of the two loops as they were joined.
     Index source_size = 0, target_size = 0;
     /// How much the source grew at it.
     double scale = 1.0;
-    /// What decided how the source is turned.
+    /// Criterion of the source's rotation.
     Placing placed = Placing::keys;
     /// Whether the shapes decided, or directions that contradict each other; `certainty` is then
     /// the probability, 0 to 1, that this is right, and else 1. Below kCertain the result asks for
@@ -164,7 +164,7 @@ struct JoinReport {
     bool refined = false, target_refined = false;
     /// Whether the parts fit: both boundaries are one curve, as they lie or, in the free
     /// configuration, up to a similarity, and the surface goes on across it. All vertices are kept
-    /// there, the target's where they are and the source's under that similarity, and nothing is
+    /// there, the target's in place and the source's under that similarity, and nothing is
     /// smoothed, trimmed or refined.
     bool fits = false;
     /// In the fixed configuration: whether both parts lie on the same side of the boundary, so that
@@ -180,7 +180,7 @@ enum class MergeFault {
     crossings,
     /// In the fixed configuration both parts lie on the same side of their boundary.
     side,
-    /// The surface folds back beside the seam where it did not before.
+    /// The surface folds back beside the seam and did not before.
     folds,
     /// The band around the seam is rougher than the parts were there.
     roughness,
@@ -192,7 +192,7 @@ enum class MergeFault {
     flare,
     /// The surface turns more at an edge of the seam than beside the boundaries before.
     seam,
-    /// Where the boundaries meet is a guess that may be wrong.
+    /// The places at which the boundaries meet are a guess that may be wrong.
     place,
     /// Triangles at the seam are so thin that they have no reliable normals.
     slivers,
@@ -205,8 +205,8 @@ enum class MergeFault {
 /// The name of a fault, as scripts see it: "crossings", "folds" and so on.
 const char* fault_name(MergeFault fault);
 
-/// Where faces run through one another: within one radius of a seam, farther from it on the source
-/// or on the target, or there between both.
+/// Place of crossing faces: within one radius of a seam, farther from it on the source or on the
+/// target, or there between both.
 enum class CrossingPlace { seam, source, target, between };
 
 /// The pairs of faces that run through one another at one kind of place.
@@ -226,14 +226,14 @@ struct MergeReason {
     MergeFault fault = MergeFault::crossings;
     /// The join concerned; kNoIndex if it is all of them.
     Index join = kNoIndex;
-    /// What was measured and the limit that it passes: radians for angles, radii of the seam for
-    /// the length of folds, a count of pairs of faces, the part of the volume that was kept, the
+    /// Measured value and the limit that it passes: radians for angles, radii of the seam for the
+    /// length of folds, a count of pairs of faces, the part of the volume that was kept, the
     /// certainty of a guess; for bites the depth or the length in radii of the seam.
     double value = 0.0, limit = 0.0;
-    /// What is wrong, in plain words with both figures, and what may help: only options that the
-    /// operation has and that are not set already are named.
+    /// The fault in plain words with both figures, and a remedy: only options that the operation
+    /// has and that are not set already are named.
     std::string text, remedy;
-    /// Of crossings: the faces of the result concerned, ascending.
+    /// For crossings: the faces of the result concerned, ascending.
     std::vector<Index> faces = {};
 };
 
@@ -244,7 +244,7 @@ struct TargetBite {
     double length = 0.0, depth = 0.0;
 };
 
-/// What a merge found and did.
+/// Results and measures of a merge.
 struct MergeReport {
     /// Whether the result is good, and in one line why not; see verdict_of.
     bool ok = false;
@@ -252,14 +252,14 @@ struct MergeReport {
     /// Each fault, the gravest kind first; empty if the result is good.
     std::vector<MergeReason> reasons;
     /// The parts beside their boundaries before they were joined: the steepest angles there are
-    /// what a seam is measured by.
+    /// the baseline of a seam.
     SeamQuality source_rim, target_rim;
     /// Angle, in radians, at which the options let the parts meet (PasteOptions::crease).
     double crease = 0.0;
-    /// Of a paste; not measured of drafts.
+    /// Bite of a paste; not measured in drafts.
     TargetBite bite;
-    /// Parts of the source without a boundary that is joined: in the free configuration each moves
-    /// along with what is nearest to it.
+    /// Number of parts of the source without a joined boundary: in the free configuration each
+    /// moves along with the nearest joined part.
     Index loose_parts = 0;
     std::vector<JoinReport> joins;
     /// Inputs that were inside out and have been turned over: the source, and targets by number.
@@ -268,16 +268,16 @@ struct MergeReport {
     /// Things the user should look at, in plain words.
     std::vector<std::string> warnings;
     DeformStats deform;
-    /// Of the deformation in the last solve.
+    /// Times of the deformation in the last solve.
     BoundaryTimes deform_seconds;
     SewReport seam;
-    /// Bands of the transition region, where there is one.
+    /// Bands of the transition region, if any.
     TransitionReport transition;
     /// Pairs of faces of the result that run through one another and come from faces that did not.
     /// Pairs of the source count as before if faces next to theirs did run through one another and
     /// both belong to separate parts, or lie more than one radius from every seam.
     std::vector<FacePair> intersections;
-    /// The same by where they are; and the number of pairs that came from faces that did.
+    /// The same by place; and the number of pairs that came from crossing faces.
     std::vector<CrossingGroup> crossings;
     Index known_intersections = 0;
     /// Wall-clock seconds of preparation and of the last solve.
@@ -287,7 +287,7 @@ struct MergeReport {
 struct MergeResult {
     Mesh mesh;
     MergeReport report;
-    /// Where elements come from: those of target 0, of target 1, ..., of the source, in this order,
+    /// Origin of each element: those of target 0, of target 1, ..., of the source, in this order,
     /// each numbered as in its own mesh behind the ones before it.
     MeshMap provenance;
     /// The side that each face comes from.
@@ -303,10 +303,10 @@ class Merger {
     /// Checks and prepares. Meshes may change or die afterwards.
     /// Errors: invalid_argument without targets or joins, or for options out of range;
     /// topology_mismatch; not_a_boundary for a path that is not an open boundary of its mesh;
-    /// boundary_conflict where two joins share one, where one crosses itself, has fewer than three
-    /// vertices or no length, or where a mesh is given twice; handle_overlap where a fixed feature
-    /// covers vertices of a boundary or, in the free configuration, of another feature;
-    /// unconstrained; zero_area; memory_limit; cancelled.
+    /// boundary_conflict if two joins share one, or one crosses itself, has fewer than three
+    /// vertices or no length, or if a mesh is given twice; handle_overlap if a fixed feature covers
+    /// vertices of a boundary or, in the free configuration, of another feature; unconstrained;
+    /// zero_area; memory_limit; cancelled.
     Merger(const Mesh& source, std::span<const Mesh* const> targets, std::vector<Join> joins,
            const MergeOptions& options = {}, const Context& context = {});
     /// The same with one target.
@@ -321,13 +321,13 @@ class Merger {
     void set_keys(Index join, std::vector<KeyPair> keys);
 
     /// Finds the correspondence, deforms the source, and sews.
-    /// Errors: key_conflict; invalid_argument where a region of the thesis's transition is no band
-    /// (too narrow, too wide, with a handle, or meeting another); as `sew`; cancelled; internal in
-    /// place of a mesh that is not sound.
+    /// Errors: key_conflict; invalid_argument if a region of the thesis's transition is no band
+    /// (too narrow, too wide, with a handle, or meeting another); as `sew`; cancelled; internal
+    /// instead of a mesh that is not sound.
     MergeResult solve(const Context& context = {});
 
-    /// What was found when the merge was prepared and the user should look at, in plain words; it
-    /// is among the warnings of the report as well.
+    /// Returns findings of the preparation that the user should look at, in plain words; they are
+    /// among the warnings of the report as well.
     const std::vector<std::string>& warnings() const;
 
     /// Bytes held: both inputs and the factors.

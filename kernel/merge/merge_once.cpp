@@ -25,7 +25,7 @@ std::vector<Path> open_boundaries(const Mesh& mesh, const char* side) {
     std::vector<Path> found = boundaries(mesh);
     if (!found.empty()) return found;
     throw Error(ErrorCode::not_a_boundary,
-                std::string("the ") + side + " is closed: cut it open where it is to be joined");
+                std::string("the ") + side + " is closed: cut it open at the place of the seam");
 }
 
 std::vector<std::vector<Vec3>> points_of(const Mesh& mesh, const std::vector<Path>& paths) {

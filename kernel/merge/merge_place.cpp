@@ -90,8 +90,8 @@ void find_certainty(std::vector<JudgedTurn>& turns) {
     }
 }
 
-// The turn with the least score; of several that are equal but for rounding the first along the
-// target's loop, so that where the source lies does not decide.
+// Returns the turn with the least score; of several that are equal but for rounding the first along
+// the target's loop, so that the place of the source does not decide.
 const JudgedTurn& best_turn(const std::vector<JudgedTurn>& turns) {
     const auto lower = [](const JudgedTurn& a, const JudgedTurn& b) { return a.score < b.score; };
     const double least = std::min_element(turns.begin(), turns.end(), lower)->score;
@@ -107,8 +107,8 @@ const JudgedTurn& best_turn(const std::vector<JudgedTurn>& turns) {
     return *best;
 }
 
-// Several joins lie where their centres do; a single one is turned as its loops, the planes of
-// symmetry, masses and necks of the parts suggest, with the least distortion.
+// Several joins take the places of their centres; a single one is turned as its loops, the planes
+// of symmetry, masses and necks of the parts suggest, with the least distortion.
 FoundPlaces places_by_shape(const MergePreparation& preparation, std::span<const LoopJoin> loops,
                             const Context& context) {
     if (loops.size() > 1) return guessed_places(guess_offsets(loops), Placing::shape);

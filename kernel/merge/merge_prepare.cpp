@@ -1,4 +1,4 @@
-// What a merge does once: sides, loops, features, factors.
+// Steps that a merge does once: sides, loops, features, factors.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -30,7 +30,7 @@ constexpr Index kSampledVertices = 1000;
 constexpr double kThinOutline = 3.0;
 // How far the source deforms in the fixed configuration, in radii of its largest boundary.
 constexpr double kReach = 3.0;
-// How much more slender faces may be where the usual threshold leaves a system without a solution.
+// Factor on the usual limit of slender faces, for systems without a solution under it.
 constexpr double kSlenderFaces = 1e3;
 
 std::string degrees(double radians) {
@@ -215,7 +215,7 @@ bool fits_as_given(const FitSides& sides, const Join& join, Configuration config
     }
 }
 
-// Marks the loops of parts that fit as they were given: what fits is not to be changed.
+// Marks the loops of parts that fit as given: they are not to be changed.
 void find_fits(std::span<const Join> joins, const MergeOptions& options, Sides& sides) {
     sides.source.fits.assign(joins.size(), 0);
     for (MergeSide& side : sides.targets) side.fits.assign(side.loops.size(), 0);
@@ -263,7 +263,7 @@ void trim_sides(std::span<const Join> joins, const MergeOptions& options, Sides&
     }
 }
 
-// Of the first target as given, of the first two as one mesh, and so on.
+// Topologies of the first target as given, of the first two as one mesh, and so on.
 std::vector<std::shared_ptr<const Topology>> topologies_together(
     std::span<const Mesh* const> targets, const Context& context) {
     Mesh all = *targets.front();
@@ -275,7 +275,7 @@ std::vector<std::shared_ptr<const Topology>> topologies_together(
     return result;
 }
 
-// With the numbers that vertices have where all targets are one mesh.
+// Loops with the numbers of vertices of all targets as one mesh.
 std::vector<std::vector<Index>> all_target_loops(const Sides& sides, std::span<const Join> joins) {
     std::vector<std::vector<Index>> loops;
     for (std::size_t j = 0; j < joins.size(); ++j) {
@@ -318,8 +318,8 @@ double loop_edge(const Loop& loop) {
     return loop.length() / loop.size();
 }
 
-// The median length of edges inside the part of a mesh that a loop bounds, of some that lie evenly
-// among them; 0 where there are none.
+// Returns the median length of edges inside the part of a mesh that a loop bounds, of some that lie
+// evenly among them; 0 if there are none.
 double inner_edge(const Mesh& mesh, const Loop& loop) {
     const Topology& topology = mesh.topology();
     const Index part = topology.components()[loop.vertices().front()];
@@ -428,7 +428,7 @@ void note_thin_outlines(const Boundaries& boundaries, std::vector<std::string>& 
             "join " + std::to_string(j + 1) + ": the source's outline (axes " + axes_text(source) +
             ") and the target's (" + axes_text(target) +
             ") differ so much that the source is widened " + spread +
-            " times at the seam; cut the thin part where it is rounder, or open the target along "
+            " times at the seam; cut the thin part at a rounder place, or open the target along "
             "an outline like the source's, as lissom.paste does");
     }
 }
@@ -468,7 +468,7 @@ LooseParts loose_parts(const MergeSide& source) {
     return result;
 }
 
-// The part of the source that moves, with what holds it.
+// The part of the source that moves, with its constraints.
 Region deforming(const MergePreparation& made) {
     const MergeSide& source = made.boundaries.source;
     const Region parts = joined_parts(source.mesh, source.loops);

@@ -1,4 +1,4 @@
-// What a merge does last: the seams, and what runs through what.
+// Last steps of a merge: the seams, and self-intersections.
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
@@ -33,7 +33,7 @@ void note_narrow_band(std::size_t seam, const char* side, double width, double u
                        ", in the unit of the target: the surface has no room for more");
 }
 
-// Where more than this part of a band lies on folds, details land in wrong places.
+// If more than this part of a band lies on folds, details land in wrong places.
 constexpr double kFolded = 0.05;
 
 // One side of a transition.
@@ -55,11 +55,11 @@ void note_refused_bands(double kept, std::vector<std::string>& warnings) {
     warnings.push_back(
         (kept > 0.0 ? "the transition went only " + short_number(100.0 * kept) + " % of its way"
                     : std::string("the transition was left out")) +
-        ": more of it would have folded the surface at a seam; choose other widths, or cut where "
-        "the parts are smoother");
+        ": more of it would have folded the surface at a seam; choose other widths, or cut at "
+        "smoother places");
 }
 
-// A seam that turns by less at every edge is smooth: fairing would only change what is good.
+// A seam that turns by less at every edge is smooth: fairing would not improve it.
 constexpr double kSmoothSeam = 5.0 * kDegree;
 
 // A seam whose greatest dihedral angle is above this shows.
@@ -142,7 +142,7 @@ void blend(const MergeOptions& options, const Matching& matching, const std::vec
         note_narrow_band(k, "target", widths[k].target, merged.transition.target[k].width,
                          merged.warnings);
     }
-    // What was left out cannot have folded.
+    // A band that was left out cannot have folded.
     for (std::size_t k = 0; merged.transition.kept > 0.0 && k < widths.size(); ++k) {
         note_folded_band(k, "source", merged.transition.source[k], merged.warnings);
         note_folded_band(k, "target", merged.transition.target[k], merged.warnings);
@@ -176,8 +176,8 @@ void finish_seams(const MergeOptions& options, const Matching& matching, const M
     }
 }
 
-// With collars, and without where that hides the seam better: on sides that are folded no step
-// after the collar may be possible.
+// Sews with collars, and without if that hides the seam better: no step after the collar may be
+// possible on folded sides.
 MergedSides sew_well(const MergePreparation& preparation, const Matching& matching,
                      const Moved& moved, const Context& context) {
     const MergeOptions& options = preparation.options;

@@ -167,7 +167,7 @@ void trim_jagged(MergeSide& side, double greatest_turn, const Context& context) 
             side.mesh = std::move(trimmed.mesh);
             side.trimmed[k] = 1;
         } catch (const Error& error) {
-            // Where there is no room for a smooth line, a jagged seam is better than none.
+            // Without room for a smooth line, a jagged seam is better than none.
             if (error.code() != ErrorCode::boundary_conflict) throw;
             side.untrimmed.push_back(error.message());
         }

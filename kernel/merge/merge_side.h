@@ -34,8 +34,8 @@ struct MergeSide {
     Region carried(const Region& given) const;
 };
 
-/// The mesh with some of its open boundaries, whichever way round they are given.
-/// Errors: topology_mismatch; not_a_boundary; boundary_conflict where one is given twice or crosses
+/// Returns the mesh with some of its open boundaries, whichever way round they are given.
+/// Errors: topology_mismatch; not_a_boundary; boundary_conflict if one is given twice or crosses
 /// itself.
 MergeSide make_side(const Mesh& mesh, const std::vector<Path>& boundaries, const std::string& name);
 
@@ -43,7 +43,7 @@ MergeSide make_side(const Mesh& mesh, const std::vector<Path>& boundaries, const
 void orient(MergeSide& side, const Context& context);
 
 /// Trims the loops that turn by `greatest_turn` radians more than a regular polygon with as many
-/// vertices, in the mean. Where there is no room for it a loop stays as it is; see `untrimmed`.
+/// vertices, in the mean. A loop without room for it stays as it is; see `untrimmed`.
 void trim_jagged(MergeSide& side, double greatest_turn, const Context& context);
 
 /// Splits the faces at one loop, once, by bisecting its edges.

@@ -1,4 +1,4 @@
-// What a merge does every time: correspondence, deformation of the source.
+// Steps of every solve of a merge: correspondence, deformation of the source.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@
 namespace lissom {
 namespace {
 
-// A key on the mesh that was given as a key on the loop that is worked with: where the boundary has
-// been changed, the place nearest to it.
+// Converts a key on the given mesh to one on the loop in use: on a changed boundary, the place
+// nearest to it.
 Key worked_key(const Key& key, const GivenLoop& given, const Loop& loop, std::size_t number,
                const char* side) {
     const Index* vertex = std::get_if<Index>(&key);
@@ -44,8 +44,8 @@ Index nearest_vertex(const Loop& loop, double parameter) {
     return (at.segment + (at.t > 0.5 ? 1 : 0)) % loop.size();
 }
 
-// Keys of one join on its loops, and, where regions overlap, the vertex of the target's boundary at
-// the first.
+// Keys of one join on its loops, and, for overlapping regions, the vertex of the target's boundary
+// at the first.
 struct PlacedKeys {
     std::vector<ParameterPair> parameters;
     Index start = 0;
@@ -105,7 +105,7 @@ BoundaryValue common_value(const Mesh& mesh, const Region& feature, const Region
         turn += free.transforms[rows[i]];
         logs += std::log(uniform_scale(free.transforms[rows[i]]));
     }
-    // Where its points do not say how it turns, the mean of its gradients does.
+    // If its points leave the rotation open, the mean of its gradients gives it.
     const double size = products.norm();
     if (size > 0.0) products /= size;
     products += 1e-3 * turn / turn.norm();
@@ -137,7 +137,7 @@ void note_place(const MergePreparation& preparation, const FoundPlaces& found, s
         warnings.push_back(name + "the parts are round, any turn fits; give a key to choose one");
     } else if (join.certainty < kCertain) {
         warnings.push_back(name +
-                           "where the boundaries meet is a guess; give it one key, or say which "
+                           "the match of the boundaries is a guess; give it one key, or say which "
                            "directions of both models belong together");
     }
 }
@@ -193,7 +193,7 @@ BoundaryDeformation laid(const MergePreparation& preparation, const CurveFit& fi
     return result;
 }
 
-// Vertices of the source with where they go and how the surface turns and grows there.
+// Vertices of the source with their positions, and rotation and scale of the surface there.
 struct Motion {
     Region region;
     BoundaryDeformation deformed;
@@ -221,7 +221,7 @@ void follow(const Mesh& mesh, const Region& moved, const BoundaryDeformation& de
     }
 }
 
-// Parts without a join move along; in the fixed configuration they stay where they are.
+// Parts without a join move along; in the fixed configuration they stay.
 Motion motion_of(const MergePreparation& preparation, BoundaryDeformation deformed) {
     const Mesh& mesh = preparation.boundaries.source.mesh;
     const Region& region = preparation.deformer->region();
@@ -243,7 +243,7 @@ Motion motion_of(const MergePreparation& preparation, BoundaryDeformation deform
     return motion;
 }
 
-// The thesis's transition, where it is asked for.
+// The thesis's transition, if it is asked for.
 std::shared_ptr<OverlapMerge> overlap_merge(const MergePreparation& preparation,
                                             const Matching& matching, const Context& context) {
     if (!preparation.method.overlap) return nullptr;
@@ -295,7 +295,7 @@ ParameterPair key_of(const CurveFit& fit, const Loop& source, const Loop& target
     return {source.parameters().front(), target.parameter_of(fit.pair.on_target.front())};
 }
 
-// What fits as it lies needs no place; `find` is called if keys are missing.
+// Parts that fit as they lie need no place; `find` is called if keys are missing.
 template <typename Find>
 MatchedKeys matched_keys(const MergePreparation& preparation, std::size_t j,
                          std::vector<ParameterPair> keys, const Find& find, Matching& matching) {
@@ -317,7 +317,7 @@ MatchedKeys matched_keys(const MergePreparation& preparation, std::size_t j,
     return matched;
 }
 
-// One pair of loops, with what the report says of it.
+// Returns one pair of loops, and fills in its report.
 LoopPair matched_loops(const MergePreparation& preparation, std::size_t j,
                        const MatchedKeys& matched, JoinReport& join) {
     const Boundaries& from = preparation.boundaries;

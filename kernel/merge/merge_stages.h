@@ -38,11 +38,11 @@
 
 namespace lissom {
 
-/// How the options are carried out: what the thesis does otherwise.
+/// Variants of the method: the thesis's choices and the default's.
 struct MergeMethod {
     BoundaryDeformOptions deform;
     LoopValueOptions values;
-    /// How loops are measured; raw ones meet at vertices only where these coincide.
+    /// Measure of loops; raw ones meet at vertices only if these coincide.
     LoopMeasure loops = LoopMeasure::robust;
     /// Whether steps at the seam are guarded, and edges flipped.
     bool guard = true;
@@ -58,14 +58,14 @@ struct GivenLoop {
     std::vector<Vec3> points;
 };
 
-/// What is kept of the meshes as they were given, loops by join.
+/// Properties kept of the meshes as given, loops by join.
 struct GivenMeshes {
     std::vector<GivenLoop> source_loops, target_loops;
-    /// Of the first target, of the first two as one mesh, and so on: their counts of elements.
+    /// Counts of elements of the first target, of the first two as one mesh, and so on.
     std::vector<std::shared_ptr<const Topology>> target_topology;
 };
 
-/// What was found of the sides when they were looked over.
+/// Findings about the sides.
 struct SidesFound {
     std::vector<JoinReport> joins;
     bool source_flipped = false;
@@ -86,7 +86,7 @@ struct Sides {
 Sides make_sides(const Mesh& source, std::span<const Mesh* const> targets,
                  std::span<const Join> joins, const MergeOptions& options, const Context& context);
 
-/// What the thesis's transition takes off the targets.
+/// Regions that the thesis's transition takes off the targets.
 struct Overlap {
     OverlapTarget target;
     /// The targets' boundaries as they were, by join.
@@ -98,7 +98,7 @@ struct Boundaries {
     MergeSide source;
     /// By join: whether faces of the source, and of the targets, were split for it.
     std::vector<char> refined, target_refined;
-    /// Where regions overlap, the target is without them, and its loops are their far ends.
+    /// With overlapping regions, the target is without them, and its loops are their far ends.
     std::optional<Overlap> overlap;
     Mesh target;
     MeshMap target_map;
@@ -109,7 +109,7 @@ struct Boundaries {
 Boundaries find_boundaries(Sides sides, std::span<const Join> joins, const MergeOptions& options,
                            const Context& context);
 
-/// The parts behind the first join, found where loops and directions leave a choice.
+/// The parts behind the first join, found if loops and directions leave a choice.
 class PartShapes {
   public:
     struct Pair {
@@ -130,7 +130,7 @@ struct LooseParts {
 
 /// All that does not depend on keys.
 struct MergePreparation {
-    /// What it takes beside the meshes and factors: where elements come from, loops and parts.
+    /// Memory beside the meshes and factors: origins of elements, loops and parts.
     MemoryCharge charge;
     MergeOptions options;
     MergeMethod method;
@@ -144,7 +144,7 @@ struct MergePreparation {
     /// The vertices of loops and features that deform.
     std::optional<Region> kept;
     std::unique_ptr<BoundaryDeformer> deformer;
-    /// Where features of a free configuration are fitted: with them held as well.
+    /// The system with features held as well, if features of a free configuration are fitted.
     std::unique_ptr<BoundaryDeformer> featured;
     DeformStats stats;
     double seconds = 0.0;
@@ -157,26 +157,26 @@ MergePreparation prepare_merge(const Mesh& source, std::span<const Mesh* const> 
 std::vector<ParameterPair> parameters_of(const MergePreparation& preparation, std::size_t join,
                                          std::span<const KeyPair> keys);
 
-/// Where joins without keys meet: one key and the certainty of each join.
+/// Places of joins without keys: one key and the certainty of each join.
 struct FoundPlaces {
     std::vector<ParameterPair> keys;
     Placing by = Placing::as_placed;
     std::vector<double> certainty;
     bool any_turn = false;
-    /// As placed, the angle (radians) from the turn that the shapes surely suggest; 0 if it is less
-    /// than a quarter turn.
+    /// For `as_placed`, the angle (radians) from the turn that the shapes surely suggest; 0 if it
+    /// is less than a quarter turn.
     double off_shape = 0.0;
 };
 FoundPlaces find_places(const MergePreparation& preparation, const Context& context);
 
-/// What meets what.
+/// Correspondence of the boundaries.
 struct Matching {
     std::vector<LoopPair> pairs;
     /// By join the vertex of the source's loop at the first key, or the first.
     std::vector<Index> starts;
-    /// Where regions overlap, the place of the same key on the target's boundary, or 0.
+    /// With overlapping regions, the place of the same key on the target's boundary, or 0.
     std::vector<Index> overlap_starts;
-    /// By join: how the parts fit, where they do.
+    /// Fit of the parts, by join, if they fit.
     std::vector<std::optional<CurveFit>> fits;
     std::vector<JoinReport> joins;
     std::vector<std::string> warnings;
@@ -192,7 +192,7 @@ BoundaryDeformation deformed_by(const MergePreparation& preparation,
                                 std::span<const std::optional<CurveFit>> fits,
                                 const Context& context);
 
-/// A turn of a source with one join, and what it does to it.
+/// A turn of a source with one join, and its distortion.
 struct JudgedTurn {
     TurnCandidate turn;
     /// RMS distance of the deformed source's vertices from the similarity that fits them best, in

@@ -92,7 +92,7 @@ struct TwoMaps {
     const ElementMap& second;
     Index shift = 0;
 
-    // Adds what an element comes from, with a weight.
+    // Adds the sources of an element, with a weight.
     void add(Index element, double weight, std::vector<ElementMap::Source>& sources) const {
         if (element < count && !first) return sources.push_back({element, weight});
         const ElementMap& map = element < count ? *first : second;

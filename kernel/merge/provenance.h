@@ -17,8 +17,8 @@ MeshMap identity_map(const Topology& topology);
 MeshMap part_map(const MeshPart& part, const Topology& old);
 /// The map of a mesh whose faces were reversed, each from its first vertex (flip).
 MeshMap flipped_map(const Topology& topology);
-/// Where the elements of a mesh come from that was made in two steps: `outer` leads to the mesh in
-/// between and `inner` from there to the first.
+/// Returns the origin of the elements of a mesh that was made in two steps: `outer` leads to the
+/// mesh in between and `inner` from there to the first.
 ElementMap composed(const ElementMap& outer, const ElementMap& inner);
 MeshMap composed(const MeshMap& outer, const MeshMap& inner);
 /// The map of two meshes appended: elements of the second follow those of the first, as do the
@@ -26,7 +26,7 @@ MeshMap composed(const MeshMap& outer, const MeshMap& inner);
 MeshMap appended_map(const MeshMap& first, const MeshMap& second, const Topology& first_origin);
 /// composed(outer, appended_map(first, second, first_origin)), without forming the latter. `outer`
 /// leads to the elements of `first_between` and, after these, to those of `second`; `first` leads
-/// on from `first_between`, and is the identity where it is null.
+/// on from `first_between`, and is the identity if it is null.
 MeshMap composed_of_two(const MeshMap& outer, const Topology& first_between, const MeshMap* first,
                         const MeshMap& second, const Topology& first_origin);
 /// For each old vertex the new one that is nothing but it, or kNoIndex.

@@ -1,5 +1,5 @@
 // One level of refinement at a boundary: faces that touch it split into four, and those next to
-// them where it takes to fit (Bank, Sherman and Weiser 1983).
+// them as conformity needs (Bank, Sherman and Weiser 1983).
 #include <algorithm>
 #include <array>
 #include <map>
@@ -65,7 +65,7 @@ class Refinement {
     }
     Index next_vertex() const { return map_.vertices.size(); }
 
-    // The middle between two corners, or nothing where their edge is whole.
+    // The middle between two corners, or nothing if their edge is whole.
     NewCorner middle(Index a, Index b) const {
         const auto at = middle_.find(std::minmax(vertex_of(a), vertex_of(b)));
         return at == middle_.end() ? NewCorner{} : NewCorner{at->second, a, b};

@@ -1,4 +1,4 @@
-/// What a mesh carries turns with its surface; private to kernel/merge.
+/// Attributes that turn with a mesh's surface; private to kernel/merge.
 #pragma once
 
 #include "kernel/deform/boundary/boundary_deformer.h"

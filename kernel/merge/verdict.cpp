@@ -16,8 +16,8 @@ constexpr double kSteep = 30.0 / kRadian;
 // And by up to this in the mean along it; a paste may meet its target at a crease, which is the
 // greatest angle around it and about two thirds of that in the mean.
 constexpr double kSteepMean = 20.0 / kRadian, kMeanOfCrease = 2.0 / 3.0;
-// Or this many times what edges beside the boundaries turned by before: spikes on plates and beside
-// edges of CAD models look right up to 1.28 times.
+// Or this many times the angle that edges beside the boundaries turned by before: spikes on plates
+// and beside edges of CAD models look right up to 1.28 times.
 constexpr double kMoreSteep = 1.3;
 // Triangles thinner than this have no reliable normals.
 constexpr double kThin = 2.0 / kRadian;
@@ -30,15 +30,16 @@ constexpr double kFold = 0.02;
 // models: four that kept .64 to .75 and have no other fault look right, three that kept .55 and
 // less do not.
 constexpr double kVolumeKept = 0.6;
-// Length of sharp edges that a paste may take, and how deep it may bite at one place, in radii of
-// the seam: smoothing takes less where a seam crosses an edge.
+// Length of sharp edges that a paste may take, and the depth of a bite at one place, in radii of
+// the seam: smoothing takes less at an edge that a seam crosses.
 constexpr double kBitten = 0.3, kBittenDepth = 0.15;
-// What planes on either side of a seam may differ by on surfaces that were flat, and times as much
-// as they did before on others: in the mean, and along a tenth of it. Of 80 merges of real models,
-// good ones beside flat sides bend by up to 31 and 51 degrees, bad ones by 43 in the mean and more.
+// Limit of the angle between planes on either side of a seam on surfaces that were flat, and of its
+// ratio to the angle before on others: in the mean, and along a tenth of it. In 80 merges of real
+// models, good ones beside flat sides bend by up to 31 and 51 degrees, bad ones by 43 in the mean
+// and more.
 constexpr double kBent = 35.0 / kRadian, kBentMost = 60.0 / kRadian, kMoreBent = 1.3;
-// By what the rim of a source may turn outward: of 80 merges of real models, good ones gain up to
-// 30 degrees, those with a rim that plainly stands out 41 to 94, and those between are split.
+// Limit of the outward turn of a source's rim: of 80 merges of real models, good ones gain up to 30
+// degrees, those with a rim that plainly stands out 41 to 94, and those between are split.
 constexpr double kFlared = 33.0 / kRadian;
 
 [[gnu::format(printf, 1, 2)]] std::string text_of(const char* format, ...) {
@@ -69,7 +70,7 @@ bool all_fit(const MergeReport& report) {
                                                 [](const JoinReport& join) { return join.fits; });
 }
 
-// A steep seam is good where the surface was as steep beside it, which is told.
+// A steep seam is good if the surface was as steep beside it, which is said.
 std::string beside_text(const MergeReport& report) {
     if (report.seam.after.greatest_dihedral <= kSteep) return "";
     if (all_fit(report)) return "as the parts were given, ";
@@ -78,12 +79,12 @@ std::string beside_text(const MergeReport& report) {
 
 using Reasons = std::vector<MergeReason>;
 
-// Of several joins the one that is meant.
+// Names the join concerned, of several.
 std::string at_join(const MergeReport& report, Index join) {
     return report.joins.size() > 1 ? " at join " + std::to_string(join + 1) : "";
 }
 
-// What may help, if an operation has it.
+// A remedy, if an operation has it.
 struct Help {
     bool counts;
     const char* text;
@@ -107,7 +108,7 @@ constexpr const char* kFair = "use the seam \"fair\"";
 constexpr const char* kTransition = "use a transition";
 constexpr const char* kSmooth = "smooth more";
 constexpr const char* kSubdivide = "subdivide the coarser side";
-constexpr const char* kCut = "cut the parts where they are smoother and of like size";
+constexpr const char* kCut = "cut the parts at smoother places of like size";
 
 std::string remedy_of_crossings(CrossingPlace place, const OpenOptions& open) {
     if (place == CrossingPlace::source) {
@@ -116,7 +117,7 @@ std::string remedy_of_crossings(CrossingPlace place, const OpenOptions& open) {
                            "since the deformation of the source causes them"},
                           {open.keys, kKeys},
                           {open.moves, kMove},
-                          {true, "cut the source where its boundary is more like the target's"}});
+                          {true, "cut the source along a boundary more like the target's"}});
     }
     return remedy_of(
         {{open.moves, kMove}, {open.keys, kKeys}, {true, "cut the part or the target elsewhere"}});
@@ -211,7 +212,7 @@ void judge_volume(const MergeReport& report, Index j, const OpenOptions& open, R
              remedy_of({{open.keys, kKeys},
                         {open.fixed, "fix a region of the source that keeps its shape (`fixed`)"},
                         {open.moves, "put it on the other side of the boundary"},
-                        {true, "cut the parts where their boundaries are more alike"}})});
+                        {true, "cut the parts along boundaries that are more alike"}})});
     }
 }
 
@@ -233,7 +234,7 @@ void judge_bend(const MergeReport& report, Index j, const OpenOptions& open, Rea
                  all_around ? "" : " along a tenth of it", angle_text(before).c_str()),
          remedy_of({{open.fair, kFair},
                     {open.transition, kTransition},
-                    {true, "cut where both parts have the same shape"}})});
+                    {true, "cut both parts at places of the same shape"}})});
 }
 
 void judge_flare(const MergeReport& report, Index j, const OpenOptions& open, Reasons& reasons) {
@@ -286,21 +287,21 @@ void judge_places(const MergeReport& report, const OpenOptions& open, Reasons& r
         if (!join.guessed || join.any_turn || join.certainty >= kCertain) continue;
         reasons.push_back(
             {MergeFault::place, index_of(j), join.certainty, kCertain,
-             "where the boundaries of join " + std::to_string(j + 1) + " meet is a guess",
+             "the match of the boundaries of join " + std::to_string(j + 1) + " is a guess",
              remedy_of({{open.keys, "give a key: one point of each boundary that meet"},
                         {!open.keys, "say which directions of both models belong together"}})});
     }
 }
 
 void judge_slivers(const MergeReport& report, const OpenOptions& open, Reasons& reasons) {
-    // Every vertex is kept, also where those of one part lie close to those of the other.
+    // Every vertex is kept, even if those of one part lie close to those of the other.
     if (all_fit(report)) return;
     const SeamQuality& seam = report.seam.after;
     double thinnest = kThin;
     for (const SeamQuality* rim : {&report.source_rim, &report.target_rim}) {
         if (rim->smallest_angle > 0.0) thinnest = std::min(thinnest, rim->smallest_angle);
     }
-    // Both are 0 where there are no triangles.
+    // Both are 0 without triangles.
     const bool triangles = seam.smallest_angle > 0.0 || seam.low_angle > 0.0;
     if (!(triangles && seam.smallest_angle < thinnest)) return;
     reasons.push_back(

@@ -21,7 +21,7 @@ struct OpenOptions {
     bool smooth = false, collar = false;
     /// Regions of the source can be fixed; the configuration can be free.
     bool fixed = false, free = false;
-    /// The result depends on where the part lies, how it is turned and how large it is.
+    /// The result depends on the place, rotation and size of the part.
     bool moves = false;
 };
 
@@ -35,7 +35,7 @@ struct Verdict {
 /// - no faces run through one another that did not before (`open.sought`: they were looked for),
 ///   but for those that only touch (CrossingGroup::shallow);
 /// - source and target do not lie on the same side of their boundary;
-/// - the surface does not fold back within one radius of the seam where it did not before;
+/// - the surface does not fold back within one radius of the seam and did not before;
 /// - within half a radius it is at most 1.4 times as rough as both sides were, or turns by less
 ///   than 8 degrees an edge;
 /// - each part keeps three fifths of its volume at its scale;
@@ -51,8 +51,8 @@ struct Verdict {
 ///   .15;
 /// - its place is not a toss;
 /// - no triangle at the seam has an angle under 2 degrees, or under the smallest that was there.
-/// Angles of parts that fit (JoinReport::fits) are theirs. The text says what holds, or all that
-/// does not.
+/// Angles of parts that fit (JoinReport::fits) are theirs. The text says which conditions hold, or
+/// all that do not.
 Verdict verdict_of(const MergeReport& report, const OpenOptions& open);
 
 /// Whether a paste takes more of the sharp edges of its target than a verdict lets pass.

@@ -2,12 +2,12 @@
 --
 -- Drag through hair as it shall grow, from its roots towards its tips. Streams that run beside the stroke
 -- are bent, or a new one is added along it, whichever says it with the least change elsewhere; `by` has it
--- one way alone. Where hair flows so already nothing changes.
+-- one way alone. Hair that flows so already does not change.
 local lissom = require "lissom"
 local hair = require "tools.support.hair"
 local hair_view = require "tools.support.hair_view"
 
--- The stroke in the hair that is seen; an error where the head hides it.
+-- The stroke in the visible hair; an error if the head hides it.
 local function drawn(self, ev, one)
     local strands = hair.strands(ev.scene, one)
     if not strands or #strands == 0 then error("there is no hair to comb: draw a stream first", 0) end
@@ -21,7 +21,7 @@ local function drawn(self, ev, one)
     return line
 end
 
--- What a comb has done, in words.
+-- Report of a comb, in words.
 local function told(report)
     if #report.bent == 0 and not report.added then return "hair flows so already" end
     local words = {}
@@ -38,7 +38,7 @@ return lissom.tool{
     help = "Drag through hair, from roots to tips: it flows so.",
     params = hair.with_params{
         by = { type = "choice", default = "least", choices = { "least", "bend", "add" },
-            help = "What changes least; streams are bent alone; or one is added." },
+            help = "least: the smallest change; streams are bent alone; or one is added." },
         reach = { type = "number", default = 0.04, min = 0.005, max = 0.2, unit = "metres",
             help = "How far from the stroke streams are bent." },
     },

@@ -2,17 +2,16 @@
 --
 -- by line: drag a line across the mesh; it is cut by the plane that is seen as that line.
 -- by draw: draw a line across the mesh, from beside it to beside it, and it is cut through; or on it, back to
--- where the line began.
--- by path: click points around the mesh, from all sides, and press Enter: it is cut along a smooth line near
--- the shortest path through them. Backspace takes the last point back.
--- by region: Enter cuts along the outline of what is selected.
+-- its start. by path: click points around the mesh, from all sides, and press Enter: it is cut along a smooth
+-- line near the shortest path through them. Backspace takes the last point back. by region: Enter cuts along
+-- the outline of the selection.
 local lissom = require "lissom"
 local drawn_line = require "tools.support.drawn_line"
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
 local vectors = require "vectors"
 
--- The mesh under the middle of the drawn line, or as near to that as there is one; and where it is hit.
+-- The mesh under the middle of the drawn line, or the nearest one to that; and the point of the hit.
 local function under_line(ev)
     for i = 0, 20 do
         local t = 0.5 + (i % 2 == 0 and 1 or -1) * i / 40
@@ -24,7 +23,7 @@ local function under_line(ev)
     return nil
 end
 
--- The mesh and the plane that the drawn line means, in the mesh's own space; nil where it hits nothing.
+-- The mesh and the plane of the drawn line, in the mesh's own space; nil if it hits nothing.
 local function plane_of(self, ev)
     local one, middle = under_line(ev)
     local along = one and { ev.x - ev.start[1], ev.y - ev.start[2] }
@@ -52,7 +51,7 @@ local function cut(self, scene, one, options)
     self.edge = { mesh = first, place = one.place, list = first:boundaries() }
 end
 
--- The mesh that points were clicked on; without the points, where it or its faces are no longer there.
+-- The mesh that points were clicked on; without the points, if it or its faces are gone.
 local function clicked(self, scene)
     local one = self.mesh and meshes.find(scene, self.mesh)
     for _, vertex in ipairs(self.points) do

@@ -1,11 +1,11 @@
 --- Bends a mesh by handles, while the rest of its surface follows.
 --
 -- Drag over the surface to select a part of it (shift adds) and press Enter: it becomes a handle, with a
--- gizmo. Select what shall hold its place and press p: it is pinned, a handle that stays where it is. Then
--- drag the gizmo. Keys: w moves, e turns, r scales; x, y and z choose an axis; a number says how far, during
--- the drag or after it and then Enter. Click a handle or press tab to go to another; delete takes it away;
--- f finishes. v sets the pivot that turns and scaling are about: the middle of what is selected, else the
--- point of the surface under the cursor, and beside the surface the middle of the handle again.
+-- gizmo. Select the part that shall hold its place and press p: it is pinned, a handle that stays. Then drag
+-- the gizmo. Keys: w moves, e turns, r scales; x, y and z choose an axis; a number says how far, during the
+-- drag or after it and then Enter. Click a handle or press tab to go to another; delete takes it away; f
+-- finishes. v sets the pivot of turns and scaling: the middle of the selection, else the point of the surface
+-- under the cursor, and beside the surface the middle of the handle again.
 --
 -- The handles live in the scene, in an object "... deformation" beside the mesh: they are undone and saved.
 local lissom = require "lissom"
@@ -28,7 +28,7 @@ local function active(self, scene)
     return one, number, list
 end
 
--- Where a key sets the pivot: nil for the middle of the handle.
+-- Pivot set by a key: nil for the middle of the handle.
 local function pivot_at(ev, one)
     local selected = meshes.selection(one.mesh)
     if #selected == 0 then
@@ -53,14 +53,14 @@ local function handle_under(ev, list)
     return nil
 end
 
--- Selects what the brush comes over.
+-- Selects the vertices under the brush.
 local function paint(self, ev)
     for _, one in ipairs(self.brush:paint(ev, self.params.radius, { through = self.params.through })) do
         meshes.select(one.mesh, meshes.selection(one.mesh):union(one.region))
     end
 end
 
--- What is said of a new handle: how well the side that mirrors it matches.
+-- Text about a new handle: the match of the mirrored side.
 local function told_of_mirror(handle)
     if not handle:mirrored() then return nil end
     local residual = handle:mirror_residual()
@@ -87,7 +87,7 @@ local function add_handle(self, scene)
         weight = params.softness > 0 and 1 / params.softness or nil })
 end
 
--- Solves for where the handle is now, and says what that did to the surface.
+-- Solves for the present place of the handle, and reports the result.
 local function finish(self, one)
     one.deformer:solve()
     local report = one.deformer:report()
@@ -131,7 +131,7 @@ return lissom.tool{
     params = {
         radius = { type = "number", default = 30, min = 1, max = 300, unit = "pixels", help = "brush" },
         through = { type = "boolean", default = false,
-            help = "The brush takes all that it covers, also what the surface hides." },
+            help = "The brush takes all that it covers, also hidden parts." },
         preview = { type = "choice", default = "large meshes", choices = { "large meshes", "always",
             "never" }, help = "Drags are quick, with some shear, and exact when they end." },
         reach = { type = "number", default = 0, min = 0, max = 4, unit = "mesh sizes",

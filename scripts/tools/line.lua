@@ -1,7 +1,7 @@
 --- Draws lines on surfaces: features, seams, borders. Each is a polyline, an object of the scene.
 --
--- Drag over a mesh: a line on it, fair between its corners; back to where it began it is closed. by edges:
--- along the edges of faces. With shift a line goes on where the last one ended. Backspace takes the last one
+-- Drag over a mesh: a line on it, fair between its corners; back to its start it is closed. by edges: along
+-- the edges of faces. With shift a line continues at the end of the last one. Backspace takes the last one
 -- away.
 local lissom = require "lissom"
 local drawn_line = require "tools.support.drawn_line"
@@ -10,7 +10,7 @@ local meshes = require "tools.support.meshes"
 
 local near = 20                 -- pixels within which a line comes back to its beginning
 
--- What a stroke draws: points of the mesh's own space, and whether they are closed.
+-- Line of a stroke: points of the mesh's own space, and whether they are closed.
 local function on_surface(ev, one, drawn, params)
     local back, line, vertices = matrices.inverse(one.place), {}, {}
     local pixels = ev.camera:stroke{ points = drawn, size = ev.size }.pixels
@@ -33,7 +33,7 @@ local function on_surface(ev, one, drawn, params)
     return line, closed
 end
 
--- The polyline that was drawn last, where it is still there.
+-- The polyline that was drawn last, if it still exists.
 local function last_of(self, scene)
     local object = self.last and meshes.object(scene, self.last)
     return object and scene:info(self.last).kind == "polyline" and object or nil

@@ -1,7 +1,7 @@
---- Paints on the scalp where hair is shorter, longer or thinner, and where it parts.
+--- Paints on the scalp to make hair shorter, longer or thinner, and to part it.
 --
 -- Drag over the head. A style keeps its strokes; a later one paints over those before it, with a value of 1
--- it takes them away. Of kind `parting` a stroke is a parting as wide as the brush. Delete takes away all
+-- it takes them away. A stroke of kind `parting` is a parting as wide as the brush. Delete takes away all
 -- that was painted of the kind.
 local lissom = require "lissom"
 local hair = require "tools.support.hair"
@@ -19,7 +19,7 @@ end
 
 local function radius_in(one, params) return params.radius * one.scalp:scale() end
 
--- Goes on to the place under the cursor, where that is far enough from the last one.
+-- Goes on to the place under the cursor, if that is far enough from the last one.
 local function go_on(self, ev, one)
     local at = under(ev, one)
     local last = self.points[#self.points]
@@ -56,11 +56,11 @@ return lissom.tool{
     help = "Drag over the head: paints length or density of hair, or a parting. Delete: takes it away.",
     params = hair.with_params{
         kind = { type = "choice", default = "length", choices = { "length", "density", "parting" },
-            help = "What is painted." },
+            help = "Kind of the mask." },
         value = { type = "number", default = 0.5, min = 0, max = 4,
-            help = "Factor of the length, or the density to 1; 1 takes away what was there." },
+            help = "Factor of the length, or the density to 1; 1 erases." },
         radius = { type = "number", default = 0.02, min = 0.001, max = 0.2, unit = "metres",
-            help = "Of the brush, on an average head." },
+            help = "Radius of the brush, on an average head." },
         softness = { type = "number", default = 0.5, min = 0, max = 1,
             help = "The share of the radius over which the brush fades." },
     },

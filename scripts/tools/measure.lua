@@ -1,8 +1,8 @@
 --- Measures by clicked points, in the unit of the world.
 --
 -- distance: two points, along a straight line. surface: two points of a mesh, over its surface. angle: three
--- points, the second at its vertex. object: area and volume of what is clicked. The next click begins anew;
--- backspace takes the last point back, d all. Points stay on the surface when it moves.
+-- points, the second at its vertex. object: area and volume of the clicked object. The next click begins
+-- anew; backspace takes the last point back, d all. Points stay on the surface when it moves.
 local lissom = require "lissom"
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
@@ -23,14 +23,15 @@ local function in_world(one)
     return copy
 end
 
--- Weighs what f gives for the corners of the triangle that a point was clicked in.
+-- Weighs the results of f for the corners of the triangle that a point was clicked in.
 local function mean(point, f)
     local sum = 0
     for i = 1, 3 do sum = sum + point.bary[i] * f(point.triangle[i]) end
     return sum
 end
 
--- Where the points are now, and their meshes, without points of meshes that are gone or have other vertices.
+-- Present positions of the points, and their meshes, without points of meshes that are gone or have other
+-- vertices.
 local function located(self, scene)
     local places, ones = {}, {}
     for _, point in ipairs(self.points) do
@@ -84,7 +85,7 @@ local measures = {
     end,
 }
 
--- The label and line of what is measured, made anew where a point or the object has moved.
+-- The label and line of the measure, made anew if a point or the object has moved.
 local function result(self, scene)
     local p, ones = located(self, scene)
     if #p < wanted[self.params.what] then return nil, p end

@@ -1,4 +1,4 @@
---- Merges two meshes along an open boundary of each: what answers the clicks is a coroutine.
+--- Merges two meshes along an open boundary of each: a coroutine answers the clicks.
 --
 -- Click the loop of the part that is moved, then the loop that it is joined to: the merged surface appears
 -- there, instead of the second mesh, and a label says how it was placed, how certain that is, and whether
@@ -113,7 +113,7 @@ local function turned_keys(target, keys, angle)
     return turned
 end
 
--- What is said of a join: what decided how the part is turned, how certain that is, the verdict.
+-- Text about a join: the criterion of the part's rotation, its certainty, the verdict.
 local function told(join, report)
     local found, words = report.joins[1], {}
     table.insert(words, found.placed == "keys" and "placed by keys" or "placed: " .. found.placed)
@@ -194,14 +194,14 @@ local function with_direction(dragged, name, direction)
     return copy
 end
 
--- The same; where it cannot be merged, that is told in the picture, and the clicks go on.
+-- Joins likewise; a failure is shown in the picture, and the clicks go on.
 local function try(self, scene, join)
     local done, message = pcall(show, self, scene, join)
     message = not done and tostring(message):gsub("^%S+:%d+: ", ""):gsub(" %[[%l_]+%]$", "")
     self.trouble = message and { at = join.target.position, text = message } or nil
 end
 
--- The join that is shown, which undo changes too; nil where there is none.
+-- The join that is shown, which undo changes too; nil if there is none.
 local function shown(self, scene)
     local mesh = self.result and meshes.object(scene, self.result)
     return mesh and self.joins[mesh:hash()]
@@ -301,17 +301,17 @@ return lissom.tool{
         place = { type = "choice", default = "as placed", choices = { "as placed", "shape" },
             help = "Without keys: turned least from how the part lies, or as the shapes of both suggest." },
         part_up = { type = "choice", default = "none", choices = of_part, group = "hints",
-            help = "The way that is up on the part as it lies, where it has no keys." },
+            help = "Up direction of the part as it lies, if it has no keys." },
         up = { type = "choice", default = "the same", choices = of_other, group = "hints",
             help = "The way that is up on the mesh that it is joined to." },
         part_front = { type = "choice", default = "none", choices = of_part, group = "hints",
-            help = "The way that the part looks as it lies, where it has no keys." },
+            help = "View direction of the part as it lies, if it has no keys." },
         front = { type = "choice", default = "the same", choices = of_other, group = "hints",
             help = "The way that the mesh looks that it is joined to." },
         transition = { type = "number", default = 0, min = 0, max = 2, unit = "radii of the loop",
             help = "Width on either side of the seam in which the details of both fade into each other." },
     },
-    joins = {},             -- by the hash of what they make
+    joins = {},             -- by the hash of their result
     run = function(self, ev)
         local scene = ev.scene
         self.open = nil
@@ -330,7 +330,7 @@ return lissom.tool{
                 object = join.source.object, optional = true }
             if not from then return scene:set(join.source.object, { visible = false }) end
             self.open = { on_loop(scene, join.source, from) }
-            local to = pick.point{ prompt = "Click where it belongs on the seam", object = self.result }
+            local to = pick.point{ prompt = "Click its place on the seam", object = self.result }
             join = shown(self, scene) or join           -- arrows may have been dragged
             local keys = table.move(join.keys, 1, #join.keys, 1, {})
             table.insert(keys, { self.open[1], on_loop(scene, join.target, to) })

@@ -1,14 +1,14 @@
 --- Turns, moves and zooms the view, as the window itself does without a tool; recordings have it too.
 --
 -- Drag to turn, with shift to move, with ctrl up and down to come nearer or go away. Keys: 1 to 6 look from
--- the six sides, 7 from between them; f shows what is selected, else all, F all; o takes perspective away or
--- brings it back. A tool that wants another view calls ev:look with a camera, as this one does.
+-- the six sides, 7 from between them; f shows the selection, else all, F all; o toggles perspective. A tool
+-- that wants another view calls ev:look with a camera, as this one does.
 local lissom = require "lissom"
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
 local vectors = require "vectors"
 
--- Where the camera stands, seen from what it looks at, and what is up there, if y points up.
+-- Direction to the camera from its target, and the up direction of the picture, if y points up.
 local sides = {
     ["1"] = { { 0, 0, 1 } }, ["2"] = { { 0, 0, -1 } }, ["3"] = { { -1, 0, 0 } }, ["4"] = { { 1, 0, 0 } },
     ["5"] = { { 0, 1, 0 }, { 0, 0, -1 } }, ["6"] = { { 0, -1, 0 }, { 0, 0, 1 } }, ["7"] = { { 1, 0.6, 1.2 } },
@@ -27,7 +27,7 @@ local function add_vertices(points, one, vertices)
     end
 end
 
--- The selected vertices of all visible meshes in the world; all of them where none is selected, or `all`.
+-- The selected vertices of all visible meshes in the world; all vertices if none is selected, or `all`.
 local function points_of(scene, all)
     local points = {}
     for _, one in ipairs(all and {} or meshes.visible(scene)) do
@@ -69,11 +69,11 @@ return lissom.tool{
     help = "Drag: turns; shift: moves; ctrl: nearer. Keys: 1 to 7 sides, f(rame), F: all, o: perspective.",
     params = {
         by = { type = "choice", default = "turn", choices = { "turn", "move", "zoom" },
-            help = "what a drag does without shift and ctrl" },
+            help = "effect of a drag without shift and ctrl" },
         doubling = { type = "number", default = 150, min = 10, max = 2000, unit = "pixels",
             help = "A drag of so many pixels comes twice as near." },
     },
-    -- A drag is always from where it began: it does not matter how many events it has.
+    -- A drag always counts from its start: the number of its events does not matter.
     press = function(self, ev)
         local by = ev.shift and "move" or ev.ctrl and "zoom" or self.params.by
         self.held = { camera = ev.camera, by = by, x = ev.x, y = ev.y }

@@ -2,9 +2,9 @@
 --
 -- Drag over the head: a parting. A stroke that begins beside the chosen one is its tilt: draw it as hair
 -- shall flow there. All of a side count together, so two of them, one near each end, tell how the tilt
--- changes along the line. What a stroke is taken for stands at the cursor; Alt takes it otherwise, with shift
--- it is a parting wherever it begins. Click a parting, or press tab, to choose it; drag its handles: how far
--- off the crest of the hair stands (sigma), how high it is (height), and how firmly both sides are kept apart
+-- changes along the line. The reading of a stroke stands at the cursor; Alt takes the next one, with shift
+-- any stroke is a parting. Click a parting, or press tab, to choose it; drag its handles: how far off the
+-- crest of the hair stands (sigma), how high it is (height), and how firmly both sides are kept apart
 -- (separation); one whose way is seen end-on is left out. Backspace takes its tilt strokes away, delete the
 -- parting. With `symmetric` each parting beside the middle has a mirror image, which does the same.
 local curve_handles = require "tools.support.curve_handles"

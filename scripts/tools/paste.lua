@@ -1,10 +1,10 @@
 --- Puts a part onto another mesh: a nose, an ear, a horn.
 --
--- The part is what is selected of a mesh, or a mesh with a region called "region", such as
--- lissom.part.save writes. Press on the target, or on the part and drag it there: it follows the cursor as it
--- will stand there, with the loop that it is cut along and the energy of that. While the button is down the
--- wheel turns it, with shift it scales it. Let go: the best loop is sought, and the target has the part; that
--- is one step. Where the part does not fit it stays where it last did, and the reason is shown. Of one mesh
+-- The part is the selection of a mesh, or a mesh with a region called "region", such as lissom.part.save
+-- writes. Press on the target, or on the part and drag it there: it follows the cursor as it will stand
+-- there, with the loop that it is cut along and the energy of that. While the button is down the wheel turns
+-- it, with shift it scales it. Let go: the best loop is sought, and the target has the part; that is one
+-- step. If the part does not fit it stays at its last good place, and the reason is shown. With one mesh
 -- alone a part is put onto itself.
 local lissom = require "lissom"
 local matrices = require "matrices"
@@ -14,7 +14,7 @@ local vectors = require "vectors"
 local turn, growth = 5, 1.05                    -- of a line of the wheel: degrees, and a factor
 local part_color = "#d9b38c"
 
--- What is marked to be pasted of a mesh: its region and feature; nil where nothing is.
+-- The marked part of a mesh: its region and feature; nil if nothing is marked.
 local function marked(one)
     local selected = meshes.selection(one.mesh)
     if #selected > 0 then return selected end
@@ -34,7 +34,7 @@ local function find_part(self, scene, pressed)
     return last or found
 end
 
--- What is being dragged over, and the point there in the space of its mesh.
+-- The object under the drag, and the point there in the space of its mesh.
 local function under(self, ev)
     local hit, part = ev:hit(), self.part
     local alone = #meshes.visible(ev.scene) == 1
@@ -57,7 +57,7 @@ local function begun(self, onto, at)
         clear = self.params.clear, normals = self.params.normals, placement = placement(self, at) }
 end
 
--- Puts the part under the cursor, with the loop it has; keeps what was where it does not fit there.
+-- Puts the part under the cursor, with its present loop; keeps the former place if it does not fit there.
 local function follow(self, ev)
     local onto, at = under(self, ev)
     if not onto then return end
@@ -80,7 +80,7 @@ local function follow(self, ev)
     self.trouble = not there and { at = matrices.point(onto.place, at), text = tostring(message) } or nil
 end
 
--- Gives the target the part: what was seen, with the best loop there.
+-- Gives the target the part: the preview, with the best loop there.
 local function commit(self, scene)
     self.params.angle, self.params.scale = self.angle, self.scale
     local paste = begun(self, self.onto, self.at)
@@ -95,7 +95,8 @@ local function commit(self, scene)
     scene:add(self.onto.name, mesh, { transform = self.onto.place, style = self.onto.style })
 end
 
--- The part as it stands now, made when it is first seen there; what does not fit has a reason instead.
+-- The part in its present place, made when it is first seen there; one that does not fit has a reason
+-- instead.
 local function draft(self)
     if not self.draft then
         local mesh, boundary = lissom.try(self.paste.draft, self.paste)
@@ -120,7 +121,7 @@ return lissom.tool{
         up = { type = "choice", default = "the view's",
             choices = { "the view's", "x", "y", "z", "-x", "-y", "-z" },
             help = "The direction of both meshes that stays upright." },
-        clear = { type = "boolean", default = false, help = "Removes what stands out of the target there." },
+        clear = { type = "boolean", default = false, help = "Removes features of the target there." },
         normals = { type = "number", default = 0, min = 0, max = 1,
             help = "How much the loop minds the surface's directions; .1 to .3 for parts that overhang." },
     },

@@ -2,12 +2,12 @@
 --
 -- Drag from the head away: the spine of a tail. Drag round it: the tie, there and as wide. Drag along it, on
 -- either side: how the tail swells. A stroke that begins at the spine, or cuts it, changes it as in the
--- tool stream: seen from aside, a quarter turn away (v: from this view on), its depth. What a stroke is taken
--- for stands at the cursor; Alt takes it otherwise, and with shift it is a spine wherever it begins. Click a
--- tail, or press tab, to choose it; drag its handles: from where to where hair is drawn into the tie, and how
--- firmly. Delete takes it away, backspace what was drawn round and along it. With `symmetric` each tail
--- beside the middle has a mirror image, which does the same. Where hair misses the tie, g draws streams into
--- it from all around.
+-- tool stream: seen from aside, a quarter turn away (v: from this view on), its depth. The reading of a
+-- stroke stands at the cursor; Alt takes the next one, and with shift any stroke is a spine. Click a tail, or
+-- press tab, to choose it; drag its handles: start and end of the part in which hair is drawn into the tie,
+-- and the strength. Delete removes it, backspace the strokes round and along it. With `symmetric` each tail
+-- beside the middle has a mirror image, which does the same. If hair misses the tie, g draws streams into it
+-- from all around.
 local curve_handles = require "tools.support.curve_handles"
 local curve_tool = require "tools.support.curve_tool"
 local hair = require "tools.support.hair"
@@ -51,7 +51,7 @@ return curve_tool.make{
         fullness = { type = "number", default = 1, min = 0, max = 3, group = "ponytail",
             help = "Without profiles: the tail swells by as many radii." },
         length = { type = "number", default = 0.6, min = 0.01, max = 1.5, unit = "metres", group = "hair",
-            help = "Of the strands up to the tie, on an average head." },
+            help = "Length of the strands up to the tie, on an average head." },
     },
     handles = tail.handles,
     slide = tail.drag,

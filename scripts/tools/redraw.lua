@@ -1,8 +1,8 @@
 --- Draws a part of a shape anew: a silhouette, a ridge or any line of the surface.
 --
 -- The first stroke follows the line as it is; drawn along the outline of the shape it snaps to that. The
--- second one draws where it shall be: the surface follows as it is drawn, at the depth that it has. Both may
--- run either way. Ends that are drawn within 20 pixels of where they were stay there. A click begins anew.
+-- second one draws its new course: the surface follows as it is drawn, at its present depth. Both may run
+-- either way. Ends that are drawn within 20 pixels of their old place stay there. A click begins anew.
 local lissom = require "lissom"
 local drawn_line = require "tools.support.drawn_line"
 local matrices = require "matrices"
@@ -18,7 +18,7 @@ local function take_line(self, ev, pixels)
     self.line, self.mesh = line, mesh
 end
 
--- The deformation of what is around the line, with its length in the mesh's own space.
+-- The deformation of the surroundings of the line, with its length in the mesh's own space.
 local function deformation(self, one)
     local back, length, from = matrices.inverse(one.place), 0, {}
     for i, point in ipairs(self.line) do
@@ -55,7 +55,7 @@ end
 
 return lissom.tool{
     name = "redraw",
-    help = "Draw along an outline or ridge, then where it shall be. Click: begin anew.",
+    help = "Draw along an outline or ridge, then its new course. Click: begin anew.",
     params = {
         reach = { type = "number", default = 0.35, min = 0.05, max = 3, unit = "lengths of the line",
             help = "How far around the line the surface follows." },

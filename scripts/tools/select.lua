@@ -1,14 +1,14 @@
 --- Selects vertices: the region "selected" of each mesh, with which the other tools work.
 --
--- Click or drag over the surface. With shift what is hit is added, with ctrl taken away; a click beside
--- everything selects nothing. Keys: + and - grow and shrink the selection by a ring, i inverts it, a selects
--- all, d or Escape nothing.
+-- Click or drag over the surface. With shift the hit is added, with ctrl removed; a click beside everything
+-- selects nothing. Keys: + and - grow and shrink the selection by a ring, i inverts it, a selects all, d or
+-- Escape nothing.
 local lissom = require "lissom"
 local brush = require "tools.support.brush"
 local disk = require "tools.support.disk"
 local meshes = require "tools.support.meshes"
 
--- What the keys make of the selected vertices.
+-- Effects of the keys on the selected vertices.
 local changes = {
     ["+"] = function(region) return region:grow(1) end,
     ["-"] = function(region) return region:shrink(1) end,
@@ -24,7 +24,7 @@ local function change_all(scene, change)
     end
 end
 
--- Selects what is hit, a region for each mesh, together with what was selected at the press.
+-- Selects the hits, a region for each mesh, together with the selection at the press.
 local function choose(stroke, ev, hit)
     for _, one in ipairs(meshes.visible(ev.scene)) do
         local mesh = one.mesh
@@ -35,7 +35,7 @@ local function choose(stroke, ev, hit)
     end
 end
 
--- Adds what ev:select has found to a table of regions, one for each mesh.
+-- Adds the result of ev:select to a table of regions, one for each mesh.
 local function joined(regions, found)
     for _, one in ipairs(found) do
         local old = regions[one.mesh]
@@ -44,8 +44,8 @@ local function joined(regions, found)
     return regions
 end
 
--- What each way to select does at the press, whenever the cursor has moved, and at the end. Each may return
--- what is hit.
+-- Actions of each way to select: at the press, at each motion of the cursor, and at the end. Each may return
+-- the hits.
 local ways = {}
 ways.click = {
     press = function(stroke, ev, params)
@@ -117,7 +117,7 @@ return lissom.tool{
         by = { type = "choice", default = "brush", choices = { "click", "brush", "lasso", "rectangle", "disk",
             "component" }, help = "click: a vertex; disk: over the surface, from its middle to its rim" },
         radius = { type = "number", default = 30, min = 1, max = 300, unit = "pixels", help = "brush" },
-        through = { type = "boolean", default = false, help = "Also what the surface hides." },
+        through = { type = "boolean", default = false, help = "Includes parts hidden by the surface." },
     },
     brush = brush.new(),
     press = function(self, ev)

@@ -1,12 +1,12 @@
 --- Smooths the surface under a brush.
 --
--- Drag over it. Where something is selected, only that is smoothed. A deformation that was in progress ends
--- with the shape that it has.
+-- Drag over it. With a selection, only that is smoothed. A deformation that was in progress ends with the
+-- shape that it has.
 local lissom = require "lissom"
 local brush = require "tools.support.brush"
 local meshes = require "tools.support.meshes"
 
--- Smooths what the brush has come over since the last event, or what of it is selected.
+-- Smooths the vertices under the brush since the last event, or the selected ones of them.
 local function smooth(self, ev)
     local params = self.params
     for _, one in ipairs(self.brush:paint(ev, params.radius)) do

@@ -2,13 +2,11 @@
 --
 -- by draw: a stroke that begins on the scalp is a new stream; one that ends at the tie of a tail goes into
 -- it. With a stream chosen by a click, or begun at one, it is a hint: across the stream it cuts, from it to
--- elsewhere it goes on there, from it back to it it takes the place of the part between. What it is taken for
--- stands at the cursor; Alt takes the next reading.
--- Seen from far beside the view that streams were drawn in (v: from now on this one) hints change the depth:
--- they are drawn on the surface that is shown.
--- by pull: a drag moves a stream there, at its first point the root over the scalp. by rub: smooths it.
--- Keys: tab chooses the next stream, delete removes it, m adds its mirror image, c a
--- copy of it that begins at the cursor.
+-- elsewhere it goes on there, from it back to it it takes the place of the part between. Its reading stands
+-- at the cursor; Alt takes the next reading. Seen from far beside the view that streams were drawn in (v:
+-- from now on this one) hints change the depth: they are drawn on the surface that is shown. by pull: a drag
+-- moves a stream there, at its first point the root over the scalp. by rub: smooths it. Keys: tab chooses the
+-- next stream, delete removes it, m adds its mirror image, c a copy of it that begins at the cursor.
 local curves = require "tools.support.curves"
 local hair = require "tools.support.hair"
 local hair_view = require "tools.support.hair_view"
@@ -57,7 +55,7 @@ local keys = {
     end,
     c = function(self, one, curve, ev)
         local hit = ev.x and one.scalp:head():pick(hair.camera(ev.camera, one):ray(ev.x, ev.y, ev.size))
-        if not hit then error("press c with the cursor where the copy's root shall be", 0) end
+        if not hit then error("press c with the cursor at the new root of the copy", 0) end
         local points = curves.copied(one.scalp, curve:points(), hit.position)
         self.curve = one.style:add_stream{ points = points }
     end,
@@ -69,12 +67,12 @@ return require("lissom").tool{
         .. "it, Alt: otherwise.",
     params = hair.with_params{
         by = { type = "choice", default = "draw", choices = { "draw", "pull", "rub" } },
-        stop = { type = "boolean", default = true, help = "Hair ends where the streams do that are drawn." },
+        stop = { type = "boolean", default = true, help = "Hair ends at the ends of the drawn streams." },
         lift = { type = "number", default = 20, min = 0, max = 60, unit = "millimetres",
-            help = "How far off the skin hair lies where it is drawn; low where it is drawn to a tie." },
+            help = "Height of drawn hair off the skin; low for hair drawn to a tie." },
         symmetric = hair.symmetric,
         surface = { type = "choice", default = "auto", choices = { "auto", "strip", "ruled" },
-            help = "Of hints: strip changes how a stream looks, ruled its depth, seen from aside." },
+            help = "Mode of hints: strip changes the look of a stream, ruled its depth, seen from aside." },
         reach = { type = "number", default = 0.05, min = 0.005, max = 0.3, unit = "metres",
             help = "How far along a stream a pull or a rub reaches." },
     },

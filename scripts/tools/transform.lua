@@ -1,15 +1,15 @@
---- Moves, turns and scales whole objects, where they stand in the scene: their own coordinates stay.
+--- Moves, turns and scales whole objects in the scene: their own coordinates stay.
 --
 -- Click an object, then drag a part of its gizmo. Keys: w moves, e turns, r scales; x, y and z choose an
 -- axis; a number says how far, during the drag or after it and then Enter. Tab goes to the next object, h
--- puts it where it was made.
+-- puts it back to its first place.
 local lissom = require "lissom"
 local grip = require "tools.support.grip"
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
 local vectors = require "vectors"
 
--- The columns of a place without their lengths: where an object's own axes point.
+-- The columns of a place without their lengths: the directions of an object's own axes.
 local function own_axes(place)
     local x = vectors.unit(matrices.direction(place, { 1, 0, 0 }))
     local y = matrices.direction(place, { 0, 1, 0 })
@@ -18,7 +18,7 @@ local function own_axes(place)
     return { { x[1], y[1], z[1] }, { x[2], y[2], z[2] }, { x[3], y[3], z[3] } }
 end
 
--- The object that is moved, with the gizmo in its middle; nil where there is none.
+-- The object that is moved, with the gizmo in its middle; nil if there is none.
 local function held(self, scene)
     local list = meshes.visible(scene)
     for _, one in ipairs(list) do
@@ -40,7 +40,7 @@ return lissom.tool{
     help = "Click an object and drag its gizmo. Keys: w move, e turn, r scale, x y z, numbers, tab, h(ome).",
     params = {
         axes = { type = "choice", default = "world", choices = { "world", "local", "view" },
-            help = "Along what the gizmo's axes point." },
+            help = "Directions of the gizmo's axes." },
     },
     grip = grip.new(),
     press = function(self, ev)

@@ -150,7 +150,7 @@ test("where a stroke of a sketch is refused, none is drawn, and the error says w
     expect.error(sketch{ { tool = "stream", points = way, speed = 3 } }, "no field 'speed'")
     expect.error(sketch{ { tool = 7, points = way } }, "its tool is a name")
     expect.error(sketch{ { tool = "stream", params = 3, points = way } }, "a table of values")
-    expect.error(sketch{ { tool = "stream", camera = {}, points = way } }, "what lissom.camera returns")
+    expect.error(sketch{ { tool = "stream", camera = {}, points = way } }, "a result of lissom.camera")
     expect.error(sketch{ { tool = "stream", points = { { 0 / 0, 1 } } } }, "is not a pixel")
     local _, problem = lissom.try(sketch{ { tool = "stream", points = beside } })
     expect.truthy(problem.message:find("^stroke 1: the stroke starts"))

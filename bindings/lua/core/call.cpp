@@ -13,7 +13,7 @@ namespace {
 // Native bytes between two steps of the collector.
 constexpr std::size_t kChargeStep = std::size_t{64} << 10;
 
-// What stands before a held value.
+// Header of a held value.
 struct HeldHead {
     void (*destroy)(void*);
     const void* mark;

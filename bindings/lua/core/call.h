@@ -13,8 +13,8 @@
 ///         return 1;
 ///     }
 ///
-/// What the table says about arguments has been checked before the body runs. Outside `attempt`
-/// only trivially destructible values may be alive.
+/// Arguments are checked against the table before the body runs. Outside `attempt` only trivially
+/// destructible values may be alive.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ struct IdLists {
 struct Value {
     bool present;
     Kind kind;
-    /// Where a function or table is on the stack.
+    /// Stack index of a function or table.
     int stack;
     /// Boolean, integer, number, id (0-based), place of a choice.
     double number;
@@ -67,7 +67,7 @@ class Call {
     /// A call of a metamethod, whose operands are on the stack; nothing is checked.
     Call(lua_State* L, State& state, const Operator& op);
 
-    /// The Lua stack: arguments from 1 on, then what parsing and `create` made.
+    /// The Lua stack: arguments from 1 on, then values pushed by parsing and `create`.
     lua_State* lua() const { return L_; }
     State& state() const { return *state_; }
     const Context& context() const { return state_->context; }
@@ -121,8 +121,8 @@ class Call {
     }
 
     /// Reads the table under `key` in a table of option tables: its fields are at "path.field"
-    /// until the next one is selected, which drops what was pushed since. Raises a Lua error for
-    /// bad ones.
+    /// until the next one is selected, which pops them. Raises a Lua error for bad
+    /// ones.
     void select_item(const char* path, const char* key);
     /// The same for the table at `place`, from 1, of a list of option tables.
     void select_item(const char* path, int place);
@@ -165,12 +165,12 @@ class Call {
 
     // ---- Step 3: C++.
 
-    /// The path of a script's UTF-8 text, where the host lets it use that file.
+    /// Returns the path of a script's UTF-8 text, if the host lets it use that file.
     std::filesystem::path file(std::string_view text, FileUse use) const;
-    /// Throws unsupported where the host lets scripts have no addresses.
+    /// Throws unsupported if the host lets scripts have no addresses.
     void require_addresses() const;
 
-    /// Runs `work` and keeps what it throws as the call's failure; false then. `work` calls no Lua.
+    /// Runs `work` and keeps its exception as the call's failure; false then. `work` calls no Lua.
     template <typename Work>
     bool attempt(const Work& work) {
         static_assert(std::is_trivially_destructible_v<Work>, "capture by reference");
@@ -179,7 +179,7 @@ class Call {
         return end_work();
     }
 
-    /// As `attempt`, for quick work without a context: no listener, no progress.
+    /// Like `attempt`, for quick work without a context: no listener, no progress.
     template <typename Work>
     bool attempt_quick(const Work& work) {
         static_assert(std::is_trivially_destructible_v<Work>, "capture by reference");
@@ -193,9 +193,9 @@ class Call {
     [[noreturn]] int fail();
 
     /// Tells the collector how much native memory `object` has now; growth since the last time
-    /// makes it work. May run finalizers. T has `memory_bytes()` and `charged_bytes`; where it has
+    /// makes it work. May run finalizers. T has `memory_bytes()` and `charged_bytes`; if it has
     /// `held` too, that many bytes are held on the context's account, which nothing else counts:
-    /// raises a Lua error where there is no room.
+    /// raises a Lua error if there is no room.
     template <typename T>
     void charge(const Ref<T>& object) const {
         if constexpr (requires { object->held; }) {
@@ -268,15 +268,15 @@ class Call {
 /// Places in the Lua text that is part of this library begin so; scripts are never told them.
 inline constexpr const char kOwnLuaText[] = "lissom tools:";
 
-/// Pushes "file:line: " of the innermost Lua function, or "" where there is none near: the script's
+/// Pushes "file:line: " of the innermost Lua function, or "" if there is none near: the script's
 /// place even after a tail call or inside a metamethod.
 void push_place(lua_State* L);
 
 /// __gc of held values.
 int collect_held(lua_State* L);
 
-/// The Holder in the userdata at `index`, or null where that is none of this binding, or of another
-/// type than `type_name` (null: any). A metatable proves nothing: scripts can set any on any.
+/// Returns the Holder in the userdata at `index`, or null if that is foreign, or of another type
+/// than `type_name` (null: any). A metatable proves nothing: scripts can set any on any.
 Holder* find_holder(lua_State* L, int index, const char* type_name);
 
 static_assert(std::is_trivially_destructible_v<Call>);

@@ -63,7 +63,7 @@ void set_input(lua_State* L, const Failure& failure) {
     lua_setfield(L, -2, "line");
 }
 
-// "script.lua:3", nothing where no script runs.
+// "script.lua:3"; nothing if no script runs.
 void set_place(lua_State* L, int level) {
     luaL_where(L, level);
     if (level == 1 || lua_tostring(L, -1)[0] == '\0') {

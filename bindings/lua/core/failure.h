@@ -27,7 +27,7 @@ struct Failure {
     void set(const Error& error) noexcept;
     void set(ErrorCode code_given, const char* text) noexcept;
 
-    /// Runs `work`; false, and this failure is set, where it throws.
+    /// Runs `work`; if it throws, sets this failure and returns false.
     template <typename Work>
     bool guard(const Work& work) noexcept {
         try {

@@ -69,7 +69,7 @@ Library kernel_library() {
         {"version", LISSOM_VERSION, "Version of the library."},
         {"licence", build_info().licence,
          "The licence that this build may be distributed under: \"MIT\", or \"GPL-2.0-or-later\" "
-         "where it links CHOLMOD, as builds without LISSOM_GPL=OFF do."}};
+         "if it links CHOLMOD, as builds without LISSOM_GPL=OFF do."}};
     add(library.functions, mesh_file_functions());
     add(library.functions, mesh_functions());
     add(library.functions, shape_functions());
@@ -146,7 +146,8 @@ std::vector<Record> kernel_records() {
           {"integer", "vertex", "The nearest vertex of its triangle."},
           {"integer[]", "triangle", "Vertices of the triangle of the face that contains it."},
           {"number[]", "bary", "Its barycentric coordinates in that triangle."},
-          {"lissom.Vector", "normal", "Unit normal of the triangle; zero where it has no area."},
+          {"lissom.Vector", "normal",
+           "Unit normal of the triangle; zero for a triangle without area."},
           {"number", "distance", "Distance from the query point, or along the ray."}}},
         {"lissom.Distortion",
          "How a surface differs from its rest, at every vertex.",
@@ -164,7 +165,7 @@ std::vector<Record> kernel_records() {
           {"integer", "segment", "It lies between this point of the path and the next."},
           {"number", "distance", "Distance from the query point."}}},
         {"lissom.FillReport",
-         "What was done to close a hole.",
+         "Result of closing a hole.",
          {{"integer", "loop_size", "Vertices around the hole."},
           {"integer", "first_vertex", "The first new vertex."},
           {"integer", "vertex_count", "New vertices; their ids follow each other."},
@@ -174,7 +175,7 @@ std::vector<Record> kernel_records() {
           {"integer", "folded_edges", "Edges of the patch that turn by more than 150 degrees."},
           {"boolean", "limit_reached", "Refinement ended at maximum_vertices."}}},
         {"lissom.AttributeInfo",
-         "What an attribute is.",
+         "Description of an attribute.",
          {{"string", "name", "Its name."},
           {"string", "domain", "vertex, corner or face."},
           {"integer", "width", "Numbers an element."},
@@ -196,13 +197,14 @@ std::vector<Record> kernel_records() {
           {"integer[]", "zero_area_faces", "Faces without area."}}},
         {"lissom.Finding",
          "One finding of a report.",
-         {{"string", "kind", "What was found: vertices_welded, edges_nonmanifold, ..."},
+         {{"string", "kind", "Kind of the finding: vertices_welded, edges_nonmanifold, ..."},
           {"integer", "count", "Number of elements or items."},
           {"string", "summary", "The same in a few words."},
-          {"string|nil", "message", "Details, where there are any."},
-          {"string|nil", "element", "What the ids number: vertex, edge, face or component."},
+          {"string|nil", "message", "Details, if any."},
+          {"string|nil", "element",
+           "Element that the ids number: vertex, edge, face or component."},
           {"string|nil", "of",
-           "file where the ids are those of the file, mesh where they are the mesh's."},
+           "file if the ids are those of the file, mesh if they are the mesh's."},
           {"integer[]|nil", "ids", "The elements; edges are pairs of vertex ids."}}},
         {"lissom.Report", "Findings as a list, and each under the name of its kind.",
          finding_fields()},
@@ -210,16 +212,16 @@ std::vector<Record> kernel_records() {
          "The last result of a deformation beside its rest shape; tostring gives it in words.",
          {{"number", "stretch",
            "The greatest factor by which an edge is longer or shorter than at rest; 1 is none."},
-          {"integer[]|nil", "stretched", "The vertices of that edge; nil where none changed."},
+          {"integer[]|nil", "stretched", "The vertices of that edge; nil if none changed."},
           {"integer[]", "flipped",
            "Faces that look against those around them, and did not at rest."},
           {"integer|nil", "crossings",
-           "Pairs of faces that run through one another, and did not at rest; where asked for."},
+           "Pairs of faces that intersect and did not at rest; if asked for."},
           {"number|nil", "volume_change", "Volume over that at rest, less 1; nil without one."},
           {"table[]", "tears",
-           "Where handles nearly touch and tear the surface, the worst first: `vertices`, a pair "
-           "that different handles hold, and `slip`, how far they part in lengths of the edges "
-           "between."},
+           "Places at which handles nearly touch and tear the surface, the worst first: "
+           "`vertices`, a pair that different handles hold, and `slip`, how far they part in "
+           "lengths of the edges between."},
           {"lissom.DeformWarning[]", "warnings", "The harms that a user would see."}}},
         {"lissom.DeformWarning",
          "A harm that a deformation did to the surface.",
@@ -229,7 +231,7 @@ std::vector<Record> kernel_records() {
            "neighbours; crossing: the surface runs through itself, if that was asked for; "
            "volume: it is a quarter smaller than the handles ask for, or three quarters larger."},
           {"string", "message", "Its measure and a remedy."},
-          {"integer[]|nil", "vertices", "Where handles tear the surface: pairs, at most 50."},
+          {"integer[]|nil", "vertices", "Tears between handles: pairs of vertices, at most 50."},
           {"integer[]|nil", "edges", "Edges, as pairs of vertices, at most 50."},
           {"integer[]|nil", "faces", "Faces, at most 100."}}},
         {"lissom.DeformStats",
@@ -257,12 +259,12 @@ std::vector<Record> kernel_records() {
          {{"integer[]", "vertices", "Vertices of the region; one row of each buffer."},
           {"lissom.Handle[]", "handles", "The handles, in the order of `weights`."},
           {"lissom.Buffer[]", "weights", "For each handle four numbers a vertex."},
-          {"lissom.Buffer", "fixed", "What no handle moves: three numbers a vertex."}}},
+          {"lissom.Buffer", "fixed", "The part that no handle moves: three numbers a vertex."}}},
         {"lissom.ParamSchema",
          "The declaration of a parameter.",
          {{"string", "name", "Its name."},
           {"string", "type", "number, integer, boolean, string, choice, file or folder."},
-          {"any", "default", "Its default; nil where it must be given."},
+          {"any", "default", "Its default; nil if it must be given."},
           {"any", "value", "Its present value."},
           {"number?", "min", "Smallest value."},
           {"number?", "max", "Greatest value."},
@@ -270,7 +272,7 @@ std::vector<Record> kernel_records() {
           {"string[]?", "choices", "The values of a choice."},
           {"string", "unit", "Its unit, or an empty string."},
           {"string", "group", "Heading that it stands under, or an empty string."},
-          {"string", "help", "What it does, or an empty string."}}},
+          {"string", "help", "Its help text, or an empty string."}}},
     };
 }
 

@@ -1,5 +1,5 @@
 /// The parts of the library of the kernel; private to bindings/lua. Each file of the folders beside
-/// this one describes what it exposes by one of these.
+/// this one describes its functions and types by one of these.
 #pragma once
 
 #include "bindings/lua/core/registry.h"

@@ -145,8 +145,9 @@ Function listen_function() {
             "Sets the functions that hear of long operations, in place of those before. "
             "They cannot call lissom themselves.",
         .options = {function("progress", "fun(label: string, fraction: number): boolean?",
-                             "Called during an operation with what is done and the fraction done, "
-                             "0 to 1. Where it returns false the operation is cancelled.")
+                             "Called during an operation with the name of the step and the "
+                             "fraction done, 0 to 1. If it returns false the operation is "
+                             "cancelled.")
                         .optional("none"),
                     function("log", "fun(level: string, message: string)",
                              "Called after an operation with each of its messages; the level is "

@@ -12,7 +12,7 @@
 
 namespace lissom::lua {
 
-/// The functions of one Lua state, and what is on its way to them.
+/// The functions of one Lua state, and messages on the way to them.
 struct Listeners {
     struct Message {
         LogLevel level;
@@ -47,14 +47,14 @@ void report_progress(Listeners& listeners, std::string_view label, double fracti
 void keep_message(Listeners& listeners, LogLevel level, std::string_view text);
 
 /// Keeps the object at stack index 1, which is collected in the middle of an operation, until its
-/// end: a script can call __gc of what the operation works on.
+/// end: a script can call __gc of an object in use.
 void keep_collected(lua_State* L, Listeners& listeners);
 
-/// Lets go of what keep_collected kept.
+/// Releases the objects of keep_collected.
 void release_collected(lua_State* L, Listeners& listeners);
 
-/// After an operation, with no C++ object alive: delivers messages and raises what a function
-/// raised.
+/// After an operation, with no C++ object alive: delivers messages and raises the error of a
+/// function.
 void end_listening(lua_State* L, Listeners& listeners);
 
 /// lissom.listen

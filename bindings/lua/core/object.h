@@ -11,8 +11,8 @@ namespace lissom::lua {
 struct Holder {
     explicit Holder(const char* name) : type_name(name) {}
 
-    /// What tells it from a foreign userdata, whatever metatable a script has set: the address of
-    /// the binding's own byte.
+    /// Mark that tells it from a foreign userdata, whichever metatable a script has set: the
+    /// address of the binding's own byte.
     const void* mark = &kMark;
     /// Name of the type that `object` is of; a constant of the program.
     const char* type_name;

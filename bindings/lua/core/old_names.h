@@ -8,7 +8,7 @@
 
 namespace lissom::lua {
 
-/// What a replaced name named.
+/// Kind of a replaced name.
 enum class OldKind {
     /// A function of the module; `owner` is "lissom".
     function,

@@ -21,7 +21,7 @@ struct StateBox {
     State* state;
 };
 
-// Null where the userdata is another.
+// Null if the userdata is another.
 StateBox* find_box(lua_State* L, int index) {
     if (lua_type(L, index) != LUA_TUSERDATA || raw_length(L, index) != sizeof(StateBox)) {
         return nullptr;
@@ -141,7 +141,7 @@ int object_to_string(lua_State* L) {
 
 // ---- Names that do not exist.
 
-// "mesh:transform{ rotate = ... }" where `name` is an option of a method, or "".
+// "mesh:transform{ rotate = ... }" if `name` is an option of a method, or "".
 std::string call_with_option(const Type& type, std::string_view name) {
     for (const Function& method : type.methods) {
         for (const Parameter& option : method.options) {
@@ -257,7 +257,8 @@ const Operator* find_operator(const Type& type, const char* name) {
     return nullptr;
 }
 
-// An "__index" operator is asked first; what it leaves is looked up among the methods (upvalue 4).
+// An "__index" operator is asked first; keys that it does not know are looked up among the methods
+// (upvalue 4).
 int index_object(lua_State* L) {
     if (open_holder(L, 1, type_upvalue(L))) {
         const int results = dispatch_operator(L);
@@ -320,8 +321,8 @@ void make_metatable(lua_State* L, const Registry& registry, const Type& type, in
     lua_pop(L, 1);
 }
 
-// Pushes the table of `module` that holds the name `path` ("shapes.box": lissom.shapes), made where
-// it is missing, and returns what follows the last dot.
+// Pushes the table of `module` that holds the name `path` ("shapes.box": lissom.shapes), made if it
+// is missing, and returns the part after the last dot.
 const char* push_table_for(lua_State* L, int module, const char* path, int box) {
     const char* dot = std::strrchr(path, '.');
     lua_pushvalue(L, module);

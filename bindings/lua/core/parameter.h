@@ -9,7 +9,7 @@
 
 namespace lissom::lua {
 
-/// What a parameter accepts in Lua, and what a function body reads it as (see Call).
+/// Values that a parameter accepts in Lua, and their type in a function body (see Call).
 enum class Kind {
     /// true or false.
     boolean,
@@ -23,7 +23,7 @@ enum class Kind {
     choice,
     /// Id of a vertex, face, ...: an integer from 1; read 0-based.
     id,
-    /// {x, y, z}. As a positional argument also three numbers in a row.
+    /// {x, y, z}. A positional argument may also be three numbers in a row.
     vector,
     /// One number for all axes or {x, y, z}.
     factors,
@@ -80,14 +80,14 @@ enum class Kind {
 struct Parameter {
     std::string name;
     Kind kind = Kind::boolean;
-    /// What it means; a sentence for the reference.
+    /// Its meaning; a sentence for the reference.
     std::string help;
     bool required = true;
-    /// Value where the script gives none; a choice has its string.
+    /// Value if the script gives none; a choice has its string.
     std::variant<std::monostate, bool, double, std::string> default_value;
-    /// Text for the reference where the default is not a plain value.
+    /// Text for the reference if the default is not a plain value.
     std::string default_text;
-    /// Default with fidelity = "thesis" where that is another, and the section of the thesis.
+    /// Default with fidelity = "thesis" if that is another, and the section of the thesis.
     std::string thesis_text, thesis_section;
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
@@ -119,8 +119,8 @@ struct Parameter {
     /// A table of options may also be `true`, with the defaults of all fields, or `false`, which
     /// counts as left out. Read with `kind`: Kind::boolean then.
     Parameter or_true() const;
-    /// With fidelity = "thesis" the default is this, as that section of the thesis has it: for the
-    /// reference, and its table of what differs from the thesis.
+    /// With fidelity = "thesis" the default is this, from that section of the thesis: for the
+    /// reference, and its table of differences from the thesis.
     Parameter thesis(std::string section, std::string text) const;
     /// Unit, for the reference: "degrees", "mesh units", ...
     Parameter in(std::string name_of_unit) const;

@@ -291,12 +291,12 @@ int parameters_text(Call& call) {
 
 std::vector<Parameter> declaration_fields() {
     return {choice("type", {"number", "integer", "boolean", "string", "choice", "file", "folder"},
-                   "What its values are. A folder is one to write to: it is made, where it is "
+                   "Type of its values. A folder is one to write to: it is made, if it is "
                    "missing, when the parameters are declared or it is set."),
             either("default",
                    {boolean("flag", "For a boolean."), number("number", "For a number or integer."),
                     string("text", "For a string, choice, file or folder.")},
-                   "Its value where none is given; without one it must be given.")
+                   "Its default; without one it must be given.")
                 .optional("required"),
             number("min", "Smallest value of a number or integer.").optional("no limit"),
             number("max", "Greatest value.").optional("no limit"),
@@ -304,7 +304,7 @@ std::vector<Parameter> declaration_fields() {
             strings("choices", "The values of a choice.").optional(),
             string("unit", "Shown after the value.").optional("none"),
             string("group", "Heading that it stands under.").optional("none"),
-            string("help", "A line that says what it does.").optional("none")};
+            string("help", "Its help text, one line.").optional("none")};
 }
 
 }  // namespace
@@ -317,7 +317,7 @@ Type parameters_type() {
     type.is_heard = false;
     type.operators = {
         {"__index", get_value, "params.name", "the value of a parameter"},
-        {"__newindex", set_value, "params.name = value", "sets it; an error where it does not fit"},
+        {"__newindex", set_value, "params.name = value", "sets it; an error if it does not fit"},
         {"__len", parameter_count, "#params", "number of parameters"},
         {"__tostring", parameters_text, "tostring(params)", "its size"}};
     type.methods = {
@@ -337,10 +337,10 @@ std::vector<Function> parameter_functions() {
                  "Declares the parameters of the script, once, and returns their values. Under "
                  "`lissom run` they come from flags (--name value), and --help lists them.",
              .arguments = {option_map("declarations", declaration_fields(),
-                                      "For each name what the parameter is.")},
+                                      "Description of the parameter by its name.")},
              .options = {boolean("command_line",
                                  "They are the script's. If not, they have their defaults, and may "
-                                 "be declared as often as wanted: what tools do.")
+                                 "be declared any number of times: for tools.")
                              .defaults(true),
                          boolean("words",
                                  "The command line may have words that are no flags; else "

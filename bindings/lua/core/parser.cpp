@@ -17,7 +17,7 @@ namespace {
 constexpr int kTextSize = 1024;
 
 // Runs `compose`, which returns a std::string, and copies the result: no C++ object is left alive
-// where a Lua error follows.
+// when a Lua error follows.
 template <typename Compose>
 void compose_text(char (&text)[kTextSize], const Compose& compose) noexcept {
     try {
@@ -66,7 +66,8 @@ bool in_range(const Parameter& p, double value) {
     return (p.above_min ? value > p.min : value >= p.min) && value <= p.max;
 }
 
-// Pushes what the value at `index` is, for messages. `expected_type` is the type of object wanted.
+// Pushes a description of the value at `index`, for messages. `expected_type` is the type of object
+// wanted.
 const char* push_description(lua_State* L, int index, const char* expected_type) {
     const int type = lua_type(L, index);
     if (type == LUA_TNUMBER) {
@@ -84,7 +85,7 @@ const char* push_description(lua_State* L, int index, const char* expected_type)
         return type == LUA_TNONE ? "no value" : lua_typename(L, type);
     }
     const char* name = lua_tostring(L, -1);
-    // A name that was set on what is no object of ours is no name of it.
+    // A name that was set on a foreign object is no name of it.
     const bool is_own = name && std::strcmp(name, expected_type) != 0;
     return is_own ? name : lua_typename(L, type);
 }
@@ -269,7 +270,7 @@ void Parser::read_options(int index, int given) {
     const bool takes_options = named || entry_.options_last > entry_.options_first;
     const bool has_options = takes_options && index <= given && !lua_isnil(L_, index);
     const int argument = index - (entry_.type ? 1 : 0);
-    // What stands where the options belong says more than what follows it.
+    // The value in place of the options says more than the one after it.
     if (has_options && lua_type(L_, index) != LUA_TTABLE) {
         refuse({argument, "", 0}, "table of options", push_description(L_, index, ""));
     }
@@ -557,7 +558,7 @@ int Parser::read_whole(const Parameter& p, int index, const Place& place) {
     return static_cast<int>(number);
 }
 
-// A string that ends at its first zero byte: what follows one would be lost without a word.
+// A string that ends at its first zero byte: the rest would be lost silently.
 const char* Parser::read_string(const Parameter& p, int index, std::size_t& size,
                                 const Place& place) {
     if (lua_type(L_, index) != LUA_TSTRING) mismatch(p, index, place);
@@ -598,7 +599,7 @@ void Parser::read_open_vector(const Parameter& p, int index, double* xyz, const 
         given += is_number && !std::isnan(xyz[k]) ? 1 : 0;
         lua_pop(L_, 1);
     }
-    // Of the wrong type, at the wrong place, or NaN.
+    // Wrong type, wrong place, or NaN.
     if (given != keys) mismatch(p, index, place);
 }
 
@@ -773,7 +774,7 @@ void Parser::read_alternative(const Parameter& p, int index, Value& value, const
     mismatch(p, index, place);
 }
 
-// Whether the value is of the Lua type that `p` wants; what it holds is checked later.
+// Whether the value is of the Lua type that `p` wants; its contents are checked later.
 bool Parser::fits(const Parameter& p, int index) const {
     const int type = lua_type(L_, index);
     switch (p.kind) {

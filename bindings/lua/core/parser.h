@@ -5,8 +5,8 @@
 
 namespace lissom::lua {
 
-/// What a parameter accepts, for messages: "integer from 1 to 10", "\"x\", \"y\", \"z\" or {x, y,
-/// z}".
+/// Returns the accepted values of a parameter, for messages: "integer from 1 to 10", "\"x\", \"y\",
+/// \"z\" or {x, y, z}".
 std::string expectation(const Parameter& parameter);
 
 class Parser {
@@ -21,7 +21,7 @@ class Parser {
     void read_item(const Entry::Slot& slot, int table, int place);
 
   private:
-    // Where a value stands in the call, for messages.
+    // Place of a value in the call, for messages.
     struct Place {
         int argument;
         const char* path;

@@ -2,14 +2,14 @@
 /// argument checks, the editor annotations (meta/lissom.lua), the reference (docs/lua) and
 /// the tests of all examples are made from it.
 ///
-/// A library describes what it exposes as one `Library` and is added to the `Registry` of a state:
+/// A library describes its functions and types as a `Library`, which a `Registry` of a state takes:
 ///
 ///     Library viewer_library() {
 ///         Library library{.name = "viewer"};
 ///         library.functions.push_back({.name = "render",
 ///                                      .body = render,
 ///                                      .summary = "Draws a picture.",
-///                                      .options = {string("file", "Where to write."), ...},
+/// .options = {string("file", "The file to write."), ...},
 ///                                      .results = {{"boolean", "done", "true"}},
 ///                                      .errors = {ErrorCode::no_display},
 ///                                      .example = "lissom.render{ file = 'a.png' }"});
@@ -31,9 +31,9 @@ namespace lissom::lua {
 
 class Call;
 
-/// What a call does to its object, or a function of the module to its arguments, for journals.
+/// Effect of a call on its object, or of a function of the module on its arguments, for journals.
 enum class Effect {
-    /// Changes it if that is what it returns.
+    /// Changes the object that it returns.
     by_result,
     /// Changes it, and returns something else.
     changes,
@@ -68,7 +68,7 @@ struct Function {
     bool named_arguments = false;
     /// Any values may follow the arguments; the body reads them from the stack.
     bool more_arguments = false;
-    /// Keys of the option table that follows them. It may be left out where no key is required, and
+    /// Keys of the option table that follows them. It may be left out if no key is required, and
     /// may stand in the place of an optional argument that is left out.
     std::vector<Parameter> options = {};
     /// Exactly one of the options, or the optional argument, must be given: they are alternatives.
@@ -85,10 +85,10 @@ struct Function {
 /// the first operand, or for "__eq" both, is an open object of the type.
 struct Operator {
     /// "__len", "__tostring", "__eq", "__index", "__newindex", "__pairs". An "__index" is asked
-    /// before methods, and pushes nothing (returns 0) where it leaves the key to them.
+    /// before methods, and pushes nothing (returns 0) if it leaves the key to them.
     std::string name = {};
     Body body = nullptr;
-    /// How a script writes it, and what it means: "#mesh", "number of vertices".
+    /// Its form in a script, and its meaning: "#mesh", "number of vertices".
     std::string usage = {};
     std::string help = {};
 };
@@ -102,10 +102,10 @@ struct Type {
     std::string summary = {};
     std::vector<Function> methods = {};
     std::vector<Operator> operators = {};
-    /// What its "__index" answers beside methods, for the reference and for errors about names.
+    /// Fields that its "__index" answers beside methods, for the reference and for errors.
     std::vector<Result> fields = {};
-    /// Frees what the object holds at once, although others may still share it; may be null. Must
-    /// not throw, and must leave an object that its own methods refuse (see Call::self).
+    /// Frees the contents of the object at once, although others may still share it; may be null.
+    /// Must not throw, and must leave an object that its own methods refuse (see Call::self).
     void (*close)(void* object) = nullptr;
     /// Whether journals tell its calls; false for an object of the hand alone.
     bool is_heard = true;
@@ -125,7 +125,7 @@ struct Constant {
     std::string help = {};
 };
 
-/// What one library exposes. Each has its own annotation file and reference page.
+/// Functions and types of one library. Each has its own annotation file and reference page.
 struct Library {
     std::string name = {};
     std::string summary = {};
@@ -135,7 +135,7 @@ struct Library {
     std::vector<Record> records = {};
 };
 
-/// A function with what calls need at hand: its place and the flat list of its values.
+/// A function with the data that calls need at hand: its place and the flat list of its values.
 struct Entry {
     /// One value that a call reads: a positional argument, an option ("sphere") or a field of an
     /// option ("sphere.radius").
@@ -166,8 +166,8 @@ class Registry {
     Registry(Registry&&) noexcept;
     Registry& operator=(Registry&&) noexcept;
 
-    /// Adds a library. Throws std::logic_error where a name is taken or a description is
-    /// inconsistent: mistakes of the programmer, which a test finds.
+    /// Adds a library. Throws std::logic_error if a name is taken or a description is inconsistent:
+    /// mistakes of the programmer, which a test finds.
     void add(Library library);
 
     const std::vector<std::unique_ptr<const Library>>& libraries() const { return libraries_; }
@@ -182,13 +182,13 @@ class Registry {
     std::vector<std::unique_ptr<const Entry>> entries_;
 };
 
-/// What the kernel exposes: everything described in this folder.
+/// Returns the library of the kernel: everything described in this folder.
 Library kernel_library();
 
 /// A registry with the kernel's library.
 Registry kernel_registry();
 
-/// What examples call an object of a type: "mesh" for lissom.Mesh.
+/// Returns the variable name of a type in examples: "mesh" for lissom.Mesh.
 std::string variable_name(const Type& type);
 
 }  // namespace lissom::lua

@@ -176,7 +176,7 @@ bool asks_for_help(const std::vector<std::string>& words) {
 
 namespace {
 
-// Says of an option of a verb where it belongs; "" for other names.
+// Says to which verb an option belongs; "" for other names.
 std::string verb_option_text(const std::string& name, const std::string& shown) {
     constexpr std::pair<std::string_view, std::string_view> kOptions[] = {
         {"size", "view"},   {"speed", "view"},     {"up", "view"},    {"unit", "view"},

@@ -1,5 +1,5 @@
 /// Parameters of a script (lissom.params): one declaration gives the command-line flag, the help
-/// text, the conversion and check of values, and what a panel of sliders needs.
+/// text, the conversion and check of values, and the range of a slider.
 #pragma once
 
 #include <limits>
@@ -39,10 +39,10 @@ struct ScriptParameter {
     ParameterValue from_text(const std::string& text) const;
     /// Checks a value. Throws ParameterError.
     void check(const ParameterValue& value) const;
-    /// Makes the folder that the value names, where this is a folder to write to and the
-    /// host of the state allows it. Throws ParameterError.
+    /// Makes the folder that the value names, if this is a folder to write to and the host of the
+    /// state allows it. Throws ParameterError.
     void make_folder(const State& state) const;
-    /// What values there are: "number from 0 to 1", "small, medium or large".
+    /// Returns the accepted values: "number from 0 to 1", "small, medium or large".
     std::string accepted() const;
 };
 
@@ -66,7 +66,7 @@ std::string stray_word_text(const std::string& word);
 /// Tells the state whether its script looks at the words of its command line by itself, as by
 /// `arg`.
 void set_reads_words(lua_State* L, bool reads);
-/// What was told; true where nothing was.
+/// Result of reading the words; true if there were none.
 bool reads_words(lua_State* L);
 
 /// Whether these words ask for help: --help or -h before "--".
@@ -86,12 +86,12 @@ struct ParameterSet {
     void sort();
 
     /// Takes values from the words of a command line and returns the words that are no flags. A
-    /// flag is --name VALUE or --name=VALUE, for a boolean also --name and --no-name, where the
-    /// word that follows is its value if it is true, false, yes, no, on, off, 1 or 0; "-" and "_"
-    /// are the same in names; "--" ends the flags. Throws ParameterError for flags that no
-    /// parameter has, naming the nearest.
+    /// flag is --name VALUE or --name=VALUE, for a boolean also --name and --no-name, and then the
+    /// next word is its value if it is true, false, yes, no, on, off, 1 or 0; "-" and "_" are the
+    /// same in names; "--" ends the flags. Throws ParameterError for flags that no parameter has,
+    /// naming the nearest.
     std::vector<std::string> take(const std::vector<std::string>& words);
-    /// Throws ParameterError where a parameter has neither value nor default.
+    /// Throws ParameterError if a parameter has neither value nor default.
     void require_values() const;
 
     /// The help text of `lissom run SCRIPT --help`.

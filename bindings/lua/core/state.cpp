@@ -54,7 +54,7 @@ int end_for_help(lua_State* L, State& state) {
         if (state.script_end != ScriptEnd::none) return;
         state.script_end_text = "Usage: lissom run " + state.host.arguments.script +
                                 "\n\nThe script works before it declares parameters: its help is "
-                                "shown where lissom.params comes first.\n";
+                                "shown if lissom.params comes first.\n";
         state.script_end = ScriptEnd::help;
     });
     return luaL_error(L, "only the help of the script was asked for");

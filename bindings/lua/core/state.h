@@ -1,4 +1,4 @@
-/// State: what the binding keeps for one Lua state. Nothing is shared between states.
+/// State of the binding in one Lua state. Nothing is shared between states.
 #pragma once
 
 #include <filesystem>
@@ -17,24 +17,24 @@ namespace lissom::lua {
 
 /// The command line of the script that runs, for lissom.params.
 struct ScriptArguments {
-    /// Name of the script, as messages and help texts show it; empty where no script runs.
+    /// Name of the script, as messages and help texts show it; empty if no script runs.
     std::string script;
-    /// What follows it on the command line.
+    /// Words after it on the command line.
     std::vector<std::string> words;
 };
 
-/// What a script does with a file.
+/// Use of a file by a script.
 enum class FileUse { read, write };
 
-/// What a host may set when it opens the binding. Every field is optional.
+/// Options of a host when it opens the binding. Every field is optional.
 struct HostOptions {
     ContextOptions context = {};
-    /// What scripts can call; the kernel's library alone where it is null.
+    /// Functions and types for scripts; the kernel's library alone if it is null.
     std::shared_ptr<const Registry> registry = {};
     ScriptArguments arguments = {};
     /// Called after every operation of the kernel, on the thread of the state.
     std::function<void()> operation_ended = {};
-    /// Asked about each path that a script gives, before the file is opened: throws Error where the
+    /// Asked about each path that a script gives, before the file is opened: throws Error if the
     /// script may not use it. Null allows all. Called on the thread of the state.
     std::function<void(const std::filesystem::path& path, FileUse use)> check_file = {};
     /// Scripts may ask for addresses of the kernel's memory, and have it write to those they name.
@@ -56,16 +56,16 @@ struct State {
     /// After an operation, with no C++ object alive: tells the host, delivers log messages, and
     /// raises the error of a listener as a Lua error.
     void end_operation(lua_State* L);
-    /// Where Lua's registry keeps the weak table from objects to their userdata.
+    /// Returns the key of the weak table from objects to their userdata, in Lua's registry.
     static const void* object_table_key();
-    /// Where it keeps the metatable of values held by a call.
+    /// Returns the key of the metatable of values held by a call.
     static const void* held_metatable_key();
 
     std::shared_ptr<Listeners> listeners = std::make_shared<Listeners>();
     std::shared_ptr<const Registry> registry;
     Context context;
     HostOptions host;
-    /// What lissom.params declared last; null before.
+    /// Parameters of the last call of lissom.params; null before.
     std::shared_ptr<ParameterSet> parameters;
     /// The command line asks for the script's help: it runs up to lissom.params, and every other
     /// call ends it.
@@ -78,7 +78,7 @@ struct State {
 
     /// Native bytes that the collector has not been told of yet.
     std::size_t uncharged_bytes = 0;
-    /// What the context's account held after the last whole collection for want of room.
+    /// Bytes on the context's account after the last whole collection for want of room.
     std::size_t used_after_collection = 0;
 };
 
@@ -93,7 +93,7 @@ int end_for_help(lua_State* L, State& state);
 /// A C function for Lua: its argument, a table with the methods before(type, name, effect,
 /// arguments...) and after(type, name, effect, results...), hears each call of the library from now
 /// on, but for its own, those of types that are not heard, and methods whose Effect is `unheard`;
-/// nil: nobody does. `type` is nil for a function of the module. What yields or fails has no after.
+/// nil: nobody does. `type` is nil for a function of the module. Failed calls have no after.
 int hear_calls(lua_State* L);
 
 /// The function of the registration table that the value at `index` is, or null.
@@ -102,7 +102,7 @@ const Entry* find_entry(lua_State* L, int index);
 /// The type of the object at `index`, or null.
 const Type* find_type(lua_State* L, int index);
 
-/// The binding's state, or null where it was not opened in `L`.
+/// Returns the binding's state, or null if it was not opened in `L`.
 State* find_state(lua_State* L);
 
 }  // namespace lissom::lua

@@ -6,7 +6,7 @@
 namespace lissom::lua {
 namespace {
 
-// What the protected call has left on the stack: its results, or its error.
+// Returns the values that the protected call has left on the stack: its results, or its error.
 int finish_try(lua_State* L, bool done) {
     if (done) return lua_gettop(L);
     lua_pushnil(L);
@@ -60,10 +60,10 @@ std::vector<std::string> code_names() {
 std::vector<Function> error_functions() {
     return {{.name = "try",
              .body = try_function,
-             .summary = "Calls a function; returns what it returns, or nil and its error.",
+             .summary = "Calls a function; returns its results, or nil and its error.",
              .arguments = {function("f", "function", "The function; its arguments follow.")},
              .more_arguments = true,
-             .results = {{"any", "result", "What the function returns; nil if it fails."},
+             .results = {{"any", "result", "The results of the function; nil if it fails."},
                          {"lissom.Error?", "error",
                           "The error; an error that is not of lissom is handed on as it is."}},
              .example = R"(local mesh, problem = lissom.try(lissom.load, "missing.obj")
@@ -74,14 +74,14 @@ assert(not lissom.try(box.save, box, "no/such/folder.obj")))"},
              .body = raise_error,
              .summary = "Raises an error object, as every function of lissom that fails.",
              .options =
-                 {string("message", "What is wrong and what helps, a sentence."),
+                 {string("message", "The fault and a remedy, a sentence."),
                   choice("code", code_names(), "Its code.").defaults("invalid_argument"),
                   table("elements", "A lissom.Elements: the elements concerned.").optional("none"),
                   string("file", "The input file concerned.").optional("none"),
                   integer("line", "The line of that file.").optional("none"),
                   integer("level",
-                          "Whose line is the error's place: 1 for this call, 2 for the call of "
-                          "the function that it is in.")
+                          "Level of the line that is the error's place: 1 for this call, 2 for "
+                          "the call of the function that it is in.")
                       .defaults(1)
                       .between(1, 100)},
              .example = R"(local function half(path)
@@ -95,7 +95,7 @@ std::vector<Record> error_records() {
     return {{"lissom.Error",
              "Raised by everything that fails. tostring gives the message, and so does `..`; two "
              "are equal only if they are the same.",
-             {{"string", "message", "What is wrong and what helps, a sentence."},
+             {{"string", "message", "The fault and a remedy, a sentence."},
               {"string", "code", "Its [code](codes.md): \"file_not_found\", ..."},
               {"lissom.Elements?", "elements", "The elements concerned."},
               {"string?", "file", "The file that was to be read or written."},

@@ -1,4 +1,4 @@
-/// The option `up` of what reads and writes files: the choices "y" and "z", in this order.
+/// The option `up` of readers and writers of files: the choices "y" and "z", in this order.
 #pragma once
 
 #include "bindings/lua/core/call.h"
@@ -6,7 +6,7 @@
 
 namespace lissom::lua {
 
-/// The value of the option; none where it was not given.
+/// Returns the value of the option; none if it was not given.
 inline UpAxis up_axis(const Call& call) {
     if (!call.has("up")) return UpAxis::none;
     return call.integer("up") == 0 ? UpAxis::y : UpAxis::z;

@@ -370,7 +370,7 @@ Parameter weight_option() {
 
 std::vector<Parameter> constraint_fields() {
     std::vector<Parameter> fields = point_fields();
-    fields.push_back(vector("position", "Where it goes.").optional("free"));
+    fields.push_back(vector("position", "Its position.").optional("free"));
     fields.push_back(
         matrix3("gradient", "Rows of its 3 x 3 deformation gradient.").optional("free"));
     fields.push_back(weight_option());
@@ -392,10 +392,10 @@ std::vector<Function> solving_methods() {
         {.name = "solve",
          .body = solve,
          .summary =
-             "Solves both systems and writes the result into the mesh. Handles that are where "
-             "they began give the rest shape, to the bit. What else has moved the region's "
-             "vertices is overwritten; where the mesh around the region was moved, so that the "
-             "result would tear, it is an error.",
+             "Solves both systems and writes the result into the mesh. Handles in their initial "
+             "place give the rest shape, to the bit. Other changes of the region's vertices are "
+             "overwritten; if the mesh around the region was moved, so that the result would "
+             "tear, it is an error.",
          .options = {boolean("draft",
                              "For the frames of a drag: about five digits in half the time. Solve "
                              "once more when the drag ends.")
@@ -418,9 +418,9 @@ assert(bar:hash() == before))"},
         {.name = "subdivided_mesh",
          .body = subdivided_mesh,
          .summary =
-             "The deformed mesh with the vertices that the deformation worked on where the border "
-             "of what is held is coarse beside the region: behind the mesh's own, on faces that "
-             "become triangles. Without such vertices it is a copy.",
+             "The deformed mesh with the vertices that the deformation inserted along coarse "
+             "borders of handles: behind the mesh's own, on faces that become triangles. "
+             "Without such vertices it is a copy.",
          .results = {{"lissom.Mesh", "fine", "A new mesh."}},
          .errors = kDeformerErrors,
          .example = kBar + R"(top:translate(1, 0, 0)
@@ -430,10 +430,10 @@ assert(fine:vertex_count() == bar:vertex_count() + deformer:stats().subdivided_v
         {.name = "rebase",
          .body = rebase,
          .summary =
-             "Takes the last result as the new rest shape. Handles keep their vertices and hold "
-             "where they are now, with the identity as transform; constraints hold where their "
-             "points are now. Factors are rebuilt at the next solve, and reset returns to this "
-             "shape.",
+             "Takes the last result as the new rest shape. Handles keep their vertices and "
+             "their present places, with the identity as transform; constraints keep the "
+             "present places of their points. Factors are rebuilt at the next solve, and reset "
+             "returns to this shape.",
          .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
          .errors = kDeformerErrors,
          .example = kBar + R"(top:translate(1, 0, 0)
@@ -467,9 +467,8 @@ assert(report.stretch < 2 and #report.flipped == 0 and report.crossings == 0)
 assert(#report.warnings == 0))"},
         {.name = "basis",
          .body = basis,
-         .summary =
-             "The first system's solution as a linear function of the handles: what an engine "
-             "needs to follow a drag by itself.",
+         .summary = "The first system's solution as a linear function of the handles: data for an "
+                    "engine that follows a drag by itself.",
          .results = {{"lissom.HandleBasis", "basis", "Weights of every vertex for every handle."}},
          .errors = kBasisErrors,
          .example = kBar + "assert(deformer:basis().weights[1]:width() == 4)"}};
@@ -491,15 +490,15 @@ Type deformer_type() {
          .body = add_handle,
          .summary =
              "Makes a handle of some vertices of the region, of a path, or of points of faces and "
-             "edges. Points go exactly where the handle takes them: the points of the deformed "
-             "faces with the same weights do.",
+             "edges. Points follow the handle exactly: the points of the deformed faces with "
+             "the same weights do.",
          .arguments = {either("where",
                               {object("region", "lissom.Region", "Its vertices."),
                                object("path", "lissom.Path", "Its vertices."),
                                table("points",
                                      "A list of {vertex=}, {edge={a, b}, at=}, {face=, bary=}, or "
-                                     "of what Mesh:nearest and Mesh:pick return.")},
-                              "What it holds.")},
+                                     "of results of Mesh:nearest and Mesh:pick.")},
+                              "The part that it holds.")},
          .options =
              {boolean("position", "Holds their positions.").defaults(HandleOptions{}.position),
               boolean("gradient", "Holds their orientation and scale.")
@@ -521,10 +520,10 @@ Type deformer_type() {
                        .in("mesh units")
                        .optional("a fiftieth of the size")},
                   "Adds a second handle, the mirror image, and moves it along: see mirrored. It "
-                  "lies where the surface is nearest to the reflected one, so that both sides "
-                  "may have different vertices: see mirror_residual.")
+                  "lies on the surface nearest to the reflected one, so that both sides may "
+                  "have different vertices: see mirror_residual.")
                   .optional("none")},
-         .results = {{"lissom.Handle", "handle", "Where it is; move it and solve."}},
+         .results = {{"lissom.Handle", "handle", "The handle; move it and solve."}},
          .effect = Effect::changes,
          .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,
                     ErrorCode::handle_outside_region, ErrorCode::handle_overlap,
@@ -535,9 +534,8 @@ side:translate(0.5, 0, 0)
 deformer:solve())"},
         {.name = "pin",
          .body = pin,
-         .summary =
-             "Holds a region where it is: a handle with the identity as transform. Returns the "
-             "deformer.",
+         .summary = "Holds a region in place: a handle with the identity as transform. Returns the "
+                    "deformer.",
          .arguments = {object("region", "lissom.Region", "The vertices that stay.")},
          .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
          .errors = {ErrorCode::region_empty, ErrorCode::topology_mismatch,

@@ -1,4 +1,4 @@
-// What leaves a deformation for engines: deformer:save_basis and deformer:bake.
+// Exports of a deformation for engines: deformer:save_basis and deformer:bake.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -112,7 +112,7 @@ struct Baking {
     std::unique_ptr<MorphBaker> baker;
 };
 
-// What a call of bake asks for, as plain data.
+// Arguments of a call of bake, as plain data.
 struct BakeRequest {
     Call* call;
     Baking* baking;
@@ -204,7 +204,7 @@ std::vector<Function> deform_engine_methods() {
          .summary =
              "Writes the basis to a file for a program without a solver: 4 floats a vertex and "
              "handle, relative to the middle of the region. bindings/engine/lissom_basis.h, one C "
-             "header, describes the file and gives what preview gives.",
+             "header, describes the file and computes the result of preview.",
          .arguments = {string("path", "The file.")},
          .options = {strings("names",
                              "Names of the handles, in the order of deformer:handles(): a program "
@@ -228,9 +228,9 @@ os.remove(path))"},
          .summary =
              "Makes an animation of a sequence of poses: a new mesh with a morph target for each "
              "different shape, which mesh:save writes as .glb or .gltf and any viewer of such "
-             "files plays. For each frame the handles stand where they stand now, the function "
-             "moves them, and the deformation is solved. Handles, mesh and last result are "
-             "afterwards as they were, also where the function fails.",
+             "files plays. For each frame the handles start from their present place, the "
+             "function moves them, and the deformation is solved. Handles, mesh and last result "
+             "are restored afterwards, even if the function fails.",
          .options =
              {function("pose", "fun(time: number, frame: integer)",
                        "Moves handles; called for each frame with its time and its number from "

@@ -26,8 +26,8 @@ struct DeformObject {
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const;
-    /// Throws handle_removed where it was closed, topology_mismatch where the mesh has another
-    /// topology by now or was closed.
+    /// Throws handle_removed if it was closed, topology_mismatch if the mesh has another topology
+    /// by now or was closed.
     Deformer& deformer();
 };
 

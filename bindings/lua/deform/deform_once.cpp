@@ -77,7 +77,7 @@ std::vector<Parameter> once_parameters() {
     all.push_back(
         either("pin",
                {object("region", "lissom.Region", ""), objects("regions", "lissom.Region", "")},
-               "The region, or the regions, that stay where they are.")
+               "The region, or the regions, that stay in place.")
             .optional("none"));
     all.push_back(option_list("handles", handle_fields(),
                               "Regions that are moved as wholes: scaled, then rotated, then "
@@ -93,9 +93,9 @@ Function deform_function() {
         .name = "deform",
         .body = deform_mesh,
         .summary =
-            "Deforms a mesh once: regions that are pinned stay, those of the handles go where "
-            "their transforms take them, and the surface between follows. Returns the mesh. "
-            "`lissom.deformer` keeps its factors, for handles that move again.",
+            "Deforms a mesh once: pinned regions stay, those of the handles take their "
+            "transforms, and the surface between follows. Returns the mesh. `lissom.deformer` "
+            "keeps its factors, for handles that move again.",
         .arguments = {object("mesh", "lissom.Mesh", "The mesh; it is changed.")},
         .options = once_parameters(),
         .results = {{"lissom.Mesh", "mesh", "The mesh itself."}},

@@ -56,7 +56,8 @@ std::vector<Parameter> deform_parameters() {
         return std::string(text);
     };
     return {
-        object("region", "lissom.Region", "What may move. Outside nothing does.").optional("all"),
+        object("region", "lissom.Region", "The part that may move. Outside nothing does.")
+            .optional("all"),
         choice(
             "method",
             {"implicit", "naive", "rotation_estimate", "similarity", "geodesic", "harmonic",
@@ -66,7 +67,7 @@ std::vector<Parameter> deform_parameters() {
             "similarities implicit in the positions (Sorkine 2004); handle rotations propagated "
             "by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-"
             "invariant coordinates (Lipman 2005). Of the other options they take `weights` only, "
-            "and geodesic not even that; they have no basis, and preview is as solve.")
+            "and geodesic not even that; they have no basis, and preview equals solve.")
             .optional("\"implicit\""),
         choice("local_size", {"keep", "scale"},
                "Whether details keep their size or scale with the surface around them.")
@@ -75,9 +76,9 @@ std::vector<Parameter> deform_parameters() {
             "second", {"blend", "laplacian", "poisson"},
             "The system that makes the shape from the rotations: blend is smooth at handles with "
             "little distortion, laplacian is the thesis's, poisson has the least distortion. Keep "
-            "blend unless something asks for another: laplacian where the surface has to be as "
-            "smooth as can be and may stretch, poisson where it may crease at handles, as along an "
-            "edge of the part. Compared in examples/deform/second.png.")
+            "blend unless something asks for another: laplacian for the smoothest surface, "
+            "which may stretch, poisson for one that may crease at handles, as along an edge of "
+            "the part. Compared in examples/deform/second.png.")
             .optional("\"blend\"")
             .thesis("2.4.4", "\"laplacian\""),
         integer("coherence", "Rings of neighbours that turn alike.")
@@ -86,29 +87,27 @@ std::vector<Parameter> deform_parameters() {
             .thesis("2.4.2", "2"),
         choice("weights", {"cotangent", "uniform"}, "Weights of the Laplacian coordinates.")
             .optional("\"cotangent\""),
-        integer(
-            "refine",
-            "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
-            "less distortion for half a frame each. For bars and limbs that bend and twist. "
-            "Where it would fold, cross or stretch the surface more than without, it is taken back "
-            "as far as that, but a draft does not look. Beside handles "
-            "that change their size it fades to nothing. Compared in "
-            "examples/deform/refine.png.")
+        integer("refine",
+                "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
+                "less distortion for half a frame each. For bars and limbs that bend and twist. "
+                "A result that would fold, cross or stretch the surface more than without is taken "
+                "back as far as that, but a draft does not check. Beside handles that change their "
+                "size it fades to nothing. Compared in examples/deform/refine.png.")
             .at_least(0)
             .optional(std::to_string(defaults.refine)),
         choice("loose", {"error", "stay", "follow"},
-               "What becomes of separate parts that no handle holds, as buttons and eyes: an error "
-               "that names them; they stay; or each follows the surface nearest to it, as a rigid "
-               "piece; in a basis as an affine one.")
+               "Treatment of separate parts that no handle holds, such as buttons and eyes: an "
+               "error that names them; they stay; or each follows the surface nearest to it, as "
+               "a rigid piece; in a basis as an affine one.")
             .defaults("error"),
         integer("free_rings",
-                "Rings of vertices that handles give up where they nearly touch another, at most "
-                "two edges apart, so that the surface between has room: handles that go different "
-                "ways would tear it. report says how many help.")
+                "Rings of vertices that handles release if they nearly touch another, at most "
+                "two edges apart, so that the surface between has room: handles that go "
+                "different ways would tear it. report says how many help.")
             .between(0, 10)
             .optional("0"),
         boolean("subdivide_borders",
-                "Works on a surface that is subdivided where the border of what is held is coarse "
+                "Works on a surface that is subdivided along borders of handles that are coarse "
                 "beside the region; the mesh keeps its faces.")
             .optional("true"),
         choice("flat", {"extended", "displaced"},
@@ -130,15 +129,15 @@ std::vector<Parameter> deform_parameters() {
             .optional(shown(defaults.degenerate_threshold))
             .thesis("2.4.3", "200000"),
         number("transition",
-               "Within this geodesic distance of the region's outline the deformation fades into "
-               "what stays.")
+               "Width of the zone along the region's outline, in geodesic distance, over which "
+               "the deformation fades into the fixed part.")
             .at_least(0)
             .in("mesh units")
             .defaults(0.0),
         choice("fidelity", {"default", "thesis"},
                "thesis: coherence 2, second laplacian, and the weights and threshold of the thesis "
-               "where no other option says otherwise; the page thesis.md of the reference names "
-               "all of it.")
+               "unless another option gives them; the page thesis.md of the reference names all "
+               "of it.")
             .defaults("default")};
 }
 

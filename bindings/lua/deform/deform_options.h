@@ -9,7 +9,7 @@
 
 namespace lissom::lua {
 
-/// Returns the descriptions of the options that say what is deformed and how.
+/// Returns the descriptions of the options of a deformation: its region and its method.
 std::vector<Parameter> deform_parameters();
 
 /// Makes the deformer that a call describes by the argument `mesh` and these options. Inside

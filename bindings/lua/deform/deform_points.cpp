@@ -9,8 +9,8 @@ namespace lissom::lua {
 namespace {
 
 constexpr const char* kExpected =
-    "list of points expected: {vertex=}, {edge={a, b}, at=}, {face=, bary=}, or what nearest and "
-    "pick return";
+    "list of points expected: {vertex=}, {edge={a, b}, at=}, {face=, bary=}, or results of "
+    "nearest and pick";
 
 // The id on top of the stack.
 Index top_id(const Call& call, const char* path) {
@@ -21,7 +21,7 @@ Index top_id(const Call& call, const char* path) {
     return static_cast<Index>(id) - 1;
 }
 
-// Pushes field `name` of the table on top; pops it again where it is absent.
+// Pushes field `name` of the table on top; pops it again if it is absent.
 bool push_field(lua_State* L, const char* name) {
     lua_getfield(L, -1, name);
     if (!lua_isnil(L, -1)) return true;
@@ -65,7 +65,7 @@ PointSpec edge_spec(const Call& call, std::span<const Index> edge, double at) {
     return {kNoIndex, edge, {weights, 2}};
 }
 
-// The point of the table at stack index `table`. What it pushes stays until the call ends.
+// The point of the table at stack index `table`. Pushed values stay until the call ends.
 PointSpec read_point(const Call& call, const char* path, int table) {
     lua_State* L = call.lua();
     luaL_checkstack(L, 16, "too many points");
@@ -120,7 +120,7 @@ std::span<const PointSpec> read_points(const Call& call, const char* path) {
 std::vector<Parameter> point_fields() {
     return {id("vertex", "A vertex.").optional(),
             ids("edge", "The two vertices of an edge.").optional(),
-            number("at", "Where on the edge: 0 is its first vertex, 1 its second.")
+            number("at", "Place on the edge: 0 is its first vertex, 1 its second.")
                 .between(0, 1)
                 .defaults(0.5),
             id("face", "A face.").optional(),

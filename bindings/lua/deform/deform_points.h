@@ -1,4 +1,4 @@
-/// Points of a mesh as scripts write them, for what a deformation holds.
+/// Points of a mesh as scripts write them, for constraints of a deformation.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace lissom::lua {
 
-/// A point of a mesh as plain data: weights of the corners of `face`, or of `vertices` where that
-/// is kNoIndex.
+/// A point of a mesh as plain data: weights of the corners of `face`, or of `vertices` if that is
+/// kNoIndex.
 struct PointSpec {
     Index face;
     std::span<const Index> vertices;
@@ -20,8 +20,8 @@ struct PointSpec {
     MeshPoint point(const Topology& topology) const;
 };
 
-/// Reads a list of tables {vertex=}, {edge={a, b}, at=}, {face=, bary=} or what Mesh.nearest and
-/// Mesh.pick return. Raises a Lua error for anything else.
+/// Reads a list of tables {vertex=}, {edge={a, b}, at=}, {face=, bary=} or of results of
+/// Mesh.nearest and Mesh.pick. Raises a Lua error for anything else.
 std::span<const PointSpec> read_points(const Call& call, const char* path);
 
 /// The options of one point, and the point they tell. Raises a Lua error unless there is exactly

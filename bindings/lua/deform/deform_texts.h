@@ -1,4 +1,4 @@
-/// What the descriptions of Deformation and Handle share.
+/// Texts that the descriptions of Deformer and Handle share.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace lissom::lua {
 
-/// What any call of a deformation or handle may fail with.
+/// Error codes of any call of a deformer or handle.
 inline const std::vector<ErrorCode> kDeformerErrors = {ErrorCode::handle_removed,
                                                        ErrorCode::topology_mismatch};
 

@@ -66,7 +66,7 @@ int set_handle(Call& call) {
 
 constexpr double kDegreesOfTurn = 180.0 / kPi;
 
-// The field `turn` of the matrix, in radians; false where there is none.
+// The field `turn` of the matrix, in radians; false if there is none.
 bool read_turn(const Call& call, double (&turn)[3]) {
     lua_State* L = call.lua();
     lua_pushstring(L, "turn");
@@ -217,7 +217,7 @@ std::vector<Parameter> rotation_arguments() {
 
 std::vector<Function> handle_moves() {
     const std::vector<Result> self = {{"lissom.Handle", "handle", "The handle itself."}};
-    const std::string center = "the handle's center where it is now";
+    const std::string center = "the handle's present center";
     return {{.name = "translate",
              .body = translate_handle,
              .summary = "Moves the handle on by an offset.",
@@ -260,15 +260,15 @@ top:rotate{ axis = { 1, 0, 0 }, angle = 10, about = { 0, 0, 0 } })"},
                  "has turned round: the field `turn` that Handle:matrix gives does; without it, "
                  "the turn nearest to the present one is taken.",
              .arguments = {affine("matrix",
-                                  "Rows of a 4 x 4 matrix; takes rest positions to where they "
-                                  "go.")},
+                                  "Rows of a 4 x 4 matrix; maps rest positions to their new "
+                                  "places.")},
              .results = self,
              .effect = Effect::replaces,
              .errors = kHandleErrors,
              .example = kBar + "top:set_matrix(top:matrix())"},
             {.name = "reset",
              .body = reset_handle,
-             .summary = "The handle goes back to where it began.",
+             .summary = "The handle goes back to its initial place.",
              .results = self,
              .effect = Effect::replaces,
              .errors = kHandleErrors,
@@ -294,7 +294,7 @@ Type handle_type() {
          .example = kBar + "assert(top:matrix()[1][1] == 1)"},
         {.name = "center",
          .body = handle_center,
-         .summary = "The handle's center where it is now.",
+         .summary = "The handle's present center.",
          .results = {{"lissom.Vector", "center", "{x, y, z}."}},
          .errors = kDeformerErrors,
          .example =
@@ -319,12 +319,12 @@ assert(right:mirrored():matrix()[1][4] == -0.5)
 deformer:solve())"},
         {.name = "mirror_residual",
          .body = mirror_residual,
-         .summary = "Measures how well both sides of the rest shape match where the handle has a "
+         .summary = "Measures how well both sides of the rest shape match if the handle has a "
                     "mirror image: the distances of the reflected vertices from the surface, in "
-                    "sizes of what is deformed.",
+                    "sizes of the deformed part.",
          .results = {{"table", "residual",
-                      "{max=, mean=, warning=}; the warning, with what helps, only if the greatest "
-                      "is more than the mirror's tolerance."}},
+                      "{max=, mean=, warning=}; the warning, with a remedy, only if the "
+                      "greatest is more than the mirror's tolerance."}},
          .errors = {ErrorCode::handle_removed, ErrorCode::invalid_argument},
          .example =
              kBar +

@@ -119,8 +119,7 @@ int remove_curve(Call& call) {
     return done ? 0 : call.fail();
 }
 
-// Replaces the drawn points by edit(curve, hint, options), where the curve is as smooth as it is
-// seen.
+// Replaces the drawn points by edit(curve, hint, options); the curve is as smooth as it is seen.
 template <typename Edit>
 int edit_by_hint(Call& call, bool joins, const Edit& edit) {
     return change_curve(call, [&](Hairstyle& style, CurveId id) {
@@ -196,20 +195,20 @@ const std::vector<Result> kSelfCurve = {{"lissom.Curve", "curve", "The curve its
 std::vector<Function> telling_methods() {
     return {{.name = "kind",
              .body = curve_kind,
-             .summary = "What kind of curve it is.",
+             .summary = "The kind of the curve.",
              .results = {{"string", "kind", "\"stream\", \"dividing\" or \"ponytail\"."}},
              .errors = kCurveErrors,
              .example = kStyle + "assert(curve:kind() == 'stream')"},
             {.name = "name",
              .body = curve_name,
              .summary = "Its name.",
-             .results = {{"string", "name", "Empty where it has none."}},
+             .results = {{"string", "name", "Empty if it has none."}},
              .errors = kCurveErrors,
              .example = kStyle + "assert(curve:name() == 'side')"},
             {.name = "enabled",
              .body = curve_enabled,
              .summary = "Whether it has an effect.",
-             .results = {{"boolean", "enabled", "True where it has."}},
+             .results = {{"boolean", "enabled", "True if it has."}},
              .errors = kCurveErrors,
              .example = kStyle + "assert(curve:enabled())"},
             {.name = "points",
@@ -279,8 +278,8 @@ std::vector<Function> changing_methods() {
          .example = kStyle + "assert(not curve:enable(false):enabled())"},
         {.name = "reorder",
          .body = reorder_curve,
-         .summary = "Gives it another place in the order: where curves say different things of a "
-                    "point, the later one counts, but dividing curves before all others.",
+         .summary = "Gives it another place in the order: the later of several curves counts at "
+                    "a point, but dividing curves before all others.",
          .arguments = {id("place", "Its place among the curves of the style.")},
          .results = kSelfCurve,
          .errors = {ErrorCode::handle_removed, ErrorCode::out_of_range},
@@ -296,18 +295,18 @@ std::vector<Function> changing_methods() {
 std::vector<Function> hint_methods() {
     return {{.name = "hint_operation",
              .body = tell_operation,
-             .summary = "What a hint stroke means, by where it starts and ends and by its general "
+             .summary = "The meaning of a hint stroke, by its ends and by its general "
                         "direction. Call the method of that name with it.",
              .arguments = hint_argument("A polyline that begins, ends or passes near the curve."),
              .options = {number("near",
-                                "What is nearer than this to the curve is at it: about 20 "
-                                "pixels of the picture that the stroke was drawn in.")
+                                "Distance from the curve that counts as on it: about 20 pixels "
+                                "of the picture that the stroke was drawn in.")
                              .in("metres")
                              .above(0)
                              .defaults(0.007)},
              .results = {{"string", "operation", "\"cut\", \"concatenate\" or \"insert\"."},
                          {"boolean", "sure",
-                          "False where a stroke drawn a little otherwise means something else."}},
+                          "False if a slightly different stroke has another meaning."}},
              .errors = kChangeErrors,
              .example = kStyle + R"(local tip = curve:points()[2]
 local hint = { tip, { tip[1], tip[2] - 0.05, tip[3] } }
@@ -316,7 +315,7 @@ assert(operation == 'concatenate')
 curve[operation](curve, hint))"},
             {.name = "cut",
              .body = cut_by_hint,
-             .summary = "Ends the curve where a hint stroke crosses it.",
+             .summary = "Ends the curve at the crossing of a hint stroke.",
              .arguments = hint_argument("A polyline that passes near the curve."),
              .options = reach_option(),
              .results = kSelfCurve,

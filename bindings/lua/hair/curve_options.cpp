@@ -139,7 +139,7 @@ std::vector<Parameter> own_dividing_fields() {
 
 std::vector<Parameter> own_ponytail_fields() {
     return {
-        metres_field("radius", "Of the tie, the first cross section.")
+        metres_field("radius", "Radius of the tie, the first cross section.")
             .above(0)
             .optional("from section or profiles, else 1.5 grid steps"),
         points("section",
@@ -148,7 +148,7 @@ std::vector<Parameter> own_ponytail_fields() {
             .optional(),
         table("profiles",
               "{a, b}: two lists of points along the spine on either side of the tail; its cross "
-              "sections reach between them, where both are, whichever way they run.")
+              "sections reach between them along their common part, in either direction.")
             .optional(),
         number("share", "Without profiles: how much of the spine has cross sections.")
             .between(0, 1)
@@ -185,7 +185,7 @@ std::vector<Parameter> own_ponytail_fields() {
             .optional("2")
             .thesis("4.5", "0"),
         number("tightness", "Magnitude of the vectors that do so.").between(0, 1).optional("0.6"),
-        metres_field("tail_length", "Of the hair behind the tie.")
+        metres_field("tail_length", "Length of the hair behind the tie.")
             .at_least(0)
             .optional("as long as the spine")
             .thesis("4.6", "as long as hair without a tie"),
@@ -226,8 +226,8 @@ std::vector<Parameter> ponytail_fields() {
 }
 
 std::vector<Parameter> curve_fields() {
-    return joined({{points("points", "Of a stream or dividing curve.").optional(),
-                    points("spine", "Of a ponytail.").optional()},
+    return joined({{points("points", "Points of a stream or dividing curve.").optional(),
+                    points("spine", "Spine of a ponytail.").optional()},
                    own_stream_fields(),
                    own_dividing_fields(),
                    own_ponytail_fields(),

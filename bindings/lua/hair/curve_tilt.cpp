@@ -107,7 +107,7 @@ std::vector<Function> tilt_methods() {
          .body = curve_tilt,
          .summary = "By how much hair on both sides of a dividing curve is turned towards the "
                     "curve's end, as the options say or as the hints do.",
-         .results = {{"lissom.CurveTilt", "tilt", "Of both sides."}},
+         .results = {{"lissom.CurveTilt", "tilt", "Tilt of both sides."}},
          .errors = kTiltErrors,
          .example = kParting + "assert(parting:tilt().left.start == 0)"},
         {.name = "add_hint",
@@ -119,7 +119,7 @@ std::vector<Function> tilt_methods() {
                               "A polyline away from the curve, at most 0.03 metres of an average "
                               "head beside it.")
                            .in("mesh units")},
-         .results = {{"lissom.CurveTilt", "tilt", "What the curve has now."}},
+         .results = {{"lissom.CurveTilt", "tilt", "The present tilt of the curve."}},
          .effect = Effect::changes,
          .errors = {ErrorCode::not_finite, ErrorCode::invalid_argument, ErrorCode::out_of_range,
                     ErrorCode::handle_removed, ErrorCode::memory_limit},
@@ -143,7 +143,7 @@ std::vector<Function> tilt_methods() {
 std::vector<Record> curve_records() {
     return {{"lissom.CurveTilt",
              "The tilts of a dividing curve.",
-             {{"lissom.SideTilt", "left", "As seen along the curve from outside."},
+             {{"lissom.SideTilt", "left", "Tilt seen along the curve from outside."},
               {"lissom.SideTilt", "right", "The other side."}}},
             {"lissom.SideTilt",
              "The tilt of one side of a dividing curve, in degrees.",
@@ -154,7 +154,8 @@ std::vector<Record> curve_records() {
             {"lissom.HairTie",
              "The ring around the beginning of a ponytail.",
              {{"number[]", "center", "In mesh units."},
-              {"number[]", "direction", "Of the spine there, away from the head; of length 1."},
+              {"number[]", "direction",
+               "Direction of the spine there, away from the head; of length 1."},
               {"number", "radius", "In metres of an average head."}}}};
 }
 

@@ -149,28 +149,28 @@ std::vector<Function> option_methods() {
     const std::vector<ErrorCode> errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed};
     return {{.name = "options",
              .body = curve_options,
-             .summary = "Its options as they act, by the names and in the units of `set`: also "
-                        "those that were not given, and those that follow from what was drawn.",
+             .summary = "Its effective options, by the names and in the units of `set`: also "
+                        "defaults, and those that follow from the drawn points.",
              .results = {{"table", "options", "A table of its own."}},
              .errors = {ErrorCode::handle_removed},
              .example = kParting + "assert(parting:options().separation == 0.3)"},
             {.name = "tie",
              .body = curve_tie,
-             .summary = "Where a ponytail is tied.",
+             .summary = "The point at which a ponytail is tied.",
              .results = {{"lissom.HairTie", "tie", "Its first cross section."}},
              .errors = errors,
              .example = tail_example() + "assert(tail:tie().radius > 0)"},
             {.name = "section",
              .body = curve_section,
              .summary = "The curve that was drawn around the spine of a ponytail.",
-             .results = {{"number[][]", "points", "In mesh units; none where there is none."}},
+             .results = {{"number[][]", "points", "In mesh units; none if there are none."}},
              .errors = errors,
              .example = tail_example() + "assert(#tail:section() == 0)"},
             {.name = "profiles",
              .body = curve_profiles,
              .summary = "The curves that were drawn along a ponytail, as `set` takes them.",
              .results = {{"number[][][]", "profiles",
-                          "Two lists of points in mesh units, each empty where there is none."}},
+                          "Two lists of points in mesh units, each empty if there is none."}},
              .errors = errors,
              .example = tail_example() + "assert(#tail:profiles()[1] == 0)"}};
 }

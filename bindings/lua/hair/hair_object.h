@@ -35,7 +35,7 @@ struct HairstyleObject {
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const { return content ? content->memory_bytes() : 0; }
-    /// Throws handle_removed where it was closed.
+    /// Throws handle_removed if it was closed.
     Hairstyle& style();
 };
 
@@ -67,12 +67,12 @@ class CurveReader {
     std::span<const Vec3> profiles_[2];
 };
 
-/// Throws invalid_argument where a call that has the options of all kinds gives one that `curve`
-/// has no use for.
+/// Throws invalid_argument if a call that has the options of all kinds gives one that `curve` has
+/// no use for.
 void refuse_other_options(const Call& call, const StyleCurve& curve);
 
-/// Where a call gives tilts to a dividing curve with hints: what these say becomes its tilts, and
-/// they go. Inside Call::attempt only.
+/// If a call gives tilts to a dividing curve with hints, the hints' tilts become its tilts, and the
+/// hints go. Inside Call::attempt only.
 void forget_hints(const Call& call, const Hairstyle& style, CurveId id, StyleCurve& curve);
 
 /// Methods of curves: tilts of partings by hints, and options as they act.
@@ -95,7 +95,7 @@ std::vector<Parameter> dividing_fields();
 std::vector<Parameter> ponytail_fields();
 std::vector<Parameter> curve_fields();
 
-/// {azimuth=, elevation=, lift=} over a head, and what becomes of it.
+/// {azimuth=, elevation=, lift=} over a head, and its effect.
 std::vector<Parameter> direction_fields();
 /// Pushes the point of these options, or the normal of the head below it.
 int push_point_at(Call& call, const Scalp& scalp);

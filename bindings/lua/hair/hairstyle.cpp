@@ -67,7 +67,7 @@ int save_style(Call& call) {
     return done ? call.push_argument() : call.fail();
 }
 
-// The head that a style names, beside the style's file where its path is relative.
+// The head that a style names, relative paths beside the style's file.
 std::shared_ptr<MeshObject> named_head(const Call& call, const std::filesystem::path& style,
                                        const StyleContent& content) {
     if (content.head.empty()) {
@@ -285,7 +285,7 @@ void set_lengths(const Call& call, std::span<const double> lengths, std::vector<
     }
 }
 
-// What the script's function says of every vertex; runs before any C++ object is alive.
+// Values of the script's function at every vertex; runs before any C++ object is alive.
 std::span<const double> ask_factors(Call& call, const char* path) {
     if (!call.has(path) || call.kind(path) != Kind::function) return {};
     lua_State* L = call.lua();
@@ -530,10 +530,10 @@ std::vector<Function> field_methods() {
          .example = kStyle + "local v, d = style:field(curve:course()[2])\nassert(d > 0)"},
         {.name = "avoid_scalp",
          .body = avoid_scalp,
-         .summary = "Turns the field along the head wherever it points into it (section 4.6 "
-                    "of the thesis), also where hair only passes, as on the neck. For the end of a "
-                    "design: it stays as it is until it is "
-                    "done again. Hair that grows with `avoid` stays outside anyway.",
+         .summary = "Turns the field along the head at points at which it points into the head "
+                    "(section 4.6 of the thesis), also on the neck, past which hair only flows. "
+                    "For the end of a design: it stays as it is until it is done again. Hair "
+                    "that grows with `avoid` stays outside anyway.",
          .options = {number("magnitude",
                             "Length of the vectors that do so: small, so that they "
                             "change little elsewhere.")
@@ -549,7 +549,7 @@ std::vector<Function> field_methods() {
          .example = kStyle + "style:avoid_scalp()"},
         {.name = "forget_scalp",
          .body = forget_scalp,
-         .summary = "Takes back what avoid_scalp did.",
+         .summary = "Undoes avoid_scalp.",
          .results = kSelfStyle,
          .errors = {ErrorCode::handle_removed},
          .example = kStyle + "style:avoid_scalp():forget_scalp()"}};
@@ -591,15 +591,14 @@ std::vector<Parameter> growth_fields() {
         "y, z), asked with the vertex's number and its place in mesh units.";
     return {
         integer("seed", "Another seed gives other roots and other chance.").defaults(1).at_least(0),
-        either(
-            "length",
-            {number("metres", "Of every strand.").in("metres").at_least(0),
-             function("metres", kOfVertex,
-                      "Asked for each vertex of the head with its number and its place in mesh "
-                      "units; gives metres.")},
-            "Of a strand, at most twice the diagonal of the volume. By function(vertex, x, y, z) "
-            "in metres, for instance for a fringe that is shorter than the rest: it is asked "
-            "for each vertex of the head with its number and its place in mesh units.")
+        either("length",
+               {number("metres", "Length of every strand.").in("metres").at_least(0),
+                function("metres", kOfVertex,
+                         "Asked for each vertex of the head with its number and its place in mesh "
+                         "units; gives metres.")},
+               "Length of a strand, at most twice the diagonal of the volume. By function(vertex, "
+               "x, y, z) in metres, for instance for a fringe that is shorter than the rest: it is "
+               "asked for each vertex of the head with its number and its place in mesh units.")
             .in("metres")
             .optional(shown(defaults.length))
             .thesis("4.6", "as the field carries it"),
@@ -617,7 +616,7 @@ std::vector<Parameter> growth_fields() {
         factors_option("lengths", "Factors of the length." + by_vertex),
         options("cut",
                 {vector("point", "A point of the plane.").in("mesh units"),
-                 vector("normal", "Points to where no hair is left.").optional("down"),
+                 vector("normal", "Direction without hair.").optional("down"),
                  metres("ragged", 0.006, "Strands meet the plane moved by this at most.")},
                 "Cuts hair off along a plane, but for tails.")
             .optional(),
@@ -634,7 +633,7 @@ std::vector<Parameter> growth_fields() {
         number("segment", "Length of a segment, in steps of the grid.")
             .defaults(defaults.segment)
             .between(kLeastSegment, kGreatestSegment),
-        number("least_speed", "A strand ends where the field is shorter than this.")
+        number("least_speed", "A strand ends if the field is shorter than this.")
             .defaults(defaults.least_speed)
             .between(0, 0.99),
         number(
@@ -688,8 +687,8 @@ std::vector<Function> plain_methods() {
          .example = kStyle + "assert(style:curves()[1] == curve)"},
         {.name = "constraints",
          .body = style_constraints,
-         .summary = "What the curves that are enabled and avoid_scalp give the field: one vector a "
-                    "grid point that is constrained. `lissom.render{ style = }` draws them.",
+         .summary = "Constraints of the field from the enabled curves and avoid_scalp: one "
+                    "vector a constrained grid point. `lissom.render{ style = }` draws them.",
          .results = {{"lissom.StyleConstraint[]", "constraints", "A list."}},
          .errors = {ErrorCode::handle_removed},
          .example = kStyle + R"(local first = style:constraints()[1]
@@ -729,7 +728,7 @@ assert(first.curve == 1 and (first.kind == 'stream' or first.kind == 'stop')))"}
 
 std::vector<Parameter> style_fields() {
     return {
-        object("scalp", "lissom.Scalp", "Where hair grows.").optional("guessed"),
+        object("scalp", "lissom.Scalp", "The scalp.").optional("guessed"),
         integer("resolution",
                 "Grid points of the field. 25,000 do for smooth styles, 50,000 for ponytails.")
             .defaults(index_of(HairstyleOptions{}.resolution))
@@ -740,7 +739,7 @@ std::vector<Parameter> style_fields() {
             .optional("around the head, down to the chest"),
         choice("solver", {"dual", "cholesky"},
                "dual is fast; cholesky is the thesis's way, a reference: it updates its factor, "
-               "or makes it again where the build is without CHOLMOD.")
+               "or makes it again in a build without CHOLMOD.")
             .defaults("dual"),
         choice("boundary", {"zero_flux", "thesis"}, "How the field behaves at the box.")
             .optional("\"zero_flux\"")
@@ -750,9 +749,9 @@ std::vector<Parameter> style_fields() {
             .thesis("4.4.1", "0")
             .at_least(0),
         choice("fidelity", {"default", "thesis"},
-               "thesis: chapter 4 to the letter, for comparison. It changes what holds where "
-               "no option says otherwise, also for the curves and for `grow`; the page "
-               "thesis.md of the reference names all of it.")
+               "thesis: chapter 4 to the letter, for comparison. It changes the defaults, also "
+               "for the curves and for `grow`; the page thesis.md of the reference names all of "
+               "it.")
             .defaults("default")};
 }
 
@@ -782,11 +781,10 @@ std::vector<Record> hairstyle_records() {
          {{"number[]", "point", "{x, y, z}, in mesh units."},
           {"number[]", "vector", "{x, y, z}: the field there, of length 1 at most."},
           {"string", "kind",
-           "What it stands for: \"stream\", along a stream curve; \"stop\", vanishing beyond "
-           "its end; \"parting\", along the Gaussian beside a dividing curve, and "
-           "\"separation\" above it; \"section\", \"spine\" and \"gather\" of a ponytail: near "
-           "its cross sections, along the rest of its spine, into its tie; \"scalp\", of "
-           "avoid_scalp."},
+           "Its source: \"stream\", along a stream curve; \"stop\", vanishing beyond its end; "
+           "\"parting\", along the Gaussian beside a dividing curve, and \"separation\" above "
+           "it; \"section\", \"spine\" and \"gather\" of a ponytail: near its cross sections, "
+           "along the rest of its spine, into its tie; \"scalp\", of avoid_scalp."},
           {"integer?", "curve", "Place of the curve among style:curves(); nil for the scalp's."},
           {"number", "weight", "How strictly it is kept."}}},
         {"lissom.HairstyleStats",
@@ -810,7 +808,7 @@ std::vector<Function> hairstyle_functions() {
          .arguments = {string("path", "The JSON file."),
                        object("head", "lissom.Mesh", "The head that it goes on.")
                            .optional("the one that the file names, beside it")},
-         .options = {object("scalp", "lissom.Scalp", "Where hair grows.").optional("guessed")},
+         .options = {object("scalp", "lissom.Scalp", "The scalp.").optional("guessed")},
          .results = {{"lissom.Hairstyle", "style", "The hairstyle."}},
          .errors = {ErrorCode::file_not_found, ErrorCode::file_is_directory, ErrorCode::file_empty,
                     ErrorCode::file_unreadable, ErrorCode::file_syntax, ErrorCode::unsupported,

@@ -1,4 +1,4 @@
-// lissom.Scalp: where hair grows on a head, and its frame.
+// lissom.Scalp: the hairy part of a head, and its frame.
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/core/parser.h"
 #include "bindings/lua/hair/hair_object.h"
@@ -102,7 +102,7 @@ std::vector<Function> scalp_methods() {
                          kScalp + "local n = scalp:normal_at{ azimuth = 90, elevation = 30 }"),
         {.name = "region",
          .body = scalp_region,
-         .summary = "Where hair grows.",
+         .summary = "The hairy region.",
          .results = {{"lissom.Region", "region", "Vertices of the head."}},
          .example = kScalp + "assert(#scalp:region() > 0)"},
         {.name = "head",
@@ -114,22 +114,21 @@ std::vector<Function> scalp_methods() {
         {.name = "guessed",
          .body = scalp_guessed,
          .summary = "Whether the region was guessed from an average hairline.",
-         .results = {{"boolean", "guessed", "False where a region was given or named."}},
+         .results = {{"boolean", "guessed", "False if a region was given or named."}},
          .example = kScalp + "assert(not scalp:guessed())"},
         {.name = "confidence",
          .body = scalp_confidence,
-         .summary = "How sure it is where the head is and which way it looks. Making a scalp whose "
+         .summary = "Certainty of the head's place and direction of view. Making a scalp whose "
                     "confidence is below 0.5 gives a warning: look at `up` and `front`, or give "
                     "them, and the region.",
-         .results =
-             {{"number", "confidence",
-               "Near 1 for a whole bald head, near 0 for masks, halves of heads, and what is "
-               "none."}},
+         .results = {{"number", "confidence",
+                      "Near 1 for a whole bald head, near 0 for masks, halves of heads, and other "
+                      "shapes."}},
          .example = kScalp + "assert(scalp:confidence() > 0.5)"},
         {.name = "doubt",
          .body = scalp_doubt,
-         .summary = "What makes the confidence less than it could be.",
-         .results = {{"string", "doubt", "Empty where nothing does."}},
+         .summary = "Reason for a low confidence.",
+         .results = {{"string", "doubt", "Empty if there is none."}},
          .example = kScalp + "print(scalp:doubt())"},
         {.name = "center",
          .body = scalp_center,
@@ -159,8 +158,8 @@ std::vector<Function> scalp_methods() {
         {.name = "knows_unit",
          .body = scalp_knows_unit,
          .summary = "Whether the unit was given, or a usual one makes this the width of a head. "
-                    "Where neither is so, `unit` is that of an average head, and making the scalp "
-                    "gives a warning.",
+                    "Otherwise `unit` is that of an average head, and making the scalp gives a "
+                    "warning.",
          .results = {{"boolean", "known", "False for models of some other size."}},
          .example = kScalp + "assert(scalp:knows_unit())"},
         {.name = "scale",
@@ -240,7 +239,7 @@ int push_normal_at(Call& call, const Scalp& scalp) {
 Type scalp_type() {
     return {.name = "lissom.Scalp",
             .summary =
-                "Where hair grows on a head, and the frame in which styles fit any head. It is "
+                "The hairy part of a head, and the frame in which styles fit any head. It is "
                 "that of the head's shape when it was made.",
             .methods = scalp_methods(),
             .operators = {{"__tostring", scalp_text, "tostring(scalp)", "its size"}}};
@@ -252,9 +251,8 @@ std::vector<Function> scalp_functions() {
          .body = make_scalp,
          .summary = "Finds the scalp of a bald head, bust or body, and which way it looks.",
          .arguments = {object("head", "lissom.Mesh", "The head.")},
-         .options = {object("region", "lissom.Region", "Where hair grows.")
-                         .optional("the region \"scalp\", or what is above an average "
-                                   "hairline"),
+         .options = {object("region", "lissom.Region", "The hairy part.")
+                         .optional("the region \"scalp\", or the part above an average hairline"),
                      axis("up", "Which way is up.").optional("guessed"),
                      axis("front", "Which way the head looks.").optional("guessed"),
                      number("unit", "How long a unit of the mesh is.")

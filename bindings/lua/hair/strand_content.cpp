@@ -1,4 +1,4 @@
-// lissom.Strands: what they consist of, and measures.
+// lissom.Strands: contents and measures.
 #include <cstdio>
 
 #include "bindings/lua/hair/hair_object.h"
@@ -37,7 +37,7 @@ int one_strand(Call& call) {
     return push_points(call, s, s + 1);
 }
 
-// What is known of a strand, but for its points.
+// Properties of a strand, but for its points.
 int strand_root(Call& call) {
     const Index s = call.id("strand");
     if (!call.attempt_quick([&] { require_strand(strands_of(call), s); })) return call.fail();
@@ -170,7 +170,7 @@ std::vector<Function> strand_content_methods() {
          .example = kTwoStrands + "assert(hair:strand(1):count() == 3)"},
         {.name = "root",
          .body = strand_root,
-         .summary = "Where a strand is rooted, and what else is known of it.",
+         .summary = "Root of a strand, and its other properties.",
          .arguments = {id("strand", "Its number.")},
          .results = {{"lissom.StrandRoot", "root", "Fields that are not known are absent."}},
          .errors = {ErrorCode::out_of_range},
@@ -188,7 +188,7 @@ std::vector<Function> strand_content_methods() {
         {.name = "groups",
          .body = groups,
          .summary = "The names of the groups.",
-         .results = {{"string[]", "names", "In their order; empty where there are none."}},
+         .results = {{"string[]", "names", "In their order; empty if there are none."}},
          .example = kTwoStrands + "assert(#hair:groups() == 0)"},
         {.name = "bounds",
          .body = strands_bounds,
@@ -216,7 +216,7 @@ std::vector<Function> strand_content_methods() {
               number("depth", "How deep they must be to count.")
                   .in("metres")
                   .optional("0.0005, as the head is larger than an average one")},
-         .results = {{"lissom.StrandStats", "stats", "What was measured."}},
+         .results = {{"lissom.StrandStats", "stats", "The measures."}},
          .errors = {ErrorCode::cancelled},
          .example = kTwoStrands + "assert(math.abs(hair:stats().most_length - 0.2) < 1e-6)"}};
 }

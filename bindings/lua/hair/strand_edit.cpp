@@ -104,7 +104,7 @@ int resample_strands(Call& call) {
 
 // ---- Widths and colours
 
-// What a list has one value for: each strand, or each point.
+// Domain of a list: one value for each strand, or for each point.
 StrandDomain domain_of(std::size_t count, const Strands& strands, const char* what) {
     if (count == at(strands.size())) return StrandDomain::strand;
     if (count == at(strands.point_count())) return StrandDomain::point;
@@ -233,8 +233,8 @@ std::vector<Function> strand_edit_methods() {
          .example = kTwoStrands + "assert(hair:resample{ count = 10 }:points():count() == 20)"},
         {.name = "set_widths",
          .body = set_widths,
-         .summary = "Sets how thick strands are; what is not given stays. Pictures and files have "
-                    "the widths, times the profile.",
+         .summary = "Sets the thickness of strands; options that are not given stay. Pictures "
+                    "and files have the widths, times the profile.",
          .options =
              {meters("width", "Diameter of all strands.").at_least(0).optional(),
               numbers("widths", "Diameters in metres, one a strand or one a point.").optional(),

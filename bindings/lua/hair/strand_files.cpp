@@ -85,8 +85,8 @@ Function strands_save_method() {
         .body = save_hair,
         .summary =
             "Writes the strands to a .hair, .data, .usda, .rib, .glb, .gltf or .obj file, "
-            "whole or not at all. They are checked before, and changed where they would "
-            "break in other programs; the strands themselves stay as they are.",
+            "whole or not at all. They are checked before, and changed if they would break in "
+            "other programs; the strands themselves stay as they are.",
         .arguments = {string("path", "The file; its extension names the format.")},
         .options = {up_option("The up axis that the file shall have.", "y"),
                     number("unit",
@@ -96,13 +96,12 @@ Function strands_save_method() {
                         .above(0)
                         .in("metres"),
                     boolean("mend",
-                            "false makes what would be changed or left out an error that names "
-                            "the strands.")
+                            "false makes a change or an omission an error that names the strands.")
                         .defaults(true),
                     object("head", "lissom.Mesh", "For .rib: the head that the picture shows.")
                         .optional("none"),
                     options("camera",
-                            {vector("eye", "Where it stands, in units of the head."),
+                            {vector("eye", "Its position, in units of the head."),
                              vector("target", "The middle of the picture."),
                              axis("up", "Which way is up.").defaults("y"),
                              number("fov", "Vertical opening angle.")
@@ -110,7 +109,7 @@ Function strands_save_method() {
                                  .between(0, 179)
                                  .in("degrees")
                                  .defaults(30.0)},
-                            "For .rib: what the picture shows.")
+                            "For .rib: the camera of the picture.")
                         .optional("hair and head whole, from the front, a little aside"),
                     boolean("archive",
                             "For .rib: the curves alone, for other RIB files to read; else a scene "
@@ -118,7 +117,7 @@ Function strands_save_method() {
                             "the picture.")
                         .defaults(false)},
         .results = {kSelfStrands.front(),
-                    {"lissom.StrandFinding[]", "report", "What was found, changed or left out."}},
+                    {"lissom.StrandFinding[]", "report", "Findings, changes and omissions."}},
         .errors = {ErrorCode::unknown_format, ErrorCode::file_write_failed,
                    ErrorCode::file_is_directory, ErrorCode::file_too_large, ErrorCode::not_finite,
                    ErrorCode::memory_limit, ErrorCode::cancelled},
@@ -135,11 +134,11 @@ Function load_strands_function() {
         .summary = "Reads hair from a .hair, .data (HairSalon) or .usda (BasisCurves) file.",
         .arguments = {string("path", "The file; its extension names the format.")},
         .options = {up_option("The file's up axis; z is turned to y, which is up here.",
-                              "what the file says, else y"),
+                              "the file's own, else y"),
                     number("unit", "Length of the file's unit in metres.")
                         .above(0)
                         .in("metres")
-                        .optional("what the file says, else 1")},
+                        .optional("the file's own, else 1")},
         .results = {{"lissom.Strands", "strands", "The strands."}},
         .errors = {ErrorCode::file_not_found, ErrorCode::file_is_directory, ErrorCode::file_empty,
                    ErrorCode::file_unreadable, ErrorCode::file_syntax, ErrorCode::file_truncated,

@@ -146,7 +146,7 @@ Function trim_method() {
     return {
         .name = "trim",
         .body = trim_strands,
-        .summary = "Cuts strands off at the tip, where the first of the options says so.",
+        .summary = "Cuts strands off at the tip, by the first of the options that applies.",
         .options = {meters("length", "Longest length that is left.").above(0).optional("no limit"),
                     number("factor", "Part of its length that each strand keeps.")
                         .defaults(d.factor)
@@ -157,7 +157,7 @@ Function trim_method() {
                     options("plane",
                             {vector("point", "A point of the plane."),
                              vector("normal", "Points to the side that is cut off.")},
-                            "What lies beyond a plane is cut off.")
+                            "The part beyond a plane is cut off.")
                         .optional(),
                     meters("jitter", "Each strand meets the plane moved by at most this.")
                         .defaults(d.jitter)
@@ -180,10 +180,10 @@ std::vector<Function> strand_operator_methods() {
         {.name = "taper",
          .body = taper_strands,
          .summary = "Makes strands thinner towards their tips.",
-         .options = {number("tip", "Width of the tip as a fraction of what it was.")
+         .options = {number("tip", "Width of the tip as a fraction of its former width.")
                          .defaults(taper_defaults.tip)
                          .above(0),
-                     number("start", "Where the taper begins: 0 is the root, 1 the tip.")
+                     number("start", "Start of the taper: 0 is the root, 1 the tip.")
                          .defaults(taper_defaults.start)
                          .between(0, 0.999),
                      shape_field(taper_defaults.shape, "1 is a cone, 2 stays wide for longer.")},

@@ -45,8 +45,8 @@ Type strands_type() {
         .name = "lissom.Strands",
         .summary =
             "Hair: polylines from root to tip, in metres. Strands count from 1. "
-            "Operators never move roots, and what they do to a strand does not depend "
-            "on how many there are.",
+            "Operators never move roots, and their effect on a strand does not depend on the "
+            "number of strands.",
         .close = [](void* object) { static_cast<StrandsObject*>(object)->strands = Strands(); }};
     type.operators = {{"__len", strand_count, "#strands", "number of strands"},
                       {"__tostring", strands_text, "tostring(strands)", "counts"}};
@@ -96,9 +96,9 @@ std::vector<Record> strand_records() {
               {"number[]|nil", "uv", "Texture coordinates there."},
               {"string|nil", "group", "The name of its group."}}},
             {"lissom.StrandFinding",
-             "What was found in strands that were saved.",
+             "A finding in strands that were saved.",
              {{"string", "kind", "strands_too_short, points_repeated, content_dropped, ..."},
-              {"string", "message", "What was found, and what was done about it."},
+              {"string", "message", "The finding, and its treatment."},
               {"integer", "count", "Number of strands concerned."},
               {"integer[]", "strands", "The strands, the first hundred of them."}}}};
 }

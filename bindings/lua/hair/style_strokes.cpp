@@ -1,4 +1,4 @@
-// lissom.Hairstyle: what a hand does to a whole style: painting masks and combing.
+// lissom.Hairstyle: strokes on a whole style: painting masks and combing.
 #include <string>
 #include <utility>
 
@@ -130,34 +130,35 @@ std::vector<Function> mask_methods() {
     return {
         {.name = "mask",
          .body = add_mask,
-         .summary = "Paints on the scalp with a round brush where hair is shorter, longer or "
+         .summary = "Paints on the scalp with a round brush to make hair shorter, longer or "
                     "thinner. A style keeps its strokes, in metres of an average head, and hair "
                     "grows by them besides `lengths` and `density` of `grow`.",
-         .options =
-             {mask_kind(),
-              points("points", "The way of the brush over the head; one point is a dab.")
-                  .in("mesh units"),
-              number("value",
-                     "What the brush paints: to 4 for the length, to 1 for the density; 1 "
-                     "takes away what was there.")
-                  .defaults(MaskStroke{}.value)
-                  .between(0, kGreatestLengthMask),
-              number("radius", "Of the brush.").in("metres").defaults(MaskStroke{}.radius).above(0),
-              number("softness", "The share of the radius over which the brush fades.")
-                  .defaults(MaskStroke{}.softness)
-                  .between(0, 1)},
+         .options = {mask_kind(),
+                     points("points", "The way of the brush over the head; one point is a dab.")
+                         .in("mesh units"),
+                     number("value",
+                            "Painted value: to 4 for the length, to 1 for the density; 1 erases.")
+                         .defaults(MaskStroke{}.value)
+                         .between(0, kGreatestLengthMask),
+                     number("radius", "Radius of the brush.")
+                         .in("metres")
+                         .defaults(MaskStroke{}.radius)
+                         .above(0),
+                     number("softness", "The share of the radius over which the brush fades.")
+                         .defaults(MaskStroke{}.softness)
+                         .between(0, 1)},
          .results = kMaskedStyle,
          .errors = {ErrorCode::not_finite, ErrorCode::invalid_argument, ErrorCode::handle_removed},
          .example = mask_example() + "assert(style:masks()[1].value == 0.3)"},
         {.name = "masks",
          .body = list_masks,
-         .summary = "What was painted on the scalp, in its order.",
-         .results = {{"lissom.ScalpMask[]", "masks", "As given to `mask`."}},
+         .summary = "The masks painted on the scalp, in their order.",
+         .results = {{"lissom.ScalpMask[]", "masks", "Same as given to `mask`."}},
          .errors = {ErrorCode::handle_removed},
          .example = mask_example() + "assert(#style:masks() == 1)"},
         {.name = "clear_masks",
          .body = clear_masks,
-         .summary = "Takes away what was painted on the scalp.",
+         .summary = "Erases the masks of the scalp.",
          .options = {mask_kind().optional("both")},
          .results = kMaskedStyle,
          .errors = {ErrorCode::handle_removed},
@@ -166,40 +167,37 @@ std::vector<Function> mask_methods() {
 
 Function comb_method() {
     const CombOptions defaults;
-    return {
-        .name = "comb",
-        .body = comb_style,
-        .summary =
-            "Makes hair flow along a stroke, which runs as hair grows. Where hair follows "
-            "it already nothing changes; otherwise streams beside it are bent, or one is "
-            "added along it, whichever explains the stroke and changes the rest of the "
-            "hair least.",
-        .options =
-            {points("points",
-                    "The stroke, in the hair: `camera:stroke{ on = strands }` puts it "
-                    "there.")
-                 .in("mesh units"),
-             choice("by", {"least", "bend", "add"},
-                    "What changes least; bent streams alone; or an added one.")
-                 .defaults("least"),
-             number("reach",
-                    "Streams are bent where they are nearer to the stroke: wholly up to half of "
-                    "it, less and less beyond.")
-                 .in("metres")
-                 .defaults(defaults.reach)
-                 .above(0),
-             number("tolerance",
-                    "Hair follows the stroke where it runs within this angle of it, root of the "
-                    "mean square.")
-                 .in("degrees")
-                 .defaults(15)
-                 .between(1, 90)},
-        .results = {{"lissom.CombReport", "report", "What was done."}},
-        .effect = Effect::changes,
-        .errors = {ErrorCode::not_finite, ErrorCode::invalid_argument, ErrorCode::out_of_range,
-                   ErrorCode::not_positive_definite, ErrorCode::memory_limit,
-                   ErrorCode::handle_removed, ErrorCode::cancelled},
-        .example = kStyle + R"(local report = style:comb{ points = {
+    return {.name = "comb",
+            .body = comb_style,
+            .summary =
+                "Makes hair flow along a stroke, which runs as hair grows. Hair that follows it "
+                "already does not change; otherwise streams beside it are bent, or one is added "
+                "along it, whichever explains the stroke and changes the rest of the hair least.",
+            .options =
+                {points("points",
+                        "The stroke, in the hair: `camera:stroke{ on = strands }` puts it there.")
+                     .in("mesh units"),
+                 choice("by", {"least", "bend", "add"},
+                        "least: the smallest change; bent streams alone; or an added one.")
+                     .defaults("least"),
+                 number("reach",
+                        "Streams nearer to the stroke than this are bent: wholly up to half of it, "
+                        "less and less beyond.")
+                     .in("metres")
+                     .defaults(defaults.reach)
+                     .above(0),
+                 number("tolerance",
+                        "Hair follows the stroke if it runs within this angle of it, root of the "
+                        "mean square.")
+                     .in("degrees")
+                     .defaults(15)
+                     .between(1, 90)},
+            .results = {{"lissom.CombReport", "report", "The changes made."}},
+            .effect = Effect::changes,
+            .errors = {ErrorCode::not_finite, ErrorCode::invalid_argument, ErrorCode::out_of_range,
+                       ErrorCode::not_positive_definite, ErrorCode::memory_limit,
+                       ErrorCode::handle_removed, ErrorCode::cancelled},
+            .example = kStyle + R"(local report = style:comb{ points = {
     style:at{ azimuth = 90, elevation = 30, lift = 0.02 },
     style:at{ azimuth = 140, elevation = 20, lift = 0.02 } } }
 assert(report.after < report.before))"};
@@ -218,11 +216,11 @@ std::vector<Record> style_stroke_records() {
              "A stroke of a brush on a scalp.",
              {{"string", "kind", "\"length\" or \"density\"."},
               {"number[][]", "points", "Its way, in mesh units."},
-              {"number", "value", "What it painted."},
-              {"number", "radius", "Of the brush, in metres of an average head."},
+              {"number", "value", "Painted value."},
+              {"number", "radius", "Radius of the brush, in metres of an average head."},
               {"number", "softness", "The share of the radius over which it fades."}}},
             {"lissom.CombReport",
-             "What a comb has done.",
+             "Changes made by a comb.",
              {{"lissom.Curve[]", "bent", "Streams that it has bent."},
               {"lissom.Curve?", "added", "The stream that it has added."},
               {"number", "before",

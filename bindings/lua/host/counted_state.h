@@ -1,4 +1,4 @@
-/// What hosts of a Lua state share: memory that is counted, what print prints, and os.exit.
+/// Services that hosts of a Lua state share: counted memory, the output of print, and os.exit.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@
 
 namespace lissom::lua {
 
-/// A lua_Alloc that charges the lissom::MemoryAccount at `account`, and has no memory where that
-/// has no room.
+/// A lua_Alloc that charges the lissom::MemoryAccount at `account`, and fails if that has no
+/// room.
 void* allocate_counted(void* account, void* block, std::size_t old_size, std::size_t new_size);
 
-/// os.exit of a script whose host goes on: raises an error that says what to write instead.
+/// os.exit of a script whose host goes on: raises an error with a replacement.
 int refuse_exit(lua_State* L);
 
 /// Pushes the values on the stack as print writes them, without a line end.

@@ -36,7 +36,7 @@ Region patch_region(const Mesh& mesh, const FillReport& patch) {
     return {mesh.shared_topology(), std::move(vertices)};
 }
 
-// What an erasure returns, until it is pushed.
+// Result of an erasure, until it is pushed.
 struct Erasure {
     std::shared_ptr<MeshObject> mesh;
     std::shared_ptr<PathObject> loop;
@@ -121,14 +121,14 @@ std::vector<Parameter> clone_parameters() {
                "to this."),
         either("feature",
                {object("region", "lissom.Region", ""),
-                choice("auto", {"auto"}, "What lies deep in the region.")},
-               "As in lissom.paste.")
+                choice("auto", {"auto"}, "The core of the region.")},
+               "See lissom.paste.")
             .optional("auto")};
     for (const Parameter& field : placement_fields(false)) {
         if (field.name != "at") all.push_back(field);
     }
     all.push_back(clear_parameter());
-    all.push_back(number("ring", "Share of the region that is searched where no feature is given.")
+    all.push_back(number("ring", "Share of the region that is searched if no feature is given.")
                       .between(0.01, 0.99)
                       .defaults(0.5));
     all.push_back(number("normals", "Weight of the normals in the energy of a boundary.")
@@ -155,12 +155,13 @@ std::vector<Function> erase_methods_of_mesh() {
         {.name = "erase",
          .body = erase_region,
          .summary =
-             "A new mesh without what a region marks: it is cut along the least-cost loop around "
-             "the region, which runs where the surface is even, and closed by a patch that "
-             "continues the surface, so that a feature disappears. The feature may have handles "
-             "and open boundaries. Everything outside the loop keeps its values to the bit; "
-             "labels, colours and texture coordinates are continued over the patch.",
-         .arguments = {object("region", "lissom.Region", "What is to go, marked casually.")},
+             "A new mesh without the marked feature: it is cut along the least-cost loop around "
+             "the region, which runs over even surface, and closed by a patch that continues "
+             "the surface. The feature may have handles and open boundaries. Everything outside "
+             "the loop keeps its values to the bit; labels, colours and texture coordinates are "
+             "continued over the patch.",
+         .arguments = {object("region", "lissom.Region",
+                              "The feature to remove, marked casually.")},
          .options = {number("ring",
                             "How far around the region the mesh may be cut, in radii of the "
                             "region's outline. 0: along the outline itself.")
@@ -172,16 +173,15 @@ std::vector<Function> erase_methods_of_mesh() {
                             "principal curvatures, without signs. 0: the shortest loop.")
                          .at_least(0)
                          .defaults(defaults.bend),
-                     choice(
-                         "continuity", {"tangents", "curvature"},
-                         "What of the surface around it the patch continues: curvature where that "
-                         "is even around the cut, else tangents.")
+                     choice("continuity", {"tangents", "curvature"},
+                            "Continuity of the patch with the surface around it: curvature if that "
+                            "is even around the cut, else tangents.")
                          .defaults("curvature"),
                      integer("maximum_vertices", "Vertices that the patch may have.")
                          .at_least(0)
                          .defaults(defaults.maximum_vertices)},
          .results = {{"lissom.Mesh", "mesh", "The mesh without the feature."},
-                     {"lissom.EraseReport", "report", "What was done."}},
+                     {"lissom.EraseReport", "report", "Measures of the result."}},
          .errors = {ErrorCode::topology_mismatch, ErrorCode::region_empty, ErrorCode::not_a_disk,
                     ErrorCode::boundary_conflict, ErrorCode::invalid_argument,
                     ErrorCode::not_positive_definite, ErrorCode::memory_limit,
@@ -198,7 +198,7 @@ print(report.removed_faces, #report.patch))"},
          .options = clone_parameters(),
          .results = {{"lissom.Mesh", "mesh", "The mesh with both."},
                      {"lissom.MergeReport", "report",
-                      "As of lissom.merge; its field `paste` is a lissom.PasteReport."}},
+                      "The report of lissom.merge; its field `paste` is a lissom.PasteReport."}},
          .errors = {ErrorCode::topology_mismatch, ErrorCode::region_empty,
                     ErrorCode::boundary_conflict, ErrorCode::not_a_disk,
                     ErrorCode::invalid_argument, ErrorCode::mesh_empty, ErrorCode::not_finite,
@@ -211,27 +211,27 @@ assert(two:is_closed() and two:bounds().min[3] < -1.2))"}};
 
 std::vector<Record> erase_records() {
     return {{"lissom.EraseReport",
-             "What mesh:erase did.",
+             "Report of mesh:erase.",
              {{"lissom.Path", "loop", "The cut, on the mesh as it was."},
-              {"lissom.Region", "patch", "What was closed, with its rim, on the new mesh."},
+              {"lissom.Region", "patch", "The patch, with its rim, on the new mesh."},
               {"integer", "loop_size", "Vertices of the cut."},
-              {"number", "loop_cost", "What it costs; see `bend`."},
+              {"number", "loop_cost", "Its cost; see `bend`."},
               {"number", "ring", "Width around the region that was searched, in mesh units."},
               {"integer", "removed_vertices", "Vertices that went."},
               {"integer", "removed_faces", "Faces that went."},
               {"integer", "added_faces", "Faces of the patch."},
-              {"string", "continuity", "What the patch continues: curvature or tangents."},
+              {"string", "continuity", "Continuity of the patch: curvature or tangents."},
               {"number", "greatest_dihedral",
                "The greatest angle between neighbouring faces of which one is in the patch."},
               {"number", "greatest_around",
                "The same of the surface within three rings around the patch."},
               {"number", "density",
-               "How dense the patch is, over the surface around it: 1, or up to 4 where it would "
-               "have been too coarse to bend from a steep rim."},
+               "Density of the patch, over that of the surface around it: 1, or up to 4 if it "
+               "would have been too coarse to bend from a steep rim."},
               {"boolean", "ok",
                "The patch turns by at most 30 degrees from face to face, or no more than the "
                "surface around it."},
-              {"string", "verdict", "The same in one line: what holds, or what does not."},
+              {"string", "verdict", "The same in one line, with the reason."},
               {"boolean", "limit_reached", "The patch has `maximum_vertices`."}}}};
 }
 

@@ -74,7 +74,7 @@ MeshObject& mesh_of(Holder* holder) {
     return *Ref<PathObject>(holder)->mesh;
 }
 
-// What a call of lissom.merge or lissom.merger asks for, as plain data.
+// Arguments of a call of lissom.merge or lissom.merger, as plain data.
 struct MergeCall {
     std::span<const JoinSpec> joins;
     MeshObject* source;
@@ -203,7 +203,7 @@ std::shared_ptr<MergerObject> make_merger(const Call& call, const MergeCall& ask
     return merger;
 }
 
-// Boundaries of one mesh are bridged: what says how a source is deformed and sewn does not apply.
+// Boundaries of one mesh are bridged: options of deforming and sewing a source do not apply.
 void require_bridge_options(const Call& call) {
     constexpr const char* kDeforming[] = {"source_up", "target_up", "source_front", "target_front",
                                           "fixed",     "features",  "reach",        "frames",
@@ -212,8 +212,8 @@ void require_bridge_options(const Call& call) {
     const auto refuse = [](const std::string& name) {
         throw Error(ErrorCode::invalid_argument,
                     name +
-                        " does not apply where source and target are one mesh: its boundaries "
-                        "are bridged and nothing is deformed; leave it out, or merge a copy");
+                        " does not apply if source and target are one mesh: its boundaries are "
+                        "bridged and nothing is deformed; leave it out, or merge a copy");
     };
     for (const char* name : kDeforming) {
         if (call.has(name)) refuse(name);
@@ -315,7 +315,7 @@ std::vector<Parameter> merge_arguments() {
                 .optional("the meshes of the joins' targets")};
 }
 
-// A merge that is dragged leaves out what a frame has no time for.
+// A merge that is dragged leaves out slow steps.
 std::vector<Parameter> merge_parameters(bool intersections) {
     return {
         table("joins",
@@ -342,11 +342,11 @@ std::vector<Parameter> merge_parameters(bool intersections) {
              "axis says little.")
             .optional(),
         axis("target_up", "The direction of the targets that belongs to it.").optional(),
-        axis("source_front", "Another direction of the source: where a face looks.").optional(),
+        axis("source_front", "Another direction of the source: the view of a face.").optional(),
         axis("target_front", "The direction of the targets that belongs to it.").optional(),
         choice("configuration", {"free", "fixed"},
-               "free: the source comes from wherever it lies, turned and scaled as fits (thesis "
-               "3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2).")
+               "free: the source comes from any place, turned and scaled to fit (thesis 3.3.1). "
+               "fixed: it stays in place and bends near the boundaries (3.3.2).")
             .defaults("free"),
         objects("fixed", "lissom.Region",
                 "Regions of the source that keep their shape: in the free configuration each "
@@ -355,15 +355,16 @@ std::vector<Parameter> merge_parameters(bool intersections) {
         choice("features", {"common", "fitted"},
                "How those of the free configuration find the similarity they move by. common: each "
                "has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the "
-               "surface is deformed without them first, and again with what fits: less distortion "
-               "around them, by 5 to 44 % on four merges of real models, in up to twice the time.")
+               "surface is deformed without them first, and again with the fitted similarity: "
+               "less distortion around them, by 5 to 44 % on four merges of real models, in up "
+               "to twice the time.")
             .optional("\"fitted\"")
             .thesis("3.5", "\"common\""),
         number("reach",
                "fixed configuration: how far from its boundaries the source deforms, along edges.")
             .above(0)
             .in("units of the source")
-            .optional("all of it where `fixed` is given, else three radii of the boundary"),
+            .optional("all of it if `fixed` is given, else three radii of the boundary"),
         choice("frames", {"turn", "keep"},
                "fixed configuration: whether the surface at the boundary turns to meet the "
                "target's, or keeps its directions as in the thesis, which leaves a crease.")
@@ -384,8 +385,8 @@ std::vector<Parameter> merge_parameters(bool intersections) {
             .between(0, 1000)
             .optional("3"),
         boolean("collar",
-                "Where the edges of one side are more than 1.5 times as long as the seam's, its "
-                "faces there are made anew, from small to large; sharp edges keep their shape.")
+                "Makes the faces of a side anew if its edges are more than 1.5 times as long as "
+                "the seam's, from small to large; sharp edges keep their shape.")
             .optional("true")
             .thesis("3.3.1", "false"),
         options("transition",
@@ -403,7 +404,7 @@ std::vector<Parameter> merge_parameters(bool intersections) {
                      .defaults(0.1)},
                 "Bands on either side of the seam in which details of both fade into each other; "
                 "`true` chooses widths that suit each seam: .9 of its radius, at least three "
-                "edges, at most half of the side. Where the surface has no room for a width, the "
+                "edges, at most half of the side. If the surface has no room for a width, the "
                 "band is narrower and a warning says so.")
             .or_true()
             .optional("none"),
@@ -418,18 +419,18 @@ std::vector<Parameter> merge_parameters(bool intersections) {
             .in("degrees")
             .defaults(20.0),
         boolean("subdivide",
-                "Faces of the source at a boundary are split once where its edges are "
-                "more than 1.5 times as long as those they meet. Where they are more than 3 times "
-                "as long as edges inside the source, they are split until they are not, and those "
-                "of the target with them (thesis 2.5).")
+                "Faces of the source at a boundary are split once if its edges are more than "
+                "1.5 times as long as those they meet. Edges more than 3 times as long as edges "
+                "inside the source are split until they are not, and those of the target with "
+                "them (thesis 2.5).")
             .optional("true")
             .thesis("2.5", "false, as which boundaries have too few vertices is not said"),
         boolean("intersections",
                 "Looks for faces that run through one another and did not before, for the report.")
             .defaults(intersections),
         choice("fidelity", {"default", "thesis"},
-               "thesis: section 3.3 to the letter, for comparison, where no other option says "
-               "otherwise; the page thesis.md of the reference names all of it.")
+               "thesis: section 3.3 to the letter, for comparison, unless another option "
+               "differs; the page thesis.md of the reference names all of it.")
             .defaults("default")};
 }
 
@@ -457,7 +458,7 @@ Type merger_type() {
         .name = "lissom.Merger",
         .summary =
             "A merge that is solved again, without factoring again, after its keys have "
-            "moved: what a tool keeps while the user drags a key.",
+            "moved: for a tool while the user drags a key.",
         .methods = {{.name = "set_keys",
                      .body = set_merger_keys,
                      .summary =
@@ -473,16 +474,16 @@ merger:set_keys(1, { { s:vertices()[1], t:vertices()[5] } })
 assert(merger:solve():is_closed()))"},
                     {.name = "solve",
                      .body = solve_merger,
-                     .summary = "Merges, and returns a new mesh and what was done.",
+                     .summary = "Merges, and returns a new mesh and a report.",
                      .results = {{"lissom.Mesh", "mesh", "The merged mesh."},
-                                 {"lissom.MergeReport", "report", "What was found and done."}},
+                                 {"lissom.MergeReport", "report", "Measures and results."}},
                      .errors = merge_errors(),
                      .example = made + R"(local mesh, report = merger:solve()
 assert(mesh:is_closed() and report.free_vertices > 0))"},
                     {.name = "warnings",
                      .body = merger_warnings,
-                     .summary = "Returns what was found before anything is solved, such as a thin "
-                                "outline that is to meet a round one; the report has it as well.",
+                     .summary = "Returns findings of the preparation, such as a thin outline "
+                                "that is to meet a round one; the report has them as well.",
                      .results = {{"string[]", "warnings", "In plain words."}},
                      .errors = {ErrorCode::handle_removed},
                      .example = made + "assert(#merger:warnings() == 0)"}},
@@ -499,15 +500,15 @@ std::vector<Function> merge_functions() {
              "source is deformed so that its boundaries meet those of the targets, wherever it "
              "lies and whatever its size; the targets stay. Vertices and faces of the targets come "
              "first, in their order, then those of the source; attributes, labels and regions of "
-             "all are kept. Where one side has no colors it is white, where it has no texture "
-             "coordinates they are 0, 0, and a warning says so. If source and target are one mesh, "
+             "all are kept. A side without colors becomes white, one without texture "
+             "coordinates gets 0, 0, and a warning says so. If source and target are one mesh, "
              "two of its boundaries are joined by a bridge of triangles, and nothing moves: "
              "options that say how a source is deformed are refused.",
          .arguments = merge_arguments(),
          .named_arguments = true,
          .options = merge_parameters(true),
          .results = {{"lissom.Mesh", "mesh", "The merged mesh."},
-                     {"lissom.MergeReport", "report", "What was found and done."}},
+                     {"lissom.MergeReport", "report", "Measures and results."}},
          .errors = merge_errors(),
          .example = halves + R"(local mesh, report = lissom.merge(half, bowl)
 assert(mesh:is_closed() and mesh:genus() == 0)
@@ -515,8 +516,8 @@ assert(math.abs(report.joins[1].scale - 3) < 1e-6)
 if not report.ok then print(report.verdict) end)"},
         {.name = "merger",
          .body = new_merger,
-         .summary = "As lissom.merge, but returns an object that keeps what was prepared, so that "
-                    "a moved key costs a fraction of the first merge.",
+         .summary = "Like lissom.merge, but returns an object that keeps its preparation, so "
+                    "that a moved key costs a fraction of the first merge.",
          .arguments = merge_arguments(),
          .named_arguments = true,
          .options = merge_parameters(false),

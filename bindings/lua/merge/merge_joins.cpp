@@ -75,7 +75,7 @@ Holder* boundary_field(const Call& call, const char* path, int table, const char
     call.reject(path, lua_pushfstring(L, kBoundary, name, got, is_mesh ? name : "mesh"));
 }
 
-// Pushes what is wrong with a field of a join, with no C++ object alive afterwards.
+// Pushes the fault of a field of a join, with no C++ object alive afterwards.
 const char* push_wrong_field(lua_State* L, const char* field) {
     Failure failure;
     const bool composed = failure.guard([&] {
@@ -131,7 +131,7 @@ std::vector<KeyPair> JoinSpec::key_pairs() const {
     return pairs;
 }
 
-// What is pushed stays until the call ends: boundaries must stay alive.
+// Pushed values stay until the call ends: boundaries must stay alive.
 std::span<const JoinSpec> read_joins(const Call& call, const char* path) {
     lua_State* L = call.lua();
     const int list = call.stack_index(path);

@@ -1,4 +1,4 @@
-/// A merger of a script, and where the elements of its result come from.
+/// A merger of a script, and the provenance of its result.
 #pragma once
 
 #include <memory>
@@ -27,11 +27,11 @@ struct MergerObject {
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const { return content ? content->memory_bytes() : 0; }
-    /// Throws handle_removed where it was closed.
+    /// Throws handle_removed if it was closed.
     Merger& merger();
 };
 
-/// Where the elements of one merged mesh come from.
+/// Provenance of the elements of one merged mesh.
 struct ProvenanceObject {
     static constexpr const char* kTypeName = "lissom.Provenance";
 
@@ -70,8 +70,8 @@ JoinSpec read_keys(const Call& call, const char* path);
 void push_point(const Call& call, const Vec3& point);
 /// Pushes the list of reasons of a verdict.
 void push_reasons(const Call& call, const std::vector<MergeReason>& reasons);
-/// Sets the fields ok, verdict and reasons of the report on top of the stack, and what tostring
-/// gives of it.
+/// Sets the fields ok, verdict and reasons of the report on top of the stack, and its text for
+/// tostring.
 void set_verdict(const Call& call, bool ok, const std::string& verdict,
                  const std::vector<MergeReason>& reasons);
 

@@ -1,4 +1,4 @@
-// What a merge returns: the mesh, and a report with the provenance of its elements.
+// Results of a merge: the mesh, and a report with the provenance of its elements.
 #include <algorithm>
 
 #include "bindings/lua/core/kernel_library.h"
@@ -94,7 +94,7 @@ bool is_angle(MergeFault fault) {
            fault == MergeFault::flare || fault == MergeFault::seam || fault == MergeFault::slivers;
 }
 
-// Its text with what may help, for tostring.
+// Its text with the remedy, for tostring.
 int reason_text(lua_State* L) {
     lua_getfield(L, 1, "text");
     lua_pushliteral(L, "; ");
@@ -120,7 +120,7 @@ void push_reason(const Call& call, const MergeReason& reason) {
     lua_setmetatable(L, -2);
 }
 
-// The verdict and below it what may help for each reason, for tostring.
+// The verdict and below it the remedy for each reason, for tostring.
 int report_text(lua_State* L) {
     lua_settop(L, 1);
     lua_getfield(L, 1, "verdict");
@@ -417,14 +417,14 @@ Type provenance_type() {
     const std::string example = kMerged;
     return {.name = "lissom.Provenance",
             .summary =
-                "Where the elements of a merged mesh come from: elements of the source and "
-                "of the targets as they were given.",
+                "Provenance of the elements of a merged mesh: elements of the source and of the "
+                "targets as they were given.",
             .methods =
                 {{.name = "vertex",
                   .body = provenance_vertex,
-                  .summary = "What a vertex is the weighted mean of, before it was moved: "
-                             "one vertex, or several where it was made on an edge; on a "
-                             "seam those of both sides.",
+                  .summary = "The sources of a vertex, with weights, before it was moved: one "
+                             "vertex, or several for one made on an edge; on a seam those of "
+                             "both sides.",
                   .arguments = {id("vertex", "A vertex of the merged mesh.")},
                   .results = {{"lissom.Origin[]", "origins", "With weights that sum to 1."}},
                   .errors = {ErrorCode::out_of_range},
@@ -460,7 +460,7 @@ std::vector<Record> merge_records() {
            "The smallest angle of a triangle at a seam; 0 without any."},
           {"number", "low_angle", "The 5th percentile of the triangles' smallest angles."}}},
         {"lissom.SeamReport",
-         "What was done to sew.",
+         "Measures of sewing.",
          {{"integer", "inserted_into_target", "Vertices of the source inserted into its faces."},
           {"integer", "inserted_into_source", "The other way round."},
           {"integer", "snapped", "Pairs of vertices that became one because they were close."},
@@ -472,20 +472,19 @@ std::vector<Record> merge_records() {
           {"integer", "collar_removed", "Faces that collars took the place of."},
           {"integer", "collar_added", "Triangles of the collars."},
           {"lissom.SeamQuality", "before", "Before collars and smoothing."},
-          {"lissom.SeamQuality", "after", "As it is."},
+          {"lissom.SeamQuality", "after", "The final quality."},
           {"lissom.Region", "region",
            "The vertices of the seams and their neighbours: mesh:set_region shows them by name."}}},
         {"lissom.JoinReport",
-         "What was found at one join; angles in degrees.",
+         "Report of one join; angles in degrees.",
          {{"integer", "source_size", "Vertices of the source's boundary as it was joined."},
           {"integer", "target_size", "Vertices of the target's."},
           {"number", "scale", "How much the source grew there."},
           {"string", "placed",
-           "What decided how the source is turned: keys, as placed, directions or shape."},
+           "Criterion of the source's rotation: keys, as placed, directions or shape."},
           {"boolean", "guessed", "The shapes decided, or directions that contradict each other."},
           {"number|nil", "certainty",
-           "Where it was guessed: the probability, 0 to 1, that it is right; below .75 give a "
-           "key."},
+           "For a guess: the probability, 0 to 1, that it is right; below .75 give a key."},
           {"boolean", "any_turn", "The parts are round: no turn is better than another."},
           {"table", "turn",
            "How the source turns from how it lies: axis, a unit vector, and angle in degrees."},
@@ -520,8 +519,8 @@ std::vector<Record> merge_records() {
           {"number", "rest_bend",
            "The same before on the side that bends more, from the strip at the boundary to the one "
            "behind it."},
-          {"number", "greatest_bend", "What a tenth of the angles in `bend` exceed."},
-          {"number", "rest_greatest_bend", "What a tenth of those in `rest_bend` exceed."},
+          {"number", "greatest_bend", "Angle that a tenth of those in `bend` exceed."},
+          {"number", "rest_greatest_bend", "Angle that a tenth of those in `rest_bend` exceed."},
           {"number", "folded",
            "Length of the edges within one radius at which the surface folds back by more than "
            "135 degrees, in radii of the seam."},
@@ -531,8 +530,8 @@ std::vector<Record> merge_records() {
            "The RMS angle by which the rim of the source turns outward beside the seam more than "
            "at rest; 0 of a paste."},
           {"number", "source_volume",
-           "Volume between source and seam, over that of the source at rest at its scale: 1 where "
-           "it was kept, negative where it turned inside out."},
+           "Volume between source and seam, over that of the source at rest at its scale: 1 if "
+           "it was kept, negative if it turned inside out."},
           {"number", "target_volume", "The same of the target; 1 of a paste."},
           {"number", "radius", "Radius of the seam."}}},
         {"lissom.MergeReason",
@@ -542,52 +541,50 @@ std::vector<Record> merge_records() {
            "of a scatter \"left out\" as well."},
           {"integer|nil", "join", "The join that it is of; nil of all of them."},
           {"number", "value",
-           "What was measured: degrees for roughness, bend, flare, seam and slivers; radii of the "
-           "seam "
-           "for folds and bites; pairs of faces for crossings; the part that was kept for volume; "
-           "the "
-           "certainty for place."},
+           "Measured value: degrees for roughness, bend, flare, seam and slivers; radii of the "
+           "seam for folds and bites; pairs of faces for crossings; the part that was kept for "
+           "volume; the certainty for place."},
           {"number", "limit", "The limit that it passes."},
-          {"integer[]|nil", "faces", "Of crossings: the faces of the merged mesh concerned."},
-          {"string", "text", "What is wrong, in plain words."},
-          {"string", "remedy", "What may help."}}},
+          {"integer[]|nil", "faces", "For crossings: the faces of the merged mesh concerned."},
+          {"string", "text", "The fault, in plain words."},
+          {"string", "remedy", "The remedy."}}},
         {"lissom.TargetBite",
-         "What a paste took of the edges of its target that turn by more than 35 degrees: they "
-         "stand out of the result, or lie below what is still the target's surface.",
+         "Loss of the target's edges that turn by more than 35 degrees, by a paste: parts of "
+         "them stand out of the result, or lie below the surface still left of the target.",
          {{"number", "length", "Their length, in radii of the seam."},
           {"number", "depth", "How far they are from the result, at most, in these radii."}}},
         {"lissom.MergeReport",
-         "What a merge found and did.",
-         {{"lissom.TargetBite", "bite", "What a paste took of the sharp edges of its target."},
+         "Report of a merge.",
+         {{"lissom.TargetBite", "bite", "Loss of the sharp edges of its target, by a paste."},
           {"boolean", "ok",
            "Whether the result is good: no faces run through one another that did not before, but "
            "for those that only touch; the "
            "surface around the seam does not fold back, is at most 1.4 times as rough as the parts "
            "were there (or turns by less than 8 degrees an edge), and bends by no more than 35 "
-           "degrees from one side to the other and 60 along a tenth of it, or 1.3 times what it "
-           "did before (and by the crease of a paste); the rim of the source of a merge turns "
+           "degrees from one side to the other and 60 along a tenth of it, or 1.3 times the "
+           "angle before (and by the crease of a paste); the rim of the source of a merge turns "
            "outward by no more than 33 degrees more than before; a paste takes no sharp edge of "
-           "its target along "
-           "more than .3 of its radius or deeper than .15; each part keeps "
-           "three fifths of its volume; the seam turns by no more than 30 degrees and 20 in "
-           "the mean, or than the surfaces did beside the boundaries; no place is a toss; no "
+           "its target along more than .3 of its radius or deeper than .15; each part keeps "
+           "three fifths of its volume; the seam turns by no more than 30 degrees and 20 in the "
+           "mean, or than the surfaces did beside the boundaries; no place is a toss; no "
            "triangle at the seam has less than 2 degrees, or than there were."},
-          {"string", "verdict", "The same in one line: what holds, or what does not."},
+          {"string", "verdict", "The same in one line, with the reasons."},
           {"lissom.MergeReason[]", "reasons",
-           "Each fault with what was measured, its limit and what may help; empty if ok. "
-           "tostring(report) lists them."},
+           "Each fault with its measure, its limit and a remedy; empty if ok. tostring(report) "
+           "lists them."},
           {"lissom.JoinReport[]", "joins", "One a join."},
-          {"string[]", "warnings", "What to look at, in plain words."},
+          {"string[]", "warnings", "Points to look at, in plain words."},
           {"integer", "loose_parts",
            "Parts of the source without a joined boundary: in the free configuration they move "
-           "along with what is nearest."},
-          {"table", "flipped", "source and targets: what was inside out and has been turned over."},
-          {"lissom.SeamReport", "seam", "What was done to sew, and how well."},
+           "along with the nearest joined part."},
+          {"table", "flipped",
+           "source and targets: whether they were inside out and have been turned over."},
+          {"lissom.SeamReport", "seam", "Measures of sewing, and the quality of the seam."},
           {"table[]", "transition",
            "For each seam source and target: width, vertices, and flipped and unmapped ones, of "
            "its bands; its field `region` has the vertices that they moved."},
           {"number|nil", "transition_kept",
-           "The part of the way that the bands of a transition went: 0 where it was left out, "
+           "The part of the way that the bands of a transition went: 0 if it was left out, "
            "since it would have folded the surface."},
           {"integer[][]", "intersections",
            "Pairs of faces that run through one another and come from faces that did not."},
@@ -597,7 +594,7 @@ std::vector<Record> merge_records() {
           {"lissom.Region", "source", "The vertices of the merged mesh that are the source's."},
           {"lissom.Region", "target", "Those that are the targets'."},
           {"lissom.Provenance|nil", "provenance",
-           "Where every element comes from; nil of the draft of a paste."},
+           "Provenance of every element; nil for the draft of a paste."},
           {"integer", "free_vertices", "Vertices of the source that moved freely."},
           {"integer", "displaced_vertices", "Degenerate vertices displaced."},
           {"number", "first_factor_seconds", "Time to factor the first system."},

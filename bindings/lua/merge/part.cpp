@@ -27,7 +27,7 @@ int save_part_file(Call& call) {
     return done ? call.push(true) : call.fail();
 }
 
-// What a file of a part holds, until it is pushed.
+// Contents of a file of a part, until they are pushed.
 struct PartObjects {
     std::shared_ptr<MeshObject> mesh;
     std::shared_ptr<RegionObject> region, feature;
@@ -115,7 +115,7 @@ std::vector<Function> part_functions() {
              {object("mesh", "lissom.Mesh", "The mesh that has the feature."),
               object("region", "lissom.Region", "Part of the mesh around the feature."),
               object("feature", "lissom.Region", "The feature, a part of the region.")
-                  .optional("what lies deep in the region"),
+                  .optional("the core of the region"),
               axis("up", "The way that is up on the part: along y in the file.").optional("y"),
               axis("front",
                    "The way that it looks, at an angle to `up`: along z in the "
@@ -129,7 +129,7 @@ std::vector<Function> part_functions() {
          .summary = "Reads a feature that part.save has kept, or any .glb or .gltf file with a "
                     "region called \"region\".",
          .arguments = {string("path", "The file.")},
-         .results = {{"lissom.Part", "part", "What lissom.paste and lissom.scatter need."}},
+         .results = {{"lissom.Part", "part", "The part for lissom.paste and lissom.scatter."}},
          .errors = load_errors,
          .example = horn + R"(local paste = lissom.paste{ source = horn.mesh, region = horn.region,
     target = lissom.shapes.sphere{ radius = 2 }, placement = { at = { 2, 0, 0 }, up = horn.up } }
@@ -140,8 +140,8 @@ std::vector<Record> part_records() {
     return {{"lissom.Part",
              "A feature to paste.",
              {{"lissom.Mesh", "mesh", "Its surface and some of that around it."},
-              {"lissom.Region", "region", "What lies around it."},
-              {"lissom.Region|nil", "feature", "The feature, where that was given."},
+              {"lissom.Region", "region", "The region around it."},
+              {"lissom.Region|nil", "feature", "The feature, if it was given."},
               {"lissom.Vector", "up", "The way that is up on it: y."},
               {"lissom.Vector", "front", "The way that it looks: z."}}}};
 }

@@ -214,8 +214,8 @@ std::vector<Parameter> placement_fields(bool moved) {
                     "Turns the part about the surface's normal, counter-clockwise seen from "
                     "outside, from `toward`.")
                  .in("degrees"),
-             "0, or what fits best of twelve where `up` does not lie in the surfaces and `toward` "
-             "is not given"),
+             "0, or the best of twelve if `up` does not lie in the surfaces and `toward` is not "
+             "given"),
         kept(
             number("scale", "Size of the part on the target over its size on the source.").above(0),
             "1"),
@@ -227,9 +227,9 @@ std::vector<Parameter> placement_fields(bool moved) {
 
 Parameter clear_parameter() {
     return either("clear", {boolean("under", ""), object("region", "lissom.Region", "")},
-                  "Removes the target's features under the part first, as mesh:erase does: what "
-                  "lies under the part's boundary and nothing beyond it, or a region of the "
-                  "target with a ring around it. paste:clearing() tells what before.")
+                  "Removes the target's features under the part first, as mesh:erase does: "
+                  "those under the part's boundary and nothing beyond it, or a region of the "
+                  "target with a ring around it. paste:clearing() shows them before.")
         .optional("false");
 }
 
@@ -238,7 +238,7 @@ namespace {
 Parameter size_parameter(const char* name) {
     return choice(name, {"boundary", "lock"},
                   "Size of the part: that of its boundary on the target, which depends on the "
-                  "loop, or what the placement says.")
+                  "loop, or the placement's scale.")
         .defaults("boundary");
 }
 
@@ -249,16 +249,16 @@ std::vector<Parameter> paste_merge_parameters(const char* size) {
         integer("smooth", "Umbrella steps at the seam, at most, as in lissom.merge.")
             .between(0, 1000)
             .defaults(3),
-        boolean("collar", "Makes faces anew beside the seam where one side is coarser.")
+        boolean("collar", "Makes faces anew beside the seam if one side is coarser.")
             .defaults(true),
         boolean("intersections", "Looks for faces that run through one another and did not before.")
             .defaults(true),
         size_parameter(size),
         boolean("compare",
-                "Tries what may distort the surface near the boundary less, and takes it where it "
-                "does: ARAP iterations of the part; the outline of the region; and, once "
-                "`optimize` was called and by nearest "
-                "points, a boundary that slides over the target to where the part draws it.")
+                "Tries variants that may distort the surface near the boundary less, and takes "
+                "the best: ARAP iterations of the part; the outline of the region; and, once "
+                "`optimize` was called and by nearest points, a boundary that slides over the "
+                "target towards the relaxed position of the part.")
             .defaults(true)};
 }
 
@@ -278,7 +278,7 @@ std::vector<Parameter> merge_parameters() {
 std::vector<Parameter> draft_parameters() {
     return {size_parameter("scale"),
             boolean("compare",
-                    "Takes the outline of the region where the surface is distorted less near that "
+                    "Takes the outline of the region if the surface is distorted less near that "
                     "than near the boundary that was found.")
                 .defaults(true)};
 }
@@ -299,36 +299,35 @@ std::vector<Parameter> paste_parameters() {
         object("region", "lissom.Region",
                "Part of the source around the feature, marked casually: the boundary is sought "
                "between its outline and the feature."),
-        either(
-            "feature",
-            {object("region", "lissom.Region", ""),
-             choice("auto", {"auto"}, "What lies deep in the region.")},
-            "Part of the source that keeps out of the search; of any genus, and of several "
-            "parts. auto: what lies farther from the region's outline than the share `ring` of "
-            "the way to its middle, or of the outline's radius where that is less; with the open "
-            "boundaries and the handles inside the region.")
+        either("feature",
+               {object("region", "lissom.Region", ""),
+                choice("auto", {"auto"}, "The core of the region.")},
+               "Part of the source that keeps out of the search; of any genus, and of several "
+               "parts. auto: the part farther from the region's outline than the share `ring` of "
+               "the way to its middle, or of the outline's radius if that is less; with the open "
+               "boundaries and the handles inside the region.")
             .optional("auto"),
         object("onto", "lissom.Region",
                "Part of the target that the feature may go to: without holes and handles, and "
                "larger than the region of the source will be.")
             .optional("a disk around the placement"),
-        options("placement", placement_fields(false), "Where the feature goes."),
+        options("placement", placement_fields(false), "Place of the feature."),
         clear_parameter(),
-        number("ring", "Share of the region that is searched where no feature is given.")
+        number("ring", "Share of the region that is searched if no feature is given.")
             .between(0.01, 0.99)
             .defaults(0.5),
         choice("correspondence", {"map", "closest"},
-               "map: vertices lie where the plane maps of both surfaces put them. closest: "
-               "`optimize` then draws them, in rounds, to the nearest point of the target, where "
-               "that distorts the surface near the boundary less.")
+               "map: vertices lie at their images under the plane maps of both surfaces. "
+               "closest: `optimize` then draws them, in rounds, to the nearest point of the "
+               "target, if that distorts the surface near the boundary less.")
             .defaults("closest"),
         choice("loop", {"smooth", "mesh"},
                "smooth: the boundary runs through faces, near the best loop of edges, so that the "
                "seam has no teeth. mesh: it is that loop.")
             .defaults("smooth"),
         number("normals",
-               "Weight of the normals in the energy of a boundary; .1 to .3 help where the "
-               "feature overhangs.")
+               "Weight of the normals in the energy of a boundary; .1 to .3 help features that "
+               "overhang.")
             .at_least(0)
             .defaults(0.0),
         number("crease",
@@ -383,9 +382,9 @@ Type paste_type() {
                   "3.4.3).",
               .options = {integer("iterations", "At most.").at_least(1).defaults(20)},
               .results = {{"lissom.Path", "loop",
-                           "The boundary on the source: points of its surface, or vertices where "
+                           "The boundary on the source: points of its surface, or vertices if "
                            "it runs along edges."},
-                          {"lissom.PasteSearch", "report", "What was found."}},
+                          {"lissom.PasteSearch", "report", "Result of the search."}},
               .effect = Effect::shapes,
               .errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed,
                          ErrorCode::cancelled},
@@ -399,7 +398,8 @@ assert(loop:is_closed() and report.misfit[#report.misfit] <= report.misfit[1]))"
               .options = merge_parameters(),
               .results = {{"lissom.Mesh", "mesh", "The target with the feature."},
                           {"lissom.MergeReport", "report",
-                           "As of lissom.merge; its field `paste` is a lissom.PasteReport."}},
+                           "The report of lissom.merge; its field `paste` is a "
+                           "lissom.PasteReport."}},
               .errors = {ErrorCode::invalid_argument, ErrorCode::boundary_conflict,
                          ErrorCode::nonmanifold_edge, ErrorCode::skin_mismatch,
                          ErrorCode::zero_area, ErrorCode::handle_removed, ErrorCode::memory_limit,
@@ -412,13 +412,13 @@ assert(report.paste.scale > 0.5))"},
               .body = draft_paste,
               .summary =
                   "The part as `merge` with `draft` has it, but alone and not sewn to the target: "
-                  "for a part that is shown many times a second while it is dragged. What that "
-                  "costs does not grow with the target.",
+                  "for a part that is shown many times a second while it is dragged. The cost "
+                  "does not grow with the target.",
               .options = draft_parameters(),
               .results = {{"lissom.Mesh", "mesh",
                            "The part inside the boundary, deformed onto the edge of its hole."},
                           {"lissom.Path", "boundary", "Its boundary there."},
-                          {"lissom.PasteDraft", "report", "What was done."}},
+                          {"lissom.PasteDraft", "report", "Measures of the draft."}},
               .errors = {ErrorCode::boundary_conflict, ErrorCode::handle_removed,
                          ErrorCode::memory_limit, ErrorCode::cancelled},
               .example = horn + R"(paste:optimize()
@@ -428,9 +428,9 @@ assert(#part:boundaries() == 1 and boundary:is_closed() and report.scale > 0.5))
              {.name = "move",
               .body = move_paste,
               .summary =
-                  "Places the feature anew, and seeks its boundary again from the one it had where "
-                  "`optimize` was called. What is left out stays. Where the feature does not fit "
-                  "there, the last good placement stays.",
+                  "Places the feature anew, and seeks its boundary again from the former one if "
+                  "`optimize` was called. Options that are left out stay. If the feature does "
+                  "not fit there, the last good placement stays.",
               .options = move_parameters(),
               .results = {{"lissom.Paste", "paste", "The same paste."}},
               .effect = Effect::shapes,
@@ -442,7 +442,7 @@ assert(paste:move{ at = { 0, 0, 2 }, angle = 30 })
 assert(paste:merge():is_closed()))"},
              {.name = "search",
               .body = search_of_paste,
-              .summary = "What the search for the boundary found last.",
+              .summary = "The result of the last search for the boundary.",
               .results = {{"lissom.PasteSearch", "report",
                            "Before `optimize`, of the loop that is "
                            "used without."}},
@@ -450,7 +450,7 @@ assert(paste:merge():is_closed()))"},
               .example = horn + "assert(paste:search().misfit[1] >= 0)"},
              {.name = "loop",
               .body = loop_of_paste,
-              .summary = "The loop that `merge` pastes along, and where it lies on the target.",
+              .summary = "The loop that `merge` pastes along, and its image on the target.",
               .results = {{"lissom.Path", "loop", "On the source, as by `optimize`."},
                           {"lissom.Path", "image", "Points of the target's surface."}},
               .errors = {ErrorCode::handle_removed},
@@ -458,8 +458,8 @@ assert(paste:merge():is_closed()))"},
 assert(#loop:points() == #image:points()))"},
              {.name = "clearing",
               .body = clearing_of_paste,
-              .summary = "What `clear` removes of the target under the part, on the target as it "
-                         "was given: to draw it, or to ask before `merge`.",
+              .summary = "The part of the target that `clear` removes under the part, on the "
+                         "target as it was given: to draw it, or to ask before `merge`.",
               .results = {{"lissom.Region", "region",
                            "The vertices of the faces that go; nil if nothing goes."},
                           {"lissom.PasteClearing", "report", "How much that is."}},

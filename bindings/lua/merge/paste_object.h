@@ -22,7 +22,7 @@ struct PasteSetup {
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const { return content ? content->memory_bytes() : 0; }
-    /// Throws handle_removed where it was closed.
+    /// Throws handle_removed if it was closed.
     Paste& paste();
 };
 
@@ -30,7 +30,7 @@ struct PasteSetup {
 /// place has the name `at`.
 PastePlacement read_placement(const Call& call, const std::string& path, PastePlacement placement,
                               const char* at = "at");
-/// Those fields, the place first; of one that is moved where `moved`.
+/// Returns those fields, the place first; with `moved`, of a paste that is moved.
 std::vector<Parameter> placement_fields(bool moved);
 /// Pushes the result of a paste: the mesh, and the report of the merge with that of the paste.
 int push_paste_result(Call& call, PasteResult& result, const MergeInputs& inputs);
@@ -41,13 +41,13 @@ PasteMergeOptions read_paste_merge(const Call& call, const char* size);
 Parameter clear_parameter();
 void read_clearing(const Call& call, PasteOptions& options);
 
-/// Pushes what a paste found as a table.
+/// Pushes the report of a paste as a table.
 int push_paste_report(const Call& call, const PasteReport& report);
-/// Pushes what a draft found, but for its mesh, as a table.
+/// Pushes the report of a draft, but for its mesh, as a table.
 int push_paste_draft(const Call& call, const PasteDraft& draft);
-/// Pushes what was cleared for a part as a table.
+/// Pushes the part cleared for a paste as a table.
 int push_clearing(const Call& call, const PasteClearing& clearing);
-/// Pushes what a search for a boundary found as a table.
+/// Pushes the result of a search for a boundary as a table.
 int push_paste_search(const Call& call, const PasteSearch& search);
 
 }  // namespace lissom::lua

@@ -1,4 +1,4 @@
-// What a paste reports to a script.
+// Reports of a paste for scripts.
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/merge/paste_object.h"
 
@@ -115,15 +115,16 @@ int push_paste_draft(const Call& call, const PasteDraft& draft) {
 std::vector<Record> paste_records() {
     return {
         {"lissom.PasteSearch",
-         "What the search for a boundary found.",
-         {{"number[]", "energy", "Of the first loop and after each iteration."},
+         "Result of the search for the boundary.",
+         {{"number[]", "energy", "Energy of the first loop and after each iteration."},
           {"number[]", "misfit",
            "The mean difference of the loop's edges from their images, over their length."},
           {"number|nil", "outline_energy",
-           "Of the outline of the region, where all of it lies on the target's region."},
+           "Measures of the outline of the region, if all of it lies on the target's region."},
           {"number|nil", "outline_misfit", "The same of the misfit."},
           {"number|nil", "smooth_energy",
-           "Of the boundary free of edges, where one was found that costs no more than the loop."},
+           "Measures of the boundary free of edges, if one was found that costs no more than "
+           "the loop."},
           {"number|nil", "smooth_misfit", "The same of the misfit."},
           {"string", "stop", "converged, iterations or cycle: why it ended."},
           {"boolean", "kept_outline", "Nothing better than the outline was found."},
@@ -131,11 +132,11 @@ std::vector<Record> paste_records() {
           {"integer", "loop_size", "Vertices of the loop."},
           {"integer", "closest_rounds", "Rounds of nearest points that were kept."}}},
         {"lissom.PasteMapQuality",
-         "What the map of a surface into the plane is like.",
+         "Quality of the map of a surface into the plane.",
          {{"string", "method", "arap, lscm or tutte."},
           {"integer", "faces", "Faces that were laid out."},
           {"integer", "flipped", "Faces that are turned over."},
-          {"integer", "flipped_fill", "Of those that close the hole of the feature."},
+          {"integer", "flipped_fill", "Number of turned triangles in the hole of the feature."},
           {"integer", "crossings", "Pairs of boundary edges that cross."},
           {"number", "least_scale", "Least factor by which it changes a length."},
           {"number", "greatest_scale", "The greatest."}}},
@@ -145,27 +146,27 @@ std::vector<Record> paste_records() {
           {"number", "energy", "Mean squared difference of the stretches from 1, after scaling."},
           {"integer", "faces", "How many faces that is of."}}},
         {"lissom.PasteClearing",
-         "What of a target goes under a part.",
+         "Part of a target that is removed under a part.",
          {{"integer", "faces", "How many faces, of the target as it is split there."},
           {"number", "area", "Their area."},
           {"number", "height",
            "How far they stand out of the surface that takes their place, or are sunk in it, at "
            "most."}}},
         {"lissom.PasteDraft",
-         "What a draft of a paste found.",
+         "Report of a draft of a paste.",
          {{"number", "scale", "How much the part grew."},
           {"boolean", "smooth", "The boundary runs through faces."},
-          {"boolean", "kept_outline", "It is the outline, where the surface is distorted less."},
+          {"boolean", "kept_outline", "It is the outline, if the surface is distorted less there."},
           {"lissom.PasteDistortion", "near", "Within three rings of the boundary."},
           {"lissom.PasteDistortion", "laid",
            "The same once the part lies on the edge of its hole."}}},
         {"lissom.PasteReport",
-         "What a paste found and did.",
-         {{"lissom.PasteSearch", "search", "Of the boundary."},
+         "Report of a paste.",
+         {{"lissom.PasteSearch", "search", "Search for the boundary."},
           {"lissom.PasteMapQuality", "source_map", "The map of the ring."},
           {"lissom.PasteMapQuality", "target_map", "The map of the target's region."},
           {"number", "angle", "Angle of the placement, in degrees."},
-          {"boolean", "angle_chosen", "It was not given, and is what fits best of twelve."},
+          {"boolean", "angle_chosen", "It was not given, and is the best of twelve."},
           {"boolean", "upright",
            "Neither `toward` nor an angle was given, and the part's `up` points the same way on "
            "the target, as far as the surface allows."},
@@ -177,7 +178,7 @@ std::vector<Record> paste_records() {
           {"lissom.PasteDistortion|nil", "outline_near",
            "Near the outline of the region, were it the boundary."},
           {"lissom.PasteClearing|nil", "clearing",
-           "What was removed of the target under the part, if something was."},
+           "The part of the target removed under the part, if any."},
           {"boolean", "kept_outline",
            "The outline was pasted along, since the surface there is distorted less."},
           {"boolean", "tight",
@@ -185,9 +186,9 @@ std::vector<Record> paste_records() {
            "stays there."},
           {"boolean", "smooth", "The boundary runs through faces."},
           {"boolean", "draft", "It is a draft: merged without that option its seam is better."},
-          {"integer", "euler_characteristic", "Of the result."},
+          {"integer", "euler_characteristic", "Euler characteristic of the result."},
           {"integer", "expected_characteristic",
-           "What those of the target and of the part make it."}}}};
+           "The one expected from the target and the part."}}}};
 }
 
 }  // namespace lissom::lua

@@ -10,7 +10,7 @@
 namespace lissom::lua {
 namespace {
 
-// As many numbers as there are places, or one for all.
+// Returns one number of as many as there are places, or the one for all.
 double given_for(std::span<const double> values, std::size_t place) {
     return values.size() == 1 ? values.front() : values[place];
 }
@@ -161,41 +161,41 @@ std::vector<Parameter> scatter_parameters() {
         object("region", "lissom.Region", "Part of the source around the feature."),
         either("feature",
                {object("region", "lissom.Region", ""),
-                choice("auto", {"auto"}, "What lies deep in the region.")},
-               "As in lissom.paste.")
+                choice("auto", {"auto"}, "The core of the region.")},
+               "See lissom.paste.")
             .optional("auto"),
         points("at",
                "Places: the middle of the feature comes to lie on the nearest point of the "
-               "target. Those before others come first where two meet."),
-        points("toward", "As of a placement of lissom.paste: one for all or one a place.")
+               "target. The first of two that meet counts."),
+        points("toward", "See the placement of lissom.paste: one for all or one a place.")
             .optional("the same as `up`"),
         axis("up", "The direction of the source that belongs to it.").optional("y"),
-        numbers("angles", "As of a placement: one for all or one a place.")
+        numbers("angles", "See the placement of lissom.paste: one for all or one a place.")
             .in("degrees")
-            .optional("0, or what fits best of twelve where `up` does not lie in the surfaces and "
+            .optional("0, or the best of twelve if `up` does not lie in the surfaces and "
                       "`toward` is not given"),
-        numbers("scales", "As of a placement: one for all or one a place.").optional("1"),
-        integer("iterations", "Of the search for each boundary; 0 takes the outline of the region.")
+        numbers("scales", "See the placement of lissom.paste: one for all or one a place.")
+            .optional("1"),
+        integer("iterations",
+                "Iterations of the search for each boundary; 0 takes the outline of the region.")
             .at_least(0)
             .defaults(defaults.iterations),
-        number("ring", "Share of the region that is searched where no feature is given.")
+        number("ring", "Share of the region that is searched if no feature is given.")
             .between(0.01, 0.99)
             .defaults(0.5),
         number("normals", "Weight of the normals in the energy of a boundary.")
             .at_least(0)
             .defaults(0.0),
         integer("smooth", "Umbrella steps at a seam, at most.").between(0, 1000).defaults(3),
-        boolean("collar", "Makes faces anew beside a seam where one side is coarser.")
-            .defaults(true),
+        boolean("collar", "Makes faces anew beside a seam if one side is coarser.").defaults(true),
         choice("size", {"boundary", "lock"},
-               "Size of a part: that of its boundary on the target, or what `scales` says.")
+               "Size of a part: that of its boundary on the target, or its `scales`.")
             .defaults("boundary"),
         choice("crossings", {"shrink", "leave out", "keep"},
-               "What becomes of a part that would run through itself, the target or a part before "
-               "it, bite into a sharp edge of the target or fold. shrink: one that bites "
-               "moves away from the edge; it is made smaller, by a fifth at a time and by a half "
-               "at most, and left out if that does not help. keep: it stays, and the report tells "
-               "it.")
+               "Treatment of a part that would run through itself, the target or a part before "
+               "it, bite into a sharp edge of the target or fold. shrink: one that bites moves "
+               "away from the edge; it is made smaller, by a fifth at a time and by a half at "
+               "most, and left out if that does not help. keep: it stays, and the report tells it.")
             .defaults("shrink")};
 }
 
@@ -212,7 +212,8 @@ std::vector<Function> scatter_functions() {
              "told; scripts/recipes/scatter.lua finds places.",
          .options = scatter_parameters(),
          .results = {{"lissom.Mesh", "mesh", "The target with all parts."},
-                     {"lissom.ScatterReport", "report", "What was refused, and where parts are."}},
+                     {"lissom.ScatterReport", "report",
+                      "Refused places, and the places of parts."}},
          .errors = {ErrorCode::topology_mismatch, ErrorCode::region_empty,
                     ErrorCode::boundary_conflict, ErrorCode::not_a_disk,
                     ErrorCode::invalid_argument, ErrorCode::mesh_empty, ErrorCode::not_finite,
@@ -236,20 +237,20 @@ std::vector<Record> scatter_records() {
         {"lissom.RefusedPlace",
          "A place that was left out.",
          {{"integer", "place", "Its number."},
-          {"string", "code", "As of a failure; see lissom explain."},
+          {"string", "code", "Code of the failure; see lissom explain."},
           {"string", "message", "Why."}}},
         {"lissom.ShrunkPlace",
          "A place whose part was made smaller so that it crosses nothing.",
          {{"integer", "place", "Its number."}, {"number", "scale", "The scale it has."}}},
         {"lissom.MovedPlace",
          "A place whose part was moved away from a sharp edge of the target.",
-         {{"integer", "place", "Its number."}, {"number[]", "at", "{x, y, z}: where it is."}}},
+         {{"integer", "place", "Its number."}, {"number[]", "at", "{x, y, z}: its position."}}},
         {"lissom.FaultyPlace",
          "A part of a scatter that stands though it is not good.",
          {{"integer", "place", "The number of its place."},
           {"lissom.MergeReason[]", "reasons", "Why, as of a merge."}}},
         {"lissom.ScatterReport",
-         "What lissom.scatter did. tostring gives the verdict and what may help.",
+         "Report of lissom.scatter. tostring gives the verdict and remedies.",
          {{"boolean", "ok",
            "All parts that stand are good, nothing crosses, and nine of ten places have a part."},
           {"string", "verdict", "The same in one line, with the numbers of parts."},

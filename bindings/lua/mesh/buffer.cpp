@@ -187,7 +187,7 @@ int pointer(Call& call) {
     return 1;
 }
 
-// Where rows of floats lie in memory of the host, in bytes.
+// Layout of rows of floats in memory of the host, in bytes.
 struct FloatRows {
     std::size_t count, width, offset, step;
 
@@ -195,7 +195,7 @@ struct FloatRows {
     std::size_t end() const { return count == 0 ? 0 : offset + (count - 1) * step + row(); }
 };
 
-// Throws invalid_argument where rows overlap, or do not fit into so many bytes.
+// Throws invalid_argument if rows overlap, or do not fit into so many bytes.
 void require_room(const FloatRows& rows, std::size_t size) {
     if (rows.step < rows.row()) {
         throw Error(ErrorCode::invalid_argument, "stride is " + std::to_string(rows.step) +
@@ -411,13 +411,13 @@ Type buffer_type() {
          .body = get_row,
          .summary = "The numbers of a row, as several results.",
          .arguments = {row},
-         .results = {{"number", "...", "As many as the buffer is wide."}},
+         .results = {{"number", "...", "Numbers of the row, as many as the buffer is wide."}},
          .errors = {ErrorCode::out_of_range, ErrorCode::topology_mismatch},
          .example = "local x, y, z = lissom.shapes.box():positions():get(1)"},
         {.name = "set",
          .body = set_row,
          .summary = "Writes a row and returns the buffer.",
-         .arguments = {row, numbers("values", "As many numbers as the buffer is wide.")},
+         .arguments = {row, numbers("values", "Numbers, as many as the buffer is wide.")},
          .results = {{"lissom.Buffer", "buffer", "The buffer."}},
          .errors = {ErrorCode::out_of_range, ErrorCode::topology_mismatch},
          .example = "lissom.shapes.box():positions():set(1, { 0, 0, 0 })"},
@@ -435,13 +435,13 @@ Type buffer_type() {
                     "row, as graphics cards take them: of a mapped buffer, or LÖVE's "
                     "`data:getPointer()` and `data:getSize()`. Nothing is written after an error.",
          .arguments =
-             {address("address", "Where the first row goes."),
+             {address("address", "Address of the first row."),
               number("size", "Bytes that may be written from there on.").between(0, kMostBytes)},
          .options =
              {integer("offset", "Bytes from the address to the first row.").defaults(0).at_least(0),
               integer("stride",
-                      "Bytes from one row to the next, where something else stands between "
-                      "them; without it they follow each other.")
+                      "Bytes from one row to the next, if other data stands between them; "
+                      "without it they follow each other.")
                   .optional()
                   .between(1, kMostStride)},
          .results = {{"lissom.Buffer", "buffer", "The buffer."}},
@@ -479,7 +479,7 @@ for i = 1, #positions, 3 do positions[i] = 2 * positions[i] end
 assert(mesh:bounds().max[1] == 1))"},
         {.name = "attributes",
          .body = mesh_attributes,
-         .summary = "What attributes the mesh has.",
+         .summary = "The attributes of the mesh.",
          .results = {{"lissom.AttributeInfo[]", "attributes", "In the order they were added."}},
          .example = "assert(#lissom.shapes.box():attributes() == 0)"},
         {.name = "attribute",
@@ -496,7 +496,7 @@ assert(lissom.try(mesh.attribute, mesh, "color") == nil))"},
          .summary = "Adds an attribute, in place of one of the same name.",
          .options =
              {string("name", "Its name. \"uv\", \"normal\" and \"color\" have a meaning in files."),
-              choice("domain", names_of(kDomainNames), "What elements it is on.")
+              choice("domain", names_of(kDomainNames), "The elements that it is on.")
                   .defaults("vertex"),
               integer("width", "Numbers an element.").defaults(1).between(1, kMost),
               choice("type", names_of(kTypeNames), "Number type in files.").defaults("float32"),
@@ -516,7 +516,7 @@ assert(mesh:attribute("heat")[1] == 100))"},
          .body = remove_attribute,
          .summary = "Removes an attribute.",
          .arguments = {string("name", "Name of the attribute.")},
-         .results = {{"boolean", "removed", "False where there was none."}},
+         .results = {{"boolean", "removed", "False if there was none."}},
          .effect = Effect::changes,
          .example = "assert(not lissom.shapes.box():remove_attribute('heat'))"}};
 }

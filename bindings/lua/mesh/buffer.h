@@ -12,7 +12,7 @@ namespace lissom::lua {
 struct BufferObject {
     static constexpr const char* kTypeName = "lissom.Buffer";
 
-    /// What the numbers are: positions of a mesh, one of its attributes, or a list of the buffer's
+    /// Source of the numbers: positions of a mesh, one of its attributes, or a list of the buffer's
     /// own.
     enum class Source { positions, attribute, own };
 
@@ -29,10 +29,10 @@ struct BufferObject {
     bool writable() const { return source != Source::own; }
     std::size_t memory_bytes() const { return values.size() * sizeof(double); }
 
-    /// The numbers as they are now. Throws topology_mismatch where the mesh was closed or has
-    /// another topology by now, or the attribute has gone or has another width.
+    /// Returns the present numbers. Throws topology_mismatch if the mesh was closed or has another
+    /// topology by now, or the attribute has gone or has another width.
     std::span<double> numbers();
-    /// The same for writing: what was derived from the old numbers ends.
+    /// Returns the same for writing: values derived from the old numbers are dropped.
     std::span<double> edit();
     /// Rows of three numbers as points. Throws invalid_argument for another width.
     std::vector<Vec3> as_points();
@@ -40,7 +40,7 @@ struct BufferObject {
   private:
     std::span<double> find_attribute();
 
-    // Where an attribute's numbers were at `changes_` of the mesh.
+    // Numbers of an attribute at `changes_` of the mesh.
     std::span<double> found_;
     std::uint64_t changes_ = ~std::uint64_t{0};
 };

@@ -16,7 +16,7 @@ constexpr std::array kConcerns = {"touches_boundary", "folded_line",      "lines
 
 // ---- mesh:cut
 
-// What a cut returns, until it is pushed.
+// Result of a cut, until it is pushed.
 struct CutResult {
     std::shared_ptr<MeshObject> a, b;
     std::vector<Path> on_a, on_b;
@@ -50,7 +50,7 @@ Path given_path(const Call& call) {
     return {{points.begin(), points.end()}, true};
 }
 
-// What `work` makes of the plane, path or region that was given, and of the options.
+// Runs `work` on the given plane, path or region, and on the options.
 template <typename Work>
 auto with_cut(const Call& call, const Work& work) {
     CutOptions options;
@@ -183,7 +183,7 @@ int trim_boundary(Call& call) {
 
 Parameter slide_option() {
     return number("slide",
-                  "A vertex slides onto the line where that crosses one of its edges within this "
+                  "A vertex slides onto the line if that crosses one of its edges within this "
                   "fraction of the edge, so that no slivers appear.")
         .defaults(CutOptions{}.slide)
         .between(0, 0.45);
@@ -197,11 +197,12 @@ std::vector<Parameter> cut_options() {
              vector("normal", "Towards the part to keep."),
              vector("seed", "A point on or near the part to keep, instead of the normal's side.")
                  .optional(),
-             vector("near", "What the line is nearest to, instead of the point.").optional(),
+             vector("near", "Point that selects the nearest line, instead of the plane's point.")
+                 .optional(),
              choice("loops", {"nearest", "all"},
                     "The line nearest to the point, or all lines of the plane.")
                  .defaults("nearest")},
-            "Cuts by a plane; where it crosses the mesh elsewhere, that stays whole.")
+            "Cuts by a plane; other crossings of the plane with the mesh stay whole.")
             .optional(),
         either("path",
                {points("points", "Points on or near the surface."),
@@ -247,9 +248,9 @@ std::vector<Function> cut_methods_of_mesh() {
 local tip, foot, loops = cactus:cut{ plane = { point = { 0, 1.7, 0 }, normal = { 0, 1, 0.2 } } }
 assert(#loops == 1 and loops[1]:is_boundary() and #loops[1] == #loops.b[1])
 assert(tip:bounds().min[2] > foot:bounds().min[2])
--- Where would it be cut?
-local lines = cactus:cut{ plane = { point = { 0, 1.7, 0 }, normal = { 0, 1, 0 } }, preview = true }
-print(#lines .. " cut, " .. #lines.others .. " left, keeps " .. lines.report.kept_fraction))"}};
+-- The lines of a cut, without cutting. local lines = cactus:cut{ plane = { point = { 0, 1.7, 0 },
+normal = { 0, 1, 0 } }, preview = true } print(#lines .. " cut, " .. #lines.others .. " left, keeps
+" .. lines.report.kept_fraction))"}};
 }
 
 std::vector<Function> trim_methods_of_path() {
@@ -274,7 +275,7 @@ std::vector<Function> trim_methods_of_path() {
                          .at_least(0),
                      slide_option()},
          .results = {{"lissom.Path", "boundary", "The new boundary of the mesh."},
-                     {"lissom.TrimReport", "report", "What was done."}},
+                     {"lissom.TrimReport", "report", "Measures of the cut."}},
          .errors = {ErrorCode::topology_mismatch, ErrorCode::not_a_boundary,
                     ErrorCode::invalid_argument, ErrorCode::boundary_conflict,
                     ErrorCode::nonmanifold_edge, ErrorCode::cancelled},
@@ -301,11 +302,12 @@ std::vector<Record> cut_records() {
           {"lissom.Path[]", "b",
            "The same lines on the rest: from the same points, the other way."},
           {"lissom.Path[]|nil", "others",
-           "Of a preview: lines in which the plane crosses too and which would not be cut."},
-          {"lissom.CutReport", "report", "What was found and done."}}},
+           "For a preview: other lines of the plane, which would not be cut."},
+          {"lissom.CutReport", "report", "Measures and warnings."}}},
         {"lissom.CutReport",
-         "What a cut found and did.",
-         {{"lissom.CutWarning[]", "warnings", "Why the result may not be what was wanted."},
+         "Report of a cut.",
+         {{"lissom.CutWarning[]", "warnings",
+           "Reasons why the result may not be the intended one."},
           {"integer[]", "touched_boundaries",
            "Open boundaries that lines end at: places in mesh:boundaries() of before."},
           {"integer", "lines_left", "Lines in which the plane crosses too, not cut."},
@@ -315,21 +317,21 @@ std::vector<Record> cut_records() {
           {"integer[]", "slid_vertices", "Vertices of before that slid onto a line."},
           {"integer", "divided_faces", "Faces that were divided."}}},
         {"lissom.CutWarning",
-         "Why the result of a cut may not be what was wanted.",
+         "Reason why the result of a cut may not be the intended one.",
          {{"string", "kind",
            "touches_boundary: a line ends at an open boundary; folded_line: a line seems to "
            "run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too; "
            "keeps_most: a plane or path without a seed keeps more than 80 % of the area, "
            "perhaps the wrong part; several_outlines: a region was cut along more than one line; "
            "not_separating, of a preview: the cut would fail, its sides are connected."},
-          {"string", "message", "What was found and what to do about it."},
-          {"integer[]", "vertices", "Vertices of before where it was found, at most 100."}}},
+          {"string", "message", "The finding and a remedy."},
+          {"integer[]", "vertices", "Vertices at the place, of the mesh before, at most 100."}}},
         {"lissom.TrimReport",
-         "What was done to smooth a boundary.",
+         "Report of smoothing a boundary.",
          {{"number", "before", "Mean turn of the boundary before, in degrees."},
           {"number", "after", "Mean turn of the new one."},
           {"number", "smoothing",
-           "The smoothing used: less than asked for where the boundary turns too sharply."},
+           "The smoothing used: less than asked for if the boundary turns too sharply."},
           {"integer", "removed_faces", "Faces that are gone."},
           {"integer", "divided_faces", "Faces that were divided."}}}};
 }

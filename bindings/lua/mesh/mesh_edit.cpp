@@ -115,9 +115,9 @@ std::vector<Function> in_place_methods() {
          .body = append_mesh,
          .summary =
              "Adds the vertices and faces of another mesh after its own, unconnected, with all "
-             "attributes, groups and regions. Where one of the two has no colors it becomes white, "
-             "where it has no texture coordinates they become 0, 0; a warning in the log names "
-             "them. Other attributes have no value there (NaN).",
+             "attributes, groups and regions. A part without colors becomes white, one without "
+             "texture coordinates gets 0, 0; a warning in the log names them. Other attributes "
+             "have no value there (NaN).",
          .arguments = {object("other", "lissom.Mesh", "The mesh to add.")},
          .results = kSelf,
          .errors = {ErrorCode::out_of_range, ErrorCode::cancelled},
@@ -147,26 +147,25 @@ mesh:transform{ rotate = { axis = "y", angle = 45 }, scale = 2, translate = { 0,
         {.name = "smooth",
          .body = smooth_mesh,
          .summary = "Smooths the surface by explicit Laplacian steps. Normals turn with it.",
-         .options =
-             {integer("iterations", "Number of steps.")
-                  .defaults(smooth_defaults.iterations)
-                  .at_least(0),
-              number("strength",
-                     "Fraction of the way to the mean of its neighbours that a vertex "
-                     "moves in a step.")
-                  .defaults(smooth_defaults.strength)
-                  .between(0, 1)
-                  .above(0),
-              choice("weights", {"uniform", "cotangent"},
-                     "Of the neighbours: uniform ones also even out the spacing, cotangents keep "
-                     "it.")
-                  .defaults("uniform"),
-              choice("boundary", {"fixed", "along"},
-                     "Vertices on open boundaries stay, or are smoothed along their loop.")
-                  .defaults("fixed"),
-              boolean("keep_volume", "Follows each step by one outwards (Taubin 1995).")
-                  .defaults(smooth_defaults.keep_volume),
-              object("region", "lissom.Region", "Vertices that may move.").optional("all")},
+         .options = {integer("iterations", "Number of steps.")
+                         .defaults(smooth_defaults.iterations)
+                         .at_least(0),
+                     number("strength",
+                            "Fraction of the way to the mean of its neighbours that a vertex "
+                            "moves in a step.")
+                         .defaults(smooth_defaults.strength)
+                         .between(0, 1)
+                         .above(0),
+                     choice("weights", {"uniform", "cotangent"},
+                            "Weights of the neighbours: uniform ones also even out the spacing, "
+                            "cotangents keep it.")
+                         .defaults("uniform"),
+                     choice("boundary", {"fixed", "along"},
+                            "Vertices on open boundaries stay, or are smoothed along their loop.")
+                         .defaults("fixed"),
+                     boolean("keep_volume", "Follows each step by one outwards (Taubin 1995).")
+                         .defaults(smooth_defaults.keep_volume),
+                     object("region", "lissom.Region", "Vertices that may move.").optional("all")},
          .results = kSelf,
          .errors = {ErrorCode::invalid_argument, ErrorCode::topology_mismatch,
                     ErrorCode::cancelled},
@@ -196,8 +195,8 @@ std::vector<Function> new_mesh_methods() {
                          .defaults("midpoint"),
                      object("region", "lissom.Region",
                             "Splits the faces of this region only. Triangles beside it are divided "
-                            "where their edges are, and polygons take the new vertices in, so that "
-                            "the mesh stays watertight.")
+                            "at their common edges, and polygons take the new vertices in, so "
+                            "that the mesh stays watertight.")
                          .optional("all")},
          .results = {{"lissom.Mesh", "mesh", "The new mesh."}},
          .errors = {ErrorCode::out_of_range, ErrorCode::topology_mismatch, ErrorCode::region_empty,

@@ -58,13 +58,13 @@ std::vector<Function> mesh_file_functions() {
          .summary =
              "Reads a mesh from an .obj, .ply, .off, .stl, .gltf or .glb file, with its groups, "
              "materials, texture coordinates, normals, colours, skins and morph targets. It is "
-             "checked and repaired: mesh:report() says what was done.",
+             "checked and repaired: mesh:report() lists the changes.",
          .arguments = {string("path", "The file; its extension names the format.")},
          .options = {weld_option().optional("\"all\" for .stl, \"seams\" for others"),
                      choice("unused", {"drop", "keep"},
-                            "What becomes of vertices that no face uses. \"keep\" leaves them in "
-                            "their order, for programs that match vertices by number; with weld = "
-                            "false all vertices of a sound file keep their numbers.")
+                            "Treatment of vertices that no face uses. \"keep\" leaves them in "
+                            "their order, for programs that match vertices by number; with weld "
+                            "= false all vertices of a sound file keep their numbers.")
                          .defaults("drop"),
                      boolean("repair",
                              "false makes each defect that would be mended, and each face without "
@@ -126,7 +126,7 @@ std::vector<Function> mesh_file_methods() {
          .results = {{"lissom.Mesh", "mesh", "The mesh itself."},
                      {"lissom.Vector?", "origin",
                       "With origin = \"auto\": the point of the mesh that is the origin of the "
-                      "file, zero where it stayed or glTF keeps it."}},
+                      "file, zero if it stayed or glTF keeps it."}},
          .errors = {ErrorCode::unknown_format, ErrorCode::file_write_failed,
                     ErrorCode::file_is_directory, ErrorCode::not_finite, ErrorCode::unsupported,
                     ErrorCode::cancelled},

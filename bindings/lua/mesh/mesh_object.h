@@ -1,4 +1,4 @@
-/// The mesh of a script and what was computed for its present shape.
+/// The mesh of a script and values computed for its present shape.
 #pragma once
 
 #include <memory>
@@ -28,8 +28,8 @@ struct MeshObject {
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const;
-    /// To be called after every change but of single positions. What was computed for one shape is
-    /// forgotten, but a tree for the same topology, which is refitted when it is next asked for.
+    /// To be called after every change but of single positions. Values computed for one shape are
+    /// dropped, but a tree for the same topology, which is refitted when it is next asked for.
     void changed();
     /// Frees everything; regions and other dependents then refuse to work.
     void close();
@@ -40,7 +40,7 @@ struct MeshObject {
     const std::vector<Vec3>& normals();
 
   private:
-    // What was computed for one shape; of the tree only the topology is sure to be that.
+    // Values computed for one shape; of the tree only the topology is sure to match.
     struct Derived {
         std::shared_ptr<const Topology> topology;
         std::optional<std::uint64_t> revision;
@@ -68,16 +68,16 @@ struct RegionObject {
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const { return region.vertices().size() * sizeof(Index); }
-    /// The region. Throws topology_mismatch where the mesh has another topology by now or was
+    /// Returns the region. Throws topology_mismatch if the mesh has another topology by now or was
     /// closed.
     const Region& current() const;
 };
 
-/// Throws topology_mismatch where `mesh` was closed or no longer has `topology`.
+/// Throws topology_mismatch if `mesh` was closed or no longer has `topology`.
 void require_current(const MeshObject& mesh, const std::shared_ptr<const Topology>& topology,
                      const char* what);
 
-/// Pushes the mesh that an object belongs to. Fails where it was closed.
+/// Pushes the mesh that an object belongs to. Fails if it was closed.
 int push_owner(Call& call, const std::shared_ptr<MeshObject>& mesh);
 
 /// Runs work(Mesh&), which changes the mesh of a method in place, and returns that mesh.
@@ -126,11 +126,11 @@ int compute(Call& call, const Work& work) {
 /// Pushes a lissom.Bounds.
 int push_bounds(const Call& call, const Box& box);
 
-/// Throws out_of_range: the mesh has no `what` called `name`; hints at the nearest of `names`.
+/// Throws out_of_range: the mesh has no `kind` called `name`; hints at the nearest of `names`.
 [[noreturn]] void refuse_absent(const char* what, std::string_view name,
                                 const std::vector<std::string_view>& names);
 
-/// Fails with out_of_range, naming the id from 1, where `id` is not below `count`.
+/// Fails with out_of_range, naming the id from 1, if `id` is not below `count`.
 bool check_id(Call& call, Index id, Index count, ElementKind kind);
 
 }  // namespace lissom::lua

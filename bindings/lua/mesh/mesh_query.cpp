@@ -150,9 +150,9 @@ std::vector<Function> mesh_query_methods() {
             {.name = "pick",
              .body = pick,
              .summary = "The first point of the surface that a ray hits, on either side.",
-             .arguments = {vector("origin", "Where the ray starts."),
-                           vector("direction", "Where it goes; any length.")},
-             .results = {{"lissom.SurfacePoint?", "hit", "The point; nil where the ray misses."}},
+             .arguments = {vector("origin", "Start of the ray."),
+                           vector("direction", "Direction of the ray; any length.")},
+             .results = {{"lissom.SurfacePoint?", "hit", "The point; nil if the ray misses."}},
              .errors = {ErrorCode::mesh_empty, ErrorCode::invalid_argument, ErrorCode::cancelled},
              .example = R"(local hit = lissom.shapes.box():pick({ 0.1, 0.2, 5 }, { 0, 0, -1 })
 assert(math.abs(hit.position[3] - 0.5) < 1e-12))"},
@@ -160,7 +160,7 @@ assert(math.abs(hit.position[3] - 0.5) < 1e-12))"},
              .body = distances,
              .summary =
                  "Distance of every vertex over the surface to the nearest of the given vertices, "
-                 "or to a point; infinite where there is no way.",
+                 "or to a point; infinite for vertices without a path.",
              .options = {source_option(),
                          choice("method", {"heat", "front", "edges"},
                                 "Geodesic by the heat method, which prepares a mesh once and is "

@@ -1,4 +1,4 @@
-// mesh:report(): what was found when the mesh was loaded.
+// mesh:report(): findings from loading the mesh.
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/mesh/mesh_object.h"
 
@@ -55,15 +55,14 @@ int mesh_report(Call& call) {
 }  // namespace
 
 std::vector<Function> mesh_report_methods() {
-    return {
-        {.name = "report",
-         .body = mesh_report,
-         .summary =
-             "What was welded, split, dropped, flagged or left out when the mesh was loaded: a "
-             "list of findings, each also under the name of its kind. Empty for a mesh that was "
-             "made otherwise.",
-         .results = {{"lissom.Report", "report", "The findings."}},
-         .example = R"(local mesh = lissom.mesh{
+    return {{.name = "report",
+             .body = mesh_report,
+             .summary =
+                 "Elements that were welded, split, dropped, flagged or left out when the mesh was "
+                 "loaded: a list of findings, each also under the name of its kind. Empty for a "
+                 "mesh that was made otherwise.",
+             .results = {{"lissom.Report", "report", "The findings."}},
+             .example = R"(local mesh = lissom.mesh{
     positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 5, 5, 5 } },
     faces = { { 1, 2, 3 } },
     repair = true,

@@ -48,10 +48,11 @@ std::vector<Parameter> parameterize_options() {
                    "Its faces are laid out: one part without handles, with at least one boundary.")
                 .optional("the whole mesh"),
             choice("method", kMethodNames,
-                   "Keeps angles (lscm); angles and lengths, as far as no face is turned over "
-                   "(arap, from lscm); or covers a disk, where nothing ever turns over (tutte).")
+                   "lscm keeps angles; arap, from lscm, angles and lengths, as far as no face "
+                   "is turned over; tutte covers a disk and never turns a face over.")
                 .defaults("arap"),
-            string("attribute", "Where the coordinates go: \"uv\", \"uv2\", or a name of your own.")
+            string("attribute",
+                   "Attribute for the coordinates: \"uv\", \"uv2\", or a name of your own.")
                 .defaults("uv"),
             choice("placement", {"unit_square", "as_is"},
                    "Fitted into the square from 0 to 1, or in lengths of the mesh around the "
@@ -70,12 +71,12 @@ std::vector<Parameter> parameterize_options() {
 
 std::vector<Record> parameterize_records() {
     return {{"lissom.ParameterizeReport",
-             "What a map into the plane is like.",
-             {{"string", "method", "What made it: lscm where arap turned faces over at once."},
+             "Quality of a map into the plane.",
+             {{"string", "method", "Method that made it: lscm if arap turned faces over at once."},
               {"integer", "iterations", "Iterations of arap that are in it."},
               {"number[]", "energy",
-               "Of arap, before the first iteration and after each that was made: the mean squared "
-               "distance of the map's derivative from a rotation."},
+               "For arap, before the first iteration and after each that was made: the mean "
+               "squared distance of the map's derivative from a rotation."},
               {"integer[]", "flipped", "Faces that are turned over."},
               {"integer[]", "degenerate", "Faces that have hardly an area on the mesh."},
               {"number", "least_scale",
@@ -88,11 +89,11 @@ std::vector<Record> parameterize_records() {
 std::vector<Function> parameterize_methods_of_mesh() {
     return {{.name = "parameterize",
              .body = parameterize_mesh,
-             .summary = "Lays the surface, or a region of it, out in the plane, and keeps where "
-                        "each corner lies as texture coordinates. Other corners keep theirs.",
+             .summary = "Lays the surface, or a region of it, out in the plane, and keeps the "
+                        "place of each corner as texture coordinates. Other corners keep theirs.",
              .options = parameterize_options(),
              .results = {{"lissom.Mesh", "mesh", "The mesh itself."},
-                         {"lissom.ParameterizeReport", "report", "What the map is like."}},
+                         {"lissom.ParameterizeReport", "report", "Quality of the map."}},
              .errors = {ErrorCode::topology_mismatch, ErrorCode::region_empty,
                         ErrorCode::invalid_argument, ErrorCode::not_a_disk,
                         ErrorCode::nonmanifold_vertex, ErrorCode::not_positive_definite,

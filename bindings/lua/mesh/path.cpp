@@ -313,7 +313,7 @@ std::vector<Function> path_methods_of_mesh() {
                                 {points("positions",
                                         "Points; each stands for the vertex nearest to it."),
                                  ids("vertices", "Ids of vertices.")},
-                                "What to visit."),
+                                "Points to visit."),
                          boolean("closed", "Returns to the first.").defaults(false)},
              .results = {{"lissom.Path", "path", "The line."}},
              .errors = {ErrorCode::invalid_argument, ErrorCode::out_of_range, ErrorCode::mesh_empty,
@@ -341,14 +341,14 @@ assert(#path == 11))"},
                          boolean("fair", "Bends the patch to continue the surface smoothly.")
                              .defaults(fill_defaults.fair),
                          choice("continuity", {"tangents", "curvature"},
-                                "What of the surface a faired patch continues. With curvature a "
-                                "large patch in a round surface is round.")
+                                "Order of continuity of a faired patch with the surface. With "
+                                "curvature a large patch in a round surface is round.")
                              .defaults("tangents"),
                          integer("maximum_vertices", "Vertices that `subdivide` may insert.")
                              .defaults(fill_defaults.maximum_vertices)
                              .at_least(0)},
              .results = {{"lissom.Mesh", "mesh", "The mesh itself."},
-                         {"lissom.FillReport", "report", "What was added."}},
+                         {"lissom.FillReport", "report", "The added elements."}},
              .effect = Effect::changes,
              .errors = {ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
                         ErrorCode::unsupported, ErrorCode::memory_limit, ErrorCode::cancelled},
@@ -360,8 +360,8 @@ assert(tube:is_closed()))"},
              .summary =
                  "Joins two open boundaries by a strip of triangles between their vertices, in "
                  "place: two parts become one, holes on both sides of a part a tunnel. Boundaries "
-                 "are matched by arc length where they lie closest. All ids stay; a triangle has "
-                 "the groups and attributes of the face at its boundary edge.",
+                 "are matched by arc length at their closest points. All ids stay; a triangle "
+                 "has the groups and attributes of the face at its boundary edge.",
              .arguments = {object("a", "lissom.Path", "An open boundary of this mesh."),
                            object("b", "lissom.Path", "Another one.")},
              .results = {{"lissom.Mesh", "mesh", "The mesh itself."},

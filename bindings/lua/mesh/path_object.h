@@ -25,7 +25,7 @@ struct PathObject {
         const std::size_t points = path.on_mesh() ? 0 : path.points().size();
         return path.vertices().size() * sizeof(Index) + points * sizeof(Vec3);
     }
-    /// The path. Throws topology_mismatch where the mesh has another topology by now or was closed.
+    /// Returns the path. Throws topology_mismatch if the mesh was closed or has another topology.
     const Path& current() const;
 };
 

@@ -82,7 +82,7 @@ Box given_box(const Call& call, const char* min, const char* max) {
     return box;
 }
 
-// What the script's values say beside numbers, strings and objects of the call.
+// Values of the script beside numbers, strings and objects of the call.
 struct Asked {
     std::span<const Index> vertices;
     AttributeRange range;
@@ -367,8 +367,8 @@ local a, b = mesh:region("top"), mesh:region("left")
          .example = two + "assert(#a:shrink() == 0)"},
         {.name = "connected",
          .body = connected,
-         .summary = "The part of this region that is connected with a point: what edges between "
-                    "the region's vertices join.",
+         .summary = "The part of this region that is connected with a point, by edges between "
+                    "the region's vertices.",
          .options = {either("at",
                             {id("vertex", "A vertex of the region."),
                              vector("point", "A point; the region's vertex nearest to it counts.")},
@@ -396,7 +396,7 @@ std::vector<Function> region_queries() {
          .body = contains,
          .summary = "Whether a vertex is in the region.",
          .arguments = {id("vertex", "Id of the vertex.")},
-         .results = {{"boolean", "inside", "True where it is."}},
+         .results = {{"boolean", "inside", "True if it is."}},
          .errors = errors,
          .example = top + "assert(top:contains(top:vertices()[1]))"},
         {.name = "center",
@@ -437,7 +437,7 @@ std::vector<Function> region_queries() {
 }
 
 std::vector<Parameter> region_options() {
-    const std::string open = " nil or math.huge where a side is open.";
+    const std::string open = " nil or math.huge for an open side.";
     return {options("sphere",
                     {vector("center", "Its center."),
                      number("radius", "Its radius.").at_least(0).in("mesh units")},
@@ -470,8 +470,8 @@ std::vector<Parameter> region_options() {
             id("component", "Vertices of a connected component, numbered by smallest vertex.")
                 .optional(),
             table("attribute",
-                  "{name, min, max}: vertices where the first number of an attribute lies in "
-                  "the range.")
+                  "{name, min, max}: vertices whose first number of an attribute lies in the "
+                  "range.")
                 .optional(),
             function("where", "fun(vertex: integer, x: number, y: number, z: number): boolean",
                      "Vertices for which the function returns true.")
@@ -515,7 +515,7 @@ assert(#arm > 0 and #high > 0 and #near > 0 and #upper_third > 0 and #around > 0
          .body = set_region,
          .summary =
              "Keeps a region under a name, in place of one before, and returns the mesh. Named "
-             "regions are saved where the format can.",
+             "regions are saved in formats that can hold them.",
          .arguments = {string("name", "Its name."),
                        object("region", "lissom.Region", "A region of this mesh.")},
          .results = {{"lissom.Mesh", "mesh", "The mesh itself."}},
@@ -528,18 +528,17 @@ assert(#mesh:region("all") == 8))"},
          .body = remove_named_region,
          .summary = "Forgets a named region.",
          .arguments = {string("name", "Its name.")},
-         .results = {{"boolean", "removed", "False where there was none."}},
+         .results = {{"boolean", "removed", "False if there was none."}},
          .effect = Effect::replaces,
          .example = "assert(lissom.shapes.box():remove_region('top'))"},
         {.name = "groups",
          .body = group_names,
-         .summary = "The names of the groups of faces that the mesh has: what region{ group = } "
-                    "takes.",
+         .summary = "The names of the mesh's groups of faces, for region{ group = }.",
          .results = {{"string[]", "names", "In the order of the file."}},
          .example = "assert(#lissom.shapes.box():groups() == 0)"},
         {.name = "materials",
          .body = material_names,
-         .summary = "The names of its materials: what region{ material = } takes.",
+         .summary = "The names of its materials, for region{ material = }.",
          .results = {{"string[]", "names", "In the order of the file."}},
          .example = "assert(#lissom.shapes.box():materials() == 0)"},
         {.name = "regions",

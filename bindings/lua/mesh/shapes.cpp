@@ -148,8 +148,8 @@ std::vector<Function> shape_functions() {
         {.name = "shapes.cylinder",
          .body = cylinder,
          .summary =
-             "A cylinder along y around the origin. Regions: bottom, top, and caps where there "
-             "are any.",
+             "A cylinder along y around the origin. Regions: bottom, top, and caps if there are "
+             "any.",
          .options = {length("radius", cylinder_defaults.radius, "Its radius."),
                      length("height", cylinder_defaults.height, "Its height."),
                      count("segments", cylinder_defaults.segments, 3, "Quads around."),
@@ -174,9 +174,10 @@ std::vector<Function> shape_functions() {
         {.name = "shapes.torus",
          .body = torus,
          .summary = "A torus of quads around the y axis.",
-         .options = {length("radius", torus_defaults.radius, "Of the circle in the tube's middle."),
+         .options = {length("radius", torus_defaults.radius,
+                            "Radius of the circle in the tube's middle."),
                      length("tube_radius", torus_defaults.tube_radius,
-                            "Of the tube; the smaller one."),
+                            "Radius of the tube; the smaller one."),
                      count("segments", torus_defaults.segments, 3, "Quads around the axis."),
                      count("tube_segments", torus_defaults.tube_segments, 3,
                            "Quads around the tube.")},

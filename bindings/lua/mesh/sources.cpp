@@ -48,7 +48,7 @@ SourceSpec vertex_sources(const Call& call, const char* path, std::span<const do
     return {{ids, numbers.size()}, false, {}};
 }
 
-// Pushes field `name` of the table, which stays; false and nothing where there is none.
+// Pushes field `name` of the table, which stays; false and nothing if there is none.
 bool push_table_field(lua_State* L, int table, const char* name) {
     lua_pushstring(L, name);
     lua_rawget(L, table);
@@ -93,10 +93,10 @@ Parameter source_option() {
                   {id("vertex", "One vertex."),
                    object("region", "lissom.Region", "The vertices of a region."),
                    table("table", "A point or a list of vertices.")},
-                  "Where distances start: a vertex, a region, a list of vertices, or a point "
-                  "{x, y, z}, of which the nearest on the surface counts, also as Mesh:nearest and "
-                  "Mesh:pick return it. Three whole numbers above 0 may be vertices or a point: "
-                  "write { vertices = {a, b, c} } or { point = {x, y, z} }.");
+                  "Start of distances: a vertex, a region, a list of vertices, or a point {x, "
+                  "y, z}, of which the nearest on the surface counts, also a result of "
+                  "Mesh:nearest and Mesh:pick. Three whole numbers above 0 may be vertices or a "
+                  "point: write { vertices = {a, b, c} } or { point = {x, y, z} }.");
 }
 
 SourceSpec read_sources(Call& call, const char* path) {

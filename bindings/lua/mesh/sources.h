@@ -1,4 +1,4 @@
-/// Where distances over a surface start, as scripts write it.
+/// Starts of distances over a surface, as scripts write them.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@ namespace lissom::lua {
 
 /// Vertices, or a point, as plain data.
 struct SourceSpec {
-    /// Vertices where `is_point` is false.
+    /// Vertices if `is_point` is false.
     std::span<const Index> vertices;
     bool is_point;
     double xyz[3];

@@ -8,7 +8,7 @@ namespace lissom::lua {
 /// The options translate=, rotate={axis=,angle=,about=}, scale=, about= of a function.
 std::vector<Parameter> transform_fields(const std::string& about_default);
 
-/// What a call gave for them, as plain data: it can be read in step 1 and combined in step 3.
+/// Values of a call for them, as plain data: they can be read in step 1 and combined in step 3.
 struct TransformOptions {
     Vec3 translate, scale, about, axis, rotate_about;
     double angle;
@@ -18,8 +18,8 @@ struct TransformOptions {
     static TransformOptions read(const Call& call, const char* prefix = "");
     /// The same for coordinates relative to `origin`.
     TransformOptions relative_to(const Vec3& origin) const;
-    /// Scales, then rotates, then translates; about `center` where the script named no point.
-    /// Throws as rotation().
+    /// Returns the map that scales, then rotates, then translates; about `center` if the script
+    /// named no point. Throws as rotation().
     Affine map(const Vec3& center) const;
     /// Its rotation vector, of any number of turns.
     Vec3 turn() const { return angle == 0.0 ? Vec3(Vec3::Zero()) : angle / axis.norm() * axis; }
@@ -34,7 +34,7 @@ struct RotationOptions {
     static RotationOptions read(const Call& call);
     /// The same for coordinates relative to `origin`.
     RotationOptions relative_to(const Vec3& origin) const;
-    /// About `center` where the script named no point. Throws as rotation().
+    /// Returns the map about `center` if the script named no point. Throws as rotation().
     Affine map(const Vec3& center) const;
     /// Its rotation vector, of any number of turns.
     Vec3 turn() const { return angle == 0.0 ? Vec3(Vec3::Zero()) : angle / axis.norm() * axis; }

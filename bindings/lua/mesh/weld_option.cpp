@@ -5,7 +5,7 @@ namespace lissom::lua {
 Parameter weld_option() {
     return either(
         "weld",
-        {choice("name", {"seams", "all"}, "What is joined."),
+        {choice("name", {"seams", "all"}, "Vertices that are joined."),
          boolean("off", "false: no vertices are joined.")},
         "Which vertices at the same place become one. \"seams\": those that join open edges "
         "at the same place and of opposite direction, so that surfaces that only touch, as "

@@ -9,7 +9,7 @@ namespace lissom::lua {
 
 Parameter weld_option();
 
-/// The value of the option, where it was given. Raises a Lua error for true.
+/// Returns the value of the option, if it was given. Raises a Lua error for true.
 Weld given_weld(const Call& call);
 
 }  // namespace lissom::lua

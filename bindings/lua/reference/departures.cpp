@@ -14,7 +14,7 @@ namespace {
 // The description of an option names its default.
 void add_option_departures(std::vector<Departure>& list, const Function& function,
                            const std::string& call) {
-    // One changes what was made and has no defaults; the other has those of lissom.merge.
+    // One changes an existing object and has no defaults; the other has those of lissom.merge.
     if (function.name == "set" || function.name == "merger" || function.name == "deform") return;
     for (const Parameter& p : function.options) {
         if (p.thesis_text.empty()) continue;
@@ -37,7 +37,7 @@ std::vector<Departure> merge_departures() {
         {"3.3.1", "Which points of two boundaries meet between keys",
          "by arc length of both smoothed; vertices that nearly meet do",
          "by arc length; each goes to its own place", kByFidelity},
-        {"3.3.1", "Boundaries without keys", "meet where they fit best", "always have keys", ""},
+        {"3.3.1", "Boundaries without keys", "meet at the best fit", "always have keys", ""},
         {"3.3.1", "Frames along a boundary",
          "smoothed along it, with normals continued to it from within",
          "as they are at each vertex", kByFidelity},
@@ -55,7 +55,7 @@ std::vector<Departure> merge_departures() {
         {"3.3.1", "Meshes that are inside out", "are turned over, and a warning says so",
          "not said", ""},
         {"3.3.1", "Parts of the source without a boundary that is joined",
-         "go along with what is nearest", "not said", ""},
+         "go along with the nearest joined part", "not said", ""},
         {"3.3.3", "Transition regions",
          "lie side by side at the seam, which is blended with coordinates along the surface",
          "overlap, and the source's is kept; bands cut open and laid over the unit square, and the "
@@ -92,7 +92,7 @@ std::vector<Departure> curve_departures() {
             {"4.5", "The ring of a ponytail",
              "a slab in front of the tie, outside the head; cross sections count before it",
              "from R1 to R2 at the grid points nearest to the tie's plane, also in the head; it "
-             "counts first, and is an error where the grid has no point in it",
+             "counts first, and is an error if the grid has no point in it",
              kByFidelity},
             {"4.5", "A ponytail without `profiles`",
              "cross sections along `share` of the spine, swollen by `fullness`",
@@ -113,9 +113,9 @@ std::vector<Departure> growth_departures() {
              "`most_segments = NUMBER`"},
             {"4.6", "Density of roots", "thins out at the hairline", "even in the angles",
              "a scalp with `softness = 0`"},
-            {"4.6", "Where `hairstyle:avoid_scalp` adds vectors",
-             "where hair grows, and elsewhere on the head where the field points into it, but for "
-             "points that curves constrain",
+            {"4.6", "Points at which `hairstyle:avoid_scalp` adds vectors",
+             "the scalp, and the rest of the head at points at which the field points into it, "
+             "but for points that curves constrain",
              "all grid points near the scalp", ""}};
 }
 

@@ -1,4 +1,4 @@
-/// What differs by choice from the thesis: the one table that names it, from which the page
+/// Deliberate differences from the thesis: the one table that names them, from which the page
 /// thesis.md of the reference is made.
 #pragma once
 
@@ -9,21 +9,21 @@
 
 namespace lissom::lua {
 
-/// A choice of the thesis, and what Lissom does in its place.
+/// A choice of the thesis, and Lissom's own.
 struct Departure {
-    /// Of the thesis: "4.5".
+    /// Section of the thesis: "4.5".
     std::string section;
-    /// What it is about: an option and its function, or a matter without an option.
+    /// Its subject: an option and its function, or a matter without an option.
     std::string subject;
     std::string usual;
     std::string thesis;
-    /// What gives the thesis's choice; empty where nothing does.
+    /// Option that selects the thesis's choice; empty if there is none.
     std::string by;
     /// The option that is meant, "ring"; empty for matters without one.
     std::string option = {};
 };
 
-/// What gives the thesis's choice for most.
+/// Option that selects the thesis's choice for most.
 extern const char* const kByFidelity;
 
 /// All departures: those of options from their descriptions (Parameter::thesis), then the others;

@@ -92,7 +92,7 @@ std::string options_class(const std::string& owner, const Function& function) {
     return owner + "." + capitalized(name) + "Options";
 }
 
-// A type that may stand beside others: a function's result would take in what follows it.
+// A type that may stand beside others: a function's result would absorb the next type.
 std::string single_type(const std::string& type) {
     return type.compare(0, 4, "fun(") == 0 ? "(" + type + ")" : type;
 }
@@ -211,8 +211,8 @@ void add_type(std::string& text, const Type& type) {
         add_function(text, method, type.name, local + ":" + method.name);
     }
     text +=
-        "---Frees what the object holds. It may be called again; any other use is an error then.\n"
-        "function " +
+        "---Frees the contents of the object. It may be called again; any other use is an error "
+        "then.\nfunction " +
         local + ":close() end\n\n";
 }
 
@@ -332,7 +332,8 @@ std::string type_page(const Type& type) {
     for (const Result& field : type.fields) {
         text += "- `" + variable + "." + field.name + "`: " + field.type + ". " + field.help + "\n";
     }
-    text += "- `" + variable + ":close()`: frees what the object holds; it may be called again\n\n";
+    text += "- `" + variable +
+            ":close()`: frees the contents of the object; it may be called again\n\n";
     for (const Function& method : type.methods) {
         add_function_section(text, method, variable + ":" + method.name);
     }
@@ -363,14 +364,12 @@ void add_conventions(std::string& text) {
         "its [code](codes.md), `e.elements` is nil or `{kind=, count=, ids=}` (at most a hundred "
         "ids, pairs of vertices for edges), `e.file` and `e.line` are those of an input file, "
         "`e.place` is the line of the script.\n"
-        "- `lissom.try(f, ...)` returns what `f` returns, or `nil, error`; `pcall` works as with "
-        "every error.\n"
-        "- An option that does not exist is an error, with the nearest name.\n"
-        "- Where `x, y, z` are arguments, one `{x, y, z}` will do.\n"
-        "- Verbs that change an object return it; those that make something return a new object.\n"
-        "- Objects are freed by the collector; `close()` or `local mesh <close> =` frees them "
-        "earlier.\n"
-        "- A name that the module does not have is an error: test for one with `rawget(lissom, "
+        "- `lissom.try(f, ...)` returns the results of `f`, or `nil, error`; `pcall` works as "
+        "with every error.\n- An option that does not exist is an error, with the nearest "
+        "name.\n- Arguments `x, y, z` may also be given as one `{x, y, z}`.\n- Verbs that "
+        "change an object return it; those that make something return a new object.\n- Objects "
+        "are freed by the collector; `close()` or `local mesh <close> =` frees them earlier.\n- "
+        "A name that the module does not have is an error: test for one with `rawget(lissom, "
         "name)`.\n\n";
 }
 
@@ -388,13 +387,12 @@ std::string departures_page(const std::vector<Departure>& all) {
     std::string text =
         kPageHead +
         std::string(
-            "# What differs from the thesis\n\n[All pages](README.md)\n\n"
-            "By choice, where something else gives better shapes and hair: Fu, *Differential "
-            "methods for intuitive 3D shape modeling* (2007), chapters 2 to 4. The last column "
-            "says what gives the thesis's choice; where it is empty, nothing does. An option "
-            "that is given counts before what `fidelity` says.\n\n"
-            "| section | what | by default | in the thesis | as in the thesis by |\n"
-            "|---|---|---|---|---|\n");
+            "# Differences from the thesis\n\n[All pages](README.md)\n\nDeliberate choices that "
+            "give better shapes and hair: Fu, *Differential methods for intuitive 3D shape "
+            "modeling* (2007), chapters 2 to 4. The last column names the option that selects "
+            "the thesis's choice; if it is empty, there is none. An option that is given "
+            "overrides `fidelity`.\n\n| section | subject | by default | in the thesis | as in "
+            "the thesis by |\n|---|---|---|---|---|\n");
     for (const Departure& one : all) {
         text += "| " + one.section + " | " + table_cell(one.subject) + " | " +
                 table_cell(one.usual) + " | " + table_cell(one.thesis) + " | " +
@@ -577,7 +575,7 @@ std::vector<Page> reference_pages(const Registry& registry) {
     }
     index +=
         "\n## Tables and codes\n\n- [Tables](tables.md) that functions return\n"
-        "- [Error codes](codes.md)\n- [What differs from the thesis](thesis.md)\n";
+        "- [Error codes](codes.md)\n- [Differences from the thesis](thesis.md)\n";
     pages.push_back({"tables.md", records_page(records)});
     pages.push_back({"codes.md", codes_page()});
     pages.push_back({"thesis.md", departures_page(departures(registry))});

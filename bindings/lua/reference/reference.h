@@ -10,7 +10,7 @@
 
 namespace lissom::lua {
 
-/// LuaCATS annotations (a ---@meta file) of what one library exposes.
+/// Returns LuaCATS annotations (a ---@meta file) of one library.
 std::string annotations(const Library& library);
 
 /// A file of the reference.
@@ -32,7 +32,7 @@ std::string signature(const Function& function, const std::string& call);
 /// How an entry is called: "lissom.load", "mesh:save".
 std::string call_of(const Entry& entry);
 
-/// What a function does, for a terminal: its call, summary, arguments, results, errors, example.
+/// Returns a function's help for terminals: call, summary, arguments, results, errors, example.
 std::string help_text(const Entry& entry);
 /// The same of a type: its summary, operators, and a line for each method.
 std::string help_text(const Type& type);
@@ -41,8 +41,8 @@ std::string help_text(const Record& record);
 /// A line for each function of the module, each type and each such table.
 std::string help_overview(const Registry& registry);
 
-/// The help of all that `name` may mean: "save", "mesh.save", "Mesh:save", "lissom.load",
-/// "shapes.box", "Mesh", "Bounds". Empty where nothing has the name.
+/// Returns the help of all that `name` may mean: "save", "mesh.save", "Mesh:save", "lissom.load",
+/// "shapes.box", "Mesh", "Bounds". Empty if nothing has the name.
 std::string help_for(const Registry& registry, std::string_view name);
 /// All names that help_for knows.
 std::vector<std::string> help_names(const Registry& registry);

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The path from the root on, with links followed as far as it is there; empty where it fails.
+// The path from the root on, with links followed as far as it exists; empty if it fails.
 fs::path real_path(const fs::path& path) {
     std::error_code failed;
     const fs::path whole = path.empty() ? fs::path() : fs::absolute(path, failed);

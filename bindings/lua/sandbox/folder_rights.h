@@ -9,10 +9,10 @@
 
 namespace lissom::lua {
 
-/// Folders as they are when a script asks: links are followed first. Adds up what it has written.
+/// Folders as they are when a script asks: links are followed first. Adds up the written bytes.
 class FolderRights {
   public:
-    /// Of the folders `modules` Lua files only may be read.
+    /// Only Lua files of the folders `modules` may be read.
     FolderRights(std::vector<std::filesystem::path> read, std::vector<std::filesystem::path> write,
                  std::vector<std::filesystem::path> modules, std::size_t most_bytes)
         : read_(std::move(read)),
@@ -23,14 +23,14 @@ class FolderRights {
     /// Errors: file_unreadable, file_write_failed: the path is outside of the folders, or enough
     /// was written.
     void check(const std::filesystem::path& path, FileUse use);
-    /// Counts `bytes` of other output. False where it is too much.
+    /// Counts `bytes` of other output. Returns false if it is too much.
     bool count_output(std::size_t bytes);
 
   private:
     void count_written();
 
     std::vector<std::filesystem::path> read_, write_, modules_;
-    // The file that was asked for last: what it has become is not known before the next question.
+    // The file that was asked for last: its size is not known before the next question.
     std::filesystem::path pending_;
     std::size_t most_bytes_, bytes_ = 0;
 };

@@ -8,7 +8,7 @@
 namespace lissom::lua {
 namespace {
 
-// As deep as Lua's own matcher goes.
+// The depth of Lua's own matcher.
 constexpr int kMaximumDepth = 200;
 
 unsigned char byte_of(char c) {
@@ -183,7 +183,7 @@ bool Matcher::at_frontier(std::size_t s, std::size_t set) const {
     return !is_in_set(byte_of(before), set, end) && is_in_set(byte_of(here), set, end);
 }
 
-// Behind the text of an earlier capture, where it stands at `s` again.
+// End of the text of an earlier capture, if it stands at `s` again.
 std::size_t Matcher::repeated(std::size_t s, char digit) const {
     const int i = digit - '1';
     if (i < 0 || i >= count_ || captures_[i].length == Capture::kOpen) {
@@ -195,7 +195,7 @@ std::size_t Matcher::repeated(std::size_t s, char digit) const {
     return text_.substr(s).starts_with(part) ? s + part.size() : kNone;
 }
 
-// As many as there are of the item, and fewer where the rest does not match behind them.
+// Takes as many of the item as there are, and fewer if the rest does not match behind them.
 std::size_t Matcher::longest(std::size_t s, std::size_t p, std::size_t after, bool once) {
     std::size_t count = 0;
     while (fits(s + count, p, after)) ++count;

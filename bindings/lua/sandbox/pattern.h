@@ -17,7 +17,7 @@ struct PatternError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Part of the text; a position where `length` is kPosition.
+/// Part of the text; a position if `length` is kPosition.
 struct Capture {
     static constexpr std::size_t kOpen = static_cast<std::size_t>(-1), kPosition = kOpen - 1;
 
@@ -33,12 +33,12 @@ class Matcher {
     Matcher(std::string_view text, std::string_view pattern, const Stop& stop)
         : text_(text), pattern_(pattern), stop_(stop) {}
 
-    /// Where the match that begins at `begin` ends, or kNone. Fills the captures.
-    /// Throws PatternError; Stopped.
+    /// Returns the end of the match that begins at `begin`, or kNone. Fills the captures. Throws
+    /// PatternError; Stopped.
     std::size_t match_at(std::size_t begin);
 
     int capture_count() const { return count_; }
-    /// Capture `i`; throws PatternError where it was opened and not closed.
+    /// Returns capture `i`; throws PatternError if it was opened and not closed.
     const Capture& capture(int i) const;
 
   private:
@@ -68,7 +68,7 @@ class Matcher {
 /// Whether a pattern means itself: it has no character with a meaning of its own.
 bool is_plain(std::string_view pattern);
 
-/// Where `part` begins in `text` from `begin` on, or Matcher::kNone. Throws Stopped.
+/// Returns the first place of `part` in `text` from `begin` on, or Matcher::kNone. Throws Stopped.
 std::size_t find_plain(std::string_view text, std::string_view part, std::size_t begin,
                        const Stop& stop);
 

@@ -1,5 +1,5 @@
-// Lua's base library and require without what reaches out of the sandbox, and ended when
-// the script has to.
+// Lua's base library and require without the functions that reach out of the sandbox, and ended
+// when the script has to.
 #include <cctype>
 #include <filesystem>
 #include <string>
@@ -137,7 +137,7 @@ int format_date(lua_State* L) {
     return call_in_time(L);
 }
 
-// Finalizers run where no limit is looked at. Upvalue 1: Lua's.
+// Finalizers run outside of all limits. Upvalue 1: Lua's.
 int set_metatable(lua_State* L) {
     if (lua_istable(L, 2)) {
         lua_pushliteral(L, "__gc");
@@ -190,8 +190,8 @@ void replace_global(lua_State* L, const char* name, lua_CFunction with) {
     lua_setglobal(L, name);
 }
 
-// ---- Coroutines. One that a hook's error has ended keeps its hooks off: what it has to close must
-// not be called then.
+// ---- Coroutines. One that a hook's error has ended keeps its hooks off: its variables to close
+// must not be called then.
 
 // Raises the error on top of the stack with the place of the call, as Lua's wrap does.
 int raise_at_call(lua_State* L, int status) {
@@ -278,7 +278,7 @@ std::string module_path(std::string_view name) {
     return path + ".lua";
 }
 
-// A module that was found; without a path where there is none.
+// A module that was found; without a path if there is none.
 struct Module {
     fs::path path;
     std::string text;

@@ -20,7 +20,7 @@ std::string_view text_at(lua_State* L, int index) {
     return {text, size};
 }
 
-// The work is C++ without Lua, and what it throws becomes an error of Lua's.
+// The work is C++ without Lua, and its exceptions become errors of Lua's.
 template <typename Work>
 void guard(lua_State* L, const Work& work) {
     char message[128];
@@ -38,7 +38,7 @@ void guard(lua_State* L, const Work& work) {
     luaL_error(L, "%s", message);
 }
 
-// A match in the text: from `begin` to `end`, which is kNone where there is none.
+// A match in the text: from `begin` to `end`, which is kNone if there is none.
 struct Match {
     std::size_t begin, end;
 };
@@ -59,7 +59,7 @@ void push_part(lua_State* L, std::string_view text) {
     lua_pushlstring(L, text.data(), text.size());
 }
 
-// Capture i, counted from 0; the whole match where the pattern has none.
+// Capture i, counted from 0; the whole match if the pattern has none.
 void push_capture(lua_State* L, const Matcher& matcher, std::string_view text, const Match& match,
                   int i) {
     if (i >= matcher.capture_count()) {
@@ -83,7 +83,7 @@ int push_captures(lua_State* L, const Matcher& matcher, std::string_view text, c
     return count;
 }
 
-// 0-based place of a 1-based one that counts from the end where it is negative; kNone beyond it.
+// 0-based place of a 1-based one that counts from the end if it is negative; kNone beyond it.
 std::size_t begin_at(lua_State* L, int index, std::size_t size) {
     const lua_Integer given = luaL_optinteger(L, index, 1);
     const auto length = static_cast<lua_Integer>(size);
@@ -134,7 +134,7 @@ int match(lua_State* L) {
     return find_or_match(L, false);
 }
 
-// Upvalues: text, pattern, where to look next, and where the last match ended or -1.
+// Upvalues: text, pattern, place of the next search, and end of the last match or -1.
 int next_match(lua_State* L) {
     const std::string_view text = text_at(L, lua_upvalueindex(1));
     Matcher matcher(text, text_at(L, lua_upvalueindex(2)), stop_of(L));

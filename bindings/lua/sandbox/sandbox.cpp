@@ -139,7 +139,7 @@ int prepare_sandbox(lua_State* L) {
     return 0;
 }
 
-// Where the host has a table of files and names no folders, the table decides.
+// If the host has a table of files and names no folders, the table decides.
 void guard_files(Sandbox::Parts& parts) {
     FileTable& files = parts.options.context.files;
     const bool host_reads = files.read && parts.limits.read_folders.empty();
@@ -276,7 +276,7 @@ int Sandbox::call(int arguments, int results, int handler) {
     }
     // The host reads results and messages by calls that nothing protects.
     lua_sethook(parts.L, nullptr, 0, 0);
-    // What asked for this is the limit, not the host.
+    // The limit asked for this, not the host.
     if (parts.end == SandboxEnd::seconds) context.clear_cancel();
     return status;
 }

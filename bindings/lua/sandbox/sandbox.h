@@ -16,23 +16,23 @@
 
 namespace lissom::lua {
 
-/// What a script may use. The time and the instructions are those of one run.
+/// Limits of a script. The time and the instructions are those of one run.
 struct SandboxLimits {
     /// Wall time; 0: as long as it takes.
     double seconds = 10.0;
-    /// Instructions of Lua's virtual machine, counted in twenties; what functions of its libraries
-    /// do counts as one per 64 bytes or table element. 0: any number.
+    /// Instructions of Lua's virtual machine, counted in twenties; work of its libraries' functions
+    /// counts as one per 64 bytes or table element. 0: any number.
     std::int64_t instructions = 0;
-    /// What Lua takes, and what the library takes for the script's objects and for its work,
-    /// together. 0: as much as there is.
+    /// Memory of Lua, and of the library for the script's objects and for its work, together. 0: as
+    /// much as there is.
     std::size_t memory_bytes = std::size_t{256} << 20;
-    /// What is printed, and the files that are written. A file is counted when it is there, so that
-    /// the last one may go beyond; 0: any number.
+    /// Printed bytes, and those of written files. A file is counted when it is there, so that the
+    /// last one may go beyond; 0: any number.
     std::size_t output_bytes = std::size_t{64} << 20;
     /// Files below them may be read, or written. Without any, none may, but those of a host's table
     /// of files (ContextOptions::files), which then decides.
     std::vector<std::filesystem::path> read_folders, write_folders;
-    /// Where `require` looks for NAME.lua, besides what is in the library, and lissom.load_tool for
+    /// Folders of `require` for NAME.lua, besides the library, and of lissom.load_tool for
     /// tools/NAME.lua.
     std::vector<std::filesystem::path> module_folders;
 };
@@ -42,10 +42,10 @@ enum class SandboxEnd { none, seconds, instructions, output, cancelled };
 
 class Sandbox {
   public:
-    /// Opens the state. `print` gets what the script prints, with its line ends. Of `options` the
-    /// memory limit and the check of files are replaced; what the script takes is charged to the
-    /// account of its context too, where that is given.
-    /// Errors: memory_limit where the state itself does not fit; invalid_argument for limits below
+    /// Opens the state. `print` gets the output of the script, with its line ends. Of `options` the
+    /// memory limit and the check of files are replaced; the script's memory is charged to the
+    /// account of its context too, if that is given.
+    /// Errors: memory_limit if the state itself does not fit; invalid_argument for limits below
     /// zero.
     Sandbox(SandboxLimits limits, HostOptions options,
             std::function<void(std::string_view)> print = {});
@@ -65,10 +65,10 @@ class Sandbox {
     /// limits and with a handler of messages at stack index `handler` (0: none). The state is of
     /// use afterwards whatever has happened.
     int call(int arguments, int results, int handler = 0);
-    /// Why the last call was ended; none also where it failed by itself.
+    /// Returns why the last call was ended; none also if it failed by itself.
     SandboxEnd end() const;
 
-    /// For what runs inside of it.
+    /// State for the code inside of it.
     struct Parts;
     Parts& parts() const { return *parts_; }
 

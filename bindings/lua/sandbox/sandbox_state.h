@@ -1,4 +1,4 @@
-/// What the parts of a sandbox know of it; private to bindings/lua/sandbox.
+/// Shared state of the parts of a sandbox; private to bindings/lua/sandbox.
 #pragma once
 
 #include <cstddef>
@@ -27,12 +27,12 @@ void charge_bytes(lua_State* L, std::size_t bytes);
 /// Replaces functions of a library by ones that count the strings they take and return.
 void wrap_costly(lua_State* L, const char* library, std::initializer_list<const char*> names);
 
-/// Each replaces what is in the globals.
+/// Each replaces functions in the globals.
 void make_base_safe(lua_State* L);
 void make_tables_safe(lua_State* L);
 void make_strings_safe(lua_State* L);
 
-/// require, and a table `package` with what it has loaded.
+/// Adds require, and a table `package` with the loaded modules.
 void make_require_safe(lua_State* L);
 
 }  // namespace lissom::lua

@@ -15,7 +15,7 @@ class Stop {
     void ask() { asked_.store(true, std::memory_order_relaxed); }
     void clear() { asked_.store(false, std::memory_order_relaxed); }
 
-    /// Throws Stopped where it was asked for, each time that `ticks` has counted some thousand
+    /// Throws Stopped if it was asked for, each time that `ticks` has counted some thousand
     /// steps.
     void tick(unsigned& ticks, unsigned steps = 1) const {
         ticks += steps;

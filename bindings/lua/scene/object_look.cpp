@@ -60,7 +60,7 @@ Parameter color_option(const char* name, const char* help) {
 std::vector<Parameter> object_style_fields() {
     return {
         color_option("color", "Colour of the object, instead of that of its kind.").optional(),
-        boolean("vertex_colors", "Draws the attribute \"color\" where a mesh has it.").optional(),
+        boolean("vertex_colors", "Draws the attribute \"color\" of a mesh, if any.").optional(),
         choice("shading", {"smooth", "flat"}, "Smooth normals, or one a face.").optional(),
         number("crease", "Edges sharper than this angle stay sharp.")
             .in("degrees")
@@ -105,11 +105,11 @@ int push_style(const Call& call, const ObjectStyle& style) {
 
 std::vector<Parameter> look_fields() {
     return {affine("transform",
-                   "Where it stands in the scene: rows of a 4 x 4 matrix. The object's own "
+                   "Its place in the scene: rows of a 4 x 4 matrix. The object's own "
                    "coordinates stay.")
                 .optional(),
             boolean("visible", "Whether it is drawn.").optional(),
-            options("style", object_style_fields(), "How it is drawn; what is left out stays.")
+            options("style", object_style_fields(), "Its style; options that are left out stay.")
                 .optional()};
 }
 
@@ -144,13 +144,13 @@ std::vector<Record> scene_records() {
         {"lissom.HistoryStep",
          "A step of a scene's history.",
          {{"string", "name", "Its name."},
-          {"integer", "bytes", "What it added to the memory of the history."}}},
+          {"integer", "bytes", "Memory that it added to the history."}}},
         {"lissom.History",
          "The steps of a scene's history, oldest first.",
          {{"lissom.HistoryStep", "[integer]", "The steps in order."},
           {"integer", "place", "How many of them can be undone; the others can be done again."},
           {"integer", "bytes", "Memory of all steps, beside one copy of the present content."},
-          {"integer", "limit", "What `bytes` is kept below."},
+          {"integer", "limit", "Limit of `bytes`."},
           {"integer", "dropped", "How many steps were forgotten because of it."}}}};
 }
 

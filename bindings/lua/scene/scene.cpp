@@ -28,7 +28,7 @@ int make_scene(Call& call) {
 
 // ---- Objects
 
-// The object called `name`; hints at the nearest name where there is none.
+// The object called `name`; hints at the nearest name if there is none.
 const NamedObject& object_called(const Scene& scene, const char* name) {
     if (const NamedObject* found = scene.find(name)) return *found;
     std::vector<std::string_view> names;
@@ -58,7 +58,7 @@ int add_object(Call& call) {
     return call.push_argument(object.index);
 }
 
-// The item is held, for what is collected while it is pushed may remove it.
+// The item is held, for a collection while it is pushed may remove it.
 int get_object(Call& call) {
     const auto self = call.self<SceneObject>();
     const char* name = call.string("name");
@@ -121,7 +121,7 @@ int object_names(Call& call) {
 
 // ---- Steps
 
-// Refuses to end what a running scene:step has opened.
+// Refuses to end a step that a running scene:step has opened.
 void require_own_step(const SceneObject& self) {
     require(self.scene.depth() != self.step_depth || self.step_depth == 0,
             "the step that runs ends with its function; here is none of its own to end");
@@ -152,8 +152,8 @@ int roll_back_step(Call& call) {
     });
 }
 
-// Ends the step at `depth` that a function ran in; where that failed, or left a step open, all that
-// was done since is taken back.
+// Ends the step at `depth` that a function ran in; if that failed, or left a step open, all changes
+// since are taken back.
 bool end_run(Call& call, Scene& scene, std::size_t depth, bool failed) {
     return call.attempt_quick([&] {
         const auto roll_back = [&] {
@@ -277,9 +277,9 @@ std::vector<Function> object_methods() {
         {.name = "add",
          .body = add_object,
          .summary = "Adds an object under a name, behind all others. The scene holds the object "
-                    "itself, not a copy: who changes it changes what the scene shows.",
+                    "itself, not a copy: changes of the object show in the scene.",
          .arguments = {string("name", "A name that no object of the scene has."),
-                       item_argument("object", "What is added.")},
+                       item_argument("object", "The object to add.")},
          .options = look_fields(),
          .results = {{"any", "object", "The object."}},
          .effect = Effect::changes,
@@ -334,7 +334,7 @@ scene:move("box", 1)
 assert(scene:names()[1] == "box"))"},
         {.name = "set",
          .body = set_object,
-         .summary = "Changes where an object stands and how it is drawn; what is left out stays.",
+         .summary = "Changes an object's place and style; options that are left out stay.",
          .arguments = {name_argument()},
          .options = look_fields(),
          .results = kSceneSelf,
@@ -350,7 +350,7 @@ std::vector<Function> step_methods() {
     const std::vector<ErrorCode> history_errors = {ErrorCode::invalid_argument,
                                                    ErrorCode::memory_limit};
     const std::vector<Result> step_name = {
-        {"string|nil", "name", "The name of the step; nil where there is none."}};
+        {"string|nil", "name", "The name of the step; nil if there is none."}};
     return {
         {.name = "step",
          .body = run_step,
@@ -359,9 +359,9 @@ std::vector<Function> step_methods() {
              "takes back. After an error in it the scene and its objects are as they were, and the "
              "error goes on. A step inside a step becomes part of that. The function cannot yield; "
              "in a coroutine use begin and commit.",
-         .arguments = {string("name", "What undo calls it."),
-                       function("action", "fun(): any", "What is done.")},
-         .results = {{"any", "...", "What the function returns."}},
+         .arguments = {string("name", "Its name for undo."),
+                       function("action", "fun(): any", "The function to run.")},
+         .results = {{"any", "...", "The results of the function."}},
          .effect = Effect::unheard,
          .errors = history_errors,
          .example = kBarScene + R"(local before = scene:hash()
@@ -371,7 +371,7 @@ assert(scene:hash() == before))"},
         {.name = "begin",
          .body = begin_step,
          .summary = "Opens a step, for instance when a drag begins; commit or rollback ends it.",
-         .arguments = {string("name", "What undo calls it.")},
+         .arguments = {string("name", "Its name for undo.")},
          .results = kSceneSelf,
          .effect = Effect::unheard,
          .errors = history_errors,
@@ -389,7 +389,7 @@ assert(scene:undo() == "drag"))"},
 assert(not scene:commit()))"},
         {.name = "rollback",
          .body = roll_back_step,
-         .summary = "Ends the step opened last and takes back what was done since.",
+         .summary = "Ends the step opened last and takes back its changes.",
          .results = kSceneSelf,
          .effect = Effect::unheard,
          .errors = history_errors,
@@ -409,7 +409,7 @@ scene:rollback())"},
         {.name = "undo",
          .body = undo_step,
          .summary = "Takes back the last step: the contents go back into the objects themselves. "
-                    "What was changed outside a step is a step called \"edited\".",
+                    "Changes outside a step are a step called \"edited\".",
          .results = step_name,
          .effect = Effect::unheard,
          .errors = history_errors,
@@ -426,7 +426,7 @@ assert(scene:redo() == "edited"))"},
          .example = kBarScene + "scene:undo()\nassert(scene:redo() == 'add bar')"},
         {.name = "history",
          .body = scene_history,
-         .summary = "The steps, and what they hold.",
+         .summary = "The steps, and their memory.",
          .results = {{"lissom.History", "history", "A table of its own."}},
          .example = kBarScene + R"(local history = scene:history()
 assert(#history == 1 and history.place == 1 and history[1].name == "add bar"))"},
@@ -453,7 +453,7 @@ assert(other:hash() == scene:hash()))"}};
 Parameter history_option() {
     return number("history",
                   "Memory that its history may take beside one copy of the present content; the "
-                  "oldest steps are forgotten where it would be more. 0: it has none.")
+                  "oldest steps are forgotten beyond it. 0: it has none.")
         .in("bytes")
         .between(0, 1e15)
         .defaults(static_cast<double>(SceneOptions{}.history_bytes));
@@ -461,7 +461,7 @@ Parameter history_option() {
 
 Type scene_type() {
     Type type{.name = "lissom.Scene",
-              .summary = "Named objects in an order, with a history of what was done to them."};
+              .summary = "Named objects in an order, with a history of their changes."};
     type.operators = {{"__len", scene_length, "#scene", "number of objects"},
                       {"__tostring", scene_text, "tostring(scene)", "its size"}};
     type.methods = object_methods();

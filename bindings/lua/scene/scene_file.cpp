@@ -127,7 +127,7 @@ int scene_parameters(Call& call) {
 }
 
 Parameter owner_argument() {
-    return string("owner", "Whose they are: the name of the tool or script.");
+    return string("owner", "Their owner: the name of the tool or script.");
 }
 
 const std::string kSaved = R"(local scene = lissom.scene{}
@@ -147,21 +147,21 @@ std::vector<Function> scene_file_methods() {
              "curves and parameters, to the bit. A file is an uncompressed tar archive. A folder "
              "is for looking at and for version control: scene.json describes the scene, meshes "
              "and strands are OBJ files under the names of the objects, lists of numbers are text, "
-             "and only what has changed is written; other files in it stay.",
+             "and only changed files are written; other files in it stay.",
          .arguments = {string("path",
                               "A file, usually with the extension .lissom, or a folder: one that "
                               "is there, ends with \"/\", or has no extension and is new.")},
          .options = {choice("form", {"automatic", "file", "folder"},
-                            "What to write, whatever the path looks like.")
+                            "Kind of file to write, whichever the path looks like.")
                          .optional("automatic"),
                      boolean("history",
                              "Keeps the steps too: in a folder as its file history.tar, in which "
-                             "steps share what they have in common.")
+                             "steps share their common content.")
                          .defaults(false)},
          .results = {{"lissom.Scene", "scene", "The scene itself."},
                      {"string[]", "left_out",
-                      "What had no place in the file, a sentence each: materials and skeletons of "
-                      "meshes."}},
+                      "Content without a place in the file, a sentence each: materials and "
+                      "skeletons of meshes."}},
          .effect = Effect::unheard,
          .errors = {ErrorCode::file_write_failed, ErrorCode::file_is_directory,
                     ErrorCode::file_too_large, ErrorCode::invalid_argument, ErrorCode::memory_limit,
@@ -176,9 +176,9 @@ std::vector<Function> scene_file_methods() {
                        either("values",
                               {table("table",
                                      "Booleans, numbers and strings by name; none: "
-                                     "forgets what was kept."),
+                                     "forgets the kept values."),
                                object("params", "lissom.Params", "All of its values.")},
-                              "What is kept in place of what was.")},
+                              "The new values, in place of the former ones.")},
          .results = {{"lissom.Scene", "scene", "The scene itself."}},
          .errors = {ErrorCode::not_finite, ErrorCode::memory_limit},
          .example = R"(local scene = lissom.scene{}
@@ -188,7 +188,7 @@ assert(scene:parameters("bend").angle == 30))"},
          .body = scene_parameters,
          .summary = "The values that are kept for a tool or script.",
          .arguments = {owner_argument()},
-         .results = {{"table|nil", "values", "By name; nil where there are none."}},
+         .results = {{"table|nil", "values", "By name; nil if there are none."}},
          .example = R"(local scene = lissom.scene{}
 assert(scene:parameters("bend") == nil))"}};
 }
@@ -198,8 +198,8 @@ Function load_scene_function() {
             .body = load_scene_file,
             .summary =
                 "Reads a scene that scene:save has written, with its parameters, and with its "
-                "history where that was saved. What was edited in a folder by hand is read as "
-                "it is then, without the history.",
+                "history if that was saved. A folder that was edited by hand is read as it is "
+                "then, without the history.",
             .arguments = {string("path", "The file or the folder.")},
             .options = {history_option()},
             .results = {{"lissom.Scene", "scene", "A scene with the same hash."}},

@@ -35,7 +35,7 @@ class MeshObjectItem : public MeshItem, public ScriptItem {
     std::shared_ptr<MeshObject> object_;
 };
 
-// The scene keeps what a script closes, and gives it back with the object.
+// The scene keeps an object that a script closes, and gives it back.
 template <typename Item, typename Object>
 class ContentItem : public Item, public ScriptItem {
   public:

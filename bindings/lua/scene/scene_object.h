@@ -18,7 +18,7 @@ struct SceneObject {
     explicit SceneObject(const SceneOptions& options) : scene(options) {}
 
     Scene scene;
-    /// Depth of the innermost scene:step whose function runs now: what it opened, it ends.
+    /// Depth of the innermost scene:step whose function runs now: it ends the steps that it opened.
     std::size_t step_depth = 0;
     std::size_t charged_bytes = 0;
 
@@ -53,7 +53,7 @@ struct ItemArgument {
 /// Makes objects of scripts for a scene that is loaded.
 std::unique_ptr<ItemMaker> script_item_maker();
 
-/// The option history= of what makes a scene.
+/// Returns the option history= of functions that make a scene.
 Parameter history_option();
 /// scene:save, scene:parameters, scene:set_parameters and lissom.load_scene.
 std::vector<Function> scene_file_methods();
@@ -61,7 +61,7 @@ Function load_scene_function();
 
 /// Options transform=, visible=, style={...} of an object in a scene.
 std::vector<Parameter> look_fields();
-/// `look` with what the call gives for them. Inside Call::attempt only.
+/// Returns `look` with the options of the call. Inside Call::attempt only.
 ObjectLook changed_look(const Call& call, ObjectLook look);
 /// Pushes a lissom.SceneEntry.
 int push_entry(const Call& call, const NamedObject& object);

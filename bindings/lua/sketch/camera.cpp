@@ -109,69 +109,68 @@ int camera_text(Call& call) {
 std::vector<Function> camera_methods() {
     const std::vector<Result> vector_result = {{"number[]", "vector", "{x, y, z}."}};
     const std::string setup = "local camera = lissom.camera{ eye = { 0, 0, 5 } }\n";
-    return {
-        {.name = "eye",
-         .body = eye,
-         .summary = "Where the camera stands.",
-         .results = vector_result,
-         .example = setup + "assert(camera:eye()[3] == 5)"},
-        {.name = "target",
-         .body = target,
-         .summary = "The point in the middle of the picture.",
-         .results = vector_result,
-         .example = setup + "assert(camera:target()[3] == 0)"},
-        {.name = "right",
-         .body = right,
-         .summary = "Unit vector to the right of the picture.",
-         .results = vector_result,
-         .example = setup + "assert(camera:right()[1] == 1)"},
-        {.name = "up",
-         .body = up,
-         .summary = "Unit vector upwards in the picture, orthogonal to the view.",
-         .results = vector_result,
-         .example = setup + "assert(camera:up()[2] == 1)"},
-        {.name = "forward",
-         .body = forward,
-         .summary = "Unit vector into the scene.",
-         .results = vector_result,
-         .example = setup + "assert(camera:forward()[3] == -1)"},
-        {.name = "fov",
-         .body = fov,
-         .summary = "Vertical opening angle in degrees.",
-         .results = {{"number?", "angle", "nil for a camera without perspective."}},
-         .example = setup + "assert(math.abs(camera:fov() - 30) < 1e-9)"},
-        {.name = "ortho",
-         .body = ortho,
-         .summary = "Height of the picture in world units, of a camera without perspective.",
-         .results = {{"number?", "height", "nil for a camera with perspective."}},
-         .example = setup + "assert(camera:ortho() == nil)"},
-        {.name = "project",
-         .body = project,
-         .summary =
-             "Where a point is seen: pixels from the top left, and its depth along the view. With "
-             "perspective, x and y are NaN for a point that is not in front of the camera.",
-         .arguments = {vector("point", "The point."), size_argument()},
-         .results = {{"number", "x", "Pixels to the right."},
-                     {"number", "y", "Pixels down."},
-                     {"number", "depth", "Mesh units."}},
-         .example = setup + "local x, y, depth = camera:project({ 0, 0, 0 }, { 640, 480 })\n"
-                            "assert(x == 320 and y == 240 and depth == 5)"},
-        {.name = "unproject",
-         .body = unproject,
-         .summary = "The inverse of project.",
-         .arguments = {vector("pixel", "{x, y, depth}."), size_argument()},
-         .results = {{"number[]", "point", "The point, {x, y, z}."}},
-         .example = setup + "local point = camera:unproject({ 320, 240, 5 }, { 640, 480 })\n"
-                            "assert(math.abs(point[3]) < 1e-9)"},
-        {.name = "ray",
-         .body = ray,
-         .summary = "The ray of points that are seen at a pixel; mesh:pick takes it.",
-         .arguments = {number("x", "Pixels from the left."), number("y", "Pixels from the top."),
-                       size_argument()},
-         .results = {{"number[]", "origin", "Where the ray starts."},
-                     {"number[]", "direction", "Where it goes; unit length."}},
-         .example = setup + "local hit = lissom.shapes.box():pick(camera:ray(640, 480))\n"
-                            "assert(hit.position[3] == 0.5)"}};
+    return {{.name = "eye",
+             .body = eye,
+             .summary = "Position of the camera.",
+             .results = vector_result,
+             .example = setup + "assert(camera:eye()[3] == 5)"},
+            {.name = "target",
+             .body = target,
+             .summary = "The point in the middle of the picture.",
+             .results = vector_result,
+             .example = setup + "assert(camera:target()[3] == 0)"},
+            {.name = "right",
+             .body = right,
+             .summary = "Unit vector to the right of the picture.",
+             .results = vector_result,
+             .example = setup + "assert(camera:right()[1] == 1)"},
+            {.name = "up",
+             .body = up,
+             .summary = "Unit vector upwards in the picture, orthogonal to the view.",
+             .results = vector_result,
+             .example = setup + "assert(camera:up()[2] == 1)"},
+            {.name = "forward",
+             .body = forward,
+             .summary = "Unit vector into the scene.",
+             .results = vector_result,
+             .example = setup + "assert(camera:forward()[3] == -1)"},
+            {.name = "fov",
+             .body = fov,
+             .summary = "Vertical opening angle in degrees.",
+             .results = {{"number?", "angle", "nil for a camera without perspective."}},
+             .example = setup + "assert(math.abs(camera:fov() - 30) < 1e-9)"},
+            {.name = "ortho",
+             .body = ortho,
+             .summary = "Height of the picture in world units, of a camera without perspective.",
+             .results = {{"number?", "height", "nil for a camera with perspective."}},
+             .example = setup + "assert(camera:ortho() == nil)"},
+            {.name = "project",
+             .body = project,
+             .summary =
+                 "Image of a point: pixels from the top left, and its depth along the view. With "
+                 "perspective, x and y are NaN for a point that is not in front of the camera.",
+             .arguments = {vector("point", "The point."), size_argument()},
+             .results = {{"number", "x", "Pixels to the right."},
+                         {"number", "y", "Pixels down."},
+                         {"number", "depth", "Mesh units."}},
+             .example = setup + "local x, y, depth = camera:project({ 0, 0, 0 }, { 640, 480 })\n"
+                                "assert(x == 320 and y == 240 and depth == 5)"},
+            {.name = "unproject",
+             .body = unproject,
+             .summary = "The inverse of project.",
+             .arguments = {vector("pixel", "{x, y, depth}."), size_argument()},
+             .results = {{"number[]", "point", "The point, {x, y, z}."}},
+             .example = setup + "local point = camera:unproject({ 320, 240, 5 }, { 640, 480 })\n"
+                                "assert(math.abs(point[3]) < 1e-9)"},
+            {.name = "ray",
+             .body = ray,
+             .summary = "The ray of points that are seen at a pixel; mesh:pick takes it.",
+             .arguments = {number("x", "Pixels from the left."),
+                           number("y", "Pixels from the top."), size_argument()},
+             .results = {{"number[]", "origin", "Start of the ray."},
+                         {"number[]", "direction", "Direction of the ray; unit length."}},
+             .example = setup + "local hit = lissom.shapes.box():pick(camera:ray(640, 480))\n"
+                                "assert(hit.position[3] == 0.5)"}};
 }
 
 }  // namespace
@@ -208,25 +207,24 @@ PictureSize SizeRequest::picture(const Call& call) {
 
 Parameter size_argument() {
     return either("size",
-                  {integer("pixels", "Of a square.").at_least(1),
+                  {integer("pixels", "Side of a square.").at_least(1),
                    integers("pixels", "{width, height}.")},
                   "{width, height} of the picture in pixels; one number for a square.")
         .optional("{1280, 960}");
 }
 
 std::vector<Parameter> view_options() {
-    return {
-        choice("view", {"front", "back", "left", "right", "top", "bottom", "three-quarter"},
-               "The side to look from, of the world and not of what is shown: with y upwards the "
-               "camera stands at +z for front, -z for back, +x for right, -x for left. Of a head "
-               "that faces +z, as is usual, left shows its own right side. three-quarter stands "
-               "between front and right, and above.")
-            .optional("three-quarter"),
-        choice("up", {"y", "z"}, "The axis that points up in the view.").optional("y"),
-        boolean("parallel", "Without perspective.").optional("false"),
-        number("margin", "Share of the picture left free on every side.")
-            .between(0.0, 0.49)
-            .optional("0.06")};
+    return {choice("view", {"front", "back", "left", "right", "top", "bottom", "three-quarter"},
+                   "The side to look from, of the world and not of the object: with y upwards the "
+                   "camera stands at +z for front, -z for back, +x for right, -x for left. For a "
+                   "head that faces +z, as is usual, left shows its own right side. three-quarter "
+                   "stands between front and right, and above.")
+                .optional("three-quarter"),
+            choice("up", {"y", "z"}, "The axis that points up in the view.").optional("y"),
+            boolean("parallel", "Without perspective.").optional("false"),
+            number("margin", "Share of the picture left free on every side.")
+                .between(0.0, 0.49)
+                .optional("0.06")};
 }
 
 Type camera_type() {
@@ -236,7 +234,8 @@ Type camera_type() {
     type.summary =
         "How a world is seen in a picture. It does not change. Pixels count from the top left "
         "corner of the picture.";
-    type.operators = {{"__tostring", camera_text, "tostring(camera)", "where it stands and looks"}};
+    type.operators = {
+        {"__tostring", camera_text, "tostring(camera)", "its position and direction"}};
     type.methods = camera_methods();
     for (Function& method : navigation_methods()) type.methods.push_back(std::move(method));
     return type;
@@ -252,7 +251,7 @@ std::vector<Function> camera_functions() {
          .body = place_camera,
          .summary = "A camera that stands at a point and looks at another.",
          .options =
-             {vector("eye", "Where it stands."),
+             {vector("eye", "Its position."),
               vector("target", "The point in the middle of the picture.").optional("{0, 0, 0}"),
               axis("up", "The direction that is up in the picture.").defaults("y"),
               number("fov", "Vertical opening angle.")
@@ -275,7 +274,7 @@ std::vector<Function> camera_functions() {
          .summary = "The camera of a standard view that shows all of a mesh, as large as the "
                     "margin allows. "
                     "Use it for several pictures that are to be compared.",
-         .arguments = {object("mesh", "lissom.Mesh", "What to show.")},
+         .arguments = {object("mesh", "lissom.Mesh", "The mesh to show.")},
          .options = frame_options,
          .results = {{"lissom.Camera", "camera", "The camera."}},
          .errors = {ErrorCode::invalid_argument},

@@ -24,13 +24,13 @@ struct ViewRequest {
     static ViewRequest read(const Call& call);
 };
 
-/// A size in pixels from a list of two integers, or one of a square; {1280, 960} where the option
-/// is absent.
+/// A size in pixels from a list of two integers, or one of a square; {1280, 960} if the option is
+/// absent.
 struct SizeRequest {
     int width = 1280, height = 960;
 
     static SizeRequest read(const Call& call, const char* path);
-    /// Of the option or argument "size", for the kernel.
+    /// Returns the option or argument "size", for the kernel.
     static PictureSize picture(const Call& call);
 };
 

@@ -18,7 +18,7 @@ constexpr const char* kRoleNames[] = {"x", "y", "z", "view"};
 
 // ---- Reading
 
-// The options with what the call gives for them.
+// Returns the options with those of the call.
 GizmoOptions changed_options(const Call& call, GizmoOptions options) {
     if (call.has("origin")) options.origin = call.vector("origin");
     if (call.has("mode")) options.mode = call.choice<GizmoMode>("mode");
@@ -261,9 +261,9 @@ std::vector<Parameter> gizmo_options() {
     return {
         vector("origin", "The point that it stands at, and that turns and scaling are about.")
             .optional("{0, 0, 0}"),
-        choice("mode", {"move", "rotate", "scale", "all"}, "What its parts do.").optional("all"),
+        choice("mode", {"move", "rotate", "scale", "all"}, "Mode of its parts.").optional("all"),
         choice("axes", {"world", "local", "view"},
-               "Along what its axes point: the world's, those of `local_axes`, or to the right, "
+               "Directions of its axes: the world's, those of `local_axes`, or to the right, "
                "upwards and to the viewer.")
             .optional("world"),
         matrix3("local_axes", "Rows of a rotation; its columns are the object's axes.").optional(),
@@ -282,7 +282,7 @@ std::vector<Parameter> gizmo_options() {
 }
 
 Parameter camera_argument() {
-    return object("camera", "lissom.Camera", "What it is seen by.");
+    return object("camera", "lissom.Camera", "The camera that it is seen by.");
 }
 
 Parameter picture_argument() {
@@ -303,7 +303,7 @@ std::vector<Function> gizmo_methods() {
         "local camera = lissom.camera{ eye = { 0, 0, 5 }, ortho = 4.8 }\n"
         "local size = { 640, 480 }                   -- a pixel is a hundredth\n";
     const std::string held = setup + "gizmo:begin(\"move-x\", camera, size, 380, 240)\n";
-    const Result motion_result{"lissom.GizmoMotion", "motion", "What has been done since begin."};
+    const Result motion_result{"lissom.GizmoMotion", "motion", "The motion since begin."};
     const Result self_result{"lissom.Gizmo", "gizmo", "The gizmo itself."};
     std::vector<Parameter> begin_arguments = cursor_arguments();
     begin_arguments.insert(begin_arguments.begin(),
@@ -322,8 +322,8 @@ std::vector<Function> gizmo_methods() {
          .example = setup + "assert(gizmo:hit(camera, size, 380, 241) == \"move-x\")"},
         {.name = "begin",
          .body = begin_drag,
-         .summary = "Begins a drag: a part is held where the pixel is. The camera is that of the "
-                    "whole drag.",
+         .summary = "Begins a drag: holds a part at the pixel. The camera is that of the whole "
+                    "drag.",
          .arguments = begin_arguments,
          .results = {self_result},
          .errors = {ErrorCode::invalid_argument},
@@ -331,9 +331,9 @@ std::vector<Function> gizmo_methods() {
         {.name = "drag",
          .body = drag_gizmo,
          .summary =
-             "The pixel has moved. The part stays under it, but where it would run away: end-on, "
-             "from the side, near the horizon it lags behind. A pixel that is back undoes all but "
-             "full turns.",
+             "The pixel has moved. The part stays under it, but lags behind in degenerate "
+             "views: end-on, from the side, near the horizon. A pixel that is back undoes all "
+             "but full turns.",
          .arguments = {number("x", "Pixels from the left."), number("y", "Pixels from the top.")},
          .options = {boolean("snap", "Whole steps only, counted from begin.").defaults(false),
                      boolean("precise", "A tenth as far, from here on.").defaults(false)},
@@ -351,37 +351,37 @@ assert(math.abs(gizmo:drag(405, 300, { snap = true }).translation[1] - 0.3) < 1e
          .example = held + "assert(gizmo:set_amount(2.5).translation[1] == 2.5)"},
         {.name = "motion",
          .body = motion,
-         .summary = "What has been done since begin; nil where no part is held.",
-         .results = {{"lissom.GizmoMotion?", "motion", "As drag returned it."}},
+         .summary = "The motion since begin; nil if no part is held.",
+         .results = {{"lissom.GizmoMotion?", "motion", "Same as drag returned."}},
          .example = held + "assert(gizmo:motion().translation[1] == 0)"},
         {.name = "part",
          .body = held_part,
          .summary = "The part that is held.",
-         .results = {{"string?", "part", "nil where none is."}},
+         .results = {{"string?", "part", "nil if none is."}},
          .example = setup + "assert(gizmo:part() == nil)"},
         {.name = "finish",
          .body = finish_drag,
-         .summary = "Ends the drag. The gizmo stays where it was moved to.",
+         .summary = "Ends the drag. The gizmo keeps its moved place.",
          .results = {motion_result},
          .example = held + R"(gizmo:set_amount(2)
 gizmo:finish()
 assert(gizmo:origin()[1] == 2 and gizmo:motion() == nil))"},
         {.name = "cancel",
          .body = cancel_drag,
-         .summary = "Ends the drag, if there is one. The gizmo is where it was before.",
+         .summary = "Ends the drag, if there is one. The gizmo goes back to its former place.",
          .results = {self_result},
          .example = held + R"(gizmo:set_amount(2)
 assert(gizmo:cancel():origin()[1] == 0))"},
         {.name = "set",
          .body = set_gizmo,
-         .summary = "Changes options; what is left out stays.",
+         .summary = "Changes options; those that are left out stay.",
          .options = gizmo_options(),
          .results = {self_result},
          .errors = {ErrorCode::invalid_argument},
          .example = setup + "assert(gizmo:set{ origin = { 1, 2, 3 } }:origin()[3] == 3)"},
         {.name = "origin",
          .body = gizmo_origin,
-         .summary = "Where it stands; during a drag where that has moved it to.",
+         .summary = "Its position; during a drag the moved one.",
          .results = {{"number[]", "point", "{x, y, z}."}},
          .example = setup + "assert(gizmo:origin()[1] == 0)"},
         {.name = "axes",
@@ -394,11 +394,11 @@ assert(gizmo:cancel():origin()[1] == 0))"},
          .example = setup + "local x, y, z = gizmo:axes(camera)\nassert(y[2] == 1)"},
         {.name = "shape",
          .body = gizmo_shape,
-         .summary = "What to draw; the part that is held, or else under a pixel, is highlighted.",
+         .summary = "Shape to draw; the part that is held, or else under a pixel, is highlighted.",
          .arguments = {camera_argument(), picture_argument()},
          .options = {number("x", "The pixel, from the left.").optional(),
                      number("y", "The pixel, from the top.").optional()},
-         .results = {{"lissom.GizmoShape", "shape", "Empty where it lies behind the camera."}},
+         .results = {{"lissom.GizmoShape", "shape", "Empty if it lies behind the camera."}},
          .example = setup + R"(local shape = gizmo:shape(camera, size, { x = 380, y = 240 })
 assert(shape.part == "move-x" and #shape.lines > 0 and #shape.points == 1))"}};
 }
@@ -411,9 +411,9 @@ Type gizmo_type() {
     type.is_heard = false;
     type.summary =
         "Axes, planes and rings around a point, by which a hand moves, turns and scales. It draws "
-        "nothing and moves nothing: it says what to draw, what is under a pixel, and what a drag "
-        "means.";
-    type.operators = {{"__tostring", gizmo_text, "tostring(gizmo)", "where it stands"}};
+        "nothing and moves nothing: it returns the shape to draw, the part under a pixel, and "
+        "the motion of a drag.";
+    type.operators = {{"__tostring", gizmo_text, "tostring(gizmo)", "its position"}};
     type.methods = gizmo_methods();
     return type;
 }
@@ -435,26 +435,27 @@ assert(math.abs(motion.angle - 90) < 1e-9 and motion.axis[3] == 1))"}};
 std::vector<Record> gizmo_records() {
     return {
         {"lissom.GizmoMotion",
-         "What a drag means. `matrix` is all of it, as handle:set_matrix takes it; mesh:transform "
-         "takes its parts where the axes are the world's.",
+         "Motion of a drag. `matrix` is all of it, as handle:set_matrix takes it; "
+         "mesh:transform takes its parts if the axes are the world's.",
          {{"string", "kind", "move, rotate or scale."},
           {"string", "part", "The part that is held."},
-          {"lissom.Vector?", "translation", "Of a move."},
-          {"lissom.Vector?", "axis", "Of a turn; unit length."},
-          {"number?", "angle", "Of a turn, in degrees; counts full turns."},
-          {"lissom.Vector?", "factors", "Of scaling, along the gizmo's axes."},
-          {"lissom.Vector", "about", "Where the gizmo stood: what turns and scaling are about."},
+          {"lissom.Vector?", "translation", "Translation of a move."},
+          {"lissom.Vector?", "axis", "Axis of a turn; unit length."},
+          {"number?", "angle", "Angle of a turn, in degrees; counts full turns."},
+          {"lissom.Vector?", "factors", "Factors of scaling, along the gizmo's axes."},
+          {"lissom.Vector", "about",
+           "Former position of the gizmo: the centre of turns and scaling."},
           {"number[][]", "matrix", "All of it as the rows of a 4 x 4 matrix of the world."},
           {"number[]", "amounts",
-           "As set_amount takes it: a length, degrees or a factor, or two lengths in a plane."}}},
+           "The value for set_amount: a length, degrees or a factor, or two lengths in a plane."}}},
         {"lissom.GizmoShape",
-         "What to draw.",
+         "Shape to draw.",
          {{"lissom.GizmoLine[]", "lines", "Polylines."},
           {"lissom.GizmoPoint[]", "points", "Disks."},
           {"string?", "part", "The part that is highlighted."}}},
         {"lissom.GizmoLine",
          "A polyline of a gizmo.",
-         {{"string", "part", "What it belongs to."},
+         {{"string", "part", "The part that it belongs to."},
           {"string", "role", "x, y, z or view."},
           {"number[]", "color", "{red, green, blue} in sRGB, each 0 to 1."},
           {"boolean", "highlighted", "Held or under the pixel."},
@@ -463,7 +464,7 @@ std::vector<Record> gizmo_records() {
           {"number", "width", "Pixels."}}},
         {"lissom.GizmoPoint",
          "A disk of a gizmo.",
-         {{"string", "part", "What it belongs to."},
+         {{"string", "part", "The part that it belongs to."},
           {"string", "role", "x, y, z or view."},
           {"number[]", "color", "{red, green, blue} in sRGB, each 0 to 1."},
           {"boolean", "highlighted", "Held or under the pixel."},

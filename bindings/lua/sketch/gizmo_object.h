@@ -15,7 +15,7 @@ struct GizmoObject {
     GizmoSteps steps;
     std::optional<GizmoDrag> drag;
 
-    /// Returns the gizmo where it stands now.
+    /// Returns the gizmo at its present place.
     Gizmo shown() const { return drag ? drag->moved() : gizmo; }
 };
 

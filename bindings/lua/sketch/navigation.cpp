@@ -81,7 +81,7 @@ std::vector<Function> navigation_methods() {
                             "assert(math.abs(turned:eye()[3] + 5) < 1e-9)"},
         {.name = "pan",
          .body = pan_camera,
-         .summary = "Moves it beside itself: what is as far away as its target follows the drag.",
+         .summary = "Moves it beside itself: points as far away as its target follow the drag.",
          .arguments = {pixels_right(), pixels_down(), size_argument()},
          .results = result,
          .errors = {ErrorCode::not_finite},
@@ -90,13 +90,13 @@ std::vector<Function> navigation_methods() {
                             "assert(math.abs(x - 330) < 1e-6)"},
         {.name = "zoom",
          .body = zoom_camera,
-         .summary = "Comes nearer to what is seen at a pixel, which stays there.",
+         .summary = "Comes nearer to the point seen at a pixel, which stays there.",
          .arguments = {number("x", "Pixels from the left."), number("y", "Pixels from the top."),
                        number("factor", "2: half the distance, 0.5: twice the distance.").above(0),
                        size_argument()},
          .options = {number("extent",
-                            "How large what is looked at is: its distance stays between "
-                            "1e-6 and 1e6 times that.")
+                            "Size of the object: its distance stays between 1e-6 and 1e6 times "
+                            "that.")
                          .above(0)
                          .defaults(1.0)},
          .results = result,
@@ -107,7 +107,7 @@ std::vector<Function> navigation_methods() {
          .body = frame_with_camera,
          .summary =
              "Looks in the same direction at the box around points, as near as the margin allows.",
-         .arguments = {points("points", "What to show."), size_argument()},
+         .arguments = {points("points", "The points to show."), size_argument()},
          .options = {number("margin", "Share of the picture left free on every side.")
                          .between(0.0, 0.49)
                          .defaults(0.06)},

@@ -1,4 +1,4 @@
-// lissom.Camera: what lies under a pixel.
+// lissom.Camera: picking under a pixel.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -89,7 +89,7 @@ int push_hit(const Call& call, const PickTargets& targets, const PickHit& found)
     return 1;
 }
 
-// Finds what is under the pixel; false where that failed.
+// Finds the elements under the pixel; false if that failed.
 bool find(Call& call, PickTargets& targets, std::vector<PickHit>& hits, std::size_t most) {
     const auto camera = call.self<CameraObject>();
     const KindFlags flags = read_kinds(call);
@@ -144,14 +144,14 @@ std::vector<Parameter> pick_fields() {
         boolean("points_on_top", "They are drawn over everything, and no surface hides them.")
             .defaults(true),
         either("kinds", {choice("kind", names, "One kind."), strings("kinds", "Several.")},
-               "What to look for, in this order of preference whatever the order given: point, "
-               "polyline, vertex, boundary, edge, face.")
+               "Kinds to look for, in this order of preference regardless of the order given: "
+               "point, polyline, vertex, boundary, edge, face.")
             .optional("\"face\""),
         number("radius", "How far from the pixel all but faces may be seen.")
             .at_least(0)
             .defaults(8.0)
             .in("pixels"),
-        boolean("through", "Also what surfaces hide.").defaults(false),
+        boolean("through", "Includes elements hidden by surfaces.").defaults(false),
         boolean("back_faces",
                 "Faces that are seen from behind count; if not, they neither are picked nor hide "
                 "anything.")
@@ -173,10 +173,10 @@ std::vector<Function> pick_methods_of_camera() {
     return {
         {.name = "pick",
          .body = pick_first,
-         .summary = "What lies under a pixel: of the kinds looked for the first that has anything "
+         .summary = "Picks under a pixel: of the kinds looked for the first that has anything "
                     "within the radius, and of that the nearest in pixels that no surface hides.",
          .options = pick_fields(),
-         .results = {{"lissom.PickHit?", "hit", "nil where there is nothing."}},
+         .results = {{"lissom.PickHit?", "hit", "nil if there is nothing."}},
          .errors = errors,
          .example = setup + R"(local x, y = camera:project({ 0.5, 0.5, 0.5 })
 local hit = camera:pick{ mesh = box, x = x + 3, y = y, kinds = { "vertex", "face" } }
@@ -196,9 +196,9 @@ assert(#hits == 2 and hits[1].depth == 4.5 and hits[2].depth == 5.5))"}};
 std::vector<Record> pick_records() {
     return {
         {"lissom.PickHit",
-         "Something under a pixel. Of a point or a free line the fields of surfaces are nil.",
+         "Something under a pixel. For a point or a free line the fields of surfaces are nil.",
          {{"string", "kind", "point, polyline, vertex, boundary, edge or face."},
-          {"string?", "object", "Its name in the scene, where one was given."},
+          {"string?", "object", "Its name in the scene, if one was given."},
           {"lissom.Mesh?", "mesh", "The mesh of a surface."},
           {"integer", "index",
            "Number of the point, vertex, face or strand; of the loop in mesh:boundaries(); of the "
@@ -212,18 +212,18 @@ std::vector<Record> pick_records() {
           {"integer?", "vertex", "The nearest vertex of that triangle."},
           {"integer[]?", "ends", "The two vertices of an edge, or of a segment of a boundary."},
           {"integer?", "segment",
-           "Of a line or boundary: it lies between this point and the next."},
+           "Segment of a line or boundary: it lies between this point and the next."},
           {"number?", "along", "How far along the edge or segment, 0 to 1."},
           {"number", "depth", "Along the view, in the unit of the world."},
           {"number", "pixels", "From the pixel that was asked about; 0 for faces."}}},
         {"lissom.Selected",
-         "What is selected of one surface.",
-         {{"string?", "object", "Its name in the scene, where one was given."},
+         "Selection on one surface.",
+         {{"string?", "object", "Its name in the scene, if one was given."},
           {"lissom.Mesh", "mesh", "The mesh."},
           {"lissom.Region", "region", "The selected vertices, or those of the selected faces."},
-          {"integer[]", "faces", "The selected faces; empty where vertices were asked for."},
+          {"integer[]", "faces", "The selected faces; empty for a selection of vertices."},
           {"lissom.Region", "unseen",
-           "Vertices inside the shape that are not seen; empty where faces were asked for."}}}};
+           "Vertices inside the shape that are not seen; empty for a selection of faces."}}}};
 }
 
 }  // namespace lissom::lua

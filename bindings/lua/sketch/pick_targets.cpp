@@ -71,7 +71,7 @@ void PickTargets::add_lines(PolylineSet lines, std::string name, const Affine& p
     targets_.push_back({std::move(name), nullptr});
 }
 
-// As they are drawn: in metres, where no mesh tells another unit.
+// Unit of drawing: metres, unless a mesh tells another.
 double PickTargets::unit_of(const Strands& strands) const {
     for (const Target& target : targets_) {
         if (!target.mesh) continue;
@@ -137,10 +137,10 @@ void PickTargets::push_fields(const Call& call, Index object) const {
 
 std::vector<Parameter> target_options() {
     return {object("scene", "lissom.Scene",
-                   "Its visible objects, where they stand: meshes, deformations, free curves, the "
-                   "curves of hairstyles, and for polylines the strands of hair.")
+                   "Its visible objects, in their places: meshes, deformations, free curves, "
+                   "the curves of hairstyles, and for polylines the strands of hair.")
                 .optional(),
-            object("mesh", "lissom.Mesh", "A mesh that stands where its positions say.").optional(),
+            object("mesh", "lissom.Mesh", "A mesh in its own coordinates.").optional(),
             objects("meshes", "lissom.Mesh", "Several such meshes.").optional()};
 }
 

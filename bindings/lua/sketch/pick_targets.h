@@ -1,4 +1,4 @@
-/// What scripts pick from: the objects of a scene, meshes, points.
+/// Targets of picking: the objects of a scene, meshes, points.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ namespace lissom::lua {
 /// Made of the options that target_options describes; held by the call.
 class PickTargets {
   public:
-    /// Adds what the options scene=, mesh=, meshes= say; meshes without faces are left out. Inside
+    /// Adds the options scene=, mesh=, meshes=; meshes without faces are left out. Inside
     /// Call::attempt only.
     void read(const Call& call);
     /// Adds points of the world.
@@ -44,7 +44,7 @@ class PickTargets {
     struct Target {
         std::string name;
         std::shared_ptr<MeshObject> mesh;
-        /// Of strands: what each line is of; empty for all else.
+        /// For strands: the source of each line; empty for all else.
         std::vector<LineRun> runs = {};
     };
 

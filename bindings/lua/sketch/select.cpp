@@ -1,4 +1,4 @@
-// lissom.Camera: what is seen in a part of a picture.
+// lissom.Camera: selection in a part of a picture.
 #include <array>
 #include <memory>
 #include <utility>
@@ -84,7 +84,8 @@ int select_in_picture(Call& call) {
                           .through = call.boolean("through"),
                           .back_faces = call.boolean("back_faces")};
     if (call.has("known") && options.kind == SelectKind::faces) {
-        call.reject("known", "known vertices are left out where vertices are selected, not faces");
+        call.reject("known",
+                    "known vertices are left out of a selection of vertices, not of faces");
     }
     auto& targets = call.hold<PickTargets>();
     auto& found = call.hold<std::vector<Selected>>();
@@ -111,11 +112,12 @@ Function select_method_of_camera() {
     std::vector<Parameter> fields = target_options();
     const std::vector<Parameter> more{
         pixels("rectangle", "Two opposite corners, {{x, y}, {x, y}}.").optional(),
-        pixels("lasso", "An outline, which is closed: what it goes around at least once.")
+        pixels("lasso",
+               "An outline, which is closed: selects elements that it goes around at least once.")
             .optional(),
         options("brush",
-                {pixels("stroke", "Where its middle was; one point is a dab."),
-                 number("radius", "Of the disk.").at_least(0).defaults(20.0).in("pixels")},
+                {pixels("stroke", "Positions of its middle; one point is a dab."),
+                 number("radius", "Radius of the disk.").at_least(0).defaults(20.0).in("pixels")},
                 "A disk that is moved along a stroke.")
             .optional(),
         size_argument(),
@@ -123,21 +125,22 @@ Function select_method_of_camera() {
                "Vertices that are seen inside; or faces of which the centroid of a triangle is, "
                "and under a brush also those that it touches.")
             .defaults("vertices"),
-        boolean("through", "Also what surfaces hide.").defaults(false),
+        boolean("through", "Includes elements hidden by surfaces.").defaults(false),
         boolean("back_faces",
                 "Faces that are seen from behind count; if not, neither they nor their vertices "
                 "are selected, and they hide nothing.")
             .defaults(true),
         objects("known", "lissom.Region",
                 "Vertices that were found before, or found unseen by the same camera, which are "
-                "left out: a long stroke then costs only what is new under it.")
+                "left out: the cost of a long stroke then depends only on the new vertices "
+                "under it.")
             .optional()};
     fields.insert(fields.end(), more.begin(), more.end());
     return {.name = "select",
             .body = select_in_picture,
             .summary =
-                "What is seen in a rectangle, inside a lasso or under a brush. Pixels may "
-                "lie outside the picture.",
+                "Selects the visible elements in a rectangle, inside a lasso or under a brush. "
+                "Pixels may lie outside the picture.",
             .options = std::move(fields),
             .results = {{"lissom.Selected[]", "selected", "One for each surface, in order."}},
             .errors = {ErrorCode::invalid_argument, ErrorCode::topology_mismatch,
@@ -145,10 +148,9 @@ Function select_method_of_camera() {
             .example = R"(local box = lissom.shapes.box()
 local camera = lissom.camera{ eye = { 0, 0, 5 } }
 local found = camera:select{ mesh = box, rectangle = { { 0, 0 }, { 1280, 480 } } }
-assert(#found[1].region == 2)               -- the upper front edge; what is behind it is hidden
-assert(#found[1].unseen == 2)
-local all = { mesh = box, rectangle = { { 0, 0 }, { 1280, 960 } }, known = { found[1].region } }
-assert(#camera:select(all)[1].region == 2)  -- the lower front edge)"};
+assert(#found[1].region == 2) -- the upper front edge; the edge behind it is hidden
+assert(#found[1].unseen == 2) local all = { mesh = box, rectangle = { { 0, 0 }, { 1280, 960 } },
+known = { found[1].region } } assert(#camera:select(all)[1].region == 2) -- the lower front edge)"};
 }
 
 }  // namespace lissom::lua

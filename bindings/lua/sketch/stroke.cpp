@@ -1,4 +1,4 @@
-// lissom.Camera: what a hand draws on a picture, in the world.
+// lissom.Camera: strokes drawn on a picture, in the world.
 #include "kernel/sketch/stroke.h"
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/hair_object.h"
@@ -13,7 +13,7 @@
 namespace lissom::lua {
 namespace {
 
-// What a stroke became.
+// Result of a stroke.
 struct DrawnStroke {
     Stroke stroke;
     std::vector<Vec3> points;
@@ -176,7 +176,7 @@ Function stroke_method_of_camera() {
             "the course of a stream curve, in front of the head wherever it goes; beyond the "
             "silhouette its depth is a guess, to be drawn again from another view.",
         .options =
-            {pixels("points", "Where the pen was."),
+            {pixels("points", "Positions of the pen."),
              numbers("times", "Seconds, one for each point; they tell a click.").optional(),
              numbers("pressures", "0 to 1, one for each point.").optional(),
              either("on",
@@ -189,8 +189,8 @@ Function stroke_method_of_camera() {
                             "On the supporting surface of a curve, and beside it as its slope "
                             "goes on."),
                      object("curve", CurveObject::kTypeName,
-                            "As deep as the place of a style curve that is seen nearest.")},
-                    "What is drawn on.")
+                            "The depth of the place of a style curve that is seen nearest.")},
+                    "The surface drawn on.")
                  .optional("only on the picture"),
              options("plane",
                      {vector("point", "A point of the plane."),
@@ -204,7 +204,8 @@ Function stroke_method_of_camera() {
              number("lift",
                     "How far in front of the surface; of a scalp in metres of an average head.")
                  .optional("0.02 on a scalp by the envelope, else 0"),
-             number("smoothing", "As a multiple of what suits a mouse; 0 keeps every wiggle.")
+             number("smoothing",
+                    "Multiple of the smoothing that suits a mouse; 0 keeps every wiggle.")
                  .at_least(0)
                  .defaults(1.0),
              number("spacing", "Between two points of the result.")
@@ -228,13 +229,13 @@ std::vector<Record> stroke_records() {
         {"lissom.DrawnStroke",
          "A line that a hand drew, at even steps.",
          {{"lissom.Vector[]", "points",
-           "In the world, one for each pixel; empty where it is on nothing. Over a scalp by the "
-           "envelope they begin where the hair does: the pixels before that have none, or a "
-           "point comes before the first."},
+           "In the world, one for each pixel; empty if it is on nothing. Over a scalp by the "
+           "envelope they begin at the hair: the pixels before that have none, or a point comes "
+           "before the first."},
           {"number[][]", "pixels", "On the picture, {x, y}."},
-          {"integer[]", "corners", "Places in `pixels` of what is a corner."},
-          {"number[]", "times", "Of each pixel."},
-          {"number[]", "pressures", "Of each pixel."},
+          {"integer[]", "corners", "Places of corners in `pixels`."},
+          {"number[]", "times", "Time of each pixel."},
+          {"number[]", "pressures", "Pressure of each pixel."},
           {"boolean", "click", "Whether the pen only touched the picture."},
           {"integer", "beside",
            "How many of the points lay beside the supporting surface that was drawn on; their "

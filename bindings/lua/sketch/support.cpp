@@ -1,4 +1,4 @@
-// lissom.Support: what strokes about a curve are drawn on; and what hint strokes mean.
+// lissom.Support: surfaces for strokes about a curve; and the meaning of hint strokes.
 #include <cmath>
 #include <string_view>
 
@@ -208,16 +208,16 @@ std::vector<Function> support_methods_of_curve() {
          .example = support_setup() + "assert(support:mode() == 'strip')"},
         {.name = "read_hint",
          .body = read_hint,
-         .summary = "What a hint stroke means, as it is seen on the picture: near is what is "
-                    "within 20 pixels. Draw it on the curve's supporting surface, and call the "
-                    "method of that name with it.",
+         .summary = "The meaning of a hint stroke, seen on the picture: within 20 pixels is "
+                    "near. Draw it on the curve's supporting surface, and call the method of "
+                    "that name with it.",
          .options = {camera_option("The camera that it is seen by."),
                      pixels("points", "The stroke on the picture, smoothed; see camera:stroke."),
                      number("scale", "Pixels of the picture to a logical one, on dense screens.")
                          .above(0)
                          .defaults(1.0),
                      size_argument()},
-         .results = {{"lissom.HintReading", "reading", "What it is taken for."}},
+         .results = {{"lissom.HintReading", "reading", "Its reading."}},
          .errors = {ErrorCode::handle_removed, ErrorCode::invalid_argument,
                     ErrorCode::out_of_range},
          .example = support_setup() + R"(local tip = curve:points()[2]
@@ -239,10 +239,10 @@ Type support_type() {
                      .example = support_setup() + "assert(support:mode() == 'strip')"},
                     {.name = "end_on",
                      .body = support_end_on,
-                     .summary =
-                         "How much of the curve is seen end-on from the viewpoint, where a surface "
-                         "says little of it. Warn above a third, and take another viewpoint.",
-                     .results = {{"number", "share", "Of its length, 0 to 1."}},
+                     .summary = "Fraction of the curve that is seen end-on from the viewpoint, at "
+                                "which a surface says little of it. Warn above a third, and take "
+                                "another viewpoint.",
+                     .results = {{"number", "share", "Fraction of its length, 0 to 1."}},
                      .example = support_setup() + "assert(support:end_on() <= 1)"},
                     {.name = "seen_from",
                      .body = support_seen,
@@ -265,10 +265,10 @@ Type support_type() {
                      .example = support_setup() + "assert(support:mesh():is_manifold())"},
                     {.name = "pick",
                      .body = support_pick,
-                     .summary = "Where a ray meets it first.",
+                     .summary = "First intersection with a ray.",
                      .arguments = {vector("origin", "Start of the ray."),
                                    vector("direction", "Its direction; any length.")},
-                     .results = {{"lissom.SupportPoint?", "hit", "nil where it does not."}},
+                     .results = {{"lissom.SupportPoint?", "hit", "nil if there is none."}},
                      .example = support_setup() + R"(local hit = support:pick(camera:ray(640, 480))
 assert(hit == nil or hit.distance > 0))"}},
         .operators = {{"__tostring", support_text, "tostring(support)", "its kind"}}};
@@ -276,12 +276,11 @@ assert(hit == nil or hit.distance > 0))"}},
 
 std::vector<Record> support_records() {
     return {{"lissom.HintReading",
-             "What a hint stroke means.",
+             "Reading of a hint stroke.",
              {{"string", "operation", "\"cut\", \"concatenate\" or \"insert\"."},
               {"boolean", "sure",
-               "False where a stroke drawn a little otherwise means something else: show what it "
-               "was taken for."},
-              {"string[]", "others", "What else it may mean, likelier first."},
+               "False if a slightly different stroke has another meaning: show its reading."},
+              {"string[]", "others", "Other readings, likelier first."},
               {"number", "pixels",
                "Length of the curve on the picture, in logical pixels: below 120 hints are hard "
                "to tell, so ask to come nearer."}}},

@@ -1,6 +1,6 @@
--- The host of tools: calls a tool's functions with what a hand does, each in a step of the scene. What is
--- returned is what the binding calls; its reference is in tools.cpp.
--- `error` is Lua's, but for an error object; new_error makes one.
+-- The host of tools: calls a tool's functions with a hand's input, each in a step of the scene. It
+-- returns the functions that the binding calls; its reference is in tools.cpp. `error` is Lua's,
+-- but for an error object; new_error makes one.
 local lissom, hear, guard, now, load_script, find_file, name_hint, new_error, error, new_view, marks_of,
     event_fields = ...
 
@@ -124,7 +124,8 @@ end
 
 function Event:select(options) return self.camera:select(filled(self, options)) end
 
--- What is wrong with a field of an event, which is described as a parameter of a function is; nil if nothing.
+-- Returns the fault of a field of an event, described as a parameter of a function; nil if it has
+-- none.
 local function event_flaw(name, value, field)
     if value == nil and not field.required then return nil end
     local choices = field.choices and set_of(field.choices)
@@ -182,7 +183,7 @@ function Host:begin()
     if self.journal then self.journal:begin_step() end
 end
 
--- While a function of the tool runs, the journal hears what it calls.
+-- While a function of the tool runs, the journal hears its calls.
 function Host:start_work(name)
     self.working = true
     if not self.journal then return end
@@ -205,7 +206,7 @@ function Host:take_back()
     while depth and self.scene:depth() > depth do self.scene:rollback() end
 end
 
--- Also a step, or nothing where that fails too.
+-- Also a step, or nothing if that fails too.
 function Host:cancel_after_failure()
     local cancel = self.tool and self.tool.cancel
     if not cancel then return end
@@ -262,7 +263,7 @@ function Host:step(name, event)
     self:mark(self:commit())
 end
 
--- What a broken-off call left: a script that was stopped from outside leaves its step open.
+-- Remains of a broken-off call: a script that was stopped from outside leaves its step open.
 function Host:recover()
     if other_holder(self) then return self end          -- the open step is not this host's
     local broken = self.working or self.held or self.scene:depth() > self.base
@@ -290,7 +291,7 @@ end
 local pick_kinds = { point = "face", object = "face", face = "face", vertex = "vertex", edge = "edge",
     boundary = "boundary" }
 
--- What the cursor would answer, or nil.
+-- The answer under the cursor, or nil.
 function Host:candidate(event)
     local request = self.request
     local kind = request and pick_kinds[request.kind]
@@ -321,7 +322,7 @@ function Host:resume(...)
     end
 end
 
--- A run that has ended begins again where it has asked for anything.
+-- A run that has ended begins again if it has asked for anything.
 function Host:start_run()
     if not (self.tool and self.tool.run) or self.thread then return end
     self.asked = false
@@ -355,7 +356,7 @@ function Host:prompt_key(event)
     end
 end
 
--- ---- What a hand does
+-- ---- Input of a hand
 
 -- The scene keeps the values of a tool's parameters that are not their defaults.
 function Host:keep_parameters()
@@ -366,7 +367,7 @@ function Host:keep_parameters()
     self.scene:set_parameters(self.tool.name, values)
 end
 
--- A tool takes the values that the scene keeps for it; what it has been given meanwhile goes first.
+-- A tool takes the values that the scene keeps for it; values given meanwhile are dropped first.
 function Host:take_parameters()
     local kept = self.scene:parameters(self.tool.name)
     if not kept then return end
@@ -377,10 +378,10 @@ function Host:take_parameters()
     end
 end
 
--- `word` is what a recording calls the tool, where that is not its name.
+-- `word` is the tool's word in a recording, if that is not its name.
 function Host:use(tool, word)
     self:ready()
-    if tool ~= nil and not is_tool(tool) then error("a tool is what lissom.tool returns", 2) end
+    if tool ~= nil and not is_tool(tool) then error("a tool is a result of lissom.tool", 2) end
     self:cancel_quietly()
     local before, noted = self.tool, self.log and #self.log
     if self.tool and not tool then self:note{ "tool" } end
@@ -410,7 +411,7 @@ function Host:begin_tool()
     self:start_run()
 end
 
--- A camera made of the numbers of another, which is what a recording makes of them.
+-- A camera made of the numbers of another, as a recording makes it.
 local function camera_numbers(camera)
     return { eye = camera:eye(), target = camera:target(), up = camera:up(),
         fov = camera:fov(), ortho = camera:ortho() }
@@ -485,7 +486,7 @@ function Host:press(fields)
     self:note(mouse_note("press", event))
     self:begin()
     self.held = { button = button, start = event.start }
-    -- Of a tool that asks a gesture answers, unless its press takes it.
+    -- A gesture answers the question of a tool, unless its press takes it.
     local is_taken = self:call("press", event) == true
     self.held.answers = self.tool.run and not is_taken
     return self
@@ -582,7 +583,7 @@ function Host:cancel_quietly()
     return held ~= nil
 end
 
--- Escape: the gesture that goes on is taken back; the tool forgets what it began.
+-- Escape: the present gesture is taken back; the tool forgets its beginnings.
 function Host:cancel()
     self:ready()
     if not self.tool then return self end

@@ -1,6 +1,7 @@
 -- ---- Journals: the calls that tools have made, as a script that makes them again without a hand.
 
--- What a method does to its object stands in the registration table (Effect): it reaches a journal as a word.
+-- The effect of a method on its object stands in the registration table (Effect): it reaches a
+-- journal as a word.
 local changing = set_of{ "changes", "replaces" }
 
 local Untold = {}
@@ -24,7 +25,7 @@ local function see_objects(value, see, depth)
     return any
 end
 
--- A table as it is now, with what `see` gives for the objects that it holds.
+-- A present copy of a table, with the results of `see` for the objects that it holds.
 local function copied(value, see, depth)
     if type(value) == "userdata" then return see(value) end
     if type(value) ~= "table" or depth > 6 then return value end
@@ -33,7 +34,7 @@ local function copied(value, see, depth)
     return copy
 end
 
--- Where an object comes from that no call of this step has made; nil where that cannot be told.
+-- Origin of an object that no call of this step has made; nil if that cannot be told.
 local function origin(scene, object)
     local kind = type_of(object)
     if kind == "lissom.Region" then return { region = object:mesh(), ids = object:vertices() } end
@@ -127,7 +128,7 @@ function Journal:begin_step()
     self:begin_group(false)
 end
 
--- ---- Leaving out what the next drag replaces
+-- ---- Leaving out calls that the next drag replaces
 
 -- A number of its own for each mesh, however alike two are.
 local numbers = setmetatable({}, { __mode = "k" })
@@ -149,14 +150,14 @@ local function target(call)
     return part_of(call.arguments[1], call.name:match("region$") or call.name, call.arguments[2])
 end
 
--- What a call reads that another replaces: a region by its name.
+-- Source of a call that another replaces: a region by its name.
 local function source(call)
     local reads = call.kind == "lissom.Mesh" and call.name == "region" and type(call.arguments[2]) == "string"
     return reads and part_of(call.arguments[1], "region", call.arguments[2]) or nil
 end
 
--- What each call of a group works on, where all of it is replaced first of all; and what of that is not read
--- before, so that groups before this one leave nothing of it.
+-- Targets of each call of a group, if all of it is replaced first of all; and the targets that are
+-- not read before, so that groups before this one leave nothing of them.
 local function targets(group)
     local replaced, all, read = {}, {}, {}
     for _, call in ipairs(group) do
@@ -248,7 +249,7 @@ end
 function Writer:object(object)
     if self.names[object] then return self.names[object] end
     local from = self.journal.origins[object]
-    if not from then untold("no call tells where " .. tostring(object) .. " comes from") end
+    if not from then untold("no call tells its origin " .. tostring(object) .. " comes from") end
     if from.name then
         return self:bind(object, from.name, "scene:get(" .. quoted(from.name) .. ")")
     elseif from.handle then
@@ -290,7 +291,7 @@ function Writer:call_text(call)
     return start .. "(" .. table.concat(texts, ", ") .. ")"
 end
 
--- The variables that hold the objects a call has made; one for the table where they are in one.
+-- The variables that hold the objects a call has made; one for the table if they are in one.
 function Writer:write(call)
     local text, names = self:call_text(call), {}
     local first = call.arguments[1]
@@ -313,14 +314,15 @@ function Writer:write(call)
         end
     end
     while names[#names] == "_" do table.remove(names) end
-    -- What stands before the limit and what stands behind it are not declared together.
+    -- Names before the limit and names behind it are not declared together.
     if #names > 1 and (names[1]:find("^made%.") ~= nil) ~= (names[#names]:find("^made%.") ~= nil) then
         untold("there are too many objects in one step")
     end
     self:assign(names, text)
 end
 
--- The calls that change something, but for those that are replaced, and those that made what they use.
+-- The calls that change something, but for those that are replaced, and those that made objects in
+-- use.
 function Journal:needed_calls()
     local needed = {}
     local function need(call)
@@ -390,7 +392,7 @@ function Journal:hear_console(line, changed, failed)
     self.console = {}
 end
 
--- What a script that runs again finds selected.
+-- Selection for a script that runs again.
 function Journal:hear_selected(name, ids)
     local mesh = "scene:get(" .. quoted(name) .. ")"
     local region = string.format("%s:region{ vertices = %s }", mesh, ranges(ids))
@@ -407,7 +409,7 @@ local function ids(text)
     return list
 end]]
 
--- `is_made`: what a script returns is no scene, and was put into one.
+-- `is_made`: a script's result is no scene, and was put into one.
 local function opening_lines(open, load, is_made)
     if not open then return { "local scene = ...      -- the scene that this was done to" } end
     if #open == 1 and is_scene_path(open[1]) then

@@ -1,9 +1,9 @@
--- ---- Recordings: what a hand did, as a script that does it again.
+-- ---- Recordings: input of a hand, as a script that repeats it.
 
--- Seconds between looks, or hovers, that are all kept where times are.
+-- Seconds between looks, or hovers, that are all kept in timed recordings.
 local shortest = 0.05
 
--- Adds an event to the recording, if one is made; with its time in seconds where that is measured.
+-- Adds an event to the recording, if one is made; with its time in seconds if that is measured.
 function Host:note(event)
     if not self.log then return end
     event.t = self.begun and math.floor(1000 * (now() - self.begun) + 0.5) / 1000 or nil
@@ -14,7 +14,7 @@ function Host:note(event)
     table.insert(self.log, event)
 end
 
--- A recording does not repeat what failed: of that only the tool's cancel was seen.
+-- A recording does not repeat failures: the tool only saw its cancel.
 function Host:forget_failed(held)
     if not self.log then return end
     while held and #self.log > 0 and self.log[#self.log][1] ~= "press" do table.remove(self.log) end
@@ -36,7 +36,8 @@ function Host:begin_outside()
     if self.journal then self.journal.hash = self.scene:hash() end
 end
 
--- It was done, or has failed: what it changes is in the journal, but not in the recording, which says so.
+-- It was done, or has failed: its changes are in the journal, but not in the recording, which says
+-- so.
 function Host:changed_outside(line, failed)
     local journal = self.journal
     if journal then journal:hear_console(line, self.scene:hash() ~= journal.hash, failed) end
@@ -78,8 +79,8 @@ function Host:mark(changed)
     last.hash, last.objects = self.known_hash, self:changed_objects()
 end
 
--- Begins a recording; `open` names the files of the scene, where it is as they were opened with the
--- options `load` of lissom.load. Its events have times where it is `timed`.
+-- Begins a recording; `open` names the files of the scene, if it is as they were opened with the
+-- options `load` of lissom.load. Its events have times if it is `timed`.
 function Host:record(open, load, timed)
     self:ready()
     if self.tool then error("record before a tool is used: its state is not in a recording", 2) end
@@ -167,7 +168,8 @@ end
 local in_scenes = set_of{ "lissom.Mesh", "lissom.Deformer", "lissom.Strands", "lissom.Hairstyle",
     "lissom.Polyline" }
 
--- Adds what a scene can hold, also from tables within tables, under the keys that it has there.
+-- Adds the objects that a scene can hold, also from tables within tables, under the keys that they
+-- have there.
 local function add_values(scene, value, name, seen, depth)
     if in_scenes[type_of(value)] then
         if not seen[value] then scene:add(free_name(scene, name), value) end
@@ -184,8 +186,8 @@ local function add_values(scene, value, name, seen, depth)
     end
 end
 
--- The host of the first scene among the values, or of a scene of what else there is; nil for nothing. What
--- made the scene is not for a hand to undo.
+-- The host of the first scene among the values, or of a scene of the other values; nil for nothing.
+-- The making of the scene is not for a hand to undo.
 local function host_of(...)
     local scene, is_made
     for i = 1, select("#", ...) do
@@ -206,11 +208,11 @@ end
 
 local function run_script(path)
     local host = host_of(load_script(path)())
-    if not host then fail(path .. " returns no scene, nor what a scene can hold") end
+    if not host then fail(path .. " returns no scene, nor an object for one") end
     return host.scene
 end
 
--- Whether a path is what scene:save wrote: a .lissom file, or a folder.
+-- Whether scene:save wrote a path: a .lissom file, or a folder.
 local function is_scene_path(path)
     if path:match("%.lissom$") then return true end
     return find_file(path .. "/scene.json") == true
@@ -255,7 +257,7 @@ end
 
 local function folder_of(path) return path:match("^(.*[/\\])") or "" end
 
--- Where a file is that a recording in `folder` names.
+-- Place of a file that a recording in `folder` names.
 local function place_of(path, folder)
     if not path:match("^[/\\]") and not path:match("^%a:") then path = folder .. path end
     local found, reason = find_file(path)
@@ -400,7 +402,7 @@ local function text_and_place(problem)
     return text or problem, place
 end
 
--- Raises what went wrong at an event, at the line of a script if it names one, else that of the event.
+-- Raises the problem of an event, at the line of a script if it names one, else that of the event.
 local function refuse_event(problem, event, i, own)
     local text, place = text_and_place(problem)
     if place and own then text = text .. " (the event is " .. own .. ")" end
@@ -410,7 +412,7 @@ local function refuse_event(problem, event, i, own)
     error(whole)
 end
 
--- Does an event; says where the scene differs then.
+-- Does an event; says if the scene differs then.
 local function play_event(host, recorded, i, tools, folder, path)
     local event = recorded.events[i]
     local done, problem = pcall(player[event[1]], host, event, tools, folder)
@@ -445,8 +447,8 @@ end
 -- Seconds between events that have no times.
 local usual_step = 1 / 60
 
--- The scene of a recording's beginning, the files that it was opened from, what `play` takes, and the times
--- and kinds of the events.
+-- The scene of a recording's beginning, the files that it was opened from, the state for `play`,
+-- and the times and kinds of the events.
 local function open_recording(path)
     local recorded, folder = recording_of(path), folder_of(path)
     check_recording(recorded)
@@ -461,7 +463,7 @@ local function open_recording(path)
     return scene, paths, { recorded = recorded, folder = folder, path = path }, times, kinds
 end
 
--- Does an event. Returns the first difference where this event brings it, whether there is any, and the tool
+-- Does an event. Returns the first difference after this event, whether there is any, and the tool
 -- that it takes in hand.
 local function play(host, playing, i)
     local recorded = playing.recorded

@@ -6,7 +6,8 @@ local function refuse_stroke(i, text, code) fail(string.format("stroke %d: %s", 
 
 local function is_finite(x) return type(x) == "number" and math.abs(x) < math.huge end
 
--- What a tool says, without the place in its file: the stroke is what the script can change.
+-- Message of a tool, without the place in its file: the stroke is the part that the script can
+-- change.
 local function without_place(message)
     return (tostring(message):gsub("^[^\n]-:%d+: ", ""))
 end
@@ -20,11 +21,11 @@ local function check_stroke(i, stroke)
     end
     local tool, params = stroke.tool, stroke.params
     if tool ~= nil and type(tool) ~= "string" and not is_tool(tool) then
-        refuse_stroke(i, "its tool is a name, or what lissom.tool returns")
+        refuse_stroke(i, "its tool is a name, or a result of lissom.tool")
     end
     if params ~= nil and type(params) ~= "table" then refuse_stroke(i, "its params are a table of values") end
     if stroke.camera ~= nil and type(stroke.camera) ~= "userdata" then
-        refuse_stroke(i, "its camera is what lissom.camera returns")
+        refuse_stroke(i, "its camera is a result of lissom.camera")
     end
     local points = stroke.points
     if (points ~= nil) == (stroke.key ~= nil) then refuse_stroke(i, "give its points, or a key") end

@@ -40,20 +40,20 @@ Function sketch_method_of_hairstyle() {
         .name = "sketch",
         .body = sketch_style,
         .summary =
-            "Draws on the style as a hand does with the tools of the window: each stroke is "
-            "a drag of a tool, and means what it means there. All strokes are done, or, "
-            "where a tool refuses one, none: the error says which and why.",
+            "Draws on the style by the tools of the window: each stroke is a drag of a tool, "
+            "with its meaning there. All strokes are done, or, if a tool refuses one, none: the "
+            "error names the stroke and the reason.",
         .arguments = {table("strokes",
-                            "A list of lissom.SketchStroke. What a stroke leaves out, but for its "
-                            "points or its key, is as for the one before.")},
-        .options = {object("camera", "lissom.Camera", "Of the first stroke, in mesh units.")
+                            "A list of lissom.SketchStroke. Fields that a stroke leaves out, "
+                            "but for its points or its key, are those of the one before.")},
+        .options = {object("camera", "lissom.Camera", "Camera of the first stroke, in mesh units.")
                         .optional("the strokes say it"),
                     size_argument(),
                     integer("strands", "How many strands the tools grow, to be returned.")
                         .defaults(0)
                         .between(0, 200000)},
         .results = {{"lissom.Sketched[]", "done", "One for each stroke."},
-                    {"lissom.Strands?", "hair", "What has grown."}},
+                    {"lissom.Strands?", "hair", "The grown hair."}},
         .errors = {ErrorCode::invalid_argument, ErrorCode::handle_removed, ErrorCode::cancelled},
         .example = kStyle + R"(local camera = lissom.camera{ eye = { 0, 0, 3 }, fov = 12 }
 -- Of the tools that come with the program: tool = "stream", or "parting", "ponytail", "comb", ...
@@ -74,13 +74,13 @@ std::vector<Record> sketch_records() {
               {"number[][]?", "points",
                "Pixels {x, y} from press to release; a single one is a click."},
               {"string?", "key", "A key in place of points, as \"tab\"."},
-              {"lissom.Camera?", "camera", "What the head is seen by, in mesh units."},
+              {"lissom.Camera?", "camera", "The camera that the head is seen by, in mesh units."},
               {"table?", "params", "Values of the tool's parameters, by name."},
-              {"boolean?", "shift", "Held down during this stroke; false where it is not said."},
+              {"boolean?", "shift", "Held down during this stroke; false by default."},
               {"boolean?", "ctrl", "The same."},
               {"boolean?", "alt", "The same."}}},
             {"lissom.Sketched",
-             "What a stroke of `hairstyle:sketch` has done.",
+             "Result of a stroke of `hairstyle:sketch`.",
              {{"string", "tool", "The tool that it was drawn with."},
               {"lissom.Curve[]", "added", "New curves of the style."},
               {"boolean", "changed", "Whether the style is another than before."}}}};

@@ -1,4 +1,4 @@
-// lissom.ToolView: what a tool draws over the picture.
+// lissom.ToolView: marks of a tool over the picture.
 #include "bindings/lua/tools/tool_view.h"
 
 #include <algorithm>
@@ -20,11 +20,11 @@ namespace {
 const char kViewFields = 0;
 
 std::vector<Result> view_fields() {
-    return {{"lissom.Camera", "camera", "What the scene is seen by."},
+    return {{"lissom.Camera", "camera", "The camera that the scene is seen by."},
             {"lissom.Scene", "scene", "The scene."},
             {"integer[]", "size", "{width, height} of the picture in pixels."},
             {"\"y\"|\"z\"", "up", "The axis of the world that points up in views."},
-            {"number[]?", "cursor", "Where the cursor is, if it is known."}};
+            {"number[]?", "cursor", "Position of the cursor, if it is known."}};
 }
 constexpr const char* kUsualHandleColor = "#e8a33d";
 const std::string kChosenColor = "#ffd24a";
@@ -36,7 +36,7 @@ bool is_color(const char* text) {
            std::strspn(text + 1, "0123456789abcdefABCDEF") == 6;
 }
 
-// Refuses what is no colour; to be called before anything is made.
+// Refuses values that are no colours; to be called before anything is made.
 void require_color(const Call& call) {
     if (call.has("color") && !is_color(call.string("color"))) {
         call.reject("color", "\"#rrggbb\" expected");
@@ -52,7 +52,7 @@ std::vector<Vec3> point_list(const Call& call, const char* path) {
     return {given.begin(), given.end()};
 }
 
-// Adds what `make` returns to a list of the view; returns the view.
+// Adds the result of `make` to a list of the view; returns the view.
 template <typename Mark, typename Make>
 int add_mark(Call& call, std::vector<Mark> ToolViewObject::*list, const Make& make) {
     require_color(call);

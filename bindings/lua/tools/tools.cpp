@@ -40,8 +40,8 @@ const char* read_piece(lua_State*, void* state, std::size_t* size) {
     return text;
 }
 
-// Of a scene and a depth: the step opened there is ended by the host alone from now on. Returns the
-// depth for which that held before.
+// From a scene and a depth: the step opened there is ended by the host alone from now on. Returns
+// the depth for which that held before.
 int guard_step(lua_State* L) {
     Holder* holder = find_holder(L, 1, SceneObject::kTypeName);
     auto* scene = holder ? static_cast<SceneObject*>(holder->object.get()) : nullptr;
@@ -57,7 +57,7 @@ int push_seconds(lua_State* L) {
     return 1;
 }
 
-// Of a name and a list of those that there are: the hint behind an error about it.
+// From a name and a list of valid ones: the hint behind an error about it.
 int push_name_hint(lua_State* L) {
     Failure failure;
     std::string hint;
@@ -146,7 +146,7 @@ void push_event_fields(lua_State* L) {
     }
 }
 
-// Runs the text and keeps what it returns.
+// Runs the text and keeps its results.
 void load_tool_functions(lua_State* L) {
     Piece piece;
 #if LUA_VERSION_NUM >= 502
@@ -181,8 +181,7 @@ bool has_place(lua_State* L) {
     return has;
 }
 
-// What is on top of the stack is an error of the text: it is the script's, whose place stands
-// before it.
+// The error of the text on top of the stack is the script's, whose place stands before it.
 [[noreturn]] void raise_here(const Call& call) {
     lua_State* L = call.lua();
     if (lua_type(L, -1) != LUA_TSTRING || has_place(L)) lua_error(L);
@@ -200,7 +199,7 @@ int finish_call(const Call& call, int count) {
     return 1;
 }
 
-// As finish_call, for functions that run tools: their errors have a place already.
+// Like finish_call, for functions that run tools: their errors have a place already.
 int finish_tool_call(const Call& call, int count) {
     lua_call(call.lua(), count, 1);
     return 1;
@@ -315,7 +314,7 @@ local camera = lissom.camera{ eye = { 0, 0, 5 } }
 )";
 
 Parameter prompt_field() {
-    return string("prompt", "What the person is asked, in a line.");
+    return string("prompt", "The question to the person, in a line.");
 }
 
 template <std::size_t Kind>
@@ -330,7 +329,8 @@ Function place_prompt(const std::string& help) {
                         string("object", "Only on the object of the scene with this name.")
                             .optional("any")},
             .results = {{"lissom.PickHit?", "hit",
-                         "What was clicked; of a boundary it has the Boundary too, `boundary`."}},
+                         "The clicked element; for a boundary it has the Boundary too, "
+                         "`boundary`."}},
             .example = kHostExample + "local asked\n" + R"(local tool = lissom.tool{ name = "ask",
     run = function() asked = lissom.pick.)" +
                        kind +
@@ -340,30 +340,30 @@ assert(asked == "none"))"};
 }
 
 std::vector<Function> prompt_functions() {
-    return {
-        place_prompt<0>("a point of a surface"),
-        place_prompt<1>("a vertex"),
-        place_prompt<2>("a face"),
-        place_prompt<3>("an edge"),
-        place_prompt<4>("an open boundary"),
-        place_prompt<5>("an object"),
-        {.name = "pick.number",
-         .body = ask_for_number,
-         .summary = "Asks for a number, which is typed and ended by Enter.",
-         .options = {prompt_field(), number("default", "What Enter alone means.").optional("none")},
-         .results = {{"number", "number", "What was typed."}},
-         .example = kHostExample + R"(local width
+    return {place_prompt<0>("a point of a surface"),
+            place_prompt<1>("a vertex"),
+            place_prompt<2>("a face"),
+            place_prompt<3>("an edge"),
+            place_prompt<4>("an open boundary"),
+            place_prompt<5>("an object"),
+            {.name = "pick.number",
+             .body = ask_for_number,
+             .summary = "Asks for a number, which is typed and ended by Enter.",
+             .options = {prompt_field(),
+                         number("default", "The value of Enter alone.").optional("none")},
+             .results = {{"number", "number", "The typed number."}},
+             .example = kHostExample + R"(local width
 local tool = lissom.tool{ name = "ask", run = function()
     width = lissom.pick.number{ prompt = "Width?" }
 end }
 lissom.tool_host{ scene = scene, camera = camera, tool = tool }:type("2.5"):key{ key = "enter" }
 assert(width == 2.5))"},
-        {.name = "pick.confirm",
-         .body = ask_for_consent,
-         .summary = "Waits for the Enter key.",
-         .options = {prompt_field()},
-         .results = {{"boolean", "done", "true"}},
-         .example = kHostExample + R"(local done
+            {.name = "pick.confirm",
+             .body = ask_for_consent,
+             .summary = "Waits for the Enter key.",
+             .options = {prompt_field()},
+             .results = {{"boolean", "done", "true"}},
+             .example = kHostExample + R"(local done
 local tool = lissom.tool{ name = "ask", run = function()
     done = lissom.pick.confirm{ prompt = "Enter ends" }
 end }
@@ -434,12 +434,12 @@ std::vector<Result> described(const std::vector<Parameter>& fields) {
 
 std::vector<Result> host_fields() {
     return {
-        {"lissom.Scene", "scene", "What the tools work on."},
-        {"lissom.Camera", "camera", "What it is seen by."},
+        {"lissom.Scene", "scene", "The scene that the tools work on."},
+        {"lissom.Camera", "camera", "The camera that it is seen by."},
         {"integer[]", "size", "{width, height} of the picture in pixels."},
         {"table?", "tool", "The present tool."},
         {"fun(self: any, tool: table?, word: string?): lissom.ToolHost", "use",
-         "Another tool, or none; `word` is what a recording calls it, where that is not its name."},
+         "Another tool, or none; `word` is its word in a recording, if that is not its name."},
         {"fun(self: any, camera: lissom.Camera, size: integer[]?): lissom.ToolHost", "look",
          "Another camera and size of the picture."},
         {"fun(self: any, event: lissom.MouseEvent): lissom.ToolHost", "press",
@@ -456,14 +456,14 @@ std::vector<Result> host_fields() {
         {"fun(self: any, text: string): lissom.ToolHost", "type", "A key for each character."},
         {"fun(self: any, values: table): lissom.ToolHost", "set", "Sets parameters of the tool."},
         {"fun(self: any): lissom.ToolHost", "cancel",
-         "Escape: takes the present gesture back; the tool forgets what it began."},
+         "Escape: takes the present gesture back; the tool forgets its beginnings."},
         {"fun(self: any): string?", "undo",
          "The scene's undo, which a running gesture only cancels; the name of the step."},
         {"fun(self: any): string?", "redo", "The scene's redo."},
         {"fun(self: any, name: string, visible: boolean): lissom.ToolHost", "show",
          "Shows or hides an object: a step of its own."},
-        {"fun(self: any): lissom.ToolMarks", "draw", "What the tool shows over the picture."},
-        {"fun(self: any): string?", "prompt", "What the person is asked, or the tool's help."},
+        {"fun(self: any): lissom.ToolMarks", "draw", "Marks of the tool over the picture."},
+        {"fun(self: any): string?", "prompt", "The question to the person, or the tool's help."},
         {"fun(self: any, open: string[]?): lissom.ToolHost", "record",
          "Begins a recording, before a tool is used; `open` names the files of the scene."},
         {"fun(self: any): string", "recording",
@@ -473,8 +473,8 @@ std::vector<Result> host_fields() {
         {"fun(self: any): string", "journal_text",
          "The journal: a script of calls that makes the same scene, to be read and changed."},
         {"fun(self: any): lissom.ToolHost", "recover",
-         "Takes back what a tool left that was stopped from outside, for instance by a limit of "
-         "instructions."}};
+         "Takes back the changes of a tool that was stopped from outside, for instance by a "
+         "limit of instructions."}};
 }
 
 }  // namespace
@@ -502,15 +502,14 @@ std::vector<Function> tool_functions() {
         {.name = "tool",
          .body = make_tool,
          .summary =
-             "Makes a tool: functions that are called with what a hand does. press, drag and "
+             "Makes a tool: functions that are called with a hand's input. press, drag and "
              "release, or run, a coroutine that asks by lissom.pick, of which clicks are the "
-             "answers "
-             "unless press returns true; move, wheel, key, changed (of a parameter), draw, "
-             "activate, deactivate, cancel. All take the tool itself and a "
-             "lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the "
-             "scene, any other call is one of its own; after an error the scene is as before. "
-             "drag is called with every place that the hand came to. The table's other keys are "
-             "the tool's own.",
+             "answers unless press returns true; move, wheel, key, changed (of a parameter), "
+             "draw, activate, deactivate, cancel. All take the tool itself and a "
+             "lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of "
+             "the scene, any other call is one of its own; after an error the scene is as "
+             "before. drag is called with every place that the hand came to. The table's other "
+             "keys are the tool's own.",
          .arguments = {table("tool", "name, help, params (as for lissom.params) and functions.")},
          .results = {{"table", "tool", "The same table; `tool.params` are the values now."}},
          .errors = {ErrorCode::invalid_argument},
@@ -522,16 +521,17 @@ std::vector<Function> tool_functions() {
              "name",
              "A file that ends with .lua, or the name of one that ships: \"select\", "
              "\"deform\", ... (tools/NAME.lua on package.path).")},
-         .results = {{"table", "tool", "What the file returns."}},
+         .results = {{"table", "tool", "The result of the file."}},
          .errors = {ErrorCode::invalid_argument},
          .example = "local _, message = pcall(lissom.load_tool, 'no_such_tool')\n"
                     "assert(tostring(message):find('no_such_tool'))"},
         {.name = "tool_host",
          .body = make_host,
-         .summary = "Runs tools without a window: what a hand would do is called. Errors of a tool "
-                    "go on once the scene is as before.",
-         .options = {object("scene", "lissom.Scene", "What the tools work on."),
-                     object("camera", "lissom.Camera", "What it is seen by."), size_argument(),
+         .summary = "Runs tools without a window: calls them with a hand's input. Errors of a "
+                    "tool go on once the scene is as before.",
+         .options = {object("scene", "lissom.Scene", "The scene that the tools work on."),
+                     object("camera", "lissom.Camera", "The camera that it is seen by."),
+                     size_argument(),
                      choice("up", {"y", "z"}, "The axis of the world that points up in views.")
                          .defaults("y"),
                      table("tool", "The first tool.").optional("none")},
@@ -543,13 +543,13 @@ assert(scene:hash() ~= before and host:undo() == "push" and scene:hash() == befo
         {.name = "replay",
          .body = replay,
          .summary =
-             "Does again what was recorded, and compares the hash of the scene before it, "
-             "after each step and at the end. A recording is a script that calls this; the files "
-             "that it names are looked for from its own folder.",
+             "Repeats a recording, and compares the hash of the scene before it, after each "
+             "step and at the end. A recording is a script that calls this; the files that it "
+             "names are looked for from its own folder.",
          .arguments = {either("recording",
                               {string("file", "A file of a recording."),
-                               table("table", "What such a file calls lissom.replay with.")},
-                              "What was recorded.")},
+                               table("table", "The argument of lissom.replay in such a file.")},
+                              "The recorded events.")},
          .options = {object("scene", "lissom.Scene",
                             "The scene to work on; else the files that the recording names are "
                             "opened.")
@@ -570,17 +570,17 @@ assert(lissom.replay(recorded, { scene = scene, tools = { tool } }):hash() == re
 
 std::vector<Record> tool_records() {
     return {
-        {"lissom.ToolHost", "Calls tools with what a hand does.", host_fields()},
-        {"lissom.MouseEvent", "What a mouse did.", described(event_fields(EventKind::mouse))},
+        {"lissom.ToolHost", "Calls tools with a hand's input.", host_fields()},
+        {"lissom.MouseEvent", "An event of a mouse.", described(event_fields(EventKind::mouse))},
         {"lissom.WheelEvent",
-         "What the wheel did: part of the gesture while a button is down, else a step of its own.",
+         "Motion of the wheel: part of the gesture while a button is down, else a step of its own.",
          described(event_fields(EventKind::wheel))},
         {"lissom.KeyEvent", "A key that was pressed.", described(event_fields(EventKind::key))},
         {"lissom.ToolEvent",
-         "What a tool is called with.",
+         "Argument of a tool's functions.",
          {{"number?", "x", "Pixels from the left edge of the picture."},
           {"number?", "y", "Pixels from its top."},
-          {"number[]?", "start", "Where the button went down, {x, y}."},
+          {"number[]?", "start", "Pixel at which the button went down, {x, y}."},
           {"string?", "button", "left, right or middle."},
           {"string?", "key", "The key, of key."},
           {"number?", "lines", "How far the wheel turned, of wheel: upwards is above 0."},
@@ -589,9 +589,9 @@ std::vector<Record> tool_records() {
           {"boolean", "ctrl", "Likewise."},
           {"boolean", "alt", "Likewise."},
           {"boolean?", "late",
-           "A later place of the same drag is known already, of drag: a slow tool takes this one, "
-           "and leaves out what is only seen until then."},
-          {"lissom.Camera", "camera", "What the scene is seen by."},
+           "For drag, a later place of the same drag is known already: a slow tool takes this "
+           "one, and leaves out marks that only show until then."},
+          {"lissom.Camera", "camera", "The camera that the scene is seen by."},
           {"lissom.Scene", "scene", "The scene."},
           {"integer[]", "size", "{width, height} of the picture in pixels."},
           {"\"y\"|\"z\"", "up", "The axis of the world that points up in views."},
@@ -604,7 +604,7 @@ std::vector<Record> tool_records() {
           {"fun(self: any, camera: lissom.Camera)", "look",
            "From now on the scene is seen by this camera; no step of the scene."}}},
         {"lissom.ToolMarks",
-         "What a tool shows, as the tables it was drawn with.",
+         "Marks of a tool, as the tables it was drawn with.",
          {{"table[]", "points", "Balls."},
           {"table[]", "lines", "Lines in the world."},
           {"table[]", "labels", "Text at points."},

@@ -1,6 +1,6 @@
-/// Tools of scripts: what lissom.tool, lissom.tool_host and lissom.replay are made of. The host
-/// itself is written in Lua (host.lua and what follows it, see CMakeLists.txt), whose text is part
-/// of the library.
+/// Tools of scripts: the parts of lissom.tool, lissom.tool_host and lissom.replay. The host itself
+/// is written in Lua (host.lua and the files after it, see CMakeLists.txt), whose text is part of
+/// the library.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace lissom::lua {
 
 /// Pushes a function of the host's Lua text: "tool", "host", "replay", "open" (of paths and the
 /// options of lissom.load: their scene), "load_tool", or one that windows call (windows.lua).
-/// Raises a Lua error where the state has no memory for it.
+/// Raises a Lua error if the state has no memory for it.
 void push_tool_function(lua_State* L, const char* name);
 
 /// Events of a hand that a host takes.

@@ -1,8 +1,8 @@
--- ---- What is drawn over the picture. A view is lissom.ToolView.
+-- ---- Marks over the picture. A view is lissom.ToolView.
 
 local hover_color = "#ffd24a"
 
--- The points of the boundary that was hit, where its object stands.
+-- The points of the boundary that was hit, in the place of its object.
 local function points_of(scene, hit)
     local place = hit.object and scene:info(hit.object).transform
     local points = {}
@@ -17,7 +17,7 @@ local function points_of(scene, hit)
     return points
 end
 
--- Shows what a click would answer.
+-- Shows the answer of a click.
 local function draw_hover(view, host)
     local hit, request = host.hover, host.request
     if not hit or not request then return end

@@ -17,7 +17,7 @@ local function take_values(tool, values)
     for name, value in pairs(values) do pcall(function() tool.params[name] = value end) end
 end
 
--- `told` is what a recording calls the tool.
+-- `told` is the tool's word in a recording.
 local function use(host, word, told)
     if word == "" then
         host.word = nil
@@ -100,7 +100,7 @@ local function look_in_window(host, numbers)
     return host
 end
 
--- Sentences about what had no place in the file.
+-- Sentences about content without a place in the file.
 local function save(host, path)
     local view = view_of(host.camera)
     view.z_up = host.z_up
@@ -118,7 +118,7 @@ local function looked(host)
     return camera, z_up
 end
 
--- Draws, and returns what `looked` does.
+-- Draws, and returns the results of `looked`.
 local function draw(host)
     host.drawn = nil
     host.prompted = host:prompt()
@@ -167,7 +167,7 @@ local function shows(scene, kinds)
     return false
 end
 
--- What goes into a file that may hold `meshes`, `hair` or both.
+-- The objects for a file that may hold `meshes`, `hair` or both.
 local function object_in_hand(scene, meshes, hair)
     local without_mesh = not meshes or (not shows(scene, surfaces) and shows(scene, only_hair))
     return (hair and without_mesh and hair_in_hand or mesh_in_hand)(scene)
@@ -227,8 +227,8 @@ local function holds(host, ...)
     return false
 end
 
--- ---- What stays when a script runs again, in a Lua state of its own: what was selected, and the tool's
--- parameters and state, as far as these are numbers, texts and tables of them.
+-- ---- State that stays when a script runs again, in a Lua state of its own: the selection, and the
+-- tool's parameters and state, as far as these are numbers, texts and tables of them.
 
 local function plain_text(value, depth)
     if type(value) == "string" or type(value) == "boolean" then return text_of(value) end
@@ -260,7 +260,7 @@ local function keep(host)
     return plain_text({ selected = selected, tool = kept }, 0)
 end
 
--- What was selected only where it `selects`, and of meshes with as many vertices as before: no step.
+-- The selection only if it `selects`, and of meshes with as many vertices as before: no step.
 local function restore(host, text, selects)
     local before = load("return " .. text, "=kept", "t", {})()
     host.kept = before.tool

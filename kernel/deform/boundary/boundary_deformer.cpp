@@ -28,8 +28,8 @@ constexpr Index kRings = 1;
 constexpr int kCorrections = 2;
 // Scales that differ by less are one scale.
 constexpr double kSameScale = 1e-12;
-// Weights of the harmonic interpolation are at least this, so that it never leaves the range of
-// what it interpolates.
+// Lower bound of the weights of the harmonic interpolation, so that it never leaves the range of
+// the interpolated values.
 constexpr double kMinWeight = 1e-3;
 // How far beyond the rotations that fit best a step of a refinement goes, in parts of the way to
 // them; smaller parts than the least count as none. A step that gains less is the last.
@@ -50,7 +50,7 @@ DeformOptions deform_options(const BoundaryDeformOptions& options) {
     return result;
 }
 
-// The rest shape centred on the mean of what is held, in units of the RMS distance to it.
+// The rest shape centred on the mean of the held vertices, in units of the RMS distance to it.
 struct Normalization {
     Vec3 center = Vec3::Zero();
     double unit = 1.0;
@@ -195,7 +195,7 @@ struct BoundaryDeformer::State {
     Index harmonic_rows = 0;
     DeformStats stats;
 
-    /// Of the present solve: what was asked for, how vertices may turn, and the base.
+    /// State of the present solve: values, rotation limits of vertices, and the base.
     std::vector<BoundaryValue> values;
     std::vector<TurnLimit> limits;
     Base base;
@@ -236,7 +236,7 @@ BoundaryDeformer::State::State(const Mesh& mesh, const Region& given, const Regi
     common->prepare(context);
 }
 
-// Outside the region, and without faces, vertices stay; held ones go where they are told.
+// Vertices outside the region and without faces stay; held ones take their values.
 void BoundaryDeformer::State::find_knowledge() {
     const Patch& patch = work.patch;
     const std::size_t n = patch.vertex_count;
@@ -254,7 +254,7 @@ void BoundaryDeformer::State::find_knowledge() {
     }
 }
 
-// To the systems features are known; what they are is found afterwards.
+// Marks features as known to the systems; their values are found afterwards.
 void BoundaryDeformer::State::know_features() {
     for (const std::vector<Index>& feature : local_features()) {
         for (const Index v : feature) {
@@ -315,7 +315,7 @@ void BoundaryDeformer::State::factor(const Context& context) {
     stats.factorizations = 1;
 }
 
-// Where nothing else is fixed, the similarity that fits the values; else the rest shape itself.
+// Returns the similarity that fits the values if nothing else is fixed; else the identity.
 Base BoundaryDeformer::State::find_base() const {
     if (surrounded) return {Mat3::Identity(), 1.0, normal_form.center, normal_form.unit};
     Base found;
@@ -353,7 +353,7 @@ void BoundaryDeformer::State::place_held() {
     }
 }
 
-// Eq 2.8, for what deviates from the base: it is linear.
+// Solves Eq 2.8 for deviations from the base: it is linear.
 void BoundaryDeformer::State::solve_first() {
     const std::vector<Index>& free = first->free_vertices();
     const std::size_t rows = free.size();
@@ -371,7 +371,7 @@ void BoundaryDeformer::State::solve_first() {
     for (int step = 0; corrects && step < kCorrections; ++step) correct_first();
 }
 
-// Takes out what rounding errors of the matrix have left.
+// Removes rounding errors of the matrix.
 void BoundaryDeformer::State::correct_first() {
     const std::vector<Index>& free = first->free_vertices();
     const std::size_t rows = free.size();
@@ -391,7 +391,7 @@ Mat3 BoundaryDeformer::State::gathered(Index v) const {
                              : Mat3(base.rotation + stencils.gather(work.rings, deviation, v));
 }
 
-// What the features turn and grow by in the second system, from M_i of the first.
+// Rotation and scale of the features in the second system, from M_i of the first.
 void BoundaryDeformer::State::turn_features() {
     for (Index f = 0; f < common->size(); ++f) {
         const Index one = common->vertices(f).front();
@@ -406,7 +406,7 @@ void BoundaryDeformer::State::turn_features() {
     }
 }
 
-// M_i after the first system; where it does not exist, the mean of those around it.
+// M_i after the first system; the mean of the ring if it does not exist.
 std::vector<Mat3> BoundaryDeformer::State::gradients(const Context& context) const {
     const auto exists = [&](Index v) { return known.gradient[v] || stencils.defined[v]; };
     std::vector<Mat3> m(work.patch.real_count, base.rotation);
@@ -429,8 +429,8 @@ std::vector<Mat3> BoundaryDeformer::State::gradients(const Context& context) con
     return m;
 }
 
-// Calls use(row, neighbour, weight) for all neighbours of what has a row in the interpolation of
-// sizes; those of one row do not count for it.
+// Calls use(row, neighbour, weight) for all neighbours of the vertices with a row in the
+// interpolation of sizes; neighbours in the same row do not count for it.
 template <typename Use>
 void BoundaryDeformer::State::for_each_harmonic_entry(const Use& use) const {
     for (Index v = 0; v < count_of(harmonic_row); ++v) {
@@ -479,7 +479,7 @@ void BoundaryDeformer::State::interpolate_sizes(const Context& context) {
     }
 }
 
-// Of all vertices from those that are known.
+// Interpolates the sizes of all vertices from the known ones.
 void BoundaryDeformer::State::find_sizes(const Context& context) {
     double least = size[held_local.front()], most = least;
     const auto is_given = [&](Index v) {
@@ -536,7 +536,8 @@ FittedTurns BoundaryDeformer::State::fitted(const Context& context) const {
     return fitted_turns(second->energy(), x, now, size, limits, context);
 }
 
-// False where no step lowers the energy; then all is as it was. `further` is what served last.
+// False if no step lowers the energy; then nothing changes. `further` is the last successful step
+// length.
 bool BoundaryDeformer::State::step(FittedTurns& now, double& further, const Context& context) {
     const std::vector<PaddedMat3> turns_before = turns;
     const std::vector<Vec3> deviation_before = deviation;
@@ -574,7 +575,7 @@ std::vector<double> BoundaryDeformer::State::refine(int steps, const Context& co
     return energy;
 }
 
-// What the edges at each held vertex would have it be, by the mean of them, less what it is.
+// Mean position that the edges at each held vertex ask for, less its present one.
 std::vector<Vec3> BoundaryDeformer::State::pulls() const {
     const EnergyLoop loop = second->energy();
     const auto transform = [&](Index v) { return Mat3(base.rotation + turns[v].topRows<3>()); };

@@ -1,6 +1,6 @@
 /// Deformation by a boundary condition: every held vertex is given a position, a rotation and a
 /// scale of its own, and the rest of the surface follows (thesis sections 2.4 and 3.3.1). The core
-/// of merging, where one loop of vertices moves a whole mesh.
+/// of merging, in which one loop of vertices moves a whole mesh.
 #pragma once
 
 #include <memory>
@@ -16,14 +16,14 @@
 
 namespace lissom {
 
-/// Where a held vertex goes, and how the surface at it turns and grows: its deformation gradient is
-/// `scale` times `rotation`.
+/// Position of a held vertex, and rotation and scale of the surface at it: its deformation gradient
+/// is `scale` times `rotation`.
 struct BoundaryValue {
     Vec3 position = Vec3::Zero();
     Mat3 rotation = Mat3::Identity();
     double scale = 1.0;
-    /// `refine` turns the surface at it on to what fits it best, within this angle, in radians, of
-    /// `upright`; 0 leaves it as `rotation` says.
+    /// `refine` turns the surface at it towards its best fit, within this angle, in radians, of
+    /// `upright`; 0 keeps `rotation`.
     double slack = 0.0;
     Mat3 upright = Mat3::Identity();
 };
@@ -37,15 +37,15 @@ struct BoundaryDeformOptions {
     SizeField size = SizeField::harmonic;
     SecondSystem second = SecondSystem::blend;
     LaplacianWeights weights = LaplacianWeights::cotangent;
-    /// As in DeformOptions.
+    /// Same as in DeformOptions.
     int coherence = 1;
     double coherence_weight = 1.0;
     double degenerate_threshold = 2e4;
     double displacement = 0.2;
     bool scale_free = true;
-    /// Parts of the region that keep their shape: all vertices of one share a deformation gradient,
-    /// which is an unknown of the first system, and its rotation and size in the second, where the
-    /// part moves as a whole (the extension of thesis section 3.5). None may hold a vertex of
+    /// Parts of the region that keep their shape: all vertices of one share a deformation gradient.
+    /// It is an unknown of the first system; its rotation and size enter the second, which moves
+    /// the part as a whole (the extension of thesis section 3.5). None may hold a vertex of
     /// another, or one that is held.
     std::vector<Region> features = {};
 
@@ -69,22 +69,22 @@ struct BoundaryDeformation {
     /// For each held vertex, in the order of `held().vertices()`, how far the edges at it would
     /// draw it to be as long and turned as those around them are.
     std::vector<Vec3> pulls;
-    /// What the second system minimises, at the rotations that fit the positions best, and after
-    /// each step of a refinement. In no unit: of the surface as it was brought to unit size.
+    /// Energy of the second system at the rotations that fit the positions best, and after each
+    /// step of a refinement. In no unit: of the surface as it was brought to unit size.
     std::vector<double> energy;
     BoundaryTimes seconds = {};
 };
 
 /// Deforms one region of one mesh. Vertices outside it stay. Factors are kept: new values cost no
-/// factorisation. The surface is centred on what is held and brought to unit size, so that the
+/// factorisation. The surface is centred on the held vertices and brought to unit size, so that the
 /// result follows any similarity of the mesh or of the values. Accepts polygon meshes of any genus.
 class BoundaryDeformer {
   public:
     /// Takes the present shape of `mesh` as rest shape; it may change or die afterwards.
     /// Errors: region_empty without held vertices; topology_mismatch; handle_outside_region for
     /// vertices held, or of a feature, outside the region; handle_overlap for a feature that
-    /// overlaps another, or what is held; unconstrained naming a connected part that nothing holds;
-    /// zero_area; not_positive_definite; memory_limit; cancelled.
+    /// overlaps another, or held vertices; unconstrained naming a connected part that nothing
+    /// holds; zero_area; not_positive_definite; memory_limit; cancelled.
     BoundaryDeformer(const Mesh& mesh, const Region& region, const Region& held,
                      const BoundaryDeformOptions& options = {}, const Context& context = {});
     ~BoundaryDeformer();
@@ -97,14 +97,14 @@ class BoundaryDeformer {
     const DeformStats& stats() const;
 
     /// Solves both systems for one value a held vertex, in the order of `held().vertices()`.
-    /// Errors: invalid_argument where their number differs, or for a scale that is not above 0, or
-    /// a slack below it; not_finite; cancelled.
+    /// Errors: invalid_argument if their number differs, or for a scale that is not above 0, or a
+    /// slack below it; not_finite; cancelled.
     BoundaryDeformation solve(std::span<const BoundaryValue> values, const Context& context = {});
 
     /// Goes on from the last solution with at most `steps` ARAP iterations, at fixed sizes: the
-    /// rotations are fitted to the positions, and those are solved for again. A step goes as far
-    /// beyond the rotations that fit best as lowers the energy; where none does, there are no more.
-    /// What is held stays, but turns within its slack.
+    /// rotations are fitted to the positions, and those are solved for again. The length of a step
+    /// beyond the best-fitting rotations is the one that lowers the energy most; iterations end if
+    /// none lowers it. Held vertices stay, but turn within their slack.
     /// Errors: invalid_argument before the first `solve`, or for less than one step; cancelled, and
     /// then `solve` must be called again.
     BoundaryDeformation refine(int steps, const Context& context = {});

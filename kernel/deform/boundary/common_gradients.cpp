@@ -56,7 +56,7 @@ std::vector<CommonGradients::Pull> CommonGradients::pulls(const std::vector<Vec3
     return result;
 }
 
-// One coordinate of all positions, where that of the feature is 1, or is that of an arm.
+// One coordinate of all positions, with that of the feature 1, or that of an arm.
 CommonGradients::Responses CommonGradients::first_responses(Index feature) const {
     const std::vector<Index>& free = first_.free_vertices();
     const std::size_t rows = free.size();
@@ -86,7 +86,7 @@ CommonGradients::Responses CommonGradients::first_responses(Index feature) const
 }
 
 // The forces that the responses in the coordinates of `x` make, each for one parameter of the
-// feature; none where a parameter is -1.
+// feature; none for a parameter of -1.
 void CommonGradients::add_columns(Index feature, const std::vector<Vec3>& x,
                                   const std::vector<Mat3>& m, std::array<int, 3> parameter) {
     const std::vector<Pull> forces = pulls(x, m);

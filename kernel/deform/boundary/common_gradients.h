@@ -19,11 +19,11 @@ namespace lissom {
 
 /// Both systems know the positions and gradients of the features' vertices. An affine map of a
 /// feature has twelve parameters: it moves the solution by as many responses, four fields for all
-/// coordinates, found once. Where the sum of the energy has its least value follows from the forces
-/// on the features, by a dense system of four unknowns a feature.
+/// coordinates, found once. The minimum of the total energy follows from the forces on the
+/// features, by a dense system of four unknowns a feature.
 class CommonGradients {
   public:
-    /// `features` are local vertices. What is given must live as long.
+    /// `features` are local vertices. The arguments must live as long.
     CommonGradients(const WorkingPatch& work, std::vector<std::vector<Index>> features,
                     const GradientSystem& first, const GradientResidual& energy,
                     const RotationSystem& second);
@@ -32,7 +32,7 @@ class CommonGradients {
     const std::vector<Index>& vertices(Index feature) const { return features_[at(feature)]; }
     /// The feature of a local vertex, or kNoIndex.
     Index feature_of(Index v) const { return feature_of_[at(v)]; }
-    /// Where a vertex of a feature lies from the feature's middle.
+    /// Returns the offset of a vertex of a feature from the feature's middle.
     Vec3 arm(Index v) const;
 
     /// Finds the responses. Both systems are factored, and the second is finished.
@@ -42,8 +42,8 @@ class CommonGradients {
     /// affine map) in which the features stay to the one in which each has the affine map of least
     /// energy.
     void release_first(std::vector<Vec3>& x, std::vector<Mat3>& m) const;
-    /// From a solution of the second system to the one in which each feature has moved, without
-    /// turning, to where no force is left on it.
+    /// Goes from a solution of the second system to the one in which each feature has moved,
+    /// without turning, to a position free of force.
     void release_second(const std::vector<PaddedMat3>& turns, std::vector<Vec4>& x,
                         const Context& context) const;
 

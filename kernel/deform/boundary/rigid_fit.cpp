@@ -10,7 +10,7 @@
 namespace lissom {
 namespace {
 
-// The rotation, or where it leaves the slack of a value that which is nearest to it there.
+// Returns the rotation, or the nearest one within the slack of a value.
 Mat3 limited(const Mat3& rotation, const TurnLimit& limit) {
     if (!limit.value) return rotation;
     const Eigen::AngleAxisd away(Mat3(rotation * limit.value->upright.transpose()));
@@ -19,7 +19,7 @@ Mat3 limited(const Mat3& rotation, const TurnLimit& limit) {
            limit.value->upright;
 }
 
-// What one vertex has of the energy with a transform.
+// Energy of one vertex with a transform.
 double energy_at(const EnergyLoop& loop, std::span<const Vec4> x, Index v, const Mat3& transform) {
     const Vec3 own = x[at(v)].head<3>(), rest = loop.rest[v].head<3>();
     double sum = 0.0;

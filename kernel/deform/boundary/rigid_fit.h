@@ -12,8 +12,8 @@
 
 namespace lissom {
 
-/// How a vertex may turn: not at all where it is not free, else within the slack of a value where
-/// there is one.
+/// Limit of a vertex's rotation: none at all unless it is free, else the slack of its value, if
+/// any.
 struct TurnLimit {
     bool free = true;
     const BoundaryValue* value = nullptr;
@@ -27,8 +27,8 @@ struct FittedTurns {
     double energy = 0.0;
 };
 
-/// Those with the least energy at positions x, with the sizes and, where vertices do not turn, the
-/// transforms that they have: `now`.
+/// Returns the transforms of least energy at positions x, with the sizes of `now` and the
+/// transforms of `now` at vertices that do not turn.
 FittedTurns fitted_turns(const EnergyLoop& loop, std::span<const Vec4> x, std::span<const Mat3> now,
                          std::span<const double> size, std::span<const TurnLimit> limits,
                          const Context& context);

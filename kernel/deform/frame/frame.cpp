@@ -10,7 +10,7 @@
 namespace lissom {
 namespace {
 
-// Solves the second system with what `taken` adds to rotations, which stay as they are.
+// Solves the second system with the stretch of `taken` added to rotations, which stay as they are.
 void solve_stretched(const SecondInput& input, std::span<const TakenStretch> taken,
                      FrameScratch::State& scratch, const Context& context) {
     std::vector<PaddedMat3> before;
@@ -67,7 +67,7 @@ bool may_be_finished(const FrameInput& motion) {
     return motion.options().refine == 0 && !motion.method().second->has_ties();
 }
 
-// Where the second system puts the free vertices.
+// Positions of the free vertices from the second system.
 void place_free(const SecondInput& input, std::span<const Vec4> deviation, const Context& context,
                 std::vector<Vec3>& positions) {
     const FrameInput& motion = input.motion;
@@ -84,7 +84,7 @@ void place_free(const SecondInput& input, std::span<const Vec4> deviation, const
     });
 }
 
-// A frame's positions, for the region and behind it for what a refinement inserted.
+// Positions of a frame, for the region and then for the vertices that a refinement inserted.
 std::vector<Vec3> take_positions(FrameScratch::State& scratch, const Preparation& prepared) {
     std::vector<Vec3> positions = std::exchange(scratch.positions, {});
     positions.resize(prepared.rest->positions.size() + prepared.patch().inserted.size());

@@ -85,8 +85,8 @@ const MovingSurface& moving_surface(const SecondInput& input, FrameScratch::Stat
 
 }  // namespace
 
-// The greatest share instead of all or nothing: a path of poses does not jump where the refined
-// surface begins to touch itself.
+// Takes the greatest fraction without self-intersection instead of all or nothing, so that a path
+// of poses does not jump when the refined surface begins to touch itself.
 void limit_refinement(const SecondInput& input, const Deviation& plain,
                       FrameScratch::State& scratch, const Context& context) {
     Deviation& result = scratch.deviation;

@@ -40,7 +40,7 @@ void count_costs(Preparation& next, const ComparisonCosts& costs) {
     stats.factorizations = stats.free_vertices > 0 ? 1 : 0;
 }
 
-// The identity where the surroundings hold the region, else the transform of the first handle.
+// The identity if the surroundings hold the region, else the transform of the first handle.
 Affine comparison_base(const Preparation& prepared, const Poses& poses) {
     const Rings& rings = prepared.rings();
     for (Index v = 0; v < prepared.patch().real_count; ++v) {

@@ -1,4 +1,4 @@
-/// What a preparation and poses say together: the input of one frame; private to kernel/deform.
+/// Input of one frame: a preparation and poses; private to kernel/deform.
 #pragma once
 
 #include <vector>
@@ -15,13 +15,13 @@
 
 namespace lissom {
 
-/// What targets ask of local vertices and anchors, and what that adds to the free vertices.
+/// Values of targets at local vertices and anchors, and their part of the free vertices.
 struct TargetRhs {
     VertexConstraints at;
     FixedPart fixed;
 };
 
-/// Costs a solve with the first system, where there are targets.
+/// Costs a solve with the first system if there are targets.
 TargetRhs target_rhs(const Preparation& prepared, const std::vector<TargetPose>& targets);
 
 /// Positions are relative to the patch's origin. All that it is made from lives as long.
@@ -54,10 +54,10 @@ class FrameInput {
     std::vector<Vec4> relative_turns() const;
     /// The greatest turn between two handles. The thesis's literal formulation knows no turns.
     double max_turn() const;
-    /// sum over h of w_h value_h at every local vertex, where w_h are the weights of translations
+    /// Returns sum over h of w_h value_h at every local vertex; w_h are the weights of translations
     /// in the first system.
     std::vector<Vec4> spread(const std::vector<Vec4>& value, const Context& context) const;
-    /// Adds to `field` what targets add to the positions, where the base is still.
+    /// Adds the moves of targets to `field`, relative to a base at rest.
     void add_asked_moves(std::vector<Vec4>& field) const;
 
   private:

@@ -1,4 +1,4 @@
-// Where parts go that follow the surface near them.
+// Positions of parts that follow the surface near them.
 #include <cmath>
 
 #include "kernel/deform/frame/frame_steps.h"

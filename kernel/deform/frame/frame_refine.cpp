@@ -12,9 +12,8 @@
 namespace lissom {
 namespace {
 
-// How far beyond the rotations that fit best a refinement goes, in steps from the last ones: far in
-// all steps but the last, which takes back what went too far. Two such steps lower the energy as
-// four or five without would.
+// Over-relaxation of a refinement, in steps from the last rotations: large in all steps but the
+// last, which corrects the excess. Two such steps lower the energy as four or five without would.
 constexpr double kFurther = 1.6;
 constexpr double kLastFurther = 0.5;
 
@@ -24,16 +23,15 @@ constexpr double kNearAngle = 178.0 * kPi / 180.0;
 constexpr double kFarAngle = 270.0 * kPi / 180.0;
 
 // Rotations that a refinement would change by more than this are followed less, and by twice as
-// much not at all: there the surface has caved in or folded, no rotation fits, and going after the
-// best one would fold it further or unwind what was asked for.
+// much not at all: the surface has caved in or folded there, no rotation fits, and the best one
+// would fold it further or unwind the prescribed turn.
 constexpr double kSureChange = 25.0 * kPi / 180.0;
 
-// Where handles change the size of the surface by this logarithm or more, nothing is refined: no
+// Nothing is refined if handles change the size of the surface by this logarithm or more: no
 // rotation fits, and the best one would trade stretch for a moat beside the handle.
 constexpr double kSizeChange = 0.05;
 
-// How handles change the size of the surface, as logarithms in the last entry; empty where none
-// does.
+// Change of size by handles, as logarithms in the last entry; empty if there is none.
 std::vector<Vec4> size_changes(const FrameInput& motion, const Context& context) {
     if (!motion.method().solution) return {};
     const std::vector<Vec4> of_handles = motion.relative_turns();
@@ -49,10 +47,10 @@ double over_relaxation(double max_turn, bool last) {
     return (last ? kLastFurther : kFurther) * (1.0 - far);
 }
 
-// As in the local step of Sorkine and Alexa, "As-rigid-as-possible surface modeling" (2007), for
-// the energy of the second system: with its solution in between, that energy never increases.
-// Successive over-relaxation: the rotations then go on by `further` times the change, and less
-// where no rotation fits. Scales stay.
+// Local step of Sorkine and Alexa, "As-rigid-as-possible surface modeling" (2007), for the energy
+// of the second system: with its solution in between, that energy never increases. Successive
+// over-relaxation: the rotations then go on by `further` times the change, and less if no rotation
+// fits. Scales stay.
 void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,
                       std::vector<Vec4>& absolute, const Context& context, Rotations& rotations) {
     const FrameInput& motion = input.motion;
@@ -80,7 +78,7 @@ void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation,
                 auto turn = rotations[v].topRows<3>();
                 const Mat3 before = input.base_rotation + turn;
                 const double scale = scales ? uniform_scale(before) : 1.0;
-                // Nothing to go on from where the surface has shrunk to a point.
+                // A surface that has shrunk to a point gives no rotation.
                 if (!(scale > 0.0)) continue;
                 const Mat3 from = before / scale;
                 const Eigen::AngleAxisd change(Mat3(m[i] * from.transpose()));

@@ -1,4 +1,4 @@
-// What becomes a result: positions as they were asked for to the bit, and gradients.
+// Results of a frame: positions, exact to the bit at constraints, and gradients.
 #include <algorithm>
 #include <utility>
 
@@ -8,8 +8,8 @@
 namespace lissom {
 namespace {
 
-// Where vertices go that a handle holds: transform(p), to the bit, unless the patch knows better.
-// Calls put(row, position) for each of `vertices`.
+// Positions of the vertices of a handle: transform(p), to the bit, unless the patch has a more
+// exact one. Calls put(row, position) for each of `vertices`.
 template <typename Put>
 void for_each_held(const RestShape& rest, const HandlePose& pose, std::span<const Index> vertices,
                    const Put& put) {
@@ -29,7 +29,7 @@ void for_each_held(const RestShape& rest, const HandlePose& pose, std::span<cons
     }
 }
 
-// Held vertices lie where they were asked to, to the bit; vertices without faces that nothing holds
+// Held vertices lie at their prescribed positions, to the bit; unconstrained vertices without faces
 // are at rest.
 void place_held(const Preparation& prepared, const Poses& poses, std::vector<Vec3>& positions) {
     const RestShape& rest = *prepared.rest;

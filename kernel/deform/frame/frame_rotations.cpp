@@ -28,8 +28,8 @@ double turn_fraction(double greatest) {
     return (kExactAngle + kFurthestBeyond * std::tanh(beyond / kFurthestBeyond)) / greatest;
 }
 
-// Where local vertices lie, relative to where the base takes them, if the handles of the solution
-// differ from it by `differences` and nothing else moves.
+// Positions of local vertices, relative to the base's motion, if the handles of the solution differ
+// from it by `differences` and nothing else moves.
 void spread_moves(const FrameInput& motion, std::span<const Mat4> differences,
                   const Context& context, Deviation& x) {
     const std::vector<Index>& handles = motion.solution().handles();
@@ -53,8 +53,8 @@ void spread_moves(const FrameInput& motion, std::span<const Mat4> differences,
     });
 }
 
-// Gradients of weights serve where there are at most so many handles: more would take longer to
-// read than stencils.
+// Gradients of weights serve up to this number of handles: more would take longer to read than
+// stencils.
 constexpr std::size_t kFewHandles = 4;
 
 std::vector<std::vector<Vec3>> find_weight_gradients(const FrameInput& motion,

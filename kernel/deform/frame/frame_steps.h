@@ -4,9 +4,9 @@
 ///     FrameInput -> deviation (first system) -> rotations -> deviation (second system) ->
 ///     DeformFrame
 ///
-/// A deviation is where local vertices lie, degenerate ones displaced, relative to where the base
-/// takes their rest position. Rotations are S_i of the second system, or R_i s_i, less that of the
-/// base; outside the region they stay zero, as then the base is the identity.
+/// A deviation is the positions of local vertices, degenerate ones displaced, relative to the
+/// base's transform of their rest position. Rotations are S_i of the second system, or R_i s_i,
+/// less that of the base; outside the region they stay zero, as then the base is the identity.
 #pragma once
 
 #include <memory>
@@ -30,14 +30,14 @@ namespace lissom {
 using Deviation = std::vector<Vec4>;
 using Rotations = std::vector<PaddedMat3>;
 
-/// The asked part of the last frame, which serves as long as the targets stay where they are.
+/// The prescribed part of the last frame, valid while the targets stay.
 struct TargetMemo {
     std::weak_ptr<const Preparation> preparation;
     std::vector<TargetPose> targets;
     TargetRhs part;
 };
 
-/// Whose draft lies in the scratch; a full frame of the same poses goes on from there.
+/// Poses of the draft in the scratch; a full frame of the same poses starts from it.
 struct DraftMemo {
     std::weak_ptr<const Preparation> preparation;
     Poses poses;
@@ -50,7 +50,7 @@ struct DraftMemo {
 struct FrameScratch::State {
     TargetMemo asked;
     std::optional<DraftMemo> draft;
-    /// Of all that is asked for, and of a part of the turns.
+    /// Deviation of the whole motion, and of a part of the turns.
     Deviation deviation, part;
     /// Sized, and zero outside the region, for `sized_for`.
     Rotations rotations;
@@ -66,22 +66,22 @@ struct FrameScratch::State {
 const TargetRhs& target_rhs(const std::shared_ptr<const Preparation>& preparation,
                             const std::vector<TargetPose>& targets, TargetMemo& memo);
 
-/// Translations of the solution's handles, spread as in the first system, together with what
-/// targets ask: their gradients.
+/// Gradients of the translations of the solution's handles, spread as in the first system, together
+/// with the moves of targets.
 class SpreadMoves {
   public:
     SpreadMoves(const FrameInput& motion, const std::vector<Vec4>& of_handles,
                 const Context& context);
 
-    /// m[i - begin] for the i-th of vertices, i in [begin, end): of those that are gathered, or,
-    /// where some are averaged, any.
+    /// m[i - begin] for the i-th of vertices, i in [begin, end): of gathered vertices, or of any if
+    /// some are averaged.
     void gather(const Index* vertices, Mat3* m, Index begin, Index end) const;
 
   private:
     const FrameInput& motion_;
     std::vector<Vec4> of_handles_;
     const std::vector<std::vector<Vec3>>* weight_gradients_ = nullptr;
-    /// The moves themselves, where gradients of weights do not serve.
+    /// The moves themselves, for handles too many for gradients of weights.
     std::vector<Vec4> field_;
 };
 
@@ -89,11 +89,11 @@ class SpreadMoves {
 struct TurnPart {
     double fraction = 1.0;
     std::span<const Vec4> deviation;
-    /// What the handles' translations and the targets add that the turns do not.
+    /// The part of the handles' translations and of the targets that the turns leave.
     SpreadMoves remainder;
 };
 
-/// What the second system starts from.
+/// Start of the second system.
 struct SecondInput {
     const FrameInput& motion;
     /// S of the base.
@@ -124,17 +124,17 @@ std::vector<TakenStretch> taken_stretches(const FrameInput& motion,
 
 void solve_first(const FrameInput& motion, const Context& context, Deviation& deviation);
 
-/// M_i after the first system, or what `part` of it leads to; where it does not exist, the mean of
-/// those around it.
+/// M_i after the first system, or extrapolated from its `part`; the mean of the ring if it does not
+/// exist.
 Mat3 gradient_of(const FrameInput& motion, std::span<const Vec4> deviation, Index v,
                  const TurnPart* part = nullptr);
 
-/// The part of the turns that the first system is asked for, where it is not asked for all; its
-/// deviation is in `scratch`.
+/// Part of the turns that the first system solves, if not all; its deviation is in
+/// `scratch`.
 std::optional<TurnPart> part_of_turns(const FrameInput& motion, double max_turn, Deviation& scratch,
                                       const Context& context);
-/// Turns gradients of `part` on by what it leaves, and adds the remainders: of vertices [begin,
-/// end).
+/// Extrapolates gradients of `part` by the rest of the turns, and adds the remainders: of vertices
+/// [begin, end).
 void extrapolate_rotation(const FrameInput& motion, const TurnPart& part, const Index* vertices,
                           Mat3* gradient, Index begin, Index end);
 
@@ -151,7 +151,7 @@ void turn_held(const SecondInput& input, Rotations& rotations);
 /// The rotations that the first system leads to.
 void find_rotations(const SecondInput& input, std::span<const Vec4> deviation, Deviation& scratch,
                     const Context& context, Rotations& rotations);
-/// The same where handles turn too far for it: by the field of turns, or between both.
+/// The same for handles that turn too far for it: by the field of turns, or between both.
 void wind_rotations(const SecondInput& input, FrameScratch::State& scratch, const Context& context);
 /// Over-relaxation of an ARAP iteration: 0 for none.
 double over_relaxation(double max_turn, bool last);
@@ -177,7 +177,7 @@ void place_followers(const Preparation& prepared, const Poses& poses, std::vecto
 void turn_followers(const Preparation& prepared, const Poses& poses,
                     const std::vector<Vec3>& positions, std::vector<Mat3>& gradients);
 
-/// The frame with `positions` for what is free; others lie where they are held, to the bit.
+/// Returns the frame with `positions` of the free vertices; held ones lie exactly as prescribed.
 DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const FrameInput& motion,
                    const Poses& poses, std::vector<Vec3> positions);
 

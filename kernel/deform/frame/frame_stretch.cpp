@@ -1,4 +1,4 @@
-// What the second system takes of the stretch of handles.
+// Stretch of handles in the second system.
 #include <Eigen/LU>
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 namespace lissom {
 namespace {
 
-// A transform that differs by less from what it turns by is rigid.
+// Largest deviation from a rotation of a rigid transform.
 constexpr double kRigid = 1e-9;
 
 // Laplacian coordinates (Eq 2.10) know rotations only.
@@ -21,7 +21,7 @@ bool stretches(const FrameInput& motion, const Mat3& linear) {
     return (linear - turn).norm() > kRigid * turn.norm();
 }
 
-// As much of `asked` as is in `found`, at most `share` of it.
+// The part of `asked` present in `found`, at most `share` of it.
 Mat3 part_of_stretch(const Mat3& asked, const Mat3& found, double share) {
     const Mat3 change = asked - Mat3::Identity();
     const double along = (found - Mat3::Identity()).cwiseProduct(change).sum();
@@ -62,7 +62,7 @@ class StretchTaker {
         taken_.push_back({v, part_of_stretch(stretch_of(linear), found, share)});
     }
 
-    // The symmetric part of `gradient`, in the axes of rest, beside what S has of it anyway.
+    // The symmetric part of `gradient`, in the axes of rest, beside the part already in S.
     Mat3 stretch_of(const Mat3& gradient) const {
         return rotation_of(motion_, gradient).inverse() * gradient;
     }

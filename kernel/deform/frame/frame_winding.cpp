@@ -1,6 +1,6 @@
 // Rotations of handles beyond half a turn. The first system cannot tell a turn by t from one by t
-// minus a full turn; what was asked for is propagated instead, and only what the handles'
-// translations add is taken as the first system would. frame_rotations.cpp leads there.
+// minus a full turn; the prescribed turn is propagated instead, and only the handles' translations
+// follow the first system. frame_rotations.cpp leads there.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -122,7 +122,7 @@ HandleResponses find_answers(const Preparation& prepared, RotationSystem::Scratc
     return answers;
 }
 
-// The forces on movable handles where the second system would take the surface.
+// Forces on movable handles in the solution of the second system.
 Eigen::MatrixXd forces_on(const SecondInput& input, const std::vector<Index>& movable,
                           const HandleResponses& answers, const Rotations& rotations,
                           std::span<const Vec4> deviation, RotationSystem::Scratch& scratch,
@@ -151,7 +151,7 @@ Eigen::MatrixXd forces_on(const SecondInput& input, const std::vector<Index>& mo
     return rows;
 }
 
-// How far each handle of the solution is from where the present turns alone would put it.
+// Distance of each handle of the solution from its place under the present turns alone.
 std::vector<Vec4> mismatches(const SecondInput& input, const HandleResponses& answers,
                              const Rotations& rotations, std::span<const Vec4> deviation,
                              RotationSystem::Scratch& scratch, const Context& context) {
@@ -234,7 +234,7 @@ Mat3 blended(const FrameInput& motion, const Mat3& first, const Mat3& now, doubl
     return scale * rotation_between(nearest_rotation(first), nearest_rotation(now), share);
 }
 
-// Adds S_i of `rotations` to gradients of what bends the surface.
+// Adds S_i of `rotations` to gradients of the bending field.
 void bend(const SecondInput& input, std::span<const Index> vertices, const Rotations& rotations,
           std::span<Mat3> gradient) {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -256,9 +256,8 @@ double share_of_turns(double max_turn) {
     return smooth_step((max_turn - kFirstAngle) / (kLastAngle - kFirstAngle));
 }
 
-// Each vertex turns by the mean of the handles' rotation vectors; the second system says where the
-// handles would then lie by themselves, and what they are off by bends the surface as pure
-// translations do.
+// Each vertex turns by the mean of the handles' rotation vectors; the second system gives the
+// places of the handles then, and their mismatch bends the surface as pure translations do.
 void wind_rotations(const SecondInput& input, FrameScratch::State& scratch,
                     const Context& context) {
     const double share = share_of_turns(input.max_turn);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kBridged = 1.5;
 constexpr int kMaxRings = 10;
 
-// Where the holder of local vertex v takes p: constraints by their own vertex, others stay.
+// Image of p under the holder of local vertex v: constraints by their own vertex, others stay.
 Vec3 taken(const Preparation& prepared, const Poses& poses, Index v, const Vec3& p) {
     const Index owner = prepared.owner[at(v)];
     if (owner >= 0) return poses.handles[at(owner)].local_transform(p);

@@ -1,4 +1,4 @@
-// The anchors and ties of what is held softly or at points (ties.h).
+// The anchors and ties of soft constraints and of points (ties.h).
 #include <algorithm>
 #include <string>
 
@@ -9,10 +9,10 @@ namespace lissom {
 namespace {
 
 // Weight of hard ties within the matrix. Their exactness does not depend on it; it only keeps the
-// matrix definite where nothing else holds the surface.
+// matrix definite if nothing else holds the surface.
 constexpr double kHardWeight = 10.0;
 
-// Weight for each squared radius of area of what fades, where it begins.
+// Weight of a fading constraint at its start, for each squared radius of area.
 constexpr double kFading = 100.0;
 
 class AnchorBuilder {
@@ -36,7 +36,7 @@ class AnchorBuilder {
     }
 
   private:
-    // Virtual vertices are as stiff as what surrounds them, and normal points as their vertex.
+    // Virtual vertices are as stiff as the vertices around them, and normal points as their vertex.
     void stiffen(const std::vector<double>& given) {
         const Patch& patch = work_.patch;
         work_.stiffness = given;
@@ -76,8 +76,8 @@ class AnchorBuilder {
         return patch.vertex_count++;
     }
 
-    // Draws vertices within `reach` of the sources to where `owner` takes them: by density, so that
-    // neither handle nor triangles matter.
+    // Draws vertices within `reach` of the sources to their places under `owner`: by density, so
+    // that neither handle nor triangles matter.
     void add_fading(const std::vector<std::pair<Index, double>>& sources, double reach, Index owner,
                     double strength, bool position, bool gradient) {
         const std::vector<double> distance = patch_distances(work_.patch, sources, reach);
@@ -149,7 +149,7 @@ class AnchorBuilder {
     double transition_;
 };
 
-// Lengthens what is given for each vertex by nothing for each anchor.
+// Appends empty entries for each anchor to arrays by vertex.
 void add_empty_anchors(WorkingPatch& work) {
     const std::size_t n = work.patch.vertex_count;
     work.rings.begin.resize(n + 1, work.rings.begin.back());
@@ -175,7 +175,7 @@ Ties without(const Ties& ties, const std::vector<Index>& dropped) {
     const std::string names = describe(vertices);
     throw Error(ErrorCode::handle_overlap,
                 "a point between " + names +
-                    " cannot be held: other handles or constraints say where it lies already; "
+                    " cannot be held: other handles or constraints fix its position already; "
                     "remove one of them, or give it a weight",
                 std::move(vertices));
 }

@@ -142,8 +142,8 @@ class Refiner {
         around_[v].push_back(t);
     }
 
-    // A vertex in the region where some of those it is between are: between two outside it is
-    // pinned, as they are.
+    // A vertex is in the region if some of its parents are: between two outside it is pinned, as
+    // they are.
     Index add_vertex(const std::vector<Index>& between, bool on_boundary) {
         std::vector<SparseRow> rows;
         Vec3 at = Vec3::Zero();

@@ -1,4 +1,4 @@
-/// Local refinement of a patch where what is held is coarse beside what moves (section 2.5);
+/// Local refinement of a patch at constraints that are coarse beside the moving part (section 2.5);
 /// private to kernel/deform.
 #pragma once
 
@@ -11,20 +11,20 @@
 
 namespace lissom {
 
-/// The border of what is held is coarse where its edges, in the mean over a connected piece, are
-/// this many times as long as the edges that move.
+/// Ratio of edge lengths, border to moving part, in the mean over a connected piece, that makes the
+/// border of a constraint coarse.
 inline constexpr double kCoarseBorder = 2.0;
 /// Length, in those of the edges that move, down to which a coarse border is refined.
 inline constexpr double kRefinedBorder = 1.0;
 
-/// The patch with the edges of coarse borders split, by bisecting longest edges (Rivara 1984),
-/// which keeps the angles of triangles; or nothing where no border is coarse. New vertices lie on
-/// the triangles of the patch, so that its surface stays as it is, and those between vertices of
+/// Returns the patch with the edges of coarse borders split, by bisecting longest edges (Rivara
+/// 1984), which keeps the angles of triangles; or nothing if no border is coarse. New vertices lie
+/// on the triangles of the patch, so that its surface stays as it is, and those between vertices of
 /// one holder are held by it. Quads that are reached become four triangles around their mean.
 std::optional<Patch> refined_at_borders(const Patch& patch, const Holding& holding,
                                         double length = kRefinedBorder);
 
-/// The holder that vertices of the patch have in common and that says where they are, or kFree.
+/// Returns the holder that vertices of the patch share and that fixes their position, or kFree.
 Index common_holder(const SparseRow& row, const Holding& holding);
 
 }  // namespace lissom

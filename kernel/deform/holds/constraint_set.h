@@ -44,11 +44,11 @@ struct Target {
 
 /// Handles, constraints and stiffness.
 struct ConstraintSet {
-    /// By HandleId; null where one was removed.
+    /// By HandleId; null for a removed one.
     std::vector<std::shared_ptr<const Handle>> handles;
     /// Hard vertices first, by vertex; then the others, by row.
     std::vector<std::shared_ptr<const Target>> targets;
-    /// Stiffness of each real vertex of the patch, or null where all are 1.
+    /// Stiffness of each real vertex of the patch, or null if all are 1.
     std::shared_ptr<const std::vector<double>> stiffness;
 };
 

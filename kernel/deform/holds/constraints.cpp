@@ -12,13 +12,13 @@
 namespace lissom {
 namespace {
 
-// Positions count as one plane where their covariance is flatter than this.
+// Positions flatter than this, by their covariance, count as one plane.
 constexpr double kFlat = 1e-10;
 
 constexpr const char* kLooseRemedy =
-    "; loose = 'stay' leaves such parts where they are, loose = 'follow' takes them along";
+    "; loose = 'stay' leaves such parts in place, loose = 'follow' takes them along";
 
-// What holds one connected part of the patch.
+// Constraints of one connected part of the patch.
 struct Part {
     /// Local vertices, and those of the mesh that are free.
     std::vector<Index> members, free;
@@ -113,7 +113,7 @@ bool is_held(const Part& part) {
                 std::move(vertices));
 }
 
-// Of each part one vertex.
+// One vertex of each part.
 [[noreturn]] void refuse_parts(const std::vector<Part>& parts) {
     Elements vertices{ElementKind::vertex, 0, {}};
     for (const Part& part : parts) {
@@ -179,7 +179,7 @@ void hold_normal_points(const Patch& patch, Holding& holding) {
     for (std::size_t k = 0; k < patch.normal_points.size(); ++k) {
         const Index point = patch.first_normal_point() + index_of(k), v = patch.normal_points[k];
         const bool free = holding.known.gradient_wanted[at(v)] != 0;
-        // What is asked of a constrained vertex is not asked of its point.
+        // Demands on a constrained vertex are not demands on its point.
         const Index owner = holding.owner[at(v)] == kConstrained ? kPinned : holding.owner[at(v)];
         holding.owner[at(point)] = free ? kFree : owner;
         holding.known.position[at(point)] = !free;

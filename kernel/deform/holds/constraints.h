@@ -1,4 +1,4 @@
-/// What holds the vertices of a patch: the handles, the constraints of vertices and points, and the
+/// Constraints of the vertices of a patch: the handles, constrained vertices and points, and the
 /// rest of the mesh; private to kernel/deform.
 #pragma once
 
@@ -19,27 +19,27 @@ namespace lissom {
 inline constexpr Index kFree = -1;
 inline constexpr Index kPinned = -2;
 inline constexpr Index kConstrained = -3;
-/// Of parts that nothing holds: they stay, or follow what is near once that is solved.
+/// Owner of unconstrained parts: they stay, or follow the surface near them once it is solved.
 inline constexpr Index kLoose = -4;
 
-/// What is asked of local vertices and anchors, by their number.
+/// Constraints of local vertices and anchors, by their number.
 using VertexConstraints = std::map<Index, VertexConstraint>;
 
-/// True where a preparation cannot work on the rest patch as it is; `transition` is that of the
+/// Returns if a preparation needs a patch other than the rest patch; `transition` is that of the
 /// options.
 bool changes_patch(const ConstraintSet& constraints, double transition);
 
-/// Who holds which local vertices of a patch, and what that makes known.
+/// Owners of the local vertices of a patch, and the known values that follow.
 struct Holding {
     std::vector<Index> owner;
     KnownMask known;
-    /// Anchors and vertices that take what a target asks that is no hard vertex, with its number.
+    /// Anchors and vertices with the value of a target that is no hard vertex, and its number.
     std::vector<std::pair<Index, Index>> asked;
 };
 
-/// The patch with the stiffness asked for, and an anchor for every point and every vertex that is
-/// held softly.
-/// Errors: handle_overlap where a point leaves nothing to move, naming its vertices.
+/// Returns the patch with the given stiffness, and an anchor for every point and every softly held
+/// vertex.
+/// Errors: handle_overlap if all vertices of a point are held already, naming them.
 std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest,
                                              const ConstraintSet& constraints, double transition);
 
@@ -50,8 +50,8 @@ Holding find_holding(const WorkingPatch& work, const ConstraintSet& constraints)
 /// Local vertices, ascending, of each connected part that nothing holds at all.
 std::vector<std::vector<Index>> loose_parts(const WorkingPatch& work, const KnownMask& known);
 
-/// Throws `unconstrained` where a connected part with free vertices has no known position, or
-/// neither a known gradient nor four known positions that are not in one plane.
+/// Throws `unconstrained` if a connected part with free vertices has no known position, or neither
+/// a known gradient nor four known positions that are not in one plane.
 void require_constraints(const WorkingPatch& work, const KnownMask& known);
 
 }  // namespace lissom

@@ -1,4 +1,4 @@
-/// Where what is held by one comes near to what is held by another; private to kernel/deform.
+/// Gaps between constraints of different holders; private to kernel/deform.
 #pragma once
 
 #include <vector>

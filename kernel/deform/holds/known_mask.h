@@ -5,7 +5,7 @@
 
 namespace lissom {
 
-/// What is known of every local vertex. A vertex whose gradient is not needed has it neither known
+/// Known values of every local vertex. A vertex whose gradient is not needed has it neither known
 /// nor wanted: far outside, or without faces.
 struct KnownMask {
     std::vector<char> position, gradient, gradient_wanted;

@@ -48,7 +48,7 @@ std::vector<Index> parts_of(const WorkingPatch& work) {
 }
 
 // The surface that is held as triangles apart from each other: a patch need not be a
-// manifold, as two quads may have the same diagonal. Of a quad the triangles of one diagonal.
+// manifold, as two quads may have the same diagonal. A quad has the triangles of one diagonal.
 struct HeldSurface {
     Mesh triangles;
     /// The vertex of the patch that each vertex stands for.

@@ -1,4 +1,4 @@
-/// Connected parts that nothing holds, and what they follow; private to kernel/deform.
+/// Unconstrained connected parts, and the surface that they follow; private to kernel/deform.
 #pragma once
 
 #include <vector>
@@ -21,8 +21,8 @@ struct FollowingPart {
     Index owner = kFree;
 };
 
-/// Makes parts that nothing holds known: they stay, or are returned with what they follow, single
-/// vertices without faces among them. Nothing is done for UnheldParts::error.
+/// Makes unconstrained parts known: they stay, or are returned with the surface that they follow,
+/// single vertices without faces among them. Nothing is done for UnheldParts::error.
 std::vector<FollowingPart> hold_loose_parts(const WorkingPatch& work, UnheldParts loose,
                                             Holding& holding, const Context& context);
 

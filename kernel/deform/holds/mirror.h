@@ -1,4 +1,4 @@
-/// Mirror images of what is held; private to kernel/deform.
+/// Mirror images of constraints; private to kernel/deform.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace lissom {
 
-/// The reflection in a plane. Errors: invalid_argument where its normal has no direction.
+/// Returns the reflection in a plane. Errors: invalid_argument if its normal has no direction.
 Affine reflection(const MirrorPlane& plane);
 
 /// For each of `vertices` the one of `candidates` that lies nearest to its mirror image, no farther

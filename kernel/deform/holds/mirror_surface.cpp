@@ -77,8 +77,8 @@ Vec3 MirrorSurface::area_normal(const Triangle& t) const {
     return (patch_.rest[at(t[1])] - a).cross(patch_.rest[at(t[2])] - a);
 }
 
-// Without corners where no triangle looks along `facing`; zero is along all of them. Of equally
-// near triangles the first.
+// Without corners if no triangle looks along `facing`; zero is along all of them. The first of
+// equally near triangles is taken.
 MirrorFoot MirrorSurface::nearest(const Vec3& point, const Vec3& facing) const {
     MirrorFoot best;
     double least = std::numeric_limits<double>::infinity();
@@ -107,8 +107,9 @@ MirrorFoot MirrorSurface::foot_of(const Vec3& point) const {
     return nearest(mirror_(point), Vec3::Zero());
 }
 
-// Vertices of the region whose own mirror image lies on what is `given`: within a triangle the part
-// that is nearer to its given corners. Only those no farther from it than `farthest` are looked at.
+// Vertices of the region whose own mirror image lies on the `given` part: within a triangle the
+// part that is nearer to its given corners. Only those no farther from it than `farthest` are
+// looked at.
 std::vector<Index> MirrorSurface::around(std::span<const Index> vertices,
                                          const std::vector<char>& given, double farthest) const {
     Box box;

@@ -7,7 +7,7 @@
 namespace lissom {
 namespace {
 
-// A vertex and its ring count as on one line where their covariance is thinner than this.
+// Ratio of the covariance beyond which a vertex and its ring count as on one line.
 constexpr double kThin = 1e3;
 
 Vec3 ring_center(const WorkingPatch& work, Index i) {

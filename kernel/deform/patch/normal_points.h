@@ -1,8 +1,8 @@
 /// Points beside flat vertices; private to kernel/deform.
 ///
-/// The positions of a flat ring say nothing about what happens across its plane. A point p = v + d,
-/// d along the normal of vertex v, completes them: M_v takes the offset at rest to x_p - x_v. It
-/// has an unknown of its own, neighbours v only, and no Laplacian row, so that the coherence of
+/// The positions of a flat ring do not determine gradients across its plane. A point p = v + d, d
+/// along the normal of vertex v, completes them: M_v takes the offset at rest to x_p - x_v. It has
+/// an unknown of its own, neighbours v only, and no Laplacian row, so that the coherence of
 /// gradients alone determines it: a plane that is moved within itself stays one.
 #pragma once
 

@@ -22,7 +22,7 @@ struct RingGeometry {
     std::vector<double> cotangent;
     /// Mixed Voronoi area of every vertex.
     std::vector<double> area;
-    /// Unit normal of every vertex, weighted by angle; zero where no face has a direction.
+    /// Unit normal of every vertex, weighted by angle; zero if no face has a direction.
     std::vector<Vec3> normal;
 };
 

@@ -11,7 +11,7 @@ namespace {
 // A quad with a corner flatter than this, relative to its area, counts as not convex.
 constexpr double kConvexRatio = 1e-3;
 
-// A triangle has no area where its height is below this fraction of its longest edge.
+// A triangle has no area if its height is below this fraction of its longest edge.
 constexpr double kZeroAreaRatio = 1e-12;
 
 // Faces around the vertices within `rings` rings of the region, ascending.
@@ -104,7 +104,7 @@ class EdgeSplitter {
         }
     }
 
-    // Splits all triangles at the edge (a, b) at the vertex `middle`; false where there are none.
+    // Splits all triangles at the edge (a, b) at the vertex `middle`; false if there are none.
     bool split(Index a, Index b, Index middle) {
         const std::vector<std::size_t> there = std::exchange(*named(a, b), {});
         for (const std::size_t i : there) {
@@ -136,8 +136,8 @@ class EdgeSplitter {
 };
 
 // The vertex of the region nearest to the mean of all. Positions relative to a vertex are exact
-// where coordinates are large, so that a mesh far from the origin of its coordinates has the same
-// patch as one that was brought back.
+// for large coordinates, so that a mesh far from the origin of its coordinates has the same patch
+// as one that was brought back.
 Index middle_vertex(std::span<const Vec3> positions, const Region& region) {
     const Vec3& first = positions[region.vertices().front()];
     Vec3 mean = Vec3::Zero();

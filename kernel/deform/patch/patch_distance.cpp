@@ -32,8 +32,7 @@ struct Fans {
 };
 
 // Distance at c of a front that reached a after `at_a` and b after `at_b`. It comes to c after
-// both: else a distance would jump where two vertices change places in the front by a rounding
-// error.
+// both: else a distance would jump if a rounding error swapped two vertices in the front.
 double across(const Vec3& a, const Vec3& b, const Vec3& c, double at_a, double at_b) {
     const double along_edges = std::min(at_a + (c - a).norm(), at_b + (c - b).norm());
     const auto later = [&](double d) { return std::min(along_edges, std::max({d, at_a, at_b})); };
@@ -41,7 +40,7 @@ double across(const Vec3& a, const Vec3& b, const Vec3& c, double at_a, double a
     if (!(length > 0.0) || at_b == kFar) return along_edges;
     const double x = (c - a).dot(b - a) / length;
     const double y = std::sqrt(std::max(0.0, (c - a).squaredNorm() - x * x));
-    // From a point below the edge, where the triangle lies unfolded above it.
+    // Starts from a point below the edge, with the triangle unfolded above it.
     const double sx = (at_a * at_a - at_b * at_b + length * length) / (2.0 * length);
     const double sy_squared = at_a * at_a - sx * sx;
     if (sy_squared >= 0.0) {

@@ -1,4 +1,4 @@
-/// Ties: what holds a surface other than at its vertices, or only softly. An anchor is a point
+/// Ties: soft constraints, and constraints of points other than vertices. An anchor is a point
 /// beside the surface that moves like a held vertex; a tie asks a mean of vertices to lie at its
 /// anchor. Private to kernel/deform.
 #pragma once
@@ -18,7 +18,7 @@
 namespace lissom {
 
 /// Ties of a patch. Tie t asks that the sum of its row over vertices equals the anchor's position:
-/// exactly where it is hard, or else in the least squares sense, with a weight that has no unit.
+/// exactly if it is hard, or else in the least squares sense, with a weight that has no unit.
 struct Ties {
     std::vector<SparseRow> row;
     std::vector<Index> anchor;
@@ -41,8 +41,8 @@ class TieRows {
   public:
     TieRows() = default;
     /// `row_of` gives the unknown of each local vertex or kNoIndex; `final_position` the row of
-    /// solved positions that make up where a vertex ends; `unit` multiplies all weights. Ties
-    /// without an unknown have no say.
+    /// solved positions that add up to a vertex's final position; `unit` multiplies all weights.
+    /// Ties without an unknown have no say.
     TieRows(const Ties& ties, const std::vector<Index>& row_of, double unit,
             const std::function<SparseRow(Index)>& final_position);
 
@@ -52,7 +52,7 @@ class TieRows {
     /// Adds w c c^T of every tie.
     void add_to(SymmetricMatrix& matrix) const;
 
-    /// Adds w c (anchor - what known vertices contribute), for known coordinates `position(k)`.
+    /// Adds w c (anchor - the part of known vertices), for known coordinates `position(k)`.
     template <typename Position, typename Real>
     void add_right_hand_side(const Position& position, Real* b) const {
         for (const Tie& tie : ties_) {
@@ -61,7 +61,7 @@ class TieRows {
         }
     }
 
-    /// Takes w c (what is tied - anchor) off the residual of each unknown, for positions of all
+    /// Takes w c (the tied mean - anchor) off the residual of each unknown, for positions of all
     /// local vertices of which `free` are the unknowns.
     void subtract_from(std::span<const Vec4> positions, const std::vector<Index>& free,
                        std::vector<Vec3>& residual) const;
@@ -107,18 +107,18 @@ class TieRows {
         return sum;
     }
 
-    /// Takes off `x` what the hard ties miss.
+    /// Takes the error of the hard ties off `x`.
     void take_off(const Eigen::VectorXd& miss, std::span<double> x) const;
 
     struct Factor;
 
     std::vector<Tie> ties_;
     Eigen::MatrixXd response_;
-    /// Of what the hard ties answer to each other.
+    /// Matrix of the responses of hard ties to each other.
     std::shared_ptr<const Factor> schur_;
 };
 
-/// Of the hard ties, those whose rows over unknown vertices the ties before them determine.
+/// Returns the linearly dependent hard ties: their rows over unknown vertices follow from others.
 std::vector<Index> dependent_ties(const Ties& ties, const std::vector<char>& position_known);
 
 }  // namespace lissom

@@ -17,7 +17,7 @@ struct SurfaceRings {
     RingGeometry geometry;
 };
 
-/// A patch and what follows from its shape and the options. A preparation may work on a patch with
+/// A patch and the operators of its shape and the options. A preparation may work on a patch with
 /// more vertices than the one that a Deformer was made with: its real vertices, which come first,
 /// are the same in both.
 struct WorkingPatch {
@@ -30,12 +30,12 @@ struct WorkingPatch {
     /// RMS distance of the surface to its centroid.
     double radius = 0.0;
 
-    /// Stiffness of each local vertex, or empty where all are 1. The weights of `laplacian` include
+    /// Stiffness of each local vertex, or empty if all are 1. The weights of `laplacian` include
     /// it.
     std::vector<double> stiffness;
 
-    /// What holds the surface beside held vertices. For each anchor its owner (constraints.h) and
-    /// the number of its point constraint, or kNoIndex.
+    /// Soft constraints and constraints of points, beside held vertices. For each anchor its owner
+    /// (constraints.h) and the number of its point constraint, or kNoIndex.
     Ties ties;
     std::vector<GradientTie> gradient_ties;
     std::vector<Index> anchor_owner, anchor_point;

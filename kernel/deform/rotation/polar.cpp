@@ -70,8 +70,8 @@ struct Minors {
     }
 };
 
-// Greatest root of x^4 - 2 x^2 + c1 x + c0 by Newton's method from above, where it converges
-// monotonically.
+// Greatest root of x^4 - 2 x^2 + c1 x + c0 by Newton's method from above, in its region of monotone
+// convergence.
 template <typename T>
 LISSOM_INLINE void find_greatest_root(const T& c1, const T& c0, T& x) {
     x = T{} + kRootOfThree;

@@ -12,7 +12,7 @@
 namespace lissom {
 namespace {
 
-// Custom normals of two corners that differ by less than this are the same: what is left of a
+// Custom normals of two corners that differ by less than this are the same: the rounding of a
 // smooth surface by 8-bit files.
 constexpr double kSameNormal = 0.02;
 
@@ -42,8 +42,8 @@ Mat3 rotation_about(const Vec3& axis, double cosine, double sine) {
     return Eigen::AngleAxisd(std::atan2(sine, cosine), axis).toRotationMatrix();
 }
 
-// Where the fan of a vertex is cut: flags of wedges whose custom normal differs from that of the
-// wedge before.
+// Cuts of the fan of a vertex: flags of wedges whose custom normal differs from that of the wedge
+// before.
 std::vector<char> cuts_of(const Topology& topology, Index v, std::span<const Index> corners,
                           const Attribute& normals) {
     std::vector<char> cut(corners.size(), 0);
@@ -117,7 +117,7 @@ Index RestDirections::add_sector(std::span<const Wedge> wedges) {
     return count_of(sectors_) - 1;
 }
 
-// The fan is cut where `normals` of neighbouring corners differ; without them it is whole.
+// The fan is cut between corners with different `normals`; without normals it is whole.
 RestDirections::Place RestDirections::collect_sectors(const Mesh& mesh, Index v,
                                                       const Attribute* normals) {
     const Topology& topology = mesh.topology();
@@ -186,7 +186,7 @@ RestDirections::Shape RestDirections::shape_of(std::vector<Vec3> at) const {
     return shape;
 }
 
-// As vertex_normals; zero where there is none.
+// Same as vertex_normals; zero if there is none.
 Vec3 RestDirections::normal_of(const Sector& sector, const Shape& shape) const {
     Vec3 sum = Vec3::Zero();
     for (const Wedge& wedge : wedges(sector)) {

@@ -19,11 +19,11 @@ namespace lissom {
 /// The values of all attributes that are directions, at the vertices of a region and of the ring
 /// around it, whose faces move too, or at their corners.
 ///
-/// What carries a value is the surface from its rest to where it lies now, whatever moved it: a
+/// A value is carried by the surface from its rest to its present position, however it moved: a
 /// rotation that takes the normal of the rest surface to the present one, and turns about it as the
 /// edges do. So the angle between a custom normal and the surface's own is that of the rest shape.
-/// Where custom normals of corners differ along an edge, the surface on either side has a rotation
-/// of its own.
+/// The surface on either side of an edge has a rotation of its own if custom normals of corners
+/// differ along it.
 class RestDirections {
   public:
     RestDirections(const Mesh& mesh, const Region& region);
@@ -32,8 +32,8 @@ class RestDirections {
     /// Rows of the region whose vertices have no faces, so that no surface says how they turn.
     std::span<const Index> without_faces() const { return without_faces_; }
     /// Writes each value as the surface of `mesh` carries it; those of vertices without faces turn
-    /// by `alone`, in the order of `without_faces`. Where nothing moved, values are those of the
-    /// rest to the bit. Attributes that `mesh` has no more are passed over.
+    /// by `alone`, in the order of `without_faces`. If nothing moved, values are those of the rest
+    /// to the bit. Attributes that `mesh` has no more are passed over.
     void apply_to(Mesh& mesh, std::span<const Mat3> alone) const;
     /// Takes the values so carried as those of the rest shape, which moves to `positions`, in the
     /// order of the region.
@@ -63,7 +63,7 @@ class RestDirections {
         std::vector<Index> element, sector;
         std::vector<Vec3> value;
     };
-    // Where local vertices lie, normals of local faces, and whether a face differs from the rest.
+    // Positions of local vertices, normals of local faces, and flags of faces that have changed.
     struct Shape {
         std::vector<Vec3> at, normal;
         std::vector<char> moved;
@@ -88,7 +88,7 @@ class RestDirections {
 
     std::vector<Values> attributes_;
     std::vector<Index> without_faces_;
-    // Vertices of the mesh that the faces have, ascending, and where they lie at rest.
+    // Vertices of the mesh that the faces have, ascending, and their rest positions.
     std::vector<Index> vertices_;
     std::vector<Vec3> rest_;
     // Faces of the mesh around the vertices, ascending, and the same with local vertices.

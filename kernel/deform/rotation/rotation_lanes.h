@@ -1,6 +1,6 @@
 /// Small matrices and quaternions of plain numbers, for one rotation, or of lanes, for four at a
-/// time: conditions are then answered lane by lane, and what any lane needs is done for all.
-/// Private to kernel/deform. They are compiled twice, as kernel/core/lanes.h says.
+/// time: conditions are then answered lane by lane, and a branch that any lane needs is computed
+/// for all. Private to kernel/deform. They are compiled twice, as kernel/core/lanes.h says.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace lissom::rotation_lanes {
 LISSOM_INLINE void take_root(double& x) {
     x = std::sqrt(x);
 }
-/// Of one condition, or of several that were combined bit by bit.
+/// Returns the value of one condition, or of several that were combined bit by bit.
 LISSOM_INLINE bool is_any(bool condition) {
     return condition;
 }

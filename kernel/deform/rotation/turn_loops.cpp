@@ -86,7 +86,8 @@ LISSOM_INLINE void take_angle(const T& y, const T& x, T& angle) {
     angle = steep ? rest : angle;
 }
 
-// q to the power `part`, the shorter way. Where `fades`, by less beyond where that way is sure.
+// q to the power `part`, the shorter way. With `fades`, by less near half a turn, at which that way
+// is in doubt.
 template <bool fades, typename T>
 LISSOM_INLINE void take_part(const T (&q)[4], double part, T (&result)[4]) {
     const auto back = q[0] < 0.0;

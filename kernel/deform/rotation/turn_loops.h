@@ -12,8 +12,8 @@ namespace lissom {
 /// length in radians; see rotation_of_turn.
 void rotations_of_turns(std::span<const Vec4> turns, const Vec4& base, std::span<Mat3> r);
 
-/// Multiplies each matrix by what turns the rotation that leads from `base` to its own further by
-/// `part`; see turned_further.
+/// Multiplies each matrix by a further `part` of the rotation that leads from `base` to its own;
+/// see turned_further.
 void turn_further(std::span<const Vec4> rotation, const Vec4& base, double part, std::span<Mat3> m);
 
 /// The rotations at `share` of the shortest way from one to another; see rotation_between.

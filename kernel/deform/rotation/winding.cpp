@@ -12,7 +12,7 @@ constexpr double kFullTurn = 2.0 * kPi;
 // Below this angle the axis of a rotation is noise.
 constexpr double kNoAngle = 1e-9;
 
-// A path is followed in steps of at most this angle, far below where the nearest turn is in doubt.
+// Largest step along a path, far below the angle at which the nearest turn is in doubt.
 constexpr double kStep = kPi / 8.0;
 constexpr double kMaxSteps = 4096.0;
 

@@ -11,21 +11,21 @@ inline constexpr double kSureTurn = 150.0 * kPi / 180.0;
 /// The rotation about `turn` by its length in radians.
 Mat3 rotation_of_turn(const Vec3& turn);
 
-/// The rotation vector of `rotation` nearest to `before`, among those that differ by full turns.
-/// Where the rotation is the identity, that is a multiple of a full turn about the axis of
+/// Returns the rotation vector of `rotation` nearest to `before`, among those that differ by
+/// full turns. For the identity, that is a multiple of a full turn about the axis of
 /// `before`.
 Vec3 turn_near(const Mat3& rotation, const Vec3& before);
 
 /// The rotation at `fraction` of the shortest way from one to another.
 Mat3 rotation_between(const Mat3& from, const Mat3& to, double fraction);
 
-/// What turns a rotation by `part` of its least rotation vector further. Near half a turn, where
-/// that vector may point either way, it fades to nothing.
+/// Returns a `part` of the least rotation vector of a rotation, as a further rotation. Near half a
+/// turn, as that vector may point either way, it fades to nothing.
 Mat3 turned_further(const Mat3& rotation, double part);
 
 /// A rigid motion as a screw and a shift: while everything turns evenly about and by `turn`, a
-/// centre moves along `velocity`, which turns with it; what the centre is then off by is the
-/// `remainder`.
+/// centre moves along `velocity`, which turns with it; the `remainder` is the centre's distance
+/// from its goal then.
 struct Screw {
     Vec3 turn = Vec3::Zero(), velocity = Vec3::Zero(), remainder = Vec3::Zero();
 
@@ -41,8 +41,8 @@ Screw screw_of(const Vec3& turn, const Vec3& shift);
 /// 0 up to t = 0, 1 from t = 1 on, smooth between.
 double smooth_step(double t);
 
-/// The rotation vector after turning on from `before` about and by `further`: what a drag along
-/// that path ends with.
+/// Returns the rotation vector after turning on from `before` about and by `further`: the end of a
+/// drag along that path.
 Vec3 turned(const Vec3& before, const Vec3& further);
 
 }  // namespace lissom

@@ -1,4 +1,4 @@
-/// Factoring where triangles of very different sizes leave a matrix only just positive definite;
+/// Factoring of matrices that triangles of very different sizes leave only just positive definite;
 /// private to kernel/deform.
 #pragma once
 
@@ -8,10 +8,10 @@
 
 namespace lissom {
 
-/// Analyses and factors `matrix`, of which it is known that the constraints determine it. Where
+/// Analyses and factors `matrix`, of which it is known that the constraints determine it. If
 /// rounding hides that, the diagonal is enlarged by up to a millionth: the unknowns, which are
 /// deviations from a similarity, then become a little smaller. `matrix` is the one factored.
-/// Errors: not_positive_definite where that does not help; memory_limit; cancelled.
+/// Errors: not_positive_definite if that does not help; memory_limit; cancelled.
 void factor_firmly(SparseSystem& system, SymmetricMatrix& matrix, const Context& context);
 
 }  // namespace lissom

@@ -24,7 +24,7 @@ inline PaddedMat3 padded_columns(const Mat3& m) {
 /// The solution of the first system by its basis: sum over h of transform_h weight_h, for `count`
 /// handles.
 struct BasisLoop {
-    /// Where what is evaluated goes: added to the rest position, the base's transform less the
+    /// Destination of evaluated values: added to the rest position, the base's transform less the
     /// identity of that, and the origin, to entry out[row] of each that is not kNoIndex.
     struct Places {
         const Vec3* rest;
@@ -71,7 +71,7 @@ struct EnergyLoop {
     const Vec4* laplacian;
     const Vec4* edge_sum;
 
-    /// In what follows, transforms that are null stand for zeros.
+    /// Null transforms stand for zeros below.
     ///
     /// u_i = g_i ((C x)_i - S_i (C v)_i).
     void bend(const PaddedMat3* s, const Vec4* x, Vec4* u, Index begin, Index end) const;

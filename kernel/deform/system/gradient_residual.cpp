@@ -32,7 +32,7 @@ std::vector<Mat3> GradientResidual::all_gradients(std::span<const Vec3> x,
     return all;
 }
 
-// |D(x) - M delta|^2 at v. What it gives through M goes to `pull`.
+// |D(x) - M delta|^2 at v. Its part through M goes to `pull`.
 void GradientResidual::add_laplacian_term(Index v, std::span<const Vec3> x, const Mat3& m,
                                           std::vector<Vec3>& residual, Mat3& pull) const {
     const Laplacian& laplacian = work_.laplacian;

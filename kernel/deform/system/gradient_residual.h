@@ -23,9 +23,9 @@ class GradientResidual {
     GradientResidual(const WorkingPatch& work, const GradientStencils& gradients,
                      const KnownMask& known, const DeformOptions& options);
 
-    /// At positions `x` of all local vertices and gradients `m` of those where they are known; both
-    /// may be deviations from an affine map. One value a local vertex. `pulls`, if any, becomes the
-    /// same by the gradients, where these are known.
+    /// Returns the residual at positions `x` of all local vertices and the known ones of the
+    /// gradients `m`; both may be deviations from an affine map. One value a local vertex. `pulls`,
+    /// if any, becomes the same by the known gradients.
     std::vector<Vec3> find(std::span<const Vec3> x, std::span<const Mat3> m,
                            std::vector<Mat3>* pulls = nullptr) const;
 

@@ -99,7 +99,7 @@ class Assembler {
         return !gradients_.defined[at(work_.patch.normal_points[at(point)])];
     }
 
-    // Calls use(b, weight) for every pair (a, b) of SF in Eq 2.7 where both have gradients.
+    // Calls use(b, weight) for every pair (a, b) of SF in Eq 2.7 if both have gradients.
     template <typename Use>
     void for_each_pair(Index a, RowAccumulator<double>& pairs, const Use& use) const {
         if (options_.coherence == 2) {
@@ -194,8 +194,7 @@ class Assembler {
     // Whether the row of vertex `i` needs column `k`: of the matrix only one triangle is kept.
     bool needs(Index i, Index k) const { return k >= i || known_.position[k]; }
 
-    // Adds what the residual of Eq 2.6 at `a` gives to the row of vertex `i` with coefficient `f`
-    // in it.
+    // Adds the residual of Eq 2.6 at `a` to the row of vertex `i` with coefficient `f` in it.
     void add_laplacian_term(Index i, Index a, double f, RowAccumulator<double>& row,
                             RowAccumulator<Vec3>& gradient_row) const {
         f *= laplacian_.weight[a];
@@ -207,7 +206,7 @@ class Assembler {
         if (known_.gradient[a]) gradient_row.add(a, -f * delta_[a]);
     }
 
-    // Adds what Eq 2.7 gives through M_a to the row of vertex `i` with coefficient `g` in M_a.
+    // Adds the part of Eq 2.7 through M_a to the row of vertex `i` with coefficient `g` in M_a.
     void add_coherence_term(Index i, Index a, const Vec3& g, RowAccumulator<double>& row,
                             RowAccumulator<Vec3>& gradient_row) const {
         const Vec3 scaled = options_.coherence_weight * g;
@@ -279,8 +278,8 @@ class Assembler {
     std::vector<CoherenceRows> coherence_;
 };
 
-// Where `v` ends as a sum of solved positions: displaced vertices come back by v = M (v - v') + v'
-// (section 2.4.3).
+// Final position of `v` as a sum of solved positions: displaced vertices come back by v = M (v -
+// v') + v' (section 2.4.3).
 SparseRow final_position(const WorkingPatch& work, const GradientStencils& g, Index v) {
     SparseRow row{{v, 1.0}};
     const Vec3 back = work.patch.rest[v] - g.displaced_rest[v];

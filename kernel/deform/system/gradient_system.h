@@ -88,7 +88,7 @@ class GradientSystem {
         return x;
     }
 
-    /// As `solve`, without refinement.
+    /// Solves without refinement.
     void solve_roughly(std::span<const double> b, std::span<double> x, Index columns) const {
         system_.solve(b, x, columns);
     }

@@ -46,7 +46,8 @@ class Displacer {
                          [&](Index i) { return is_degenerate(i); });
             for (const Index i : still) repair(i);
         }
-        // What moved in unison, or was flattened by a neighbour that moved, is taken one by one.
+        // Vertices that moved in unison, or were flattened by a neighbour that moved, are taken one
+        // by one.
         threshold_ = greatest_;
         std::fill(moved_.begin(), moved_.end(), char{0});
         for (const Index i : degenerate_vertices()) {
@@ -155,8 +156,8 @@ class Displacer {
         return true;
     }
 
-    // Where the ring is collinear, moving i itself leaves it degenerate: a neighbour moves, inner
-    // ones first.
+    // In a collinear ring, moving i itself leaves it degenerate: a neighbour moves, inner ones
+    // first.
     void repair(Index i) {
         if (rings_.count(i) == 0) return;
         if (!has_collinear_ring(i)) {
@@ -235,10 +236,10 @@ class Displacer {
     const Vec3& start_;
     const DeformOptions& options_;
     /// Condition number above which a gradient does not exist, and above which a vertex counts as
-    /// degenerate: at first as the options say, then for what has no gradient yet.
+    /// degenerate: at first as the options say, then for vertices without a gradient yet.
     double greatest_, threshold_ = options_.degenerate_threshold;
     GradientStencils result_;
-    /// What has been displaced, and what is known not to be degenerate: the threshold only grows.
+    /// Displaced vertices, and vertices known not to be degenerate: the threshold only grows.
     std::vector<char> moved_, sound_;
 };
 

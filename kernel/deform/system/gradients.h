@@ -13,7 +13,7 @@
 
 namespace lissom {
 
-/// M_i = x_i self[i]^T + sum over the ring of x_j neighbor[entry]^T, where `defined`.
+/// M_i = x_i self[i]^T + sum over the ring of x_j neighbor[entry]^T, for `defined` vertices.
 struct GradientStencils {
     std::vector<char> defined;
     std::vector<Vec3> self, neighbor;
@@ -27,8 +27,8 @@ struct GradientStencils {
 };
 
 /// Displaces degenerate vertices in sequence, each tested against neighbours as they stand by then:
-/// outward from `start`, vertices at the same distance together. Constrained vertices stay where
-/// they are, and go without a gradient where they are still degenerate at the end.
+/// outward from `start`, vertices at the same distance together. Constrained vertices stay in
+/// place, and go without a gradient if they are still degenerate at the end.
 GradientStencils make_gradients(const Patch& patch, const Rings& rings,
                                 const RingGeometry& geometry, const KnownMask& known,
                                 const Vec3& start, const DeformOptions& options);

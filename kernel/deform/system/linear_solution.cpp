@@ -16,7 +16,7 @@ std::vector<Index> rows_of(const LinearProblem& problem) {
     return row;
 }
 
-// M_i (v_i - v'_i) for each displaced free vertex, where `at(k)` is what stands at local vertex k.
+// M_i (v_i - v'_i) for each displaced free vertex; `at(k)` is the value at local vertex k.
 template <typename Value, typename At>
 std::vector<Value> folds(const LinearProblem& problem, const At& at) {
     std::vector<Value> result;
@@ -36,7 +36,7 @@ std::vector<Value> folds(const LinearProblem& problem, const At& at) {
     return result;
 }
 
-// A loop over weights, with the list of where they are that it refers to.
+// A loop over weights, with the list of their rows that it refers to.
 struct WeightLoop {
     std::vector<const Vec4*> weights;
     BasisLoop loop;
@@ -200,7 +200,7 @@ void LinearSolution::place(std::span<const Mat4> differences, const FixedPart& f
     }
 }
 
-// Adds what brings a displaced vertex back.
+// Adds the terms that bring a displaced vertex back.
 void LinearSolution::place_folded(std::span<const Mat4> differences, const FixedPart& fixed,
                                   const Places& places, Index row) const {
     const Index f = fold_of_[row];

@@ -36,7 +36,7 @@ struct LinearProblem {
     const std::vector<std::shared_ptr<const Handle>>& handles;
 };
 
-/// What vertex constraints add to the free vertices; empty where there are none. `fold` is for
+/// The part of vertex constraints in the free vertices; empty if there are none. `fold` is for
 /// displaced vertices.
 struct FixedPart {
     std::vector<Vec3> value, fold;
@@ -48,10 +48,10 @@ struct FixedPart {
 /// free vertex whose displaced rest position is v' lies at
 ///   x' = T v' + fixed + sum over h of D_h weight_h.
 /// A displaced vertex comes back by M (v - v') (section 2.4.3), which is linear in the same
-/// quantities: `fold` is added to its weights and v' becomes v. The base is what surrounds the
-/// region, with T = I, or the first handle where nothing is fixed. Affine motions of all handles
-/// together are then exact. `fixed` is a FixedPart, found apart as it follows what is asked.
-/// Several threads may read one solution at the same time.
+/// quantities: `fold` is added to its weights and v' becomes v. The base is the surroundings of the
+/// region, with T = I, or the first handle if nothing is fixed. Affine motions of all handles
+/// together are then exact. `fixed` is a FixedPart, found apart as it follows the targets. Several
+/// threads may read one solution at the same time.
 class LinearSolution {
   public:
     /// Solves for all handles at once.
@@ -62,12 +62,12 @@ class LinearSolution {
 
     /// Number of free vertices.
     Index rows() const { return count_of(rest_); }
-    /// Handle whose transform is T, or kNoIndex where T is the identity.
+    /// Returns the handle whose transform is T, or kNoIndex for T = I.
     Index base() const { return base_; }
     /// Handles with weights of their own.
     const std::vector<Index>& handles() const { return handles_; }
 
-    /// sum over h of D_h weight_h of the free vertices [begin, end): what the handles add.
+    /// Returns sum over h of D_h weight_h, the part of the handles, of free vertices [begin, end).
     void handle_part(std::span<const Mat4> differences, Vec4* x, Index begin, Index end) const;
     /// x' - T v' of the free vertices [begin, end): how far they deviate from the base transform.
     void deviations(std::span<const Mat4> differences, const FixedPart& fixed, Vec4* x, Index begin,

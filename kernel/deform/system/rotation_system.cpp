@@ -15,7 +15,7 @@
 namespace lissom {
 namespace {
 
-// A factor in single precision serves where one correction leaves less than this of the error;
+// A factor in single precision serves if one correction leaves less than this of the error;
 // corrections go on to this precision.
 constexpr double kLargestContraction = 0.02;
 constexpr double kPrecision = 1e-10;
@@ -25,9 +25,9 @@ constexpr double kPrecision = 1e-10;
 constexpr double kBlendRadii = 0.06;
 constexpr double kBlendEdges = 3.0;
 
-// That length is for the neighbourhood of held vertices, where edges alone would leave a crease. It
-// fades to a share of itself over this distance, in radii of the surface, as inside a part it would
-// resist twisting.
+// That length is for the neighbourhood of held vertices, at which edges alone would leave a crease.
+// It fades to a share of itself over this distance, in radii of the surface, as inside a part it
+// would resist twisting.
 constexpr double kInnerShare = 0.08;
 constexpr double kFadeRadii = 0.06;
 
@@ -58,7 +58,7 @@ std::vector<double> edge_weights(const RingGeometry& geometry, const DeformOptio
     return weights;
 }
 
-// G of K = W + C G C for the rows of make_laplacian, where C has cotangents or ones.
+// G of K = W + C G C for the rows of make_laplacian; C has cotangents or ones.
 std::vector<double> row_weights(const Rings& rings, const RingGeometry& geometry,
                                 const DeformOptions& options, double factor) {
     const bool uniform = options.weights == LaplacianWeights::uniform;
@@ -262,7 +262,7 @@ void RotationSystem::correct_further(std::span<Vec4> x, Scratch& scratch,
             for (Index r = begin; r < end; ++r)
                 scratch.step[free_[r]] = padded(scratch.correction[r]);
         });
-        // What the last correction leaves of the residual.
+        // Residual after the last correction.
         find_residual(nullptr, scratch.step, scratch.change, scratch, context);
         for_each_block(context, count, [&](Index begin, Index end) {
             for (Index r = begin; r < end; ++r) scratch.residual[r] += scratch.change[r];
@@ -300,9 +300,9 @@ Vec3 RotationSystem::force(const PaddedMat3* transforms, std::span<const Vec4> x
     return sum;
 }
 
-// By their answers a the force is the sum over all vertices of a_i (B S - K x)_i. What of that S_i
-// takes is what fits it at positions a; and K a, of which K x takes the known part, is nothing at
-// free vertices.
+// By their answers a the force is the sum over all vertices of a_i (B S - K x)_i. The part of S_i
+// in that is the one that fits it at positions a; and K a, of which K x takes the known part, is
+// nothing at free vertices.
 std::vector<RotationSystem::Response> RotationSystem::responses(std::span<const Vec4> x,
                                                                 Index count, Scratch& scratch,
                                                                 const Context& context) const {
@@ -344,7 +344,7 @@ Vec3 RotationSystem::solved_force(const PaddedMat3* transforms, std::span<const 
     return force.head<3>();
 }
 
-// Right-hand side less what the matrix makes of x, without forming the matrix.
+// Right-hand side less the matrix times x, without forming the matrix.
 void RotationSystem::find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
                                    std::vector<Vec3>& residual, Scratch& scratch,
                                    const Context& context) const {

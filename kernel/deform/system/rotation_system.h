@@ -25,14 +25,14 @@ namespace lissom {
 ///   e  sum over edges of w_ij |(x_i - x_j) - (S_i + S_j) (v_i - v_j) / 2|^2
 /// + l2 sum over vertices of a_i |D(x)_i - S_i D(v)_i|^2
 /// with e = 0, l2 = 1 for `laplacian`; e = 1, l2 = 0 for `poisson`; and e = 1, l2 = (0.06 R)^2, at
-/// least (3 h)^2, near held vertices for `blend`, where R is the radius of the region's surface and
-/// h its mean edge length; away from them l fades to a twelfth. With D = -F C for a diagonal F and
-/// the Laplacian C of symmetric coefficients, its matrix is K = W + C G C, the Laplacian of edge
+/// least (3 h)^2, near held vertices for `blend` (R is the radius of the region's surface, h its
+/// mean edge length); away from them l fades to a twelfth. With D = -F C for a diagonal F and the
+/// Laplacian C of symmetric coefficients, its matrix is K = W + C G C, the Laplacian of edge
 /// weights and that of rows G = l2 A F^2.
 class RotationSystem {
   public:
-    /// What a solve writes to, sized as needed; kept by the caller because a frame is short beside
-    /// the time to get fresh pages.
+    /// Buffers of a solve, sized as needed; kept by the caller because a frame is short beside the
+    /// time to get fresh pages.
     struct Scratch {
         std::vector<Vec4> bent, step;
         std::vector<Vec3> residual, change, correction;
@@ -78,10 +78,10 @@ class RotationSystem {
 
     /// How known vertices that move together are bound to the rest.
     struct Response {
-        /// Where each local vertex is once `solve` has followed one unit of their motion: 1 at
+        /// Position of each local vertex once `solve` has followed one unit of their motion: 1 at
         /// themselves and 0 at other known ones.
         std::vector<double> answer;
-        /// What the force on them takes of each transform: S_i lever[i] for real vertex i.
+        /// Coefficients of the transforms in the force on them: S_i lever[i] for real vertex i.
         std::vector<Vec4> lever;
         /// And of the position of each known vertex that it depends on.
         std::vector<std::pair<Index, double>> pull;
@@ -91,9 +91,9 @@ class RotationSystem {
     std::vector<Response> responses(std::span<const Vec4> x, Index count, Scratch& scratch,
                                     const Context& context) const;
     /// `force` on the vertices of a response as it were after `solve`, without solving: x holds the
-    /// known positions, and its free ones do not matter. As the matrix is symmetric, the solution
-    /// need not be known: what it leaves at a free vertex is nothing, and what the transforms ask
-    /// for there acts on the group by the vertex's answer. Not for a system with ties.
+    /// known positions, and its free ones do not matter. The matrix is symmetric: the residual at a
+    /// free vertex is nothing, and the right-hand side of the transforms there acts on the group by
+    /// the vertex's answer, without the solution. Not for a system with ties.
     Vec3 solved_force(const PaddedMat3* transforms, std::span<const Vec4> x,
                       const Response& response, const Context& context) const;
     bool has_ties() const { return !ties_.empty(); }

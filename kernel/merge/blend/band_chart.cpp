@@ -14,8 +14,8 @@
 namespace lissom {
 namespace {
 
-// Ways along edges are longer than geodesics, by up to the square root of 2 on a grid; the chart's
-// rim, where its coordinates are least certain, lies beyond the band.
+// Paths along edges are longer than geodesics, by up to the square root of 2 on a grid; the chart's
+// rim, whose coordinates are least certain, lies beyond the band.
 constexpr double kChartReach = 1.5;
 
 // Cotangents count as at least this in the harmonic extension, whose values then stay within those
@@ -24,7 +24,7 @@ constexpr double kLeastWeight = 0.05;
 
 struct SideFaces {
     std::vector<Index> faces;
-    // False where the side goes on beyond them.
+    // False if the side goes on beyond them.
     bool whole = true;
 };
 

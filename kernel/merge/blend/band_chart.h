@@ -23,9 +23,9 @@ struct BandChart {
     std::vector<double> angle, distance;
     /// Triangles over places in `vertex`.
     std::vector<Triangle> triangles;
-    /// Greatest distance there is on this part of the side, and the least one on an open boundary
-    /// that goes around it, as the far end of a tube does; infinity where there is none in the
-    /// chart.
+    /// Greatest distance on this part of the side, and the least one on an open boundary
+    /// that goes around it, as the far end of a tube does; infinity if the chart has
+    /// none.
     double farthest = 0.0, end = 0.0;
 };
 

@@ -20,8 +20,8 @@ class BandMap {
     /// `width` is the distance that counts as 1.
     BandMap(const BandChart& chart, double width);
 
-    /// The place at `angle` (fraction of a turn, 0 to 1) and `distance` (in widths), or nothing
-    /// where no triangle has it.
+    /// Returns the place at `angle` (fraction of a turn, 0 to 1) and `distance` (in widths), or
+    /// nothing if no triangle has it.
     std::optional<BandPlace> locate(double angle, double distance) const;
     /// The vertex whose coordinates are nearest; nothing in a band without triangles.
     std::optional<BandPlace> nearest(double angle, double distance) const;

@@ -122,7 +122,7 @@ void BandSystem::bend(std::span<const std::vector<Vec3>> wanted, const Context& 
     measure();
 }
 
-// `parts` of the way from where the mesh has them, for each local vertex.
+// Moves each local vertex `parts` of the way from its value in the mesh.
 MorphColumns BandSystem::moved_morphs(const Mesh& mesh, std::span<const double> parts) const {
     MorphColumns columns;
     for (const Morph& morph : morphs_) {

@@ -27,16 +27,16 @@ namespace lissom {
 /// mesh.
 ///
 /// Local vertices are those of a region and of two rings around it. Rows are those of the region
-/// and of one ring around it: what the operators are known at, and the energy has terms for.
+/// and of one ring around it: vertices with known operators and with terms in the energy.
 class BandSystem {
   public:
     /// The vertices of `band`, which must be some of `region`, move; each connected part of them
     /// needs a neighbour that does not.
     BandSystem(const Region& region, const Region& band, std::span<const Vec3> positions);
 
-    /// Takes along what the morph targets of `mesh`, whose vertices are those of `positions`, add:
-    /// shapes 1, 2, ... beside the positions, shape 0. The band's steps move all of them by the
-    /// weights of shape 0, and `write` and `write_guarded` write them.
+    /// Adds the morph targets of `mesh`, whose vertices are those of `positions`, as shapes 1, 2,
+    /// ... beside the positions, shape 0. The band's steps move all of them by the weights of shape
+    /// 0, and `write` and `write_guarded` write them.
     void take_morphs(const Mesh& mesh);
     Index shape_count() const { return 1 + count_of(morphs_); }
     /// Positions relative to a vertex of the band, or displacements.
@@ -67,7 +67,7 @@ class BandSystem {
     Vec3 coordinates(Index i, Index s = 0) const { return laplacian_.apply(rings_, shape(s), i); }
     const Vec3& normal(Index i) const { return geometry_.normal[at(i)]; }
     double curvature(Index i, Index s = 0) const { return coordinates(i, s).dot(normal(i)); }
-    /// Of each shape, the curvature of every row, 0 for other local vertices.
+    /// Returns, for each shape, the curvature of every row, 0 for other local vertices.
     std::vector<std::vector<double>> curvatures() const;
 
     /// Moves the band to the wanted coordinates of each shape, one for each local vertex, of which

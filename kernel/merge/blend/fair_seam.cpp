@@ -19,8 +19,8 @@ void check_fairing(const SeamFairing& options) {
     }
 }
 
-// A seam that turns by less does not show among edges that turn as much; fairing may leave more of
-// it than there was, where it takes steeper edges beside it away.
+// A seam that turns by less does not show among edges that turn as much; fairing may leave up to
+// this much, if it removes steeper edges beside the seam.
 constexpr double kFaintSeam = 20.0 * kDegree;
 
 SeamQuality faint_seam() {

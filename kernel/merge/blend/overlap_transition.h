@@ -40,9 +40,9 @@ struct OpenedForOverlap {
 
 /// One join of a merge with such a transition.
 struct OverlapJoin {
-    /// Of the source's boundary and the far end of the target's region.
+    /// Loops of the source's boundary and of the far end of the target's region.
     LoopPair pair;
-    /// Places in `pair.source` and in the target's boundary of a key, where the cuts begin.
+    /// Places of a key in `pair.source` and in the target's boundary, at which the cuts begin.
     Index start = 0, target_start = 0;
     /// Growth of the source at this join; 1 if it stays as it was put.
     double scale = 1.0;

@@ -14,11 +14,10 @@ constexpr double kLongestStep = 0.25;
 // around it.
 constexpr double kLeastCoreWeight = 0.05;
 
-// Pulls each value to the one it had, where nothing around the core holds it.
+// Weight of each value's former one, for parts that nothing around the core holds.
 constexpr double kHold = 1e-7;
 
-// Vertices that nothing holds would drift: the farthest of each component stay where all of it
-// moves.
+// Unconstrained vertices would drift: the farthest of each component stay if all of it moves.
 std::vector<char> held_components(const Topology& topology, std::span<const Index> rings) {
     std::vector<char> held(topology.component_count(), 0);
     for (Index v = 0; v < topology.vertex_count(); ++v) {

@@ -1,4 +1,4 @@
-/// The rings of vertices next to a seam, where the shape is that of neither side; private to
+/// Rings of vertices next to a seam, which have the shape of neither side; private to
 /// kernel/merge.
 #pragma once
 
@@ -19,8 +19,8 @@ namespace lissom {
 std::vector<Index> seam_rings(const Topology& topology, std::span<const std::vector<Index>> seams,
                               Index limit);
 
-/// The vertices with a ring number that may move. Those on open boundaries stay; where all of a
-/// component has numbers, those farthest from its seams stay too, for nothing else would hold it.
+/// Returns the vertices with a ring number that may move. Vertices on open boundaries stay; so do
+/// those farthest from its seams in a component that has numbers everywhere.
 Region seam_band(const std::shared_ptr<const Topology>& topology, std::span<const Index> rings);
 
 /// The core of a band: the rows on a seam, and those within some rings of it that move. Rows on
@@ -35,9 +35,9 @@ class SeamCore {
     /// One umbrella step within the tangent planes of the shape last measured: the core moves
     /// towards the mean of its neighbours, all at once, half the way on the seam and less in each
     /// ring away from it. Along the normal it would sink, and take with it the curvature that is
-    /// to be kept around it. Where the way is more than a quarter of a vertex's shortest edge, as
-    /// in the fans between loops of unlike density, triangles would turn over: that vertex stays.
-    /// All shapes of the band make the step of its positions.
+    /// to be kept around it. A vertex whose step is more than a quarter of its shortest edge stays,
+    /// as triangles would turn over in the fans between loops of unlike density. All shapes of the
+    /// band make the step of its positions.
     void umbrella(BandSystem& band) const;
 
     /// Laplacian coordinates for each shape of `band` to bend to, one for each local vertex: those
@@ -57,7 +57,7 @@ class SeamCore {
     std::vector<Values> fill(const BandSystem& band, std::vector<Values> values,
                              const Context& context) const;
     std::vector<Index> vertices_;
-    // Unknown of each local vertex in `fill`, or kNoIndex where it is not of the core.
+    // Unknown of each local vertex in `fill`, or kNoIndex outside the core.
     std::vector<Index> unknown_;
     // How much of the way an umbrella step goes, for each vertex of the core.
     std::vector<double> strength_;

@@ -20,13 +20,13 @@ namespace {
 constexpr double kShareBetweenSeams = 0.5;
 constexpr double kShareOfSide = 0.9;
 
-// What suits a seam: this many of its radii, at least so many edges of the side, and at most this
-// share of the side, whose end is to stay recognisable.
+// Width that suits a seam: this many of its radii, at least so many edges of the side, and at most
+// this share of the side, whose end is to stay recognisable.
 constexpr double kSuitableRadii = 0.9, kSuitableEdges = 3.0, kSuitableShare = 0.5;
 
 // Angles up to these do not show among the details that fade across a seam: smoothing may have left
-// smaller ones, and a transition need not. Across the seam itself it may leave more, where it takes
-// steeper edges beside it away.
+// smaller ones, and a transition need not. It may leave more across the seam itself, if it removes
+// steeper edges beside it.
 constexpr double kFaint = 10.0 * kDegree, kFaintFade = 20.0 * kDegree;
 
 SeamQuality faint_angles() {
@@ -198,7 +198,7 @@ class CurvatureReader {
 
     Index flipped() const { return map_.flipped(); }
 
-    // The value at coordinates, or `own` where there is nothing to read.
+    // Returns the value at coordinates, or `own` outside the map.
     double at(double angle, double distance, double own, Index& unmapped) const {
         std::optional<BandPlace> place = map_.locate(angle, distance);
         unmapped += place ? 0 : 1;

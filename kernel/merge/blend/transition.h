@@ -25,8 +25,8 @@ struct TransitionWidths {
 std::vector<TransitionWidths> suitable_widths(const Sewn& sewn, const Context& context = {});
 
 struct TransitionOptions {
-    /// The core of the seam, as SeamFairing: rings whose curvature continues what is around them,
-    /// at least 1, umbrella steps within it, 0 or more, and times that the bands are bent, at
+    /// Core of the seam, as SeamFairing: rings whose curvature continues that of the surface around
+    /// them, at least 1, umbrella steps within it, 0 or more, and times that the bands are bent, at
     /// least 1.
     Index core = 3;
     Index umbrella = 1;
@@ -35,11 +35,11 @@ struct TransitionOptions {
     std::vector<Index> firm = {};
 };
 
-/// What became of the band on one side of a seam.
+/// Measures of the band on one side of a seam.
 struct TransitionBand {
-    /// Width used: that asked for, or less where the surface has no room for it. The most are half
-    /// the distance to the nearest other seam, the distance to an open boundary that goes around
-    /// the band, and nine tenths of the greatest distance on the side.
+    /// Width used: the given one, or less for lack of room. The most are half the distance to the
+    /// nearest other seam, the distance to an open boundary that goes around the band, and nine
+    /// tenths of the greatest distance on the side.
     double width = 0.0;
     /// Vertices within it.
     Index vertices = 0;
@@ -49,13 +49,13 @@ struct TransitionBand {
     Index flipped = 0, unmapped = 0;
 };
 
-/// What a transition did.
+/// Measures of a transition.
 struct TransitionReport {
     /// The bands of each seam, in the order of Sewn::seams.
     std::vector<TransitionBand> target, source;
     /// Vertices that were free to move, ascending.
     std::vector<Index> moved;
-    /// The part of the way that the bands went: less than 1 where all of it would have folded the
+    /// The part of the way that the bands went: less than 1 if all of it would have folded the
     /// surface.
     double kept = 1.0;
 };
@@ -64,8 +64,8 @@ struct TransitionReport {
 /// band corresponds to the point of the other one with the same coordinates (band_chart.h: angle
 /// around the seam, distance over width). Its mean curvature becomes a mean of its own and of its
 /// counterpart's, half of either at the seam and all its own at the end of the band (smoothstep);
-/// in the core of the seam what continues that around it. The bands take the shape with these
-/// curvatures in the least squares, weighted by area; everything else stays to the bit, open
+/// in the core of the seam it continues the curvature around it. The bands take the shape with
+/// these curvatures in the least squares, weighted by area; everything else stays to the bit, open
 /// boundaries included. "normal" attributes turn with the surface. The way there is gone only as
 /// far as it does no harm: no dihedral angle across the seams may become greater than the greatest
 /// before, or than 20 degrees, and none near them than the greatest before, or than 10, which do

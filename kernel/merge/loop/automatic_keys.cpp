@@ -14,16 +14,16 @@ namespace {
 constexpr int kSamples = kLoopSamples;
 // Offsets closer than this to the best one are the same guess.
 constexpr int kSameGuess = kSamples / 10;
-// What a mismatch of normals counts beside a misfit of points in sizes of the target.
+// Weight of a mismatch of normals beside a misfit of points in sizes of the target.
 constexpr double kNormalWeight = 0.5;
 constexpr double kFrameSigma = 0.015;
-// Contrast is told in costs of the best offset and at least these: of a fit alone, and where
-// directions or parts decide.
+// Contrast is measured in costs of the best offset and at least these: of a fit alone, and with
+// directions or parts.
 constexpr double kFitFloor = 1e-6, kLeaningFloor = 0.05;
 // Costs that differ by less are equally good; sampling changes them by as much.
 constexpr double kTie = 1e-3;
-// Costs of neighbours that differ by less are level: rounding changes them by less than that where
-// a copy of the source lies elsewhere.
+// Costs of neighbours that differ by less are level: rounding changes them by less than that for a
+// copy of the source at another place.
 constexpr double kFlat = 1e-6;
 // Beyond this angle between the axes every turn rotates a source by nearly as much, and an error of
 // 10 degrees in how it lies may turn it by 40.
@@ -36,7 +36,7 @@ constexpr int kNear = 6;
 constexpr int kHalvings = 50;
 // Directions whose parts in the planes of the loops have a smaller product say nothing.
 constexpr double kLeastLean = 0.01;
-// What directions of the user's count where they are opposite to each other, halved.
+// Weight of the user's directions if they are opposite to each other, halved.
 constexpr double kDirectionWeight = 4.0;
 // The same of the planes in which the parts are mirror images of themselves.
 constexpr double kMirrorWeight = 1.0;
@@ -249,8 +249,8 @@ double least_turned_offset(const OffsetSearch& search) {
     return best_offset(cost, kFitFloor).key.target;
 }
 
-// What a direction of each part says of a rotation of the source: the cosine between them in the
-// plane of the target's loop, or 0 if one of them is too short to say anything.
+// Evidence that a direction of each part gives for a rotation of the source: the cosine between
+// them in the plane of the target's loop, or 0 if one of them is too short.
 struct Leans {
     Vec3 source, target;
 
@@ -292,7 +292,7 @@ class CandidateSearch {
         for (int k = 0; k < kSamples; ++k) {
             if (is_clear_minimum(costs, k)) minima.push_back(k);
         }
-        // Costs that differ by rounding are one, so that where the source lies does not decide.
+        // Costs that differ by rounding are one, so that the place of the source does not decide.
         const auto steps = [&](int k) { return std::floor(costs[k] / kTie); };
         std::stable_sort(minima.begin(), minima.end(),
                          [&](int x, int y) { return steps(x) < steps(y); });

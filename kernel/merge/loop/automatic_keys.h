@@ -17,7 +17,7 @@ namespace lissom {
 struct LoopJoin {
     const Loop* source = nullptr;
     const Loop* target = nullptr;
-    /// What lies behind the loops; null where that is not to count.
+    /// The part behind the loops; null if it is not to count.
     const PartShape* source_part = nullptr;
     const PartShape* target_part = nullptr;
 };
@@ -33,10 +33,10 @@ struct OffsetGuess {
 /// Offsets of this contrast are no toss; and the contrast of one that was not compared.
 inline constexpr double kClearContrast = 1.5, kSureContrast = 1e9;
 
-/// Finds, of all turns about the axis of the first loop, the one that rotates the source least from
-/// how it lies: the similarity that fits the loops then has no twist about the target's axis. With
-/// several joins the centres of all loops come together, and of what that leaves the least rotation
-/// is taken. The other joins get the best offset under that similarity.
+/// Returns, of all turns about the axis of the first loop, the one that rotates the source least
+/// from its present place: the similarity that fits the loops then has no twist about the target's
+/// axis. With several joins the centres of all loops come together, and the least remaining
+/// rotation is taken. The other joins get the best offset under that similarity.
 std::vector<OffsetGuess> as_placed_offsets(std::span<const LoopJoin> joins);
 
 /// Returns whether the source must be turned over by more than 150 degrees to meet the target, so
@@ -52,7 +52,7 @@ bool directions_count(const LoopJoin& join, std::span<const DirectionPair> direc
 /// normals, `directions` and the shapes of the parts behind the first join; then the best offset of
 /// every other join under that similarity. A direction counts as far as it lies in the planes of
 /// both loops. Of offsets that are equally good (within a thousandth of the target's radius) the
-/// first one counted from the loops' first vertices is taken, so that where the source lies does
+/// first one counted from the loops' first vertices is taken, so that the place of the source does
 /// not decide.
 std::vector<OffsetGuess> guess_offsets(std::span<const LoopJoin> joins,
                                        std::span<const DirectionPair> directions = {});
@@ -74,7 +74,7 @@ struct TurnCandidate {
 std::vector<TurnCandidate> turn_candidates(const LoopJoin& join);
 inline constexpr std::size_t kTurnCandidates = 16;
 
-/// The same for a source that stays where it was put: each join has the offset under which its
+/// Returns the same for a source that stays in place: each join has the offset under which its
 /// loops lie nearest to each other, moved together by their centres, scaled by their radii and
 /// turned the shortest way by their axes.
 std::vector<OffsetGuess> nearest_offsets(std::span<const LoopJoin> joins);

@@ -17,8 +17,9 @@ namespace {
 // the strips that planes are fitted to. Within one radius the roughness of crumpled and of smooth
 // bands differs less.
 constexpr double kBand = 0.5, kFolds = 1.0, kStrip = 1.0 / 3.0;
-// An edge where the surface turns back, and one where it nearly did before: edges of thin parts
-// turn by more or less as these bend, faces that turned over turn by nearly half a turn.
+// Angle of an edge at which the surface turns back, and of one at which it nearly did before: edges
+// of thin parts turn by more or less as these bend, faces that turned over turn by nearly half a
+// turn.
 constexpr double kBandFolded = 135.0 * kDegree, kNearlyFolded = 105.0 * kDegree;
 // Points of a seam at which planes are fitted, at most.
 constexpr std::size_t kBandPlanes = 48;
@@ -90,7 +91,8 @@ double radius_of(const Mesh& mesh, std::span<const Index> loop, const Vec3& midd
     return length > 0.0 ? std::sqrt(squares / length) : 0.0;
 }
 
-// A seam is judged by what this part of its points exceed, so that a single one does not decide.
+// A seam is judged by the angle that this part of its points exceed, so that a single one does not
+// decide.
 constexpr double kFewPoints = 0.1;
 
 // Angles between planes on either side of points of a seam.
@@ -133,7 +135,7 @@ class Side {
     double radius() const { return radius_; }
     MadeRim rim() const { return {mesh_, faces_, loop_, distance_, radius_}; }
 
-    // Of the faces with a vertex within that many radii, without the seam's edges.
+    // Sum over the faces with a vertex within that many radii, without the seam's edges.
     EdgeSum edges(double radii) const {
         std::vector<Index> near;
         for (const Index f : faces_) {
@@ -205,7 +207,7 @@ class Side {
     double radius_ = 0.0;
 };
 
-// Of surfaces that are inside out as well.
+// Part of the volume that was kept, for surfaces that are inside out as well.
 double volume_kept(double after, double before, double radius) {
     return std::abs(before) > kBandFlat * radius * radius * radius ? after / before : 1.0;
 }

@@ -1,5 +1,5 @@
-/// The surface around a seam against the surfaces that were joined: how rough it became, what
-/// turned over, how much of the parts is left.
+/// Comparison of the surface around a seam with the surfaces that were joined: roughness, faces
+/// that turned over, volume of the parts.
 #pragma once
 
 #include <span>
@@ -18,21 +18,21 @@ struct BandQuality {
     /// weighted by length; and the same of both sides beside their boundaries before.
     double roughness = 0.0, rest_roughness = 0.0;
     /// Angles between planes fitted to the surface on either side of points of the seam, each to a
-    /// strip a third of the radius wide: the RMS, and what a tenth of them exceed. And those on
-    /// either side before, from the strip next to the boundary to the one behind it, of the side
-    /// that bends more.
+    /// strip a third of the radius wide: the RMS, and the angle that a tenth of them exceed. And
+    /// those on either side before, from the strip next to the boundary to the one behind it, of
+    /// the side that bends more.
     double bend = 0.0, greatest_bend = 0.0, rest_bend = 0.0, rest_greatest_bend = 0.0;
     /// Length of the edges within one radius at which the surface folds back by more than 135
     /// degrees, in radii of the seam; and of those of both sides before that turned by more than
     /// 105, and may have become such without a face turning over.
     double folded = 0.0, rest_folded = 0.0;
-    /// By how much more than at rest the source turns outward between neighbouring strips beside
-    /// the seam, which shows as a flared rim: the RMS over the seam of the greatest gain; 0 if it
-    /// is not known where its vertices come from.
+    /// Outward turn of the source between neighbouring strips beside the seam, beyond that at rest,
+    /// which shows as a flared rim: the RMS over the seam of the greatest gain; 0 if the origin of
+    /// its vertices is unknown.
     double flare = 0.0;
     /// Volume of the source and of the target between the surface and the middle of the seam, over
-    /// that at rest at the source's scale: 1 where a part kept it. 1 as well where a side has less
-    /// than the seam's own dome.
+    /// that at rest at the source's scale: 1 for a part that kept it. It is 1 as well for a side
+    /// with less than the seam's own dome.
     double source_volume = 1.0, target_volume = 1.0;
     /// Radius of the seam: the RMS distance of its points to their middle.
     double radius = 0.0;
@@ -46,14 +46,14 @@ struct BandSide {
     std::span<const Index> loop = {};
     /// The mesh is a piece of a larger one: its volume is not known.
     bool is_piece = false;
-    /// Of a source in a merged mesh: the vertex of the source at rest that each vertex comes from,
+    /// For a source in a merged mesh: the vertex of the source at rest that each vertex comes from,
     /// or kNoIndex.
     std::span<const Index> origin = {};
 };
 
 /// Measures the band around a seam that `target` and `source` were joined at; `scale` is how much
 /// the source grew. `made_target` and `made_source` are their faces in the merged mesh with the
-/// seam as the loop of both. `stays`: the source was not brought to the seam but lies where it was.
+/// seam as the loop of both. `stays`: the source was not brought to the seam but keeps its place.
 /// The work is linear in the sizes of the meshes, with small factors.
 /// Errors: out_of_range; cancelled.
 BandQuality band_quality(const BandSide& made_target, const BandSide& made_source,

@@ -14,8 +14,8 @@ namespace {
 constexpr double kOffLoop = 0.1;
 // Keys closer than this part of the loop are at one place.
 constexpr double kSamePlace = 1e-9;
-// Part of the local spacing within which vertices meet: where they snap, and where only rounding
-// keeps them apart.
+// Part of the local spacing within which vertices meet: by snapping, and by coincidence but for
+// rounding.
 constexpr double kSnap = 0.3;
 constexpr double kRoundedApart = 1e-9;
 
@@ -93,7 +93,7 @@ void require_same_order(const std::vector<ParameterPair>& keys,
     }
 }
 
-// Where each parameter of one loop comes to lie on the other, linear between keys.
+// Image of each parameter of one loop on the other, linear between keys.
 double carried(double u, std::span<const ParameterPair> keys, double ParameterPair::*from,
                double ParameterPair::*to) {
     std::size_t best = 0;

@@ -16,7 +16,7 @@ constexpr double kOneCurve = 1e-5;
 constexpr double kOneVertex = 0.3;
 // Keys meet that are this close, in loop lengths: a hand is no better.
 constexpr double kKeyReach = 0.02;
-// And so close, in spacings, where several fits leave a choice.
+// The tolerance of keys, in spacings, if several fits leave a choice.
 constexpr double kKeyShare = 0.1;
 // Chords that are compared before a fit is made.
 constexpr Index kChords = 8;
@@ -44,7 +44,7 @@ class Curve {
     const Vec3& point(Index k) const { return loop_.points()[at(k % size())]; }
     const std::vector<Vec3>& points() const { return loop_.points(); }
     double fraction(Index k) const { return at_[at(k)]; }
-    // Of the `n`th vertex after vertex `start`, from that one on.
+    // Arc length from vertex `start` to the `n`th vertex after it.
     double ahead(Index start, Index n) const {
         if (n == size()) return 1.0;
         const Index k = start + n;
@@ -80,7 +80,7 @@ class Curve {
     std::vector<double> at_;
 };
 
-// Places of both loops' vertices where vertex `i0` of the source meets `j0` of the target.
+// Places of both loops' vertices if vertex `i0` of the source meets `j0` of the target.
 class SideBySide {
   public:
     SideBySide(const Curve& source, const Curve& target, Index i0, Index j0)
@@ -249,7 +249,7 @@ std::optional<CurveFit> fit_near(const Loop& source, const Loop& target, const P
         if (!chords_agree(from, to, i, j)) continue;
         auto fit = fit_at(source, target, from, to, i, j, true);
         if (!fit) continue;
-        // Where the curve repeats itself, a key beside a vertex means what it says.
+        // On a curve that repeats itself, a key beside a vertex is taken literally.
         const double firm = kKeyShare * std::min(from.spacing(i, 0), to.spacing(j, 0));
         if (off > firm && curve_fits(source, target, 2).size() > 1) return std::nullopt;
         return fit;

@@ -39,8 +39,8 @@ std::optional<CurveFit> fit_in_place(const Loop& source, const Loop& target);
 /// them at most. They are counted from the target's first vertex.
 std::vector<CurveFit> curve_fits(const Loop& source, const Loop& target, std::size_t most);
 
-/// Finds the similarity of `curve_fits` under which `key` is met best; nothing where it is missed
-/// by more than .02 of the loop or, if there are several, by more than a tenth of the spacing.
+/// Returns the similarity of `curve_fits` under which `key` is met best; nothing if it is missed by
+/// more than .02 of the loop or, if there are several, by more than a tenth of the spacing.
 std::optional<CurveFit> fit_near(const Loop& source, const Loop& target, const ParameterPair& key);
 
 /// Whether keys meet under a fit, within .02 of the loop.

@@ -49,8 +49,8 @@ inline double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// The greatest of angles between vectors, and 0 of none. Only what may be the greatest costs an
-/// arc tangent.
+/// The greatest of angles between vectors, and 0 of none. Only a candidate for the greatest costs
+/// an arc tangent.
 class GreatestAngle {
   public:
     void add(const Vec3& a, const Vec3& b) {
@@ -79,7 +79,7 @@ class GreatestAngle {
 
 /// The smallest angle of a triangle.
 inline double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-    // It is opposite the shortest side, where that is clear and rounding is not all there is.
+    // It is opposite the shortest side, if that is clear and more than rounding.
     constexpr double kClearlyLonger = 1.001, kClearAngle = 1e-9;
     const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
     const double at_a = kClearlyLonger * bc, at_b = kClearlyLonger * ca, at_c = kClearlyLonger * ab;
@@ -104,7 +104,7 @@ inline Index face_left_of(const Topology& topology, Index from, Index to) {
     return kNoIndex;
 }
 
-/// Adds the dihedral angle at the edge between two vertices: none where it is open, and next to a
+/// Adds the dihedral angle at the edge between two vertices: none at an open edge, and next to a
 /// face without area.
 inline void add_edge_dihedral(const Mesh& mesh, Index a, Index b, GreatestAngle& greatest) {
     const Index left = face_left_of(mesh.topology(), a, b);

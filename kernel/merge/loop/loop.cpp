@@ -21,7 +21,7 @@ constexpr double kTubeReach = 3.0;
 // normal is extrapolated; and clamp that turn to so many radians.
 constexpr double kLeastReach = 1.5;
 constexpr double kMostTurn = 0.35;
-// A face beyond those at the boundary goes on with their surface where it turns by less than this
+// A face beyond those at the boundary goes on with their surface if it turns by less than this
 // about the boundary, radians: caps and floors do not.
 constexpr double kGoesOn = 0.6;
 
@@ -31,7 +31,7 @@ struct FanNormal {
     Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
 };
 
-// Of the triangles whose unit normals `counts` takes; the normal is zero without any.
+// Mean normal of the triangles whose unit normals `counts` takes; zero without any.
 template <typename Counts>
 FanNormal fan_normal_of(const Mesh& mesh, Index v, const Counts& counts) {
     FanNormal fan;
@@ -197,7 +197,7 @@ std::vector<Vec3> Loop::smoothed(std::span<const Vec3> values, double sigma) con
     return result;
 }
 
-// A little of the true length keeps parameters apart where smoothing brings points together.
+// A little of the true length keeps parameters apart if smoothing brings points together.
 void Loop::find_parameters(LoopMeasure measure) {
     if (measure == LoopMeasure::raw) {
         for (const double arc : arc_) parameters_.push_back(arc / length_);

@@ -19,8 +19,8 @@ enum class LoopMeasure { robust, raw };
 /// A closed curve through vertices of a mesh, taken at the mesh's present shape.
 class Loop {
   public:
-    /// Takes the vertices in the given order. Errors: boundary_conflict where the loop has fewer
-    /// than 3 vertices or no length.
+    /// Takes the vertices in the given order.
+    /// Errors: boundary_conflict if the loop has fewer than 3 vertices or no length.
     Loop(const Mesh& mesh, std::vector<Index> vertices, LoopMeasure measure = LoopMeasure::robust);
 
     /// The same loop with other ids of its vertices, in their order, as a part of the mesh has
@@ -32,9 +32,9 @@ class Loop {
     const std::vector<Vec3>& points() const { return points_; }
     double length() const { return length_; }
 
-    /// Where each vertex lies along the loop, 0 to 1 and ascending from 0: arc length of the curve
-    /// smoothed by sigma .03 of its length, so that a jagged loop is not longer than a smooth one;
-    /// of a raw loop its own arc length.
+    /// Returns the parameter of each vertex along the loop, 0 to 1 and ascending from 0: arc length
+    /// of the curve smoothed by sigma .03 of its length, so that a jagged loop is not longer than a
+    /// smooth one; of a raw loop its own arc length.
     const std::vector<double>& parameters() const { return parameters_; }
     /// The parameter of a place, and the place at a parameter; any real number counts modulo 1.
     double parameter_of(const LoopPoint& place) const;
@@ -53,7 +53,7 @@ class Loop {
     /// Mean of the curve by arc length, and RMS distance of the curve to it.
     const Vec3& center() const { return center_; }
     double radius() const { return radius_; }
-    /// Unit vector of the area that the curve encloses; zero where it encloses none.
+    /// Returns the unit vector of the area that the curve encloses; zero for an area of zero.
     Vec3 axis() const;
     /// Mean angle, in radians, between an edge and the next.
     double mean_turn() const;
@@ -72,7 +72,7 @@ class Loop {
     Vec3 center_ = Vec3::Zero();
 };
 
-/// What stands at a place between the values of a loop's vertices.
+/// Returns the value at a place between the vertices of a loop.
 template <typename T>
 T interpolated(const std::vector<T>& values, const LoopPoint& place) {
     const auto k = at(place.segment);

@@ -1,5 +1,5 @@
-/// The boundary condition of a merge: where each vertex of the source's boundary goes, and how the
-/// surface turns and grows there (thesis section 3.3.1); private to kernel/merge.
+/// The boundary condition of a merge: position of each vertex of the source's boundary, with
+/// rotation and scale of the surface there (thesis section 3.3.1); private to kernel/merge.
 #pragma once
 
 #include <vector>

@@ -30,9 +30,9 @@ constexpr std::size_t kFitted = 3;
 constexpr Index kPlaneGrain = 10;
 // Planes along the boundary's axis that are tried.
 constexpr int kPlanes = 36;
-// Times that a plane is fitted to what it mirrors.
+// Times that a plane is fitted to the points that it mirrors.
 constexpr int kFits = 8;
-// A part is its own mirror image where mirrored points are nearer to it than this, in its sizes.
+// A part is its own mirror image if mirrored points are nearer to it than this, in its sizes.
 constexpr double kMirrored = 0.06;
 // No other plane may be nearly as good, by a factor and by a part of the size: a round part has
 // many. Planes at a smaller angle than this are one.
@@ -50,7 +50,7 @@ struct Plane {
     Vec3 mirrored(const Vec3& p) const { return p - 2.0 * normal.dot(p - point) * normal; }
 };
 
-// What lies nearest to a mirrored point.
+// The point of the part nearest to a mirrored point.
 struct MirrorImage {
     Vec3 position;
     double distance;
@@ -66,7 +66,7 @@ Mesh component_at(const Mesh& mesh, Index vertex, const Context& context) {
     return extract_faces(shape, faces, context).mesh;
 }
 
-// A part with what planes are judged by.
+// A part with the samples that planes are judged by.
 class MirrorSearch {
   public:
     MirrorSearch(const Mesh& part, const Context& context)
@@ -125,8 +125,8 @@ class MirrorSearch {
         for (std::size_t k = 0; k < images.size(); ++k) {
             middle += 0.5 * (probes_[k * step] + images[k].position) / count_of(images);
         }
-        // Of the mirrored points about the middle, and the points: the least squares of
-        // p' - mirror(p) over unit normals is an eigenvector.
+        // Products of the mirrored points about the middle, and the points: the least squares of p'
+        // - mirror(p) over unit normals is an eigenvector.
         Mat3 products = Mat3::Zero();
         for (std::size_t k = 0; k < images.size(); ++k) {
             const Vec3 a = probes_[k * step] - middle, b = images[k].position - middle;
@@ -138,7 +138,7 @@ class MirrorSearch {
   private:
     static double square(double x) { return x * x; }
 
-    // More than what rounding does to a distance.
+    // Factor that exceeds the rounding of a distance.
     static constexpr double kSurely = 1.0 + 1e-6;
 
     SpatialTree tree_;

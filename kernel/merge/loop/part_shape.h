@@ -1,5 +1,5 @@
-/// What the shape of a part says about which way round it belongs: the plane in which it is its own
-/// mirror image, where its mass lies and its neck leans; private to kernel/merge.
+/// Orientation from the shape of a part: its plane of symmetry, its centre of mass and the lean of
+/// its neck; private to kernel/merge.
 #pragma once
 
 #include "kernel/core/context.h"
@@ -11,8 +11,8 @@ namespace lissom {
 
 /// The part of a mesh behind one of its boundaries.
 struct PartShape {
-    /// Unit normal of the plane in which the part is its own mirror image; zero where there is none
-    /// or more than one.
+    /// Unit normal of the part's plane of symmetry; zero if there is none or more than
+    /// one.
     Vec3 mirror = Vec3::Zero();
     /// RMS distance of mirrored points from the surface, in sizes of the part: of the best plane,
     /// and of the best of those that lie at another angle.

@@ -54,8 +54,8 @@ double distance_of(const MadeRim& made, Index f) {
     return sum / static_cast<double>(made.mesh.topology().face(f).size());
 }
 
-// As many as are wider than the root of most faces' area, of the surface as a whole and not of its
-// smallest faces: the faces of a narrower strip have few directions.
+// Number of strips wider than the root of most faces' area, of the surface as a whole and not of
+// its smallest faces: the faces of a narrower strip have few directions.
 std::size_t strip_count(const MadeRim& made) {
     double sum = 0.0, squares = 0.0;
     for (const Index f : made.faces) {

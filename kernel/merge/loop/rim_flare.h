@@ -17,13 +17,13 @@ struct MadeRim {
     double radius = 0.0;
 };
 
-/// Returns by how much more than at rest the source turns outward beside its seam, as where its
-/// boundary was widened and the surface must turn back: the RMS over points of the seam of the
-/// greatest gain, in radians, between neighbouring strips of surface a sixth of a radius wide, or
-/// as wide as its faces are large, up to one radius away. Only turns by which the surface stands
-/// out count: a fillet is no flare. `rest` is the source before, `origin` the vertex of it that
-/// each vertex of the merged mesh comes from, or kNoIndex; faces with other vertices do not count.
-/// `inside_out`: the faces look inward.
+/// Returns the outward turn of the source beside its seam, beyond that at rest, such as that of a
+/// widened boundary: the RMS over points of the seam of the greatest gain, in radians, between
+/// neighbouring strips of surface a sixth of a radius wide, or as wide as its faces are large, up
+/// to one radius away. Only turns by which the surface stands out count: a fillet is no flare.
+/// `rest` is the source before, `origin` the vertex of it that each vertex of the merged mesh
+/// comes from, or kNoIndex; faces with other vertices do not count. `inside_out`: the faces look
+/// inward.
 double rim_flare(const MadeRim& made, const Mesh& rest, std::span<const Index> origin,
                  bool inside_out);
 

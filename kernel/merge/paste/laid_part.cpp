@@ -24,7 +24,7 @@ void lay_on_hole(const PartTrials& trials, LaidPart& laid, const Context& contex
 
 namespace {
 
-// Calls `use` with trials for which the maps alone tell where the ring lies.
+// Calls `use` with trials whose ring the maps alone place.
 template <typename Use>
 auto as_mapped(const PartTrials& trials, const Use& use) {
     const RingSurface mapped(trials.surface.map(), trials.surface.ring(), trials.placed.mapped);
@@ -34,7 +34,7 @@ auto as_mapped(const PartTrials& trials, const Use& use) {
     return use(marked);
 }
 
-// The outline without teeth, where that distorts the part no more.
+// The outline without teeth, if that distorts the part no more.
 PartTrial smooth_or(const PartTrials& trials, PartTrial outline, const Context& context) {
     if (trials.options.thesis || trials.options.loop == PasteBoundary::mesh) return outline;
     std::optional<PartTrial> smooth = as_mapped(

@@ -15,7 +15,7 @@
 
 namespace lissom {
 
-/// The part inside the outline, where the maps alone put it.
+/// Returns the part inside the outline, placed by the maps alone.
 PartTrial outline_trial(const PartTrials& trials, const Context& context);
 
 /// The feature inside its own outline, without teeth if that can be.
@@ -23,12 +23,12 @@ PartTrial tight_trial(const PartTrials& trials, const Context& context);
 
 struct BestTrial {
     PartTrial trial;
-    /// Near the outline, of the part before iterations, where that was compared.
+    /// Distortion near the outline, of the part before iterations, if it was compared.
     std::optional<PasteDistortion> outline_near;
 };
 
-/// The part inside the boundary that was found, or inside the outline where that is to be compared
-/// and distorts it less.
+/// Returns the part inside the boundary that was found, or inside the outline if that is to be
+/// compared and distorts it less.
 BestTrial best_trial(const PartTrials& trials, bool with_outline, const Context& context);
 
 /// A part whose boundary lies on the edge of the hole that was cut for it.
@@ -45,8 +45,8 @@ struct LaidPart {
 LaidPart laid_part(const PartTrials& trials, const Mesh& ground,
                    std::span<const Index> chart_vertices, PartTrial trial, const Context& context);
 
-/// The part as sewing leaves it, with its boundary where that has its vertices; but those that
-/// sewing drops, since they are close to another of the part, are still there.
+/// Returns the part as sewing leaves it, with its boundary at the seam's vertices; but the vertices
+/// that sewing drops, since they are close to another of the part, are still there.
 Mesh part_at_seam(const LaidPart& laid);
 
 }  // namespace lissom

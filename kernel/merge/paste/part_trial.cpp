@@ -12,7 +12,7 @@ namespace {
 // ARAP iterations of a part, and times that its boundary slides, at most.
 constexpr int kPartRefinements = 20;
 constexpr int kSettlingRounds = 12;
-// How far a boundary slides where all of the way does not serve, at least.
+// Least part of the way that a boundary slides if all of it does not serve.
 constexpr double kLeastSlide = 0.25;
 
 // The thesis scales Laplacian coordinates by one factor, that of the boundary (section 3.4.4).
@@ -42,7 +42,7 @@ PasteDistortion PartTrials::move(PartTrial& trial, const Context& context) const
     return plain;
 }
 
-// False where the boundary would cross itself or the part be distorted more.
+// False if the boundary would cross itself or the part be distorted more.
 bool PartTrials::slide(PartTrial& trial, double part, const Context& context) const {
     PartTrial next = trial;
     std::vector<Vec2> outline;

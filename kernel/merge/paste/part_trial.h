@@ -48,19 +48,19 @@ struct PartTrials {
     MovingParts& parts;
     /// The size that the placement asks for, in place of the boundary's.
     bool lock_scale = false;
-    /// Parts are refined where that lowers their distortion near the boundary.
+    /// Parts are refined if that lowers their distortion near the boundary.
     bool refines = false;
-    /// Boundaries slide over the target to where the part draws them, as long as that lowers it.
+    /// Boundaries slide to the relaxed position of the part, as long as that lowers it.
     bool settles = false;
 
     /// Deforms the part of a trial to its rim. Returns its distortion without a refinement.
     PasteDistortion move(PartTrial& trial, const Context& context) const;
     PartTrial along_loop(const Context& context) const;
-    /// Nothing without a boundary free of edges, or where the ring is too coarse to be divided.
+    /// Returns nothing without a boundary free of edges, or if the ring is too coarse to divide.
     std::optional<PartTrial> along_line(const Context& context) const;
     /// With a similarity of its own. All of the outline must have an image.
     PartTrial along_outline(const Context& context) const;
-    /// The same without the teeth of the outline. Nothing where that has no such line.
+    /// The same without the teeth of the outline. Returns nothing if that has no such line.
     std::optional<PartTrial> along_smooth_outline(const Context& context) const;
     /// The feature alone, inside its own outline, and the same without teeth.
     PartTrial along_inner(const Context& context) const;

@@ -202,7 +202,7 @@ void Paste::State::free_boundary(const PasteMap& on, PlacedFeature& place,
     note_line(place);
 }
 
-// The line that another placement had, where it lies on the target here.
+// Keeps the line of another placement, if it lies on the target here.
 void Paste::State::keep_line(const PasteMap& on, PlacedFeature& place, const FreeLoop& line) const {
     const RingSurface surface(on, *triangles, place.images);
     place.line = carried_loop(surface, line, place.loop, energy_for(options, 1));
@@ -216,7 +216,7 @@ void Paste::State::note_line(PlacedFeature& place) const {
     place.loop.report.scale = place.line->similarity.scale;
 }
 
-// Where the vertices lie once they are drawn to the points of the target nearest to them.
+// Images of the vertices once they are drawn to the points of the target nearest to them.
 std::vector<ImagePoint> Paste::State::nearest_images(const PasteMap& on,
                                                      const PlacedFeature& place) const {
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();
@@ -234,7 +234,7 @@ std::vector<ImagePoint> Paste::State::nearest_images(const PasteMap& on,
     return images;
 }
 
-// One round. False where the energy does not fall or the boundary crosses itself.
+// One round. False if the energy does not fall or the boundary crosses itself.
 bool Paste::State::draw_once(const PasteMap& on, PlacedFeature& place,
                              const Context& context) const {
     std::vector<ImagePoint> images = nearest_images(on, place);
@@ -264,7 +264,7 @@ double Paste::State::energy_near(const PasteMap& on, const PlacedFeature& place,
     return trials.along_loop(context).near.energy;
 }
 
-// Rounds of nearest points, kept where they leave the surface near the boundary less distorted.
+// Rounds of nearest points, kept if they leave the surface near the boundary less distorted.
 void Paste::State::draw_closer(const PasteMap& on, PlacedFeature& place, const Context& context) {
     PlacedFeature closer = place;
     for (int round = 0; round < kClosestRounds; ++round) {
@@ -308,7 +308,7 @@ std::optional<Paste::State::PlacedOn> Paste::State::placed_within(const PastePla
     }
 }
 
-// Lays a disk of the target out and places the part there; a wider one where that holds more.
+// Lays a disk of the target out and places the part there; a wider one if that holds more.
 void Paste::State::place_on_disk(const PastePlacement& placement, std::span<const Index> start,
                                  const PasteEffort& effort, const Context& context) {
     std::optional<PlacedOn> found;
@@ -322,7 +322,7 @@ void Paste::State::place_on_disk(const PastePlacement& placement, std::span<cons
     placed = std::move(found->place);
 }
 
-// What depends on the source alone.
+// Prepares the part of the paste that depends on the source alone.
 void Paste::State::prepare(const Mesh& new_source, const Region& region,
                            const std::optional<Region>& feature, const PasteOptions& wanted,
                            const Context& context) {
@@ -497,7 +497,7 @@ void Paste::move(const PastePlacement& placement, const Context& context) try {
 }
 
 void Paste::slide(const PastePlacement& placement, const Context& context) try {
-    // What it was: a place that fails to move keeps it, one that moves makes another.
+    // The former line: a place that fails to move keeps it, one that moves makes another.
     const std::optional<FreeLoop> line = state_->placed.line;
     state_->move_to(placement, {0, false, line ? &*line : nullptr}, context);
 } catch (const std::bad_alloc&) {

@@ -24,10 +24,10 @@
 
 namespace lissom {
 
-/// Where a vertex of the ring comes to lie: where the maps of both surfaces put it, or, after some
-/// rounds, on the nearest point of the target's region. Rounds end where one does not lower the
-/// energy, and are kept where the surface near the boundary is distorted less. They belong to
-/// `optimize` alone.
+/// Image of a vertex of the ring: by the maps of both surfaces, or, after some rounds, the
+/// nearest point of the target's region. Rounds end if one does not lower the energy, and
+/// are kept if the surface near the boundary is distorted less. They belong to `optimize`
+/// alone.
 enum class PasteCorrespondence { map, closest };
 
 /// smooth: a line through faces, near the best loop of edges, so that the seam has no teeth. mesh:
@@ -37,10 +37,10 @@ enum class PasteBoundary { smooth, mesh };
 struct PasteOptions {
     PasteBoundary loop = PasteBoundary::smooth;
     PasteCorrespondence correspondence = PasteCorrespondence::closest;
-    /// Part of the way from the region's outline to its middle that is ring where no feature is
-    /// given; 0 to 1.
+    /// Part of the way from the region's outline to its middle that is ring if no feature is given;
+    /// 0 to 1.
     double share = 0.5;
-    /// Weight of the normals in the energy; 0.1 to 0.3 help where the feature overhangs.
+    /// Weight of the normals in the energy; 0.1 to 0.3 help features that overhang.
     double normals = 0.0;
     /// About the greatest angle, in radians, at which part and target may meet instead of the
     /// part's boundary turning until its surface goes on in the target's: the more it turns, the
@@ -49,53 +49,53 @@ struct PasteOptions {
     /// The thesis to the letter: maps that keep angles (LSCM), the energy of Eq 3.1 with its
     /// similarity, a boundary along edges, its deformation.
     bool thesis = false;
-    /// Removes the target's features under the part first (erase_feature): what lies under its
+    /// Removes the target's features under the part first (erase_feature): those under its
     /// boundary, and nothing beyond that.
     bool clear = false;
-    /// What to remove in place of that, with a ring around it; counts as `clear`.
+    /// Region to clear instead of that, with a ring around it; counts as `clear`.
     std::optional<Region> cleared = std::nullopt;
 };
 
 struct PasteMergeOptions {
-    /// As MergeOptions::smooth, collar and find_intersections.
+    /// Options of the seam, as MergeOptions::smooth, collar and find_intersections.
     Index smooth = 3;
     bool collar = true;
     bool find_intersections = true;
     /// The part keeps the size that its placement asks for, in place of that of its boundary.
     bool lock_scale = false;
-    /// Tries what may distort the surface near the boundary less, and takes it where it does: ARAP
+    /// Tries variants that may distort the surface near the boundary less, and takes the best: ARAP
     /// iterations of the part; the part inside the outline that was marked; and, once `optimize`
-    /// was called and by nearest points, a boundary that slides over the target to where the part
-    /// draws it. If the target was cleared under the boundary, that is kept.
+    /// was called and by nearest points, a boundary that slides over the target towards the relaxed
+    /// position of the part. If the target was cleared under the boundary, that is kept.
     bool compare = true;
-    /// What is shown while a part is dragged, many times a second: placement and boundary are those
-    /// of a merge that is no draft, and the result is watertight, but the part is not refined, nor
-    /// does its boundary slide, and the seam is sewn and no more. Nothing is smoothed, made anew or
-    /// flipped beside it, whatever `smooth`, `collar` and `find_intersections` say; a boundary at
-    /// which faces turn over stays; and where elements come from is not told.
+    /// A draft for dragging, many times a second: placement and boundary are those of a merge that
+    /// is no draft, and the result is watertight, but the part is not refined, nor does its
+    /// boundary slide, and the seam is sewn and no more. Nothing is smoothed, made anew or flipped
+    /// beside it, regardless of `smooth`, `collar` and `find_intersections`; a boundary at which
+    /// faces turn over stays; and the origin of elements is not returned.
     bool draft = false;
 };
 
 struct PasteDraftOptions {
-    /// As in PasteMergeOptions.
+    /// Options of PasteMergeOptions.
     bool lock_scale = false, compare = true;
 };
 
-/// What is shown of a part that is dragged: the part as a draft of `merge` has it, but not sewn to
-/// the target.
+/// Preview of a dragged part: the part as a draft of `merge` has it, but not sewn to the
+/// target.
 struct PasteDraft {
     /// The part inside the boundary, deformed onto the edge of its hole in the target. Vertices of
     /// the edge that are close to others are still there, which sewing drops.
     Mesh part;
     /// Its vertices on that edge, in the order of the boundary.
     std::vector<Index> rim;
-    /// As in PasteReport.
+    /// Same as in PasteReport.
     double scale = 1.0;
     bool smooth = false, kept_outline = false;
     PasteDistortion near, laid;
 };
 
-/// What a paste found and did.
+/// Results and measures of a paste.
 struct PasteReport {
     PasteSearch search;
     MapQuality source_map, target_map;
@@ -112,7 +112,7 @@ struct PasteReport {
     PasteDistortion near, feature;
     /// Near the boundary once the part lies on the target as it was opened.
     PasteDistortion laid;
-    /// Near the outline that was marked, where that was compared; of the part before iterations.
+    /// Distortion near the marked outline, if compared; of the part before iterations.
     std::optional<PasteDistortion> outline_near;
     /// The outline was used in place of the loop that was found.
     bool kept_outline = false;
@@ -120,11 +120,11 @@ struct PasteReport {
     bool tight = false;
     /// The boundary runs through faces.
     bool smooth = false;
-    /// What was removed of the target, if something was.
+    /// Removed features of the target, if any.
     std::optional<PasteClearing> clearing;
     /// A draft was asked for: another merge has the better seam.
     bool draft = false;
-    /// Euler characteristic of the result, and what target and part make it.
+    /// Euler characteristic of the result, and the one expected from target and part.
     Index euler_characteristic = 0, expected_characteristic = 0;
 };
 
@@ -137,14 +137,14 @@ struct PasteResult {
 class Paste {
   public:
     /// Checks the regions, lays both surfaces out in the plane and places the part. Meshes may
-    /// change or die afterwards. Where the target's edges under the part are long, they are halved
+    /// change or die afterwards. If the target's edges under the part are long, they are halved
     /// until there is room for it (finer_near). `onto` absent: a disk of the target around the
-    /// placement, large enough for the ring. Errors: topology_mismatch, region_empty,
-    /// boundary_conflict, not_a_disk for regions (see paste_regions and target_faces);
-    /// boundary_conflict for a point outside the target's region, and where the feature's outline
-    /// does not fit into it, naming vertices; invalid_argument for options out of range;
-    /// not_finite; mesh_empty; not_positive_definite; memory_limit; cancelled. Where the target is
-    /// cleared, also as erase_feature.
+    /// placement, large enough for the ring.
+    /// Errors: topology_mismatch, region_empty, boundary_conflict, not_a_disk for regions (see
+    /// paste_regions and target_faces); boundary_conflict for a point outside the target's region,
+    /// and if the feature's outline does not fit into it, naming vertices; invalid_argument for
+    /// options out of range; not_finite; mesh_empty; not_positive_definite; memory_limit;
+    /// cancelled. If the target is cleared, also as erase_feature.
     Paste(const Mesh& source, const Mesh& target, const Region& region,
           const std::optional<Region>& feature, const std::optional<Region>& onto,
           const PastePlacement& placement, const PasteOptions& options = {},
@@ -157,35 +157,35 @@ class Paste {
     /// the edges. Returns it as by `loop`.
     /// Errors: invalid_argument for less than one iteration; cancelled.
     Path optimize(Index iterations = 20, const Context& context = {});
-    /// What the last search found; before `optimize`, the loop that is used without.
+    /// Returns the result of the last search; before `optimize`, the loop that is used without.
     const PasteSearch& search() const;
-    /// The boundary that `merge` pastes, on the source and counter-clockwise around the feature:
-    /// points of its surface, or vertices where it runs along edges. The outline of the region, or
-    /// of the feature where that has no image, until `optimize` was called.
+    /// Returns the boundary that `merge` pastes, on the source and counter-clockwise around the
+    /// feature: points of its surface, or vertices if it runs along edges. It is the outline of the
+    /// region, or of the feature if that has no image, until `optimize` was called.
     Path loop() const;
     /// The place of the loop on the target: one point for each of `loop`.
     Path image() const;
 
-    /// What of the target as given `merge` removes under the part before it opens it, as vertices
-    /// of the faces that go; nothing if that is nothing.
+    /// Returns the part of the target as given that `merge` removes under the part before it opens
+    /// it, as vertices of the removed faces; nothing if none are.
     std::optional<Region> cleared() const;
     std::optional<PasteClearing> clearing() const;
 
-    /// Opens the target along the loop's image and pastes the part. Watertight where the target
-    /// is. Errors: boundary_conflict where the target is too coarse under the part or the boundary
-    /// crosses itself; as `sew`; zero_area; skin_mismatch; memory_limit; cancelled.
+    /// Opens the target along the loop's image and pastes the part. Watertight if the target is.
+    /// Errors: boundary_conflict if the target is too coarse under the part or the boundary crosses
+    /// itself; as `sew`; zero_area; skin_mismatch; memory_limit; cancelled.
     PasteResult merge(const PasteMergeOptions& options = {}, const Context& context = {});
 
-    /// The part of a draft of `merge` alone. What that costs depends on the part and on what is
-    /// under it, not on how large the target is. Errors: boundary_conflict, as merge; cancelled;
-    /// memory_limit.
+    /// Returns the part of a draft of `merge` alone. The cost depends on the part and on the
+    /// surface under it, not on the size of the target.
+    /// Errors: boundary_conflict, as merge; cancelled; memory_limit.
     PasteDraft draft(const PasteDraftOptions& options = {}, const Context& context = {});
 
-    /// Places the part anew; where it was optimised, from the loop it had. After an error all is as
+    /// Places the part anew; an optimised one, from the loop it had. After an error all is as
     /// before: the last good placement stays. Errors: as the constructor.
     void move(const PastePlacement& placement, const Context& context = {});
-    /// As `move` with the loop as it is, unless the outline fits better there: for a part that is
-    /// being dragged. Errors: as move.
+    /// Moves the part as `move` does with the present loop, unless the outline fits better there:
+    /// for a part that is being dragged. Errors: as move.
     void slide(const PastePlacement& placement, const Context& context = {});
     const PastePlacement& placement() const;
 
@@ -198,7 +198,7 @@ class Paste {
     std::unique_ptr<State> state_;
 };
 
-/// A feature that is pasted onto many targets: what depends on the source alone is made once.
+/// A feature for pasting onto many targets: the part that depends on the source alone is made once.
 class PasteSource {
   public:
     /// Errors: as Paste's constructor for the source, its regions and the options.

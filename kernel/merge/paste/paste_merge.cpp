@@ -67,8 +67,7 @@ bool folds(const Sewn& sewn) {
     return turns(sewn) > kFoldedSeam;
 }
 
-// Of two bites, each length times depth, the lesser is worth another boundary if it is below this
-// part of the other.
+// Ratio of two bites, each length times depth, below which the lesser is worth another boundary.
 constexpr double kSparedMore = 0.8;
 
 struct SewnPart {
@@ -99,7 +98,7 @@ SewnPart sewn_along(const PartTrials& trials, const TargetPiece& target, PartTri
     return result;
 }
 
-// What was steep or rough along the boundary on the source may be so on the target.
+// Steep or rough places along the boundary on the source may be so on the target.
 void note_source(const SourceRest& rest, MergeReport& report) {
     BandQuality& band = report.joins[0].band;
     report.source_rim.greatest_near = std::max(report.source_rim.greatest_near, rest.steepest);
@@ -159,8 +158,8 @@ MergeReport merge_report(const Mesh& target, const Mesh& source, const SewnPart&
     return report;
 }
 
-// Where the seam turns faces over, along edges or the outline: what turns least, and is distorted
-// no more than the outline.
+// If the seam turns faces over, takes the boundary, along edges or the outline, that turns least,
+// and is distorted no more than the outline.
 void unfold(const PartTrials& trials, const TargetPiece& target,
             const std::optional<PasteDistortion>& outline_near, const PasteMergeOptions& options,
             SewnPart& whole, const Context& context) {
@@ -173,14 +172,14 @@ void unfold(const PartTrials& trials, const TargetPiece& target,
     if (folds(whole.sewn) && outline_near) attempt(outline_trial(trials, context));
 }
 
-// Of two pastes that do not fold the one that leaves more of the target's edges as they are.
+// Whether, of two pastes that do not fold, the first leaves more of the target's edges intact.
 bool spares_more(const SewnPart& next, const SewnPart& whole) {
     const auto taken = [](const TargetBite& bite) { return bite.length * bite.depth; };
     return !folds(next.sewn) && taken(next.bite) < kSparedMore * taken(whole.bite);
 }
 
-// Where sharp edges of the target lie between the boundary and the feature, the feature alone is
-// pasted: all around it stays as it is.
+// If sharp edges of the target lie between the boundary and the feature, the feature alone is
+// pasted: the surface around it stays.
 void spare_edges(const PartTrials& trials, const TargetPiece& target,
                  const PasteMergeOptions& options, SewnPart& whole, const Context& context) {
     if (!is_bitten(whole.bite)) return;

@@ -1,4 +1,4 @@
-/// What a paste is asked for, and what it reports.
+/// Options and reports of a paste.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace lissom {
 
-/// Where a part goes on its target.
+/// Place of a part on its target.
 struct PastePlacement {
     /// The middle of the feature comes to lie on the point of the target that is nearest to this.
     Vec3 at = Vec3::Zero();
@@ -31,8 +31,8 @@ struct PastePlacement {
     Vec2 offset = Vec2::Zero();
 };
 
-/// What the map of a piece of surface into the plane is like; see Parameterization. Where a map
-/// that keeps lengths would turn faces over, one onto a disk is taken, which does not.
+/// Quality of the map of a piece of surface into the plane; see Parameterization. If a map that
+/// keeps lengths would turn faces over, one onto a disk is taken, which does not.
 struct MapQuality {
     Index faces = 0, flipped = 0, flipped_fill = 0, crossings = 0;
     double least_scale = 1.0, greatest_scale = 1.0;
@@ -41,18 +41,18 @@ struct MapQuality {
 
 enum class PasteStop { converged, iterations, cycle };
 
-/// What the search for the boundary found. Energies are of the arcs of one loop.
+/// Result of the search for the boundary. Energies are of the arcs of one loop.
 struct PasteSearch {
     /// After each iteration; the first is of the loop that was started from.
     std::vector<double> energy;
     /// Mean misfit of the loop's edges: |sqrt(s) R e - e* / sqrt(s)| over sqrt(s) |e|; no unit.
     std::vector<double> misfit;
-    /// Of the outline of the marked region, where all of it lies on the target's region.
+    /// Measures of the outline of the marked region, if all of it lies on the target's region.
     std::optional<double> outline_energy, outline_misfit;
     PasteStop stop = PasteStop::converged;
     /// The outline of the region was kept, since nothing better was found.
     bool kept_outline = false;
-    /// Of the boundary free of edges, where one was found that costs no more than the loop.
+    /// Measures of the boundary free of edges, if one was found that costs no more than the loop.
     std::optional<double> smooth_energy, smooth_misfit;
     /// Scale of the similarity from the boundary to its image.
     double scale = 1.0;
@@ -61,7 +61,7 @@ struct PasteSearch {
     Index closest_rounds = 0;
 };
 
-/// What of a target goes under a part before that is pasted.
+/// Features of a target that are removed under a part before it is pasted.
 struct PasteClearing {
     /// Their number and their area, of the target as it is split there.
     Index faces = 0;

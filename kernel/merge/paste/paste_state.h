@@ -1,4 +1,4 @@
-/// What a paste holds between its steps; private to kernel/merge.
+/// State of a paste between its steps; private to kernel/merge.
 #pragma once
 
 #include <memory>
@@ -34,14 +34,14 @@ struct PlacedFeature {
     PastePlacement placement;
     double angle = 0.0;
     bool angle_chosen = false, upright = false;
-    /// One a place of the source's chart, and where the maps alone put them.
+    /// Images of the places of the source's chart, and those by the maps alone.
     std::vector<ImagePoint> images, mapped;
     PasteLoop loop;
-    /// The boundary free of edges, where one was found that is no worse than `loop`.
+    /// The boundary free of edges, if one was found that is no worse than `loop`.
     std::optional<FreeLoop> line;
 };
 
-/// A map of a region of the target, and what is made of that region when it is first asked for.
+/// A map of a region of the target, and the values that are made of that region on first use.
 struct TargetOnMap {
     std::unique_ptr<PasteMap> map;
     std::optional<TargetPiece> piece = std::nullopt;
@@ -50,18 +50,18 @@ struct TargetOnMap {
 
 /// How long a boundary is sought.
 struct PasteEffort {
-    /// 0: the boundary stays where it starts.
+    /// 0: the boundary keeps its start.
     Index iterations = 0;
-    /// With rounds of nearest points, where the paste has them.
+    /// Adds rounds of nearest points, if the paste has them.
     bool closest = false;
-    /// The boundary free of edges that belongs to the loop to start from, where it stays there.
+    /// The boundary free of edges that belongs to the loop to start from, if it stays there.
     const FreeLoop* line = nullptr;
 };
 
 /// The target as a part stands on it.
 struct AlteredTarget {
     Mesh mesh;
-    /// From its elements to those of the target as given; nothing where it is that.
+    /// From its elements to those of the target as given; nothing for that itself.
     std::optional<MeshMap> map;
     /// The region for parts.
     std::optional<Region> onto;
@@ -80,21 +80,21 @@ struct Paste::State {
     /// Whether the target's region was chosen here.
     bool own_disk = false;
     bool optimized = false;
-    /// Of the target as given, the region for parts and the longest edge.
+    /// The region for parts and the longest edge of the target as given.
     std::optional<Region> onto;
     double longest_edge = 0.0;
     /// If `target` is another one, finer under the part or without its features there: the target
-    /// as given, and where the elements of `target` come from.
+    /// as given, and the origin of the elements of `target`.
     Mesh given;
     std::optional<MeshMap> altered;
-    /// What of the target as given went, if something did.
+    /// The removed part of the target as given, if any.
     std::optional<Region> gone;
     std::optional<PasteClearing> clearing;
     PlacedFeature placed;
     MovingParts parts;
 
     bool clears() const { return options.clear || options.cleared.has_value(); }
-    /// What depends on the source alone.
+    /// Prepares the part that depends on the source alone.
     void prepare(const Mesh& new_source, const Region& region, const std::optional<Region>& feature,
                  const PasteOptions& wanted, const Context& context);
     /// Lays a target out and places the part on it.
@@ -126,8 +126,8 @@ struct Paste::State {
     void place_on_cleared(const AlteredTarget& ground, const Region& under,
                           const PastePlacement& placement, std::span<const Index> start,
                           const PasteEffort& effort, const Context& context);
-    /// Clears the target under the boundary that was found, and seeks it there again. Where that
-    /// fails all stays.
+    /// Clears the target under the boundary that was found, and seeks it there again. If that fails
+    /// nothing changes.
     void clear_under_boundary(const PasteEffort& effort, const Context& context);
     std::unique_ptr<PasteMap> map_of(std::span<const Index> target_faces,
                                      const Context& context) const;

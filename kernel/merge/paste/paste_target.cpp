@@ -1,5 +1,5 @@
-// The target that a part is placed on: as it was given, or finer under the part where that is
-// coarse, and without the features that are to go.
+// The target that a part is placed on: as given, or finer under the part if it is coarse there, and
+// without the features to be removed.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -31,7 +31,7 @@ Region carried(const Region& region, const Mesh& mesh, const MeshMap& map) {
     return {mesh.shared_topology(), std::move(vertices)};
 }
 
-// The target without what was cleared of it.
+// The target without its cleared part.
 AlteredTarget after(const AlteredTarget& ground, ClearedTarget next) {
     MeshMap map = ground.map ? composed(next.map, *ground.map) : std::move(next.map);
     return {std::move(next.mesh), std::move(map), std::move(next.onto)};
@@ -94,7 +94,7 @@ void Paste::State::place_on(AlteredTarget next, const PastePlacement& placement,
     place_here(next.onto, placement, start, effort, context);
 }
 
-// Runs what alters the target. After an error all is as before.
+// Runs a change of the target. After an error all is as before.
 template <typename Work>
 void Paste::State::all_or_nothing(const Work& work) {
     if (!altered) given = target;
@@ -141,7 +141,7 @@ void Paste::State::note_cleared(const ClearedTarget& next) {
     clearing = next.found;
 }
 
-// The target without what it was asked to be cleared of.
+// The target without the features that it was asked to be cleared of.
 AlteredTarget Paste::State::without_cleared(const AlteredTarget& ground, const Context& context) {
     require_same_topology(given, options.cleared->topology(), "the region to clear");
     const Region region =
@@ -177,7 +177,7 @@ std::vector<Vec2> Paste::State::boundary_in_plane() const {
     return line;
 }
 
-// What of a target lies under the boundary as it is.
+// The part of a target under the present boundary.
 Region Paste::State::under_boundary(const AlteredTarget& ground, const PastePlacement& placement,
                                     const Context& context) const {
     const SurfacePoint point = SpatialTree(ground.mesh, context).nearest(placement.at);

@@ -24,12 +24,12 @@
 namespace lissom {
 namespace {
 
-// The disk of a place is this many times as wide as the ring on it, where there is room; ways along
-// edges are up to 1.4 times as long as the surface is wide.
+// Width of a place's disk over that of the ring on it, if there is room; paths along edges are up
+// to 1.4 times as long as the surface is wide.
 constexpr double kPlaceRoom = 1.5, kLeastRoom = 0.66, kSmallerDisk = 0.85;
-// Edges of the target that a disk is wider than that: the collar of a seam takes up to two where
-// the part is much denser, the faces beside it must stay as they are, those that reach beyond the
-// disk are not in it, and edges grow longer on the way.
+// Edges of the target that a disk is wider than that: the collar of a seam takes up to two if the
+// part is much denser, the faces beside it must stay as they are, those that reach beyond the disk
+// are not in it, and edges grow longer on the way.
 constexpr double kSeamRoom = 5.0;
 
 // Edges of the target within this many times a part's reach are halved if they are longer than the
@@ -42,8 +42,8 @@ constexpr int kShrinks = 3;
 // one that moves goes this far away from the edge.
 constexpr double kOnEdge = 0.02, kClearOfEdge = 1.15;
 
-// A mesh while it is put together: for each vertex the one of the mesh before that it is, where
-// others may be the same, and for each face the place it belongs to.
+// A mesh while it is put together: for each vertex its origin in the mesh before, which several may
+// share, and for each face the place it belongs to.
 struct Piece {
     Mesh mesh;
     std::vector<Index> same, place;
@@ -73,7 +73,7 @@ std::vector<Index> reachable_faces(const Mesh& mesh, std::span<const Index> plac
     return faces;
 }
 
-// Of the faces around a face.
+// Longest edge of the faces around a face.
 double longest_edge_at(const Mesh& mesh, Index face) {
     double longest = 0.0;
     for (const Index v : mesh.topology().face(face)) {
@@ -85,7 +85,7 @@ double longest_edge_at(const Mesh& mesh, Index face) {
 }
 
 // The largest disk of faces without parts around a face, within `radius` and no narrower than
-// `least`; empty where there is none.
+// `least`; empty if there is none.
 std::vector<Index> free_disk(const Piece& current, Index start, double radius, double least,
                              const Context& context) {
     const Topology& topology = current.mesh.topology();
@@ -104,7 +104,7 @@ std::vector<Index> free_disk(const Piece& current, Index start, double radius, d
     return {};
 }
 
-// One place that is pasted in this round: its disk, and then what that has become.
+// One place that is pasted in this round: its disk, and then the result of the paste.
 struct PlaceWork {
     Index place = kNoIndex;
     MeshPart disk;
@@ -136,7 +136,7 @@ void require_no_chords(const Topology& disk, const Topology& made, std::span<con
     }
 }
 
-// The rim of a disk must come out of a paste as it went in, since it is where the rest meets it.
+// The rim of a disk must come out of a paste unchanged, since the rest meets it there.
 void require_rim(const Topology& disk, const Mesh& made, std::span<const Index> kept) {
     for (const std::vector<Index>& loop : disk.boundary_loops()) {
         for (std::size_t k = 0; k < loop.size(); ++k) {
@@ -233,7 +233,7 @@ Piece welded(Piece piece, const Context& context) {
     return result;
 }
 
-// The mesh with what became of its disks.
+// The mesh with the results in its disks.
 Piece put_together(const Piece& current, std::vector<PlaceWork> works, const Context& context) {
     std::vector<char> gone(at(current.mesh.face_count()), 0),
         rim(at(current.mesh.vertex_count()), 0);
@@ -259,7 +259,7 @@ Piece put_together(const Piece& current, std::vector<PlaceWork> works, const Con
     return welded(joined_pieces(std::move(pieces), context), context);
 }
 
-// What nobody wants to see of many parts.
+// Faults that spoil a scatter of many parts.
 bool is_grave(MergeFault fault) {
     return fault == MergeFault::bite || fault == MergeFault::folds;
 }
@@ -360,8 +360,8 @@ class Scatterer {
                              : put_together(current_, std::move(works), context);
     }
 
-    // For each pair of faces that cross the place that gives way, of two the one that comes later,
-    // and what it crosses.
+    // For each pair of crossing faces, the place that gives way, of two the one that comes later,
+    // and the place that it crosses.
     std::vector<std::pair<Index, Index>> crossings_of(const Piece& piece,
                                                       const std::vector<PlaceWork>& works,
                                                       const Context& context) const {
@@ -477,7 +477,7 @@ class Scatterer {
         return works;
     }
 
-    // Empty where the place is refused.
+    // Empty if the place is refused.
     std::vector<Index> disk_at(const SpatialTree& tree, Index i, const Context& context) {
         const PastePlacement& placement = places_[at(i)];
         const SurfacePoint point = tree.nearest(placement.at);
@@ -528,7 +528,7 @@ class Scatterer {
     // Whether each was moved, or may not be any more.
     std::vector<char> moved_;
     std::vector<std::vector<MergeReason>> faults_;
-    // Of the target as given, and its surface.
+    // Sharp edges of the target as given, and its surface.
     std::vector<SharpEdge> edges_;
     std::optional<SpatialTree> base_;
     Piece current_;
@@ -538,7 +538,7 @@ class Scatterer {
 
 void check_scatter(std::span<const PastePlacement> places, const ScatterOptions& options) {
     require(!options.paste.clear && !options.paste.cleared,
-            "a target is not cleared for many parts at once; erase what is to go before");
+            "a target is not cleared for many parts at once; erase its features first");
     require(!options.merge.draft, "many parts are not pasted as drafts");
     require(options.iterations >= 0, "a search takes 0 iterations or more");
     for (const PastePlacement& placement : places) {

@@ -1,6 +1,6 @@
 /// Scatter: one feature pasted many times over a surface. Each paste sees a small disk of the
-/// target alone, and all that do not touch are put into the mesh together, so that hundreds cost
-/// what they are large, not what the target is.
+/// target alone, and all that do not touch are put into the mesh together, so that the cost of
+/// hundreds follows their size, not the target's.
 #pragma once
 
 #include <optional>
@@ -20,8 +20,8 @@
 
 namespace lissom {
 
-/// What becomes of a part that would run through itself, the target or a part before it, or that
-/// would bite into sharp edges of the target or fold beside its seam.
+/// Treatment of a part that would run through itself, the target or a part before it, or that would
+/// bite into sharp edges of the target or fold beside its seam.
 enum class ScatterCrossings {
     /// One that bites moves away from the edge first, by its own reach at most. It is made smaller,
     /// by a fifth at a time and by a half at most; one that is no good even then is refused.
@@ -37,12 +37,12 @@ struct ScatterOptions {
     PasteOptions paste;
     /// `draft` must not be set.
     PasteMergeOptions merge = {.find_intersections = false, .compare = false};
-    /// Of the search for each boundary; 0 takes the outline of the region.
+    /// Iterations of the search for each boundary; 0 takes the outline of the region.
     Index iterations = 4;
     ScatterCrossings crossings = ScatterCrossings::shrink;
 };
 
-/// A place where the feature does not go, and why.
+/// A place without the feature, and the reason.
 struct RefusedPlace {
     Index place = kNoIndex;
     ErrorCode code = ErrorCode::internal;
@@ -55,7 +55,7 @@ struct ShrunkPlace {
     double scale = 1.0;
 };
 
-/// A place whose part was moved away from a sharp edge of the target, and where it is.
+/// A place whose part was moved away from a sharp edge of the target, and its new position.
 struct MovedPlace {
     Index place = kNoIndex;
     Vec3 at = Vec3::Zero();
@@ -89,15 +89,15 @@ struct ScatterResult {
     Index rounds = 0;
 };
 
-/// Pastes the feature at all `places`, those with lower numbers first where two meet: a place that
+/// Pastes the feature at all `places`, those with lower numbers first if two meet: a place that
 /// lies on a part, or has no room for the ring between parts, is refused, and so is each whose
-/// paste fails, would cross what is there or would not be good (ScatterCrossings). Where the
-/// target's edges are long beside a place they are halved until there is room (finer_near). The
-/// result does not depend on the number of threads. The target's faces away from places keep their
-/// order and their values to the bit, its vertices too. Errors: as Paste's constructor for the
-/// source and its regions; topology_mismatch; mesh_empty; invalid_argument for options out of
-/// range, a scale that is not above 0 or a target to be cleared; not_finite; memory_limit;
-/// cancelled.
+/// paste fails, would cross other parts or would not be good (ScatterCrossings). Long edges of the
+/// target beside a place are halved until there is room (finer_near). The result does not depend on
+/// the number of threads. The target's faces away from places keep their order and their values to
+/// the bit, its vertices too.
+/// Errors: as Paste's constructor for the source and its regions; topology_mismatch; mesh_empty;
+/// invalid_argument for options out of range, a scale that is not above 0 or a target to be
+/// cleared; not_finite; memory_limit; cancelled.
 ScatterResult scatter(const Mesh& source, const Mesh& target, const Region& region,
                       const std::optional<Region>& feature, std::span<const PastePlacement> places,
                       const ScatterOptions& options = {}, const Context& context = {});

@@ -21,7 +21,7 @@ void note_crossings(const ScatterResult& result, std::vector<MergeReason>& reaso
     reasons.push_back(
         {MergeFault::crossings, kNoIndex, static_cast<double>(result.crossings), 0.0,
          std::to_string(result.crossings) + " pairs of faces of parts run through something",
-         "let parts shrink or leave out what crosses"});
+         "let parts shrink or leave out crossing ones"});
 }
 
 // The first of each kind of fault stands for all parts that have it.

@@ -6,7 +6,7 @@
 
 namespace lissom {
 
-/// Judges what was found at `places` places, and writes verdict and reasons into it. It is good if
+/// Judges the findings at `places` places, and writes verdict and reasons into them. It is good if
 /// - no faces of parts run through one another that did not before;
 /// - all parts that stand are good themselves (verdict_of);
 /// - at most one of ten places has no part.

@@ -23,7 +23,7 @@ class FaceSet {
 
     /// Faces connected through common edges, each part ascending; the largest part first.
     std::vector<std::vector<Index>> parts() const;
-    /// The same of the faces outside, as far as they lie in `bounds`; all faces where it is null.
+    /// Returns the same of the faces outside, as far as they lie in `bounds` (null: all faces).
     std::vector<std::vector<Index>> outside_parts(const FaceSet* bounds) const;
 
     /// Adds all faces of `bounds` around vertices at which the faces meet in more than one fan,

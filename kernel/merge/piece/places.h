@@ -7,9 +7,9 @@
 
 namespace lissom {
 
-/// For each vertex and face of a mesh that was made of another the one in whose place it stands:
-/// several faces do where one was divided. kNoIndex for what was made anew, which follows the rest
-/// of its side.
+/// Source element of each vertex and face of a mesh made from another: several faces
+/// share one that was divided. kNoIndex for a new element, which follows the rest of its
+/// side.
 struct Places {
     std::vector<Index> vertices, faces;
 };

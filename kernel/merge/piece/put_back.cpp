@@ -11,7 +11,7 @@
 namespace lissom {
 namespace {
 
-// Steps at a seam look at what lies this many rings beside what they change.
+// Steps at a seam read elements this many rings beside those that they change.
 constexpr Index kUntouchedRings = 3;
 
 Box box_of(const Mesh& mesh, Index face) {
@@ -42,7 +42,7 @@ void add_rings(FaceSet& set, std::span<const Index> faces, Index rings) {
     }
 }
 
-// Faces that what is done around the given ones may run into.
+// Adds faces that work around the given ones may run into.
 void add_near_in_space(const Mesh& mesh, std::span<const Index> faces, FaceSet& set) {
     std::vector<Box> boxes;
     for (const Index f : faces) {
@@ -84,8 +84,8 @@ std::vector<char> near_rim(const Mesh& whole, const MeshPart& piece) {
     return near;
 }
 
-// The element of the work in the place of each of the piece; kNoIndex where there is none or more
-// than one.
+// The element of the work in the place of each of the piece; kNoIndex if there is none or more than
+// one.
 std::vector<Index> only_in_place(std::span<const Index> place, Index count) {
     std::vector<Index> found(at(count), kNoIndex);
     std::vector<char> taken(at(count), 0);
@@ -101,7 +101,7 @@ std::vector<Index> only_in_place(std::span<const Index> place, Index count) {
 // in the piece, or kNoIndex.
 std::vector<Index> order_of(std::span<const Index> in_piece, Index end,
                             std::span<const Index> place, Index first_source) {
-    // In the order of the places, which is that of the work but for what has none.
+    // In the order of the places, which is that of the work but for elements without a place.
     std::vector<std::pair<Index, Index>> placed;
     for (std::size_t i = 0; i < place.size(); ++i) {
         if (place[i] != kNoIndex) placed.emplace_back(place[i], index_of(i));

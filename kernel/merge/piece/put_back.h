@@ -1,5 +1,5 @@
-/// Pieces of meshes that are worked on in place of the whole, so that what a seam costs depends on
-/// the seam and not on what lies far from it; private to kernel/merge.
+/// Pieces of meshes that are worked on instead of the whole, so that the cost of a seam depends on
+/// the seam and not on distant parts; private to kernel/merge.
 #pragma once
 
 #include <optional>
@@ -16,23 +16,23 @@
 
 namespace lissom {
 
-/// Two meshes as one, not connected. Texture coordinates and tangents of vertices are made those of
-/// corners, since two charts must not be averaged where they meet.
+/// Returns two meshes as one, not connected. Texture coordinates and tangents of vertices are made
+/// those of corners, since two charts that meet must not be averaged.
 Mesh unconnected(const Mesh& target, const Mesh& source, const Context& context);
 
-/// The given faces, those within `rings` rings of them, and all that lie nearer to one of them in
-/// space than half its size. Nothing where that is more than half of the mesh: a piece would gain
-/// nothing.
+/// Returns the given faces, those within `rings` rings of them, and all that lie nearer to one of
+/// them in space than half its size. Returns nothing if that is more than half of the mesh: a piece
+/// would gain nothing.
 std::optional<MeshPart> piece_around(const Mesh& mesh, std::span<const Index> faces, Index rings,
                                      const Context& context);
 
-/// What became of a piece.
+/// Result of the work on a piece.
 struct PieceWork {
     const Mesh& mesh;
     /// The elements of the piece in whose place those of `mesh` stand.
     const Places& place;
-    /// Elements without a place follow those of the whole: the ones before these where its target
-    /// ends, the others at its end.
+    /// Elements without a place follow those of the whole: the ones before these at the end of its
+    /// target, the others at its end.
     Index first_source_vertex = 0, first_source_face = 0;
 };
 
@@ -41,11 +41,11 @@ struct TargetCounts {
     Index vertices = 0, faces = 0;
 };
 
-/// Whether all that lies within three rings of where the piece was taken out is as it was, to the
-/// bit: then what was done to the piece is what would have been done to the whole.
+/// Returns if the surface within three rings of the piece's cut is unchanged to the bit: then the
+/// work on the piece equals work on the whole.
 bool keeps_rim(const Mesh& whole, const MeshPart& piece, const PieceWork& work);
 
-/// The whole with what became of its piece.
+/// The whole with the result of its piece.
 struct PutBack {
     Mesh mesh;
     /// For each element that of the whole, or, counted from the number of those on, that of the
@@ -62,8 +62,8 @@ struct PutBack {
 PutBack put_back(const Mesh& whole, const TargetCounts& target, const MeshPart& piece,
                  const PieceWork& work, const Context& context);
 
-/// Where the elements come from: those of the whole as `whole_map` says, or from themselves where
-/// it is null, those of the work as `work_map` does.
+/// Returns the origin of the elements: those of the whole as `whole_map` says, or from themselves
+/// if it is null, those of the work as `work_map` does.
 MeshMap put_back_map(const PutBack& made, const Topology& whole, const MeshMap* whole_map,
                      const Mesh& work, const MeshMap& work_map);
 

@@ -20,7 +20,7 @@ bool is_vertex_chart(const Attribute& attribute) {
            (role == AttributeRole::texture_coordinates || role == AttributeRole::tangent);
 }
 
-// The mesh itself where there is nothing to split.
+// The mesh itself if there is nothing to split.
 const Mesh& with_split_charts(const Mesh& mesh, std::optional<Mesh>& copy) {
     const auto& all = mesh.attributes().all();
     if (std::none_of(all.begin(), all.end(), is_vertex_chart)) return mesh;
@@ -54,7 +54,7 @@ class SplicedFaces {
     const std::vector<Index>& corners() const { return corners_; }
     FaceList take() { return std::move(faces_); }
 
-    // As `corner_twins`, of the new faces.
+    // Like `corner_twins`, for the new faces.
     std::vector<Index> twins() const {
         std::vector<Index> number(at(first_.corner_count() + second_.corner_count()), kNoIndex);
         for (std::size_t c = 0; c < corners_.size(); ++c) number[at(corners_[c])] = index_of(c);
@@ -85,7 +85,7 @@ class SplicedFaces {
         return corner + 1 < *end ? corner + 1 : *(end - 1);
     }
 
-    // Pairs the corners whose edges were borders of one mesh or of what was left of it.
+    // Pairs the corners whose edges were borders of one mesh or of its remainder.
     void pair(std::span<const Index> open, std::vector<Index>& twin) const {
         std::vector<Side> sides;
         for (const Index c : open) {

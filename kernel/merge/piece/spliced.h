@@ -18,10 +18,10 @@ struct SplicedElements {
     std::vector<Index> number;
 };
 
-/// The mesh of these elements, with what both carry: texture coordinates and tangents of vertices
-/// become those of corners, since two charts must not be averaged where they meet. Its asset is
-/// that of `second`. Faces of both that come to share an edge must do so as a manifold: edges are
-/// paired, not checked. Errors: as require_complete_attributes; memory_limit; cancelled.
+/// Returns the mesh of these elements, with the attributes of both: texture coordinates and
+/// tangents of vertices become those of corners, as two charts must not be averaged. Its asset is
+/// that of `second`. Faces of both that share an edge must do so as a manifold: edges are paired,
+/// not checked. Errors: as require_complete_attributes; memory_limit; cancelled.
 Mesh spliced(const Mesh& first, const Mesh& second, const SplicedElements& elements,
              const Context& context);
 

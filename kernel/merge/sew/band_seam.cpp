@@ -52,7 +52,7 @@ class BandSeam {
             work_.sources[v] = sources_of(work_, join_, join_.on_target[i], {i, 0.0});
             work_.seams.back().push_back(v);
         }
-        // The seam begins where the target's loop does.
+        // The seam begins at the start of the target's loop.
         const auto first = std::min_element(
             join_.on_target.begin(), join_.on_target.end(), [](const auto& a, const auto& b) {
                 return a.segment != b.segment ? a.segment < b.segment : a.t < b.t;

@@ -1,4 +1,4 @@
-// ClosedPatch of seam_patch.h: its flips, and what may be done after closing.
+// ClosedPatch of seam_patch.h: its flips, and steps allowed after closing.
 #include "kernel/merge/sew/seam_patch.h"
 
 #include <Eigen/Geometry>
@@ -22,7 +22,7 @@ constexpr double kGain = 1e-6;
 // Angles (radians) that differ by less are equal.
 constexpr double kSameAngle = 1e-9;
 
-// Angle between two normals; where one has no length it may be anything.
+// Angle between two normals; any value if one has no length.
 double normal_angle(const Vec3& n, const Vec3& m) {
     return n.squaredNorm() > 0.0 && m.squaredNorm() > 0.0 ? angle_between(n, m) : kPi;
 }
@@ -58,8 +58,8 @@ bool ClosedPatch::is_on_seam(Index a, Index b) const {
     return seam_edges_.contains(edge_key(a, b));
 }
 
-// Where the seam's vertices are joined by an edge inside both sides, that edge would have four
-// faces. It is flipped on one side.
+// An edge inside both sides that joins the seam's vertices would have four faces. It is flipped on
+// one side.
 void ClosedPatch::separate_inner_edges() {
     for (const Index a : seam_vertices_) {
         for (const Index c : faces_.neighbors(a)) {

@@ -1,4 +1,4 @@
-/// What sewn meshes carry along a seam; private to kernel/merge.
+/// Attributes of sewn meshes along a seam; private to kernel/merge.
 #pragma once
 
 #include <span>
@@ -35,7 +35,7 @@ void carry_seam_regions(const Mesh& old, const std::unordered_map<Index, SeamSou
 void close_morphs(std::span<const std::vector<Index>> seams, std::span<const SeamSide> side_of_face,
                   Mesh& mesh);
 
-/// The "normal" attribute of a mesh around a seam that moves. Costs nothing where there is none.
+/// The "normal" attribute of a mesh around a seam that moves. Costs nothing if there is none.
 class SeamNormals {
   public:
     /// `moving` are vertices that will move.

@@ -135,8 +135,8 @@ class CollarSide {
     // seam have it long and the ring's own edges short.
     double edge_to_seam() const { return to_seam(ring_edges()); }
 
-    // The faces of the side that touch the seam, or hang together with those that do by vertices
-    // where edges should be shorter than the side's.
+    // The faces of the side that touch the seam, or are connected with those that do by vertices at
+    // which edges should be shorter than the side's.
     std::vector<Index> faces(const SeamSizes& sizes, double side_edge) const {
         std::set<Index> faces;
         std::unordered_map<Index, char> seen;
@@ -156,7 +156,7 @@ class CollarSide {
         return {faces.begin(), faces.end()};
     }
 
-    // Of the triangles at the seam.
+    // Smallest angle of the triangles at the seam.
     double smallest_angle() const {
         double least = kPi;
         for (const Index v : seam_) {
@@ -233,11 +233,11 @@ class CollarSide {
     SeamSide side_;
 };
 
-// A sewn mesh with sheets in the place of some of its faces: its shape, and what it carries where
-// that is asked for.
+// A sewn mesh with sheets in the place of some of its faces: its shape, and its attributes if asked
+// for.
 class Remade {
   public:
-    // Errors: as Mesh::Mesh, where the faces made do not fit those around them.
+    // Errors: as Mesh::Mesh, if the new faces do not fit those around them.
     Remade(const Sewn& old, std::span<const SeamSheet> sheets, const Context& context)
         : old_(old), sheets_(sheets) {
         find_moved();
@@ -317,7 +317,7 @@ class Remade {
         return place;
     }
 
-    // An element of the old mesh, or where there is a sheet, a vertex of that or a triangle made.
+    // An element of the old mesh, or, in a sheet, a vertex of that or a triangle made.
     struct Origin {
         const SeamSheet* sheet = nullptr;
         Index element = kNoIndex;
@@ -341,7 +341,7 @@ class Remade {
 
     Index next_number() const { return count_of(positions_); }
 
-    // What was made on a side comes after the rest of it.
+    // New elements on a side come after the rest of it.
     void add_vertices() {
         for (Index v = 0; v < old_.mesh.vertex_count(); ++v) {
             if (v == old_.first_source_vertex) begin_source_vertices();
@@ -457,8 +457,7 @@ class Remade {
     std::optional<MeshMap> step_;
 };
 
-// Nothing where the faces made anew do not fit those around them: a sheet does not see edges beyond
-// it.
+// Nothing if the new faces do not fit those around them: a sheet does not see edges beyond it.
 std::optional<Remade> remade_with(const Sewn& old, std::span<const SeamSheet> sheets,
                                   const Context& context) {
     try {
@@ -545,7 +544,7 @@ void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& con
     const SeamQuality now = seam_quality(sewn.mesh, sewn.seams);
     const SheetLimits limits = limits_of(now, kRemeshedDihedral);
     const SheetLimits flips = limits_of(now, kFlippedDihedral);
-    // Where sharp edges alone leave slivers, or faces that run through one another, all do better.
+    // If sharp edges alone leave slivers, or faces that run through one another, all do better.
     std::vector<SeamSheet> sheets;
     sheets.reserve(2);
     std::optional<Remade> best;

@@ -1,5 +1,5 @@
-/// The collar of a seam: where one side is sparser than the seam, its faces there are made anew;
-/// private to kernel/merge.
+/// The collar of a seam: new faces on a side that is sparser than the seam; private to
+/// kernel/merge.
 #pragma once
 
 #include "kernel/core/context.h"
@@ -11,16 +11,16 @@ namespace lissom {
 /// which has triangles with angles below 2 degrees at the seam, as far as edges must grow from the
 /// one length to the other by half their distance from the seam.
 /// Seam, the end of the collar and open boundaries stay; features (edges above 20 degrees, borders
-/// of charts and labels) keep their shape. A collar is not kept where it makes the seam worse or
-/// faces run through one another. Then, and where it has angles below 15 degrees at the seam, it is
-/// made again with all edges above 1 degree as features, and the one with fewer slivers is kept.
-/// Vertices and faces made come after the others of their side; what the collar's vertices and
-/// corners carry is interpolated. Counts are added to the report.
+/// of charts and labels) keep their shape. A collar is not kept if it makes the seam worse or faces
+/// run through one another. Then, if it has angles below 15 degrees at the seam, it is made again
+/// with all edges above 1 degree as features, and the one with fewer slivers is kept. New vertices
+/// and faces come after the others of their side; attributes of the collar's vertices and corners
+/// are interpolated. Counts are added to the report.
 void make_collars(Sewn& sewn, const Context& context);
 
-/// Flips edges of triangles with a vertex on the seams or next to them where that makes the
-/// smallest angle greater, as ClosedPatch does. Not kept where it makes the seam worse or faces run
-/// through one another.
+/// Flips edges of triangles with a vertex on the seams or next to them if that makes the smallest
+/// angle greater, as ClosedPatch does. The flips are undone if they make the seam worse or faces
+/// run through one another.
 void flip_near_seams(Sewn& sewn, const Context& context);
 
 }  // namespace lissom

@@ -23,8 +23,8 @@ struct SeamCorner {
     double t = 0.0;
 };
 
-/// A face of the patch, which is or was cut out of the face `origin` of the mesh. Without corners
-/// where it was removed.
+/// A face of the patch, which is or was cut out of the face `origin` of the mesh. A removed one has
+/// no corners.
 struct SeamFace {
     std::vector<SeamCorner> corners;
     Index origin = kNoIndex;
@@ -54,7 +54,7 @@ class SeamFaces {
 
     /// Adds a face and returns its number.
     Index add(SeamFace face);
-    /// Gives a face other corners; none where it is removed.
+    /// Gives a face other corners; none to remove it.
     void replace(Index face, std::vector<SeamCorner> corners);
     /// Two at once, whose edges may change places.
     void replace_both(Index face, std::vector<SeamCorner> corners, Index other,

@@ -1,4 +1,4 @@
-/// The guard of a seam: what is done to it may not fold it; private to kernel/merge.
+/// The guard of a seam: no change may fold it; private to kernel/merge.
 #pragma once
 
 #include <cstdint>
@@ -19,24 +19,24 @@
 namespace lissom {
 
 /// Moves vertices around seams as far as that does no harm. Harm is a greater greatest dihedral
-/// angle across the seams or near them (SeamQuality), a smaller smallest angle where that is below
-/// 15 degrees, a rougher surface (the RMS dihedral angle, weighted by length, of the edges of all
+/// angle across the seams or near them (SeamQuality), a smaller smallest angle if that is below 15
+/// degrees, a rougher surface (the RMS dihedral angle, weighted by length, of the edges of all
 /// faces that move), or a pair of faces that run through one another and did not. The whole of a
 /// move may be rougher by a tenth, since it may bring details along; a part of it may not.
 class SeamGuard {
   public:
     /// Takes the present shape of `mesh`; `moving` are the vertices that may move. Dihedral angles
-    /// as great as those of `allowed` do no harm, even where there are none now. Seams and context
-    /// must outlive the guard.
+    /// up to those of `allowed` do no harm, even if there are none now. Seams and context must
+    /// outlive the guard.
     /// Errors: as seam_quality.
     SeamGuard(const Mesh& mesh, std::span<const std::vector<Index>> seams,
               std::vector<Index> moving, const Context& context, const SeamQuality& allowed = {});
 
     /// Moves the vertices towards `to`, one place each: all of the way, or the first of a half, a
-    /// quarter and an eighth that does no harm. Where all of it does harm, each vertex is also
-    /// tried by itself, and what leaves the smaller angles is kept. Returns the part of the way
-    /// that was kept, of all vertices together: 0 where nothing moved. Errors: cancelled; the shape
-    /// is then as it was.
+    /// quarter and an eighth that does no harm. If all of it does harm, each vertex is also tried
+    /// by itself, and the result with the smaller angles is kept. Returns the part of the way that
+    /// was kept, of all vertices together: 0 if nothing moved.
+    /// Errors: cancelled; the shape is then as it was.
     double move(std::span<const Vec3> to);
 
     /// The part of its way that each moving vertex was moved by in the last `move`, in their order.
@@ -55,7 +55,7 @@ class SeamGuard {
         double roughness = 0.0;
         std::vector<double> parts;
     };
-    // Of the faces around one vertex.
+    // Measures of the faces around one vertex.
     struct Star {
         double seam = 0.0, other = 0.0, angle = kPi;
         std::vector<Vec3> normals;
@@ -84,14 +84,14 @@ class SeamGuard {
     const Context& context_;
 };
 
-/// True where faces of `after` run through others and come from faces of `before` that did not.
-/// `map` leads from the elements of `after` to those of `before`, and is asked for where faces run
-/// through others; `made` are the faces of `after` that are not what they were.
+/// Returns true if faces of `after` run through others and come from faces of `before` that did
+/// not. `map` leads from the elements of `after` to those of `before`, and is asked for if faces
+/// run through others; `made` are the changed faces of `after`.
 bool adds_crossings(const Mesh& before, const Mesh& after,
                     const std::function<const MeshMap&()>& map, std::span<const Index> made,
                     const Context& context);
 
-/// What the numbers of elements in a map are ahead of those of a mesh that was appended.
+/// Offset of the numbers of elements in a map from those of a mesh that was appended.
 struct MapShift {
     Index faces = 0, corners = 0;
 };

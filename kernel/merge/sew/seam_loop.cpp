@@ -27,7 +27,7 @@ class BoundaryIndex {
 
     Index loop_of(Index v) const { return loop_of_[v]; }
 
-    // 1 where `vertices` are one whole boundary in its direction, -1 against it, 0 where not one.
+    // 1 if `vertices` are one whole boundary in its direction, -1 against it, 0 otherwise.
     int direction(std::span<const Index> vertices) const {
         const Index loop = loop_of_[vertices[0]];
         if (loop == kNoIndex || loops_[loop].size() != vertices.size()) return 0;
@@ -94,7 +94,7 @@ bool before(const LoopPoint& a, const LoopPoint& b) {
     return a.segment != b.segment ? a.segment < b.segment : a.t < b.t;
 }
 
-// Going once around, places grow except where they pass the start.
+// Once around, places grow except past the start.
 void require_cyclic(std::span<const LoopPoint> places, std::span<const Index> loop) {
     Index passes = 0;
     for (std::size_t k = 0; k < places.size(); ++k) {

@@ -22,7 +22,7 @@ namespace lissom {
 /// it a ClosedPatch.
 class SplitPatch {
   public:
-    /// As SeamFaces.
+    /// Takes the arguments of SeamFaces.
     SplitPatch(const Mesh& mesh, Index first_source_face, std::span<const Index> loop_vertices)
         : faces_(mesh, first_source_face, loop_vertices) {}
 
@@ -38,12 +38,12 @@ class SplitPatch {
     /// Puts vertex `into` of the target in the place of vertex `v` of the source.
     void merge_vertex(Index v, Index into);
     /// Contracts the boundary edge between two vertices to `kept`; the face along it loses a corner
-    /// or, being a triangle, vanishes. False, and nothing is changed, where the result would not be
-    /// a manifold or a face would turn over.
+    /// or, being a triangle, vanishes. Returns false, and changes nothing, if the result would not
+    /// be a manifold or a face would turn over.
     bool collapse(Index gone, Index kept);
 
     const SeamFaces& faces() const { return faces_; }
-    /// What `close` goes on with.
+    /// Returns the faces for `close`.
     SeamFaces take() && { return std::move(faces_); }
 
   private:
@@ -56,8 +56,8 @@ class SplitPatch {
 class ClosedPatch {
   public:
     /// `seams` are closed loops of vertices whose edges have a face on each side.
-    /// Errors: nonmanifold_edge where both sides join two seam vertices by an inner edge and
-    /// neither can do without it.
+    /// Errors: nonmanifold_edge if both sides join two seam vertices by an inner edge and neither
+    /// can do without it.
     ClosedPatch(SeamFaces faces, std::span<const std::vector<Index>> seams);
 
     const SeamFaces& faces() const { return faces_; }
@@ -65,12 +65,12 @@ class ClosedPatch {
     /// Leaves the edges within two rings of these vertices as they are in `flip_edges`.
     void keep_edges_near(std::span<const Index> vertices);
 
-    /// Flips edges between triangles of one side where that makes the smallest angle greater, but
+    /// Flips edges between triangles of one side if that makes the smallest angle greater, but
     /// makes no dihedral angle greater than `allowed_dihedral` (radians), the greatest of the
     /// patch, and the greatest of the edges concerned; angles across the seam count by themselves.
-    /// Edges with different corner attributes or labels on their sides stay. Nothing is flipped
-    /// where faces of the patch would run through one another that did not. Returns how many flips
-    /// there were.
+    /// Edges with different corner attributes or labels on their sides stay. Nothing is flipped if
+    /// faces of the patch would run through one another that did not. Returns how many flips there
+    /// were.
     Index flip_edges(double allowed_dihedral, const Context& context);
 
   private:

@@ -25,7 +25,7 @@ struct SeamQuality {
 
 /// Measures closed loops of vertices of `mesh` that are joined by edges. The time depends on the
 /// size of the seams only.
-/// Errors: out_of_range; invalid_argument where two consecutive vertices share no edge.
+/// Errors: out_of_range; invalid_argument if two consecutive vertices share no edge.
 SeamQuality seam_quality(const Mesh& mesh, std::span<const std::vector<Index>> seams);
 
 }  // namespace lissom

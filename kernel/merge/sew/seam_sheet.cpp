@@ -19,7 +19,7 @@ constexpr double kSheetAngle = 1e-7;
 constexpr double kTowards = 1e-4, kNoWeight = 1e-7;
 // Triangles whose height is a smaller part of their length have no normal but that of rounding.
 constexpr double kFlatShape = 1e-10;
-// How far points are put aside to ask what is nearest, in edges.
+// Offset of points for queries of the nearest, in edges.
 constexpr double kAside = 1e-8;
 // In place of an angle that has not been asked for.
 constexpr double kNotMeasured = -1.0;
@@ -319,7 +319,7 @@ bool SeamSheet::is_feature(Index a, Index b) const {
     return !is_free(a) && !is_free(b) && features_.contains(key(a, b));
 }
 
-// True where exactly two feature edges, in line, meet at a vertex.
+// True if exactly two feature edges, in line, meet at a vertex.
 bool SeamSheet::is_sliding(Index v, std::array<Index, 2>& along) const {
     if (features_at_[v] != 2) return false;
     std::size_t count = 0;
@@ -357,7 +357,7 @@ SeamSheet::Star SeamSheet::star_of(std::span<const Index> faces) {
     return measured(faces);
 }
 
-// Of triangles that would be, in place of others, with a vertex at `to` that only these have.
+// Measures of new triangles, in place of others, with a vertex at `to` that only these have.
 SeamSheet::Star SeamSheet::star_with(std::span<const Triangle> triangles,
                                      std::span<const Index> instead_of, Index moved,
                                      const Vec3& to) {
@@ -451,7 +451,7 @@ Index SeamSheet::face_source(const Triangle& t) const {
     return first_.face[nearest_at_first((x_[t[0]] + x_[t[1]] + x_[t[2]]) / 3.0).face];
 }
 
-// Read a little towards the middle of the triangle, so that it is its own chart's where two meet.
+// Read a little towards the middle of the triangle, so that it is in its own chart if two meet.
 std::vector<ElementMap::Source> SeamSheet::corner_sources(const Triangle& t, std::size_t k) const {
     const Vec3 middle = (x_[t[0]] + x_[t[1]] + x_[t[2]]) / 3.0, &x = x_[t[k]];
     const std::size_t at = nearest_at_first(x + kTowards * (middle - x)).face;

@@ -22,8 +22,8 @@
 
 namespace lissom {
 
-/// Dihedral angles (radians) that a change may make even where there was none as great: across
-/// seams, and elsewhere.
+/// Dihedral angles (radians) that a change may make even if there was none as great: across seams,
+/// and elsewhere.
 struct SheetLimits {
     double seam = 0.0, other = 0.0;
 };
@@ -43,7 +43,7 @@ class SeamSheet {
     SeamSheet(const Mesh& mesh, std::vector<Index> faces, std::span<const std::vector<Index>> seams,
               double sharp, const Context& context);
 
-    /// Flips edges between triangles where that makes the smallest angle greater. Returns how many
+    /// Flips edges between triangles if that makes the smallest angle greater. Returns how many
     /// flips there were.
     Index flip_edges(const SheetLimits& limits, const Context& context);
     /// Makes edges as long as `size` wants, in rounds of splits, collapses, flips and moves on the
@@ -65,11 +65,11 @@ class SeamSheet {
     /// Triangles that are there now.
     std::vector<Triangle> triangles() const;
 
-    /// What a vertex that was made or has moved is blended from: vertices of the mesh.
+    /// Returns the sources of a vertex that was made or has moved: vertices of the mesh.
     std::vector<ElementMap::Source> vertex_sources(Index v) const;
     /// The face of the mesh that a triangle comes from.
     Index face_source(const Triangle& triangle) const;
-    /// What the corner `k` of a triangle is blended from: corners of one face of the mesh.
+    /// Returns the sources of the corner `k` of a triangle: corners of one face of the mesh.
     std::vector<ElementMap::Source> corner_sources(const Triangle& triangle, std::size_t k) const;
 
   private:
@@ -152,7 +152,7 @@ class SeamSheet {
     std::vector<char> fixed_;
     std::vector<Triangle> triangles_;
     std::vector<std::vector<Index>> around_;
-    // Of each triangle, its normal, and its smallest angle where that has been asked for.
+    // Normal of each triangle, and its smallest angle if that has been asked for.
     std::vector<Vec3> normal_;
     std::vector<double> angle_;
     // When a triangle at a vertex last changed, and when each edge of a triangle was last found to
@@ -164,11 +164,11 @@ class SeamSheet {
     std::unordered_set<std::uint64_t> features_, seam_;
     // How many feature edges end at a vertex.
     std::vector<Index> features_at_;
-    // Of the star that is being measured.
+    // Facets of the star that is being measured.
     std::vector<Facet> facets_;
     // Edges of the mesh between vertices of the border that are not of the sheet.
     std::unordered_set<std::uint64_t> outer_edges_;
-    // Of border edges, along the normal of the face beyond.
+    // Normals of border edges, along that of the face beyond.
     std::unordered_map<std::uint64_t, Vec3> beyond_;
     // The triangles at first: their faces, corners and vertices of the mesh.
     struct First {

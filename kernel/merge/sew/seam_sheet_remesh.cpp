@@ -23,7 +23,7 @@ constexpr double kLengthStep = 1e-6;
 
 }  // namespace
 
-// The triangles on the left and right of an inner edge from a to c, and what a flip makes of them.
+// The triangles on the left and right of an inner edge from a to c, and those after a flip.
 bool SeamSheet::find_quad(Index a, Index c, Quad& quad) const {
     quad.left = left_of(a, c);
     quad.right = left_of(c, a);
@@ -70,7 +70,7 @@ bool SeamSheet::may_flip(const Quad& quad, const SheetLimits& limits) {
     });
 }
 
-// Flips edge `k` of a triangle where that is of use. Most are of none, and are not measured again
+// Flips edge `k` of a triangle if that is of use. Most are of none, and are not measured again
 // until a triangle at their ends has changed; nor are those that may not be.
 bool SeamSheet::flip(Index f, std::size_t k, const SheetLimits& limits) {
     const Index a = triangles_[f][k], c = triangles_[f][(k + 1) % 3];
@@ -95,7 +95,7 @@ bool SeamSheet::flip(Index f, std::size_t k, const SheetLimits& limits) {
 }
 
 Index SeamSheet::flip_edges(const SheetLimits& limits, const Context& context) {
-    // What other limits have refused says nothing about these.
+    // Refusals under other limits do not hold for these.
     if (limits.seam != flip_limits_.seam || limits.other != flip_limits_.other) {
         std::fill(refused_.begin(), refused_.end(), std::array<std::uint32_t, 3>{0, 0, 0});
         flip_limits_ = limits;
@@ -114,8 +114,8 @@ Index SeamSheet::flip_edges(const SheetLimits& limits, const Context& context) {
     return flips;
 }
 
-// In the middle of an edge: on the edge where it is a feature, else on the surface where that does
-// no harm.
+// Splits an edge in its middle: on the edge if it is a feature, else on the surface if that does no
+// harm.
 bool SeamSheet::split(Index a, Index c, const SheetLimits& limits) {
     const Index left = left_of(a, c), right = left_of(c, a);
     if (left == kNoIndex || right == kNoIndex) return false;

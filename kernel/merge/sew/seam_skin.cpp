@@ -14,7 +14,7 @@
 namespace lissom {
 namespace {
 
-// The joints and weights of a mesh, or null where it has no sound pair of them.
+// The joints and weights of a mesh, or null if it has no sound pair of them.
 struct Skin {
     Attribute* joints = nullptr;
     Attribute* weights = nullptr;
@@ -41,7 +41,7 @@ bool has_skin(const Mesh& mesh) {
     return joints && weights;
 }
 
-// The joints of the objects that have faces at a loop; more than one where they differ.
+// The joints of the objects that have faces at a loop; more than one list if they differ.
 std::set<std::vector<std::string>> joints_at(const Mesh& mesh, std::span<const Index> loop) {
     const auto* asset = dynamic_cast<const SkinnedAsset*>(mesh.asset().get());
     if (!asset) return {{}};

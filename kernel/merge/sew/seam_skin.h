@@ -11,10 +11,10 @@
 
 namespace lissom {
 
-/// Throws skin_mismatch where both meshes have skins whose joints are not known to be the same:
-/// the joints of the objects at a join's loops must have the same names in the same order, or
-/// neither mesh tells names. Numbers then mean the same joint on both sides, and weights are
-/// blended over the seam by joint.
+/// Throws skin_mismatch if both meshes have skins whose joints are not known to be the same: the
+/// joints of the objects at a join's loops must have the same names in the same order, or neither
+/// mesh tells names. Numbers then mean the same joint on both sides, and weights are blended over
+/// the seam by joint.
 void require_same_joints(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins);
 
 /// The side that alone has a skin, if it is so.

@@ -37,7 +37,7 @@ std::vector<Index> umbrella_vertices(const Topology& topology, std::span<const I
     return vertices;
 }
 
-// Where one step takes the given vertices.
+// Destination of the given vertices in one step.
 template <typename Position>
 std::vector<Vec3> umbrella_places(const Topology& topology, std::span<const Index> on_seam,
                                   std::span<const Index> moving, const Position& position) {
@@ -52,8 +52,8 @@ std::vector<Vec3> umbrella_places(const Topology& topology, std::span<const Inde
     return to;
 }
 
-// What the seams' vertices went through: the steps that were made, and the part of each that every
-// moving vertex was moved by.
+// History of the seams' vertices: the steps that were made, and the part of each that every moving
+// vertex was moved by.
 struct Umbrella {
     std::span<const Index> on_seam, moving;
     std::vector<std::vector<double>> parts;

@@ -18,7 +18,7 @@
 
 namespace lissom {
 
-/// A target and a source as one mesh, not connected, and where the source's elements begin.
+/// A target and a source as one mesh, not connected, and the source's first numbers.
 struct BothSides {
     const Mesh& mesh;
     Index first_source_vertex = 0, first_source_face = 0;
@@ -27,8 +27,8 @@ struct BothSides {
 /// Sews both sides, without skins; joins are numbered in the target and the source. Errors: as sew.
 Sewn sewn_whole(const BothSides& both, std::span<const LoopPair> joins, const SewOptions& options,
                 const Context& context);
-/// The same by the faces around the seams alone. Nothing where these are most of both meshes, where
-/// what lies farther may have made a difference, and in place of an error of sewing.
+/// The same by the faces around the seams alone. Returns nothing if these are most of both meshes,
+/// if distant parts may have made a difference, and instead of an error of sewing.
 /// Errors: memory_limit; cancelled.
 std::optional<Sewn> sewn_piece(const BothSides& both, std::span<const LoopPair> joins,
                                const SewOptions& options, const Context& context);
@@ -41,7 +41,7 @@ struct SeamWork {
     SplitPatch patch;
     /// The vertices of each seam, in the order of the target's loop.
     std::vector<std::vector<Index>> seams;
-    /// What the seams' vertices are made of.
+    /// Sources of the seams' vertices.
     std::unordered_map<Index, SeamSources> sources;
     /// Vertices that are no longer used.
     std::unordered_set<Index> gone;
@@ -52,10 +52,10 @@ struct SeamWork {
 void sew_conforming(SeamWork& work, const LoopPair& join, double snap);
 
 /// Sews one join with a band of new triangles in the place of the target's faces along its loop.
-/// Errors: boundary_conflict where those faces do not leave one simple loop.
+/// Errors: boundary_conflict if those faces do not leave one simple loop.
 void sew_band(SeamWork& work, const LoopPair& join, const Context& context);
 
-/// Adds what the vertices of a seam at the given places are made of.
+/// Returns the sources of the vertices of a seam at the given places.
 SeamSources sources_of(const SeamWork& work, const LoopPair& join, const LoopPoint& on_target,
                        const LoopPoint& on_source);
 

@@ -51,7 +51,7 @@ std::vector<Index> loop_vertices(std::span<const LoopPair> joins, Index first_so
     return vertices;
 }
 
-// Of two meshes that are sewn to one.
+// Number of components of two meshes that are sewn to one.
 Index joined_components(const Topology& target, const Topology& source,
                         std::span<const LoopPair> joins) {
     const Index targets = target.component_count();
@@ -72,7 +72,7 @@ Index joined_components(const Topology& target, const Topology& source,
 }
 
 // Rings around a seam that are worked on: the collar of one takes up to three on a side, the faces
-// beside it must stay, and what changes there is looked at from three more.
+// beside it must stay, and changes there are measured three more away.
 constexpr Index kSeamRings = 8;
 
 // The faces around the loops, from both sides.
@@ -114,7 +114,7 @@ SewOptions options_of_piece(const MeshPart& piece, const SewOptions& options) {
     return result;
 }
 
-// The sewn piece as the whole would be; nothing where that might differ.
+// The sewn piece put back into the whole; nothing if that might differ.
 std::optional<Sewn> put_back_sewn(const BothSides& both, const MeshPart& piece, Sewn sewn,
                                   const Context& context) {
     const Index first_source_face =

@@ -26,7 +26,7 @@ enum class SeamKind {
     /// The seam runs along the target's loop: vertices of either loop are inserted into the faces
     /// of the other side.
     conform,
-    /// As `conform`; the caller bends the surface around the seam afterwards.
+    /// Like `conform`; the caller bends the surface around the seam afterwards.
     fair,
     /// One band of target faces along the loop is replaced by triangles of least area between the
     /// rest of the target and the source's loop, which becomes the seam (the thesis's).
@@ -51,20 +51,20 @@ struct SewOptions {
     /// times as long as the seam's, which holds the vertices of both loops, or that has triangles
     /// with angles below 2 degrees there. Their edges grow from
     /// the seam's length to the side's by half the distance from it; sharp edges and borders of
-    /// charts and labels keep their shape, and what vertices and corners carry is interpolated.
+    /// charts and labels keep their shape, and attributes of vertices and corners are interpolated.
     /// Elements beyond the collar stay as they are; the vertices and faces made come after the
     /// others of their side.
     bool collar = false;
-    /// By join, or empty for none: true keeps every vertex of both sides where it is at that seam.
+    /// By join, or empty for none: true keeps every vertex of both sides in place at that seam.
     /// None is snapped, collapsed or smoothed, no edge is flipped, and there is no collar; a `band`
     /// is conforming there.
     std::vector<char> kept = {};
-    /// Vertices that smoothing leaves where they are, ascending: of the target, and after all of
-    /// them those of the source.
+    /// Vertices that smoothing leaves in place, ascending: of the target, and after all of them
+    /// those of the source.
     std::vector<Index> firm = {};
 };
 
-/// What was done to sew two meshes.
+/// Measures of sewing two meshes.
 struct SewReport {
     /// Vertices of the source's loops that were inserted into faces of the target, and the other
     /// way round, over all joins.
@@ -86,8 +86,8 @@ struct SewReport {
 /// One mesh made of two.
 struct Sewn {
     Mesh mesh;
-    /// Where its elements come from. Elements of the target keep their numbers, those of the source
-    /// are numbered after them, as `append` does.
+    /// Origin of its elements. Elements of the target keep their numbers, those of the source are
+    /// numbered after them, as `append` does.
     MeshMap map;
     std::vector<SeamSide> side_of_face;
     /// The vertices of each seam, in the order of the target's loop; consecutive ones share an
@@ -104,31 +104,31 @@ struct Sewn {
 
 /// Sews `source` to `target` along all `joins`. Both may be polygon meshes of any genus; boundaries
 /// that no join names stay open. Vertices of the source's loops are put at their places on the
-/// target's, where the caller has brought them.
+/// target's, to which the caller has brought them.
 ///
 /// The result has the surviving vertices of the target in their order, then those of the source,
 /// and the same of faces; faces that get seam vertices become triangles in their place. Away from
-/// the seam (two rings where edges flip or the seam is smoothed) everything is kept to the bit:
+/// the seam (two rings if edges flip or the seam is smoothed) everything is kept to the bit:
 /// - attributes of vertices on the seam are blended half and half from both sides, or are those of
 ///   the side that has any. Those of corners are interpolated in their own face, so that each side
 ///   keeps its values along the seam, but for displacements by morph targets, which are blended as
 ///   those of vertices so that no target tears the seam. Texture coordinates and tangents of
 ///   vertices become those of corners before;
-/// - a side without colors is white, without texture coordinates has 0, 0; what else a side does
-///   not have at all is NaN there, as `append` does;
+/// - a side without colors is white, without texture coordinates has 0, 0; other attributes
+///   of one side alone are NaN on the other, as `append` does;
 /// - a seam vertex is in the regions that it lies in on either side;
 /// - normals are those of the surface on the seam, and turn with the vertices that were smoothed;
-/// - "joints" and "weights" are blended by joint where both sides have the same joints: the names
+/// - "joints" and "weights" are blended by joint if both sides have the same joints: the names
 ///   that the assets tell at the loops must agree, or the meshes must have the same asset or none.
-///   Where one side alone has a skin, the other gets the weights of the seam, continued by a
-///   harmonic function, and in an asset the object of that skin. What "morph" attributes add is
-///   blended as it is: the caller has turned the source's with the source.
+///   If one side alone has a skin, the other gets the weights of the seam, continued by a
+///   harmonic function, and in an asset the object of that skin. Offsets of "morph" attributes are
+///   blended as they are: the caller has turned the source's with the source.
 ///
-/// Errors: invalid_argument for options out of range, for no joins, or where a join's counts
-/// differ; out_of_range; not_a_boundary; boundary_conflict (two joins on one boundary, places that
-/// do not follow each other around a loop); nonmanifold_edge where both sides join two seam
-/// vertices by an inner edge that cannot be flipped; skin_mismatch; cancelled; internal in place of
-/// a result that is not sound.
+/// Errors: invalid_argument for options out of range, for no joins, or if a join's counts differ;
+/// out_of_range; not_a_boundary; boundary_conflict (two joins on one boundary, places that do not
+/// follow each other around a loop); nonmanifold_edge if both sides join two seam vertices by an
+/// inner edge that cannot be flipped; skin_mismatch; cancelled; internal instead of a result that
+/// is not sound.
 Sewn sew(const Mesh& target, const Mesh& source, std::span<const LoopPair> joins,
          const SewOptions& options = {}, const Context& context = {});
 
@@ -139,7 +139,7 @@ std::vector<Index> became_of(const Sewn& sewn, std::span<const Index> firm);
 /// The seams that are not kept as they were sewn.
 std::vector<std::vector<Index>> worked_seams(const Sewn& sewn);
 
-/// Throws internal where a sewn mesh is not what two sound meshes and `joins` make: a vertex has
+/// Throws internal if a sewn mesh is not the union of two sound meshes along `joins`: a vertex has
 /// lost all of its faces, or it has another Euler characteristic, or more or fewer components or
 /// open boundaries.
 void require_sound(const Sewn& sewn, const Mesh& target, const Mesh& source,

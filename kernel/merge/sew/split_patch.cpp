@@ -53,7 +53,7 @@ bool SplitPatch::collapse(Index gone, Index kept) {
             std::erase_if(corners, [&](const SeamCorner& c) { return c.vertex == gone; });
             if (corners.size() < 3) corners.clear();
         }
-        // Where the chart goes on across the collapsed face, its values at `kept` hold.
+        // If the chart goes on across the collapsed face, its values at `kept` hold.
         for (SeamCorner& corner : corners) {
             if (corner.vertex != gone) continue;
             if (faces_.same_values(corner, gone_corner)) corner = kept_corner;

@@ -23,8 +23,8 @@ constexpr double kSmallestCotangent = 1e-4;
 // Keeps the inverse finite at vertices that coincide with a handle.
 constexpr double kSmallestDistance = 1e-100;
 
-// Time at which a flat front that passes a and b at the times ta and tb arrives at c, where it
-// comes through the triangle; otherwise infinity.
+// Arrival time at c of a flat front that passes a and b at the times ta and tb; infinity if it does
+// not come through the triangle.
 double front_arrival(const Vec3& a, const Vec3& b, const Vec3& c, double ta, double tb) {
     const Vec3 u = a - c, v = b - c;
     Eigen::Matrix2d gram;
@@ -105,7 +105,7 @@ class FastMarch {
         queue_;
 };
 
-// Throws where a connected part has vertices without a gradient and no source.
+// Throws if a connected part has vertices without a gradient and no source.
 void require_sources(const ComparisonProblem& problem, const Rings& rings) {
     std::vector<char> reached(rings.size(), 0);
     std::vector<Index> stack;

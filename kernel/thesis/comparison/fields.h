@@ -1,5 +1,5 @@
-/// How much each source of gradients counts at each vertex, for the methods that propagate what is
-/// prescribed at handles; private to kernel/thesis.
+/// Weights of each gradient source at each vertex, for methods that propagate the gradients of
+/// handles; private to kernel/thesis.
 #pragma once
 
 #include <cstddef>
@@ -31,9 +31,9 @@ struct SourceWeights {
 std::vector<double> patch_distances(const Patch& patch, const Rings& rings,
                                     std::span<const Index> source, Index from);
 
-/// Weights in inverse proportion to the geodesic distance from each source: linear in the distances
-/// where there are two (Yu et al. 2004).
-/// Errors: unconstrained where a vertex that may move reaches no source.
+/// Returns weights in inverse proportion to the geodesic distance from each source: linear in the
+/// distances for two sources (Yu et al. 2004).
+/// Errors: unconstrained if a vertex that may move reaches no source.
 SourceWeights geodesic_weights(const ComparisonProblem& problem, const Rings& rings,
                                const Context& context);
 

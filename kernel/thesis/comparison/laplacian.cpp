@@ -123,7 +123,7 @@ class RotationEstimate : public LaplacianMethod {
         return best;
     }
 
-    // Normal, projected edge and their cross product as columns; zero where there is no such frame.
+    // Normal, projected edge and their cross product as columns; zero if they are degenerate.
     Mat3 local_frame(std::span<const Vec3> at, const Vec3& normal, Index i) const {
         Mat3 frame = Mat3::Zero();
         if (edge_[i] == kNoIndex || normal.isZero()) return frame;

@@ -31,7 +31,7 @@ class LeastSquares {
     void end_row(double weight);
     Index rows() const { return rows_.rows(); }
 
-    /// Eliminates the unknowns with known[i] != 0 and factors what remains.
+    /// Eliminates the unknowns with known[i] != 0 and factors the remaining system.
     /// Errors: not_positive_definite with local vertices as elements; memory_limit; cancelled.
     void factor(std::span<const char> known, const Context& context);
 

@@ -128,7 +128,7 @@ class Square {
     std::vector<Triangle> triangles_;
     std::size_t own_triangles_;
     // Coordinates of vertices on the sides; those of the cut are on both, `left_` holds the edges
-    // from them to what lies on its left.
+    // from them to their left side.
     std::map<Index, Vec2> fixed_;
     std::set<Index> on_cut_;
     std::set<Edge> left_;
@@ -212,7 +212,7 @@ void Square::find_cut() {
     mark_left();
 }
 
-// Turns about every vertex of the cut over what lies on its left.
+// Turns about every vertex of the cut over the elements on its left.
 void Square::mark_left() {
     std::map<Edge, Index> third;
     for (const Triangle& t : triangles_) {

@@ -50,7 +50,7 @@ std::size_t row_of(const Region& region, Index v) {
     return std::lower_bound(ids.begin(), ids.end(), v) - ids.begin();
 }
 
-// Moves the weights of a place away from vertices of open boundaries; false where nothing is left.
+// Moves the weights of a place away from vertices of open boundaries; false if no weight is left.
 bool leave_boundary(BandPlace& place, const Topology& topology) {
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -62,7 +62,7 @@ bool leave_boundary(BandPlace& place, const Topology& topology) {
     return sum > 0.0;
 }
 
-// Some vertices of a mesh with what is around them, and local numbers of its vertices.
+// Some vertices of a mesh with their rings, and local numbers of its vertices.
 struct Surroundings {
     Surroundings(const Mesh& mesh, const std::vector<Index>& vertices, const Context& context)
         : part(extract(mapped(mesh, [](const Vec3& x) { return x; }),
@@ -113,7 +113,7 @@ void remove_shear(const TransitionMesh& side, TransitionShape& shape, const Cont
     if (system.free_vertices().empty()) return;
     system.factor(context);
     system.finish(context);
-    // For what deviates from the rest shape.
+    // Rotations for deviations from the rest shape.
     std::vector<PaddedMat3> turns;
     std::vector<Vec4> x(patch.vertex_count, Vec4::Zero());
     for (Index i = 0; i < patch.real_count; ++i) {
@@ -145,7 +145,7 @@ std::vector<std::string> morph_names(const Mesh& mesh) {
     return names;
 }
 
-// A part of a mesh with what the mesh's morph targets add there, turned with the surface.
+// A part of a mesh with the offsets of the mesh's morph targets there, turned with the surface.
 Mesh with_turned_morphs(const Mesh& part, std::span<const Index> vertices, const Mesh& mesh,
                         const std::vector<Mat3>& gradients) {
     Mesh result = part;
@@ -202,7 +202,7 @@ ThesisMerge::ThesisMerge(const OverlapTarget& whole, const Mesh& opened, const M
     }
 }
 
-// Angles count along the far end from where its loop begins, as those of the source do.
+// Angles along the far end count from the start of its loop, as the source's do.
 void ThesisMerge::turn_to_end(std::size_t join) {
     BandChart& chart = target_bands_[join].chart;
     const std::vector<Index>& loop = joins_[join].pair.target;
@@ -247,7 +247,7 @@ ThesisMerge::Matches ThesisMerge::match(const ThesisBand& own, const ThesisBand&
 }
 
 // Both meshes at one scale and of unit size around the seams: rest positions of the source turned
-// to where they go, positions of the target and of the result as they are.
+// to their destination, positions of the target and of the result unchanged.
 struct ThesisMerge::Frames {
     Mat3 turn = Mat3::Identity();
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();
@@ -299,8 +299,8 @@ std::vector<Index> ThesisMerge::moving_of_target() const {
     return moving;
 }
 
-// Of the source what is held goes where the merge without transition took it, and what is outside
-// the region stays.
+// Held vertices of the source go to their places in the merge without transition, vertices outside
+// the region stay.
 void ThesisMerge::hold_source(const Region& region, const BoundaryDeformation& ordinary,
                               const Frames& frame, TransitionMesh& source) const {
     for (Index v = 0; v < source_.vertex_count(); ++v) {
@@ -370,7 +370,7 @@ BoundaryDeformation ThesisMerge::deform(const Region& region, const Region& held
     return result;
 }
 
-// Of what moves, and of the far ends.
+// Keeps the coordinates of moving vertices and of the far ends.
 void ThesisMerge::keep_coordinates(const Mesh& part, std::span<const Index> vertices,
                                    const TransitionShape& solved, const Region& moving) {
     std::vector<Index> moves;

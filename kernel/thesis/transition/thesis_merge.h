@@ -1,8 +1,8 @@
 /// Merging with the transition regions of the thesis, to the letter (section 3.3.3); private to
 /// kernel/thesis. A region of the source comes to lie on one of the target: its boundary on the far
 /// end of the target's region, its far end on the target's boundary. Both deform at once, so that
-/// the Laplacian coordinates of one region draw near those of the other (E_T). As the solution does
-/// not bring them together exactly, one is kept: that of the source, sewn to what is left of the
+/// the Laplacian coordinates of one region draw near those of the other (E_T). The solution does
+/// not bring them together exactly, so one is kept: that of the source, sewn to the rest of the
 /// target and reconstructed from linearly interpolated coordinates.
 ///
 ///     const OpenedForOverlap opened = open_for_overlap(target, loops, width, context);
@@ -34,22 +34,22 @@
 
 namespace lissom {
 
-/// What the thesis leaves open is done as follows. The target stays outside its regions, and its
-/// boundaries are as free as they. Both meshes are brought to one scale, by the mean of the joins'
-/// (geometric), and to unit size. Laplacian coordinates at open boundaries are not curvatures and
-/// take no part in E_T. Interpolation is linear in the height of the unit square: all of the
-/// target's at the source's boundary, all of the source's at its region's far end. Coordinates are
-/// those by area, as loops of unlike density have others without.
+/// The thesis leaves some choices open, made here as follows. The target stays outside its regions,
+/// and its boundaries are as free as they. Both meshes are brought to one scale, by the mean of the
+/// joins' (geometric), and to unit size. Laplacian coordinates at open boundaries are not
+/// curvatures and take no part in E_T. Interpolation is linear in the height of the unit square:
+/// all of the target's at the source's boundary, all of the source's at its region's far end.
+/// Coordinates are those by area, as loops of unlike density have others without.
 class ThesisMerge final : public OverlapMerge {
   public:
     /// Parameterises the regions. The meshes must stay as they are meanwhile.
-    /// Errors: invalid_argument where a region is no band (see make_thesis_band), or where regions
-    /// of two joins meet; memory_limit; cancelled.
+    /// Errors: invalid_argument if a region is no band (see make_thesis_band), or if regions of two
+    /// joins meet; memory_limit; cancelled.
     ThesisMerge(const OverlapTarget& whole, const Mesh& opened, const Mesh& source,
                 std::vector<OverlapJoin> joins, double weight, const Context& context);
 
     /// Eq 2.8 with w_T E_T for both meshes, and the removal of shear (Eq 2.11). `region` of the
-    /// source deforms, `held` of it keeps what `ordinary`, the merge without transition, gave it.
+    /// source deforms; its part `held` keeps the values of `ordinary`, without transition.
     /// Errors: as thesis_transition.
     BoundaryDeformation deform(const Region& region, const Region& held,
                                const BoundaryDeformation& ordinary,
@@ -58,9 +58,9 @@ class ThesisMerge final : public OverlapMerge {
     /// After `deform` and sewing: the vertices of the source's regions, without its boundaries,
     /// take those positions whose Laplacian coordinates are nearest to the interpolated ones, in
     /// the least squares weighted by area; at the seam these are the target's. Everything else
-    /// stays to the bit. "normal" attributes turn with the surface, and what morph targets add goes
-    /// through the same steps. Errors: not_positive_definite;
-    /// memory_limit; cancelled. The mesh is then unchanged.
+    /// stays to the bit. "normal" attributes turn with the surface, and offsets of morph targets go
+    /// through the same steps.
+    /// Errors: not_positive_definite; memory_limit; cancelled. The mesh is then unchanged.
     TransitionReport reconstruct(Sewn& sewn, const Context& context) const override;
 
     const std::vector<ThesisBand>& target_bands() const { return target_bands_; }
@@ -110,8 +110,8 @@ class ThesisMerge final : public OverlapMerge {
     double weight_;
     std::vector<ThesisBand> target_bands_, source_bands_;
     std::vector<Matches> of_target_, of_source_;
-    /// Of the last `deform`: the coordinates of the target's vertices where they are known, those
-    /// of what its morph targets add, by attribute, and which vertices of the source stay.
+    /// Results of the last `deform`: the coordinates of the target's vertices with a known value,
+    /// those of its morph targets by attribute, and the vertices of the source that stay.
     std::vector<Vec3> coordinates_;
     std::map<std::string, std::vector<Vec3>> morph_coordinates_;
     std::vector<char> has_coordinates_, source_held_;

@@ -51,8 +51,8 @@ FaceParts parts_of_rest(const Topology& topology, const std::vector<char>& gone)
     return result;
 }
 
-// Marks what hangs together with the rest of the mesh through the regions alone, such as the tip of
-// a bump: parts that no far end bounds, of components that have a region.
+// Marks parts that are connected to the rest of the mesh through the regions alone, such as the tip
+// of a bump: parts that no far end bounds, of components that have a region.
 void take_enclosed(const Topology& topology, std::span<const ThesisRegion> regions,
                    std::vector<char>& gone) {
     const FaceParts rest = parts_of_rest(topology, gone);

@@ -132,7 +132,7 @@ class Assembler {
         return matrix;
     }
 
-    // L and M, and delta where Eq 2.6 has a term.
+    // L and M, and delta for vertices with a term in Eq 2.6.
     void add_rows(std::size_t number, Entries& laplacian, std::array<Entries, 3>& gradient) {
         const ThesisSide& side = *sides_[number];
         const Rings& rings = side.work.rings;
@@ -228,7 +228,7 @@ SymmetricMatrix lower_part(const Matrix& matrix, const std::vector<Index>& row_o
     return symmetric_from_triplets(rows, entries);
 }
 
-// Fills in what is not known.
+// Solves for the unknown entries.
 void minimise(const Matrix& matrix, const Columns& linear, const std::vector<Index>& row_of,
               Index rows, Columns& x, const Context& context) {
     if (rows == 0) return;

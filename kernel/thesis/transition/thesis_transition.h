@@ -26,8 +26,8 @@ struct TransitionMesh {
     std::vector<BandPlace> counterpart;
 };
 
-/// Positions of all vertices, and how the surface turned and grew at them (M of Eq 2.5; identity
-/// where it is not defined).
+/// Positions of all vertices, and rotation and stretch of the surface at them (M of Eq 2.5;
+/// identity if it is not defined).
 struct TransitionShape {
     std::vector<Vec3> positions;
     std::vector<Mat3> gradients;
@@ -42,8 +42,8 @@ struct ThesisTransition {
 /// local features nor shear are treated here (Eq 2.10 and 2.11 follow). The thesis's weights depend
 /// on the unit, and E_T compares the two meshes: bring both to one scale first, of about unit size,
 /// so that the gradients known at the boundary of the source are rotations.
-/// Errors: invalid_argument for a weight that is negative or not finite, or where counts differ;
-/// out_of_range; not_positive_definite where not enough is known; memory_limit; cancelled.
+/// Errors: invalid_argument for a weight that is negative or not finite, or if counts differ;
+/// out_of_range; not_positive_definite if too little is known; memory_limit; cancelled.
 ThesisTransition thesis_transition(const TransitionMesh& target, const TransitionMesh& source,
                                    double weight = 0.1, const Context& context = {});
 

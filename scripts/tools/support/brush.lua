@@ -7,8 +7,7 @@ function brush.new() return setmetatable({}, brush) end
 --- The cursor has moved.
 function brush:move(ev) self.x, self.y = ev.x, ev.y end
 
---- What it has come over since it was here last: regions as ev:select finds them. `options` are others of
--- that.
+--- Vertices under it since its last place: regions as ev:select finds them. `options` are others of that.
 function brush:paint(ev, radius, options)
     local here = { ev.x, ev.y }
     local search = { brush = { stroke = { self.last or here, here }, radius = radius } }
@@ -22,8 +21,8 @@ local function join(regions, mesh, region)
     regions[mesh] = regions[mesh] and regions[mesh]:union(region) or region
 end
 
---- All that the stroke has come over: a region for each mesh. What was found before, or found unseen by the
--- same camera, is not looked for again.
+--- All that the stroke has come over: a region for each mesh. Vertices found before, or found unseen by the
+-- same camera, are not looked for again.
 function brush:cover(ev, radius, options)
     self.covered = self.covered or {}
     if not rawequal(self.camera, ev.camera) then self.unseen, self.camera = {}, ev.camera end

@@ -1,5 +1,5 @@
---- What tools that edit curves of a hairstyle share: the chosen curve, its numbers in the panel, points that
---- are dragged along a line. Points are in the head's own space, lengths in metres of an average head.
+--- Common parts of tools that edit curves of a hairstyle: the chosen curve, its numbers in the panel, points
+--- that are dragged along a line. Points are in the head's own space, lengths in metres of an average head.
 local hair = require "tools.support.hair"
 local hair_view = require "tools.support.hair_view"
 local matrices = require "matrices"
@@ -7,7 +7,7 @@ local vectors = require "vectors"
 
 local curve_handles = {}
 
---- Of the curves of a kind the wanted one where it is still there, else the last; its place, and all.
+--- From the curves of a kind, returns the wanted one if it still exists, else the last; its place, and all.
 function curve_handles.chosen(one, kind, wanted)
     local list = hair.curves(one, kind)
     for i, curve in ipairs(list) do
@@ -16,7 +16,7 @@ function curve_handles.chosen(one, kind, wanted)
     return list[#list], #list, list
 end
 
--- What a parameter in millimetres is in the unit of a curve's options.
+-- Factor from a parameter in millimetres to the unit of a curve's options.
 local function unit_of(param) return param.unit == "millimetres" and 1 / 1000 or 1 end
 
 --- Puts the options of a curve into the parameters of a group, as far as they may go.
@@ -29,7 +29,7 @@ function curve_handles.show(params, group, curve)
     end
 end
 
---- The options of a curve that the parameters of a group are; only that of a name, where one is given.
+--- The options of a curve that the parameters of a group set; only that of a name, if one is given.
 function curve_handles.options(params, group, name)
     local options = {}
     for _, p in ipairs(params:schema()) do
@@ -39,7 +39,7 @@ function curve_handles.options(params, group, name)
     return options
 end
 
--- Whether a handle can be slid: its way is not seen end-on, where it would also lie on its base.
+-- Whether a handle can be slid: its path is not seen end-on, at which it would also lie on its base.
 local function can_slide(camera, size, handle)
     local x, y = camera:project(handle.at, size)
     if x ~= x then return false end
@@ -58,8 +58,8 @@ function curve_handles.pick(ev, one, list)
     return best
 end
 
---- How far from its base a handle { base =, way = } lies where its way comes nearest to what is under the
--- cursor; the way is of length 1.
+--- Distance from its base of a handle { base =, way = } at the point of its path nearest to the cursor; the
+-- path is of length 1.
 function curve_handles.slide(ev, one, handle)
     local origin, seen = hair.camera(ev.camera, one):ray(ev.x, ev.y, ev.size)
     local from, slope = vectors.plus(origin, handle.base, -1), vectors.dot(handle.way, seen)

@@ -1,20 +1,21 @@
---- What the tools of partings and tails have in common: a click chooses a curve, handles are dragged, and a
--- stroke does at once what it is taken for, which stands at the cursor; Alt takes the next reading.
+--- Common parts of the tools of partings and tails: a click chooses a curve, handles are dragged, and a
+-- stroke has the effect of its reading at once, which stands at the cursor; Alt takes the next reading.
 --
 -- A tool is made of its own part:
 --   name, help, params        as of lissom.tool; parameters of the group `name` are the curve's numbers
 --   kind, color               of the curves and of the stroke
 --   handles(one, curve)       as curve_handles has them
 --   slide(curve, held, metres)        takes a handle to a length from its base
---   readings(self, stroke, ev, one)   what the stroke may mean, likeliest first: a list of { name =, act = };
+-- readings(self, stroke, ev, one) possible readings of the stroke, likeliest first: a list of { name =, act =
+-- };
 --                             act returns the curve that it has made, if any, and more to say
 --   create(self, one, points)         a curve through points, with the tool's parameters
---   remember(curve), put_back(curve, before)    what strokes change of a curve, before one: points alone
+-- remember(curve), put_back(curve, before) the parts of a curve that strokes change, before one: points alone
 --   keys                      functions of (curve, self, ev, one) by key
---   draw(view, one, curve)    what belongs to the chosen one
---   advise(one, curve, strands)       what to do next, after a stroke; nil where nothing is to be said
+-- draw(view, one, curve) marks of the chosen one
+-- advise(one, curve, strands) the next step, after a stroke; nil for none
 --
--- Where its parameter `symmetric` is set, the mirror image of a curve does what the curve does.
+-- If its parameter `symmetric` is set, the mirror image of a curve follows the curve.
 --
 -- A stroke is a value that the tool holds while the button is down: its `pixels`, the curve `target` with its
 -- mirror image `twin`, both as they were `before` and `twin_before`; the handle that is `held`, if any; and
@@ -48,12 +49,12 @@ local function put_back(own, stroke)
     stroke.draft, stroke.twin_draft, stroke.support = nil, nil, nil
 end
 
--- The mirror image of a curve where the tool is symmetric; nil where there is none.
+-- The mirror image of a curve if the tool is symmetric; nil if there is none.
 local function twin_of(self, one, curve)
     return self.params.symmetric and curve and curves.partner(one, curve) or nil
 end
 
--- What the stroke has done, done on the other side.
+-- Repeats the effect of the stroke on the other side.
 local function mirror(self, stroke, one)
     if not self.params.symmetric then return end
     local own = self.own
@@ -75,7 +76,7 @@ local function act(self, stroke, ev, one)
     return reading.name .. (said and ": " .. said or "") .. more
 end
 
--- What the stroke so far means, done anew, and a share of the hair after it; what is wrong with it is told.
+-- Follows the stroke so far anew, with a share of the hair after it; its faults are told.
 local function follow(self, stroke, ev, one, share)
     put_back(self.own, stroke)
     local done, said = pcall(act, self, stroke, ev, one)
@@ -94,7 +95,7 @@ local function drag_handle(own, stroke, ev, one)
     if stroke.twin then own.slide(stroke.twin, stroke.held, length) end
 end
 
--- The target where it is still there; without one a stroke only makes something.
+-- The target if it still exists; without one a stroke only makes something.
 local function has_lost_target(self, one)
     local target = self.stroke.target
     return target and chosen(self, one) ~= target

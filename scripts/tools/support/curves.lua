@@ -1,4 +1,4 @@
---- What a hand does to style curves: hint strokes on a supporting surface, pulling, rubbing, mirror images.
+--- Edits of style curves by hand: hint strokes on a supporting surface, pulling, rubbing, mirror images.
 -- Cameras and points are of the head's own space.
 local hair = require "tools.support.hair"
 local vectors = require "vectors"
@@ -15,7 +15,7 @@ function curves.mirrored(scalp, points)
     return list
 end
 
---- The same of what holds points: a point, a list of points, lists of those.
+--- Mirrors points: a point, a list of points, lists of those.
 function curves.mirror_image(scalp, given)
     if type(given[1]) == "number" then return curves.mirrored(scalp, { given })[1] end
     local image = {}
@@ -49,7 +49,7 @@ function curves.copied(scalp, points, root)
     return list
 end
 
---- The stream that is the mirror image of another one; nil where there is none, or it is its own.
+--- The stream that is the mirror image of another one; nil if there is none, or it is its own.
 function curves.partner(one, curve)
     local points, scale = curve:points(), one.scalp:scale()
     local image = curves.mirrored(one.scalp, points)
@@ -78,7 +78,7 @@ local function turned(points, a, b)
     return math.deg(math.acos(math.max(-1, math.min(1, cosine))))
 end
 
---- The supporting surface of a curve for strokes that are drawn with `camera`, where the curve was drawn
+--- Returns the supporting surface of a curve for strokes that are drawn with `camera`; the curve was drawn
 -- with `viewpoint`. `mode` is ruled, strip, or auto: the strip of the camera itself, and from 50 degrees
 -- beside the viewpoint on the ruled surface of that.
 function curves.support(curve, mode, camera, viewpoint)
@@ -98,8 +98,8 @@ local function begins_at_root(curve, camera, size, pixels)
     return (x - pixels[1][1]) ^ 2 + (y - pixels[1][2]) ^ 2 < 20 ^ 2
 end
 
---- What a hint stroke means for a curve: names, likeliest first, and the reading of the kernel; nil
--- where it is nowhere near.
+--- Readings of a hint stroke for a curve: names, likeliest first, and the reading of the kernel; nil if it is
+-- nowhere near.
 function curves.readings(curve, camera, size, pixels)
     local near, reading = pcall(curve.read_hint, curve, { camera = camera, points = pixels, size = size })
     if not near then return nil end
@@ -126,7 +126,7 @@ local function rooted(curve, hint)
     return list
 end
 
---- Does to a curve what a hint means.
+--- Applies the reading of a hint to a curve.
 function curves.apply(curve, operation, hint)
     local reach = { reach = 1 }
     if operation ~= "cut" then hint = rooted(curve, hint) end

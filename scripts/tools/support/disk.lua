@@ -25,7 +25,7 @@ function disk.around(mesh, vertex)
     return self
 end
 
---- The region of the vertices that are no farther from the middle than this one: all, where that is out of
+--- The region of the vertices that are no farther from the middle than this one: all, if that is out of
 -- reach.
 function disk:up_to(vertex)
     local radius, inside = self.distances[vertex], {}

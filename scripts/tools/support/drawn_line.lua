@@ -1,11 +1,11 @@
---- A line of a mesh that a hand has drawn along, and where a second stroke draws it.
+--- A line of a mesh that a hand has drawn along, and its new course by a second stroke.
 local matrices = require "matrices"
 local meshes = require "tools.support.meshes"
 
 local drawn_line = {}
 
 local aside = 12                -- pixels within which an outline is looked for
-local stays = 20                -- and within which an end is where it was
+local stays = 20                -- and within which an end stays
 
 local function look(ev, x, y, mesh)
     local hit = ev.camera:pick{ scene = ev.scene, x = x, y = y, size = ev.size }
@@ -21,7 +21,7 @@ local function at_outline(ev, mesh, inside, outside)
     return look(ev, inside[1], inside[2], mesh), inside
 end
 
--- Of each pixel of a stroke: the hit there, and that at the outline where this is near.
+-- For each pixel of a stroke: the hit there, and that at the outline if this is near.
 local function hits_along(ev, mesh, pixels)
     local plain, outline = {}, {}
     for i, p in ipairs(pixels) do
@@ -53,7 +53,7 @@ local function apart(list)
     return kept
 end
 
---- The mesh that pixels lie on or near, the first one; nil where there is none.
+--- The mesh that pixels lie on or near, the first one; nil if there is none.
 function drawn_line.mesh(ev, pixels)
     for _, p in ipairs(pixels) do
         for _, way in ipairs{ { 0, 0 }, { aside, 0 }, { -aside, 0 }, { 0, aside }, { 0, -aside } } do
@@ -65,13 +65,13 @@ function drawn_line.mesh(ev, pixels)
     return nil
 end
 
---- The points of a mesh along a stroke, at its outline where the stroke follows that: a list of { hit =,
--- pixel = }, no two on one face.
+--- The points of a mesh along a stroke, at its outline if the stroke follows that: a list of { hit =, pixel =
+-- }, no two on one face.
 function drawn_line.on(ev, mesh, pixels) return apart(hits_along(ev, mesh, pixels)) end
 
 local function distance(a, b) return math.sqrt((a[1] - b[1]) ^ 2 + (a[2] - b[2]) ^ 2) end
 
--- Where a pixel's ray meets a mesh, in the mesh's own space: first and last; nil where it does not.
+-- Hits of a pixel's ray on a mesh, in the mesh's own space: first and last; nil if it misses.
 local function through(ev, one, pixel)
     local first, last
     local under = { scene = ev.scene, x = pixel[1], y = pixel[2], size = ev.size, through = true }
@@ -84,8 +84,8 @@ local function through(ev, one, pixel)
 end
 
 --- The closed line that a stroke draws on the mesh under it, and the mesh as meshes.find has it. A stroke
--- back to where it began runs round on the side that is seen; one from beside the mesh across it to beside it
--- also comes back behind. An error says what to do where it is neither.
+-- back to its start runs round on the visible side; one from beside the mesh across it to beside it also
+-- comes back behind. A stroke that is neither is an error with a remedy.
 function drawn_line.loop(ev, pixels)
     local mesh = drawn_line.mesh(ev, pixels)
     local one = mesh and meshes.find(ev.scene, mesh)
@@ -100,14 +100,14 @@ function drawn_line.loop(ev, pixels)
     end
     if #line == #pixels and distance(first, last) < stays then return line, one end
     if look(ev, first[1], first[2], mesh) or look(ev, last[1], last[2], mesh) then
-        error("draw back to where the line began, or from beside the mesh across it to beside it", 0)
+        error("draw back to the start of the line, or from beside the mesh across it to beside it", 0)
     end
     table.move(behind, 1, #behind, #line + 1, line)
     return line, one
 end
 
---- The pixels where the points of such a line go: at the same shares of a new stroke, whichever way it runs.
--- Ends that are near to where they were stay.
+--- The destination pixels of the points of such a line: at the same fractions of a new stroke, in either
+-- direction. Ends near their old place stay.
 function drawn_line.targets(line, pixels)
     local first, last = line[1].pixel, line[#line].pixel
     local course = { table.unpack(pixels) }

@@ -1,8 +1,8 @@
---- A gizmo in a tool's hand. Keys choose what it does (w moves, e turns, r scales) and along which axis
---- (x, y, z); a drag moves it, with ctrl in steps and with shift a tenth as far; a typed number says how far
---- exactly, during the drag, or after it and then Enter.
+--- A gizmo in a tool's hand. Keys choose its action (w moves, e turns, r scales) and along which axis (x, y,
+--- z); a drag moves it, with ctrl in steps and with shift a tenth as far; a typed number gives the exact
+--- amount, during the drag, or after it and then Enter.
 --
--- What is moved has a matrix, which the tool hands over; it moves it by what drag and key return, a
+-- The moved object has a matrix, which the tool hands over; it moves it by the result of drag and key, a
 -- lissom.GizmoMotion, beginning from grip.before.
 local lissom = require "lissom"
 
@@ -32,7 +32,7 @@ function grip:place(point, options)
     if options then self.gizmo:set(options) end
 end
 
---- Holds the part under the cursor; false where there is none.
+--- Holds the part under the cursor; false if there is none.
 function grip:press(ev, matrix)
     local part = self.gizmo:hit(ev.camera, ev.size, ev.x, ev.y)
     if not part then return false end
@@ -41,19 +41,19 @@ function grip:press(ev, matrix)
     return true
 end
 
---- What the drag means so far.
+--- Motion of the drag so far.
 function grip:drag(ev)
     if self.typed ~= "" then return self.gizmo:motion() end
     return self.gizmo:drag(ev.x, ev.y, { snap = ev.ctrl, precise = ev.shift })
 end
 
---- Lets go; `matrix` is where the drag has left what it moved.
+--- Lets go; `matrix` is the final matrix of the moved object.
 function grip:release(matrix)
     if self.gizmo:part() then self.gizmo:finish() end
     self.after, self.typed = matrix, ""
 end
 
--- A number after a drag replaces it, unless what was moved has changed since: then it goes on from there.
+-- A number after a drag replaces it, unless the moved object has changed since: then it goes on from there.
 local function typed_motion(self, ev, matrix)
     local number = tonumber(self.typed)
     if self.gizmo:part() then return number and self.gizmo:set_amount(number) end
@@ -67,7 +67,7 @@ local function typed_motion(self, ev, matrix)
     return motion
 end
 
---- Whether a key was meant for it, and what to do then, or nil.
+--- Whether a key was meant for it, and its motion then, or nil.
 function grip:key(ev, matrix)
     local key, held = ev.key, self.gizmo:part()
     if key:find("^[%d.-]$") then

@@ -12,11 +12,11 @@ hair.params = {
     strands = { type = "integer", default = 5000, min = 0, max = 200000, group = "hair",
         help = "How many strands follow the curves." },
     length = { type = "number", default = 0.25, min = 0.01, max = 1, unit = "metres", group = "hair",
-        help = "Of the strands, on an average head." },
+        help = "Length of the strands, on an average head." },
     cut = { type = "number", default = 1, min = -0.2, max = 1, unit = "metres", group = "hair",
         help = "Hair ends so far below the middle of the head, but for tails; at 1 it is not cut." },
     slant = { type = "number", default = 0, min = -45, max = 45, unit = "degrees", group = "hair",
-        help = "Of the cut: lower at the head's left, or if negative, at its right." },
+        help = "Tilt of the cut: lower at the head's left, or if negative, at its right." },
     field = { type = "boolean", default = false, group = "hair",
         help = "Arrows around the cursor: which way hair grows there." },
 }
@@ -34,7 +34,7 @@ function hair.with_params(own)
 end
 
 --- The first visible hairstyle of a scene: { name =, style =, scalp =, place =, strands =, length = }, with
--- the matrix from the head's own space to the world, and values of `params`; nil where there is none.
+-- the matrix from the head's own space to the world, and values of `params`; nil if there is none.
 function hair.find(scene, params)
     for _, name in ipairs(scene:names()) do
         local info = scene:info(name)
@@ -67,8 +67,8 @@ local function begin(scene)
     return name
 end
 
---- The same; where there is none a style is begun on the head that is to be seen, and `begun` is its name. An
--- error says what to do where there is no head either.
+--- Finds the same; if there is none a style is begun on the visible head, and `begun` is its name. Without a
+-- head it raises an error with a remedy.
 function hair.need(scene, params)
     local name = not hair.find(scene) and begin(scene) or nil
     local one = hair.find(scene, params)
@@ -85,7 +85,7 @@ function hair.camera(camera, one)
         target = matrices.point(back, camera:target()), ortho = ortho and ortho * scale }
 end
 
---- Curves of a style, of one kind where that is given.
+--- Curves of a style, of one kind if that is given.
 function hair.curves(one, kind)
     local list = {}
     for _, curve in ipairs(one.style:curves()) do
@@ -102,8 +102,8 @@ local function pixels_to(x, y, a, b)
     return math.sqrt((x - a[1] - t * u) ^ 2 + (y - a[2] - t * v) ^ 2), t
 end
 
---- Where a line is seen nearest to a pixel: { pixels =, segment =, along =, point = }, of points of the
--- head's own space; nil where it is not in front of the camera.
+--- The place of a line seen nearest to a pixel: { pixels =, segment =, along =, point = }, of points of the
+-- head's own space; nil if it is not in front of the camera.
 function hair.nearest(points, camera, size, x, y)
     local best, last
     for i, point in ipairs(points) do
@@ -143,7 +143,8 @@ end
 
 local near_line, near_end, as_near = 10, 14, 4       -- pixels
 
--- Where a curve is under the cursor, as hair.nearest; its ends from farther away, and before other curves.
+-- The place of a curve under the cursor, as hair.nearest; its ends from farther away, and before other
+-- curves.
 local function place_under(ev, camera, curve, radius)
     local points = curve:course()
     local near = hair.nearest(points, camera, ev.size, ev.x, ev.y)
@@ -180,15 +181,15 @@ function hair.curves_at(ev, one, options)
     return list
 end
 
---- The first of these, and where; nil where there is none.
+--- The first of these, and its place; nil if there is none.
 function hair.curve_at(ev, one, options)
     local first = hair.curves_at(ev, one, options)[1]
     if not first then return nil end
     return first.curve, first.at
 end
 
---- The curve that the tab key chooses after another one: the next of those that are as good as under the
--- cursor where there are several, else the next of its kind.
+--- The curve that the tab key chooses after another one: the next of several under the cursor, else the next
+-- of its kind.
 function hair.next_curve(ev, one, kind, curve)
     local list = {}
     for _, found in ipairs(ev.x and hair.curves_at(ev, one, { kind = kind }) or {}) do
@@ -209,7 +210,7 @@ function hair.is_grown(style)
     return false
 end
 
---- The plane that cuts the hair of a style, as style:grow takes it; nil where it is not cut.
+--- The plane that cuts the hair of a style, as style:grow takes it; nil if it is not cut.
 function hair.cut(one)
     if one.cut >= hair.params.cut.max then return nil end
     local normal, slant = {}, math.rad(one.slant)
@@ -219,17 +220,17 @@ function hair.cut(one)
     return { point = one.scalp:from_metres(0, -one.cut, 0), normal = normal }
 end
 
--- Metres: as wide as hair is where there are as many strands as hairs, and wider the fewer there are, so that
--- they cover the head; not so wide that they look like ribbons.
+-- Metres: as wide as hair for as many strands as hairs, and wider the fewer there are, so that they cover the
+-- head; not so wide that they look like ribbons.
 local function width_of(count)
     return 75e-6 * math.max(1, math.min(8, (100000 / math.max(count, 1)) ^ (2 / 3)))
 end
 
---- The strands of a style in the scene; nil where none have grown.
+--- The strands of a style in the scene; nil if none have grown.
 function hair.strands(scene, one) return meshes.object(scene, one.name .. " hair") end
 
---- Grows the strands of a style, or a share of them while something is dragged, into the object
--- "<name> hair", which is added where there is none, and removed where no curve is left.
+--- Grows the strands of a style, or a share of them during a drag, into the object "<name> hair", which is
+-- added if it is missing, and removed with the last curve.
 function hair.grow(scene, one, share)
     local name = one.name .. " hair"
     local old = meshes.object(scene, name)
@@ -248,7 +249,7 @@ function hair.grow(scene, one, share)
     return strands
 end
 
---- The same where it may fail: whether it did not, and `said`, else why.
+--- Tries the same: returns true and `said`, or false and the reason.
 function hair.try_grow(scene, one, share, said)
     local done, message = pcall(hair.grow, scene, one, share)
     return done, done and said or message
@@ -267,14 +268,14 @@ function hair.forget_begun(stroke, scene)
     if stroke.begun and meshes.object(scene, stroke.begun) then scene:remove(stroke.begun) end
 end
 
---- What an error says, without its place in a script and its code.
+--- Message of an error, without its place in a script and its code.
 function hair.message(text) return (tostring(text):gsub("^[^\n]-:%d+: ", ""):gsub(" %[[%l_]+%]$", "")) end
 
 --- The code of an error; nil if a script has raised a text.
 function hair.code(problem) return type(problem) == "table" and problem.code or nil end
 
---- What is said of a stroke: `said` if it was `done`, else what is wrong with it, and if it starts beside the
--- head and changes no curve, what else it may have been meant for.
+--- Text about a stroke: `said` if it was `done`, else its fault, and if it starts beside the head and changes
+-- no curve, other readings.
 function hair.told(done, said, is_change)
     local text = hair.message(said)
     if done or is_change or hair.code(said) ~= "out_of_range" then return text end
@@ -297,7 +298,7 @@ function hair.goes_on(stroke, ev)
     return not ev.late
 end
 
---- Whether what was drawn is a click: all of it within 6 pixels.
+--- Whether a stroke is a click: all of it within 6 pixels.
 function hair.is_click(pixels)
     for _, pixel in ipairs(pixels) do
         if math.abs(pixel[1] - pixels[1][1]) + math.abs(pixel[2] - pixels[1][2]) > 6 then return false end
@@ -305,7 +306,7 @@ function hair.is_click(pixels)
     return true
 end
 
---- What a tool advises after the step that now ends, if anything: the `text`, and where the hand is.
+--- Advice of a tool after the step that now ends, if any: the `text`, and the position of the hand.
 function hair.advice_after(ev, text)
     return text and { text = text, step = ev.scene:history().place + 1, x = ev.x, y = ev.y } or nil
 end
@@ -321,10 +322,10 @@ function hair.advice(tool, view)
     return advice.text
 end
 
---- What tools say where nothing tells how deep a stroke is.
+--- Text of tools for strokes of uncertain depth.
 hair.guessed = "off the head its depth is a guess: click it, turn the view by 90 degrees, draw it again"
 
---- The same for a stroke much of which is beside the head; nil where it is not.
+--- The same for a stroke much of which is beside the head; nil if it is not.
 function hair.is_guess(ev, one, pixels)
     local camera, beside = hair.camera(ev.camera, one), 0
     for _, pixel in ipairs(pixels) do
@@ -338,11 +339,11 @@ end
 local seen_only = { field = true, surface = true, stop = true, reach = true, by = true, symmetric = true,
     lift = true }
 
---- Whether a parameter changes what is shown, or what the next stroke does, but no hair.
+--- Whether a parameter changes the picture, or the next stroke, but no hair.
 function hair.is_seen_only(parameter) return seen_only[parameter] == true end
 
---- The place that hair.nearest has found, or the first point where it is near that: there a curve is held by
--- its root.
+--- The place that hair.nearest has found, or the first point if it is near that: there a curve is held by its
+-- root.
 function hair.snapped(near, points)
     if near.segment ~= 1 or near.along > 0.5 then return near.point end
     near.along = 0

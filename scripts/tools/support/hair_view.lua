@@ -1,5 +1,5 @@
---- What tools of hair show over the picture: curves, faint where the head hides them and glowing under the
--- cursor; supporting surfaces, the field around the cursor, and words there.
+--- Marks of hair tools over the picture: curves, faint if the head hides them and glowing under the cursor;
+-- supporting surfaces, the field around the cursor, and words there.
 local hair = require "tools.support.hair"
 local matrices = require "matrices"
 local vectors = require "vectors"
@@ -8,7 +8,7 @@ local hair_view = {}
 
 local colors = { stream = "#28b0c8", dividing = "#e04038", ponytail = "#b060d0" }
 local glow = "#ffd24a"
-local faint = 0.3               -- opacity of what is behind the head
+local faint = 0.3               -- opacity of curves behind the head
 
 --- Draws a line of the head's own space; `options` are those of view:line.
 function hair_view.line(view, one, points, options)
@@ -38,7 +38,7 @@ local function seen_pieces(view, one, camera, points)
     return pieces
 end
 
--- A line over the hair, with a glow around it, and faint where it is behind the head.
+-- A line over the hair, with a glow around it, and faint behind the head.
 local function draw_seen(view, one, camera, points, look)
     for _, piece in ipairs(seen_pieces(view, one, camera, points)) do
         if look.glows then
@@ -66,7 +66,7 @@ function hair_view.curves(view, one, kind, chosen, is_busy)
     return under
 end
 
---- What the cursor would be an event at.
+--- The event that the cursor would be.
 function hair_view.event(view)
     return { camera = view.camera, size = view.size, x = view.cursor[1], y = view.cursor[2] }
 end
@@ -81,7 +81,7 @@ function hair_view.support(view, one, support)
     for _, edge in ipairs(edges) do view:line{ points = edge, color = "#f0c040", width = 1 } end
 end
 
---- Says something at the cursor; nothing where there is no text.
+--- Says something at the cursor; nothing for an empty text.
 function hair_view.say(view, text)
     if not text or not view.cursor then return end
     local origin, direction = view.camera:ray(view.cursor[1] + 12, view.cursor[2] - 12, view.size)
@@ -105,7 +105,7 @@ local function how_seen(view, camera, points)
     return pixels, whole > 0 and on_end / whole or 0
 end
 
---- What makes strokes at a curve hard from here, in words; nil where nothing does, or there is no curve.
+--- Reason that makes strokes at a curve hard from here, in words; nil if there is none, or no curve.
 function hair_view.warning(view, one, curve)
     if not curve or curve:kind() == "dividing" then return nil end
     local pixels, on_end = how_seen(view, hair.camera(view.camera, one), curve:course())

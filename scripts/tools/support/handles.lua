@@ -53,8 +53,8 @@ function handles.number(list, chosen)
     return number
 end
 
---- The deformation of a mesh that is in the scene, else a new one: of what is within a distance around a
--- region; of the parts of the mesh that it lies on, where the distance is 0.
+--- The deformation of a mesh that is in the scene, else a new one: of the part within a distance around a
+-- region; of the parts of the mesh that it lies on, for a distance of 0.
 function handles.deformation(scene, one, region, reach)
     local _, deformer = meshes.deformation(scene, one.mesh)
     if deformer then return deformer end
@@ -64,7 +64,7 @@ function handles.deformation(scene, one, region, reach)
     return scene:add(name, lissom.deformer(one.mesh, { region = movable }), { visible = false })
 end
 
---- Moves a handle by a motion of the world, from where its matrix was before.
+--- Moves a handle by a motion of the world, from its former matrix.
 function handles.follow(one, before, motion)
     local back = matrices.inverse(one.place)
     one.handle:set_matrix(before)
@@ -78,7 +78,7 @@ end
 -- Vertices that follow a drag at full quality.
 local most_exact = 60000
 
---- What a drag shows of a deformation: its preview "always", "never", or for "large meshes".
+--- Preview of a deformation during a drag: "always", "never", or for "large meshes".
 function handles.preview(one, of)
     local quick = of == "always" or of == "large meshes" and #one.deformer:region() > most_exact
     if quick then return one.deformer:preview() end

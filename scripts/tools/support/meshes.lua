@@ -1,18 +1,18 @@
---- What the tools ask of a scene: its meshes, where they stand, what is selected of them.
+--- Queries of the tools to a scene: its meshes, their places, the selection on them.
 local lissom = require "lissom"
 local matrices = require "matrices"
 local vectors = require "vectors"
 
 local meshes = {}
 
---- An object of the scene, or a region of a mesh; nil where there is none of that name.
+--- An object of the scene, or a region of a mesh; nil if there is none of that name.
 function meshes.object(scene, name) return (lissom.try(scene.get, scene, name)) end
 function meshes.region(mesh, name) return (lissom.try(mesh.region, mesh, name)) end
 
---- What a scene says of an object; nil where there is none of that name.
+--- The scene's information about an object; nil if there is none of that name.
 function meshes.info(scene, name) return (lissom.try(scene.info, scene, name)) end
 
---- The mesh that an object of the scene is, or deforms; nil where there is none.
+--- The mesh that an object of the scene is, or deforms; nil if there is none.
 function meshes.get(scene, name)
     local object = meshes.object(scene, name)
     if not object then return nil end
@@ -39,7 +39,7 @@ function meshes.visible(scene)
     return list
 end
 
---- That of them which is a certain mesh, such as that of a hit; nil where it is no longer to be seen.
+--- The one of them that is a certain mesh, such as that of a hit; nil if it is no longer visible.
 function meshes.find(scene, mesh)
     for _, one in ipairs(meshes.visible(scene)) do
         if rawequal(one.mesh, mesh) then return one end
@@ -69,8 +69,8 @@ function meshes.parts(region)
     return parts
 end
 
---- A region without specks, such as a brush catches of what lies behind: connected parts of less than a
--- hundredth of it.
+--- A region without specks that a brush catches behind the surface: connected parts of less than a hundredth
+-- of it.
 function meshes.without_specks(region)
     local rest, kept = region, region
     while #rest > 0 do
@@ -94,8 +94,8 @@ function meshes.without_pinholes(region)
     return closed
 end
 
---- What to work on where nothing is pointed at: the first visible mesh of which something is selected, else
--- the only one; nil where there are several.
+--- The subject if nothing is pointed at: the first visible mesh with a selection, else the only one; nil if
+-- there are several.
 function meshes.subject(scene)
     local list = meshes.visible(scene)
     for _, one in ipairs(list) do
@@ -104,7 +104,7 @@ function meshes.subject(scene)
     return #list == 1 and list[1] or nil
 end
 
---- Name and object of the deformation of a mesh that is in the scene; nil where there is none, or it was made
+--- Name and object of the deformation of a mesh that is in the scene; nil if there is none, or it was made
 -- before faces of the mesh changed.
 function meshes.deformation(scene, mesh)
     for _, name in ipairs(scene:names()) do
@@ -116,7 +116,7 @@ function meshes.deformation(scene, mesh)
 end
 
 --- Ends the deformation of a mesh, which keeps its shape: the next one begins from that. The mesh itself
--- takes its place where it is not in the scene yet.
+-- takes its place if it is not in the scene yet.
 function meshes.end_deformation(scene, mesh)
     local name = meshes.deformation(scene, mesh)
     if not name then return end

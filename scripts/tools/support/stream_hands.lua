@@ -1,7 +1,7 @@
---- What the hand of the stream tool does with its strokes, by the tool's parameter `by`. A stroke is a value:
--- its `pixels`; the stream that was there before, `target`, with its points `before` and its mirror image
--- `twin`; and what it makes: the streams `drafts`, the `support` that it is drawn on, and what is `said` of
--- it. The tool itself is only read.
+--- Hands of the stream tool for its strokes, by the tool's parameter `by`. A stroke is a value: its `pixels`;
+-- the stream that was there before, `target`, with its points `before` and its mirror image `twin`; and its
+-- results: the streams `drafts`, the `support` that it is drawn on, and the text `said` about it. The tool
+-- itself is only read.
 local curves = require "tools.support.curves"
 local hair = require "tools.support.hair"
 local tie = require "tools.support.tie"
@@ -9,7 +9,7 @@ local vectors = require "vectors"
 
 local stream_hands = {}
 
--- Puts the held stream and its mirror image at these points, or where they were.
+-- Puts the held stream and its mirror image at these points, or back to their old ones.
 local function put(stroke, one, points)
     stroke.target:set_points(points)
     if stroke.twin then stroke.twin:set_points(curves.mirrored(one.scalp, points)) end
@@ -21,8 +21,8 @@ local function put_back(stroke, one)
     stroke.drafts, stroke.support = nil, nil
 end
 
--- A stream that is drawn, and its mirror image where the tool is symmetric; where they end at a tie they go
--- into it, and hair goes on there. Whether the first does.
+-- Adds a drawn stream, and its mirror image if the tool is symmetric; streams that end at a tie go into it,
+-- and hair goes on there. Whether the first does.
 local function add_streams(params, stroke, one, points, camera, size)
     local into = tie.led_into(one, points, camera, size)
     local lists = { into or points }
@@ -39,7 +39,7 @@ end
 
 local hands = {}
 
--- Each does what the stroke so far means, and says what that is.
+-- Each follows the reading of the stroke so far, and returns a text about it.
 function hands.draw(self, stroke, one, ev, camera)
     local given = { points = stroke.pixels, size = ev.size }
     local names, reading = {}, nil
@@ -89,8 +89,8 @@ function hands.rub(self, stroke, one, ev, camera)
     return "rub"
 end
 
---- The hand's work so far, anew from what was before, and a share of the hair after it; what is wrong with it
--- is told, not raised.
+--- The hand's work so far, anew from the former state, and a share of the hair after it; faults are told, not
+-- raised.
 function stream_hands.follow(self, stroke, one, ev, share)
     put_back(stroke, one)
     local done, said = pcall(hands[self.params.by], self, stroke, one, ev, hair.camera(ev.camera, one))

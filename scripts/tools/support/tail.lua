@@ -28,8 +28,8 @@ local function length_of(pixels)
     return sum
 end
 
--- What a stroke goes round: "all" where its ends are near each other for how wide it is, "half" where it is
--- bent but open; and its width.
+-- Kind of a stroke round a tail: "all" if its ends are near each other for its width, "half" if it is bent
+-- but open; and its width.
 local function round(pixels)
     local low, high = { math.huge, math.huge }, { -math.huge, -math.huge }
     for _, pixel in ipairs(pixels) do
@@ -58,7 +58,7 @@ local function along(camera, size, spine, pixels)
     return whole > 0 and math.abs(sum) / whole or 0
 end
 
--- A section in the plane across the view where the spine is in the middle of it.
+-- A section in the plane across the view with the spine in the middle of it.
 local function section_points(ev, spine, camera, fair)
     local x, y = middle_of(fair)
     local _, _, depth = camera:project(hair.nearest(spine, camera, ev.size, x, y).point, ev.size)
@@ -78,7 +78,7 @@ end
 
 local parts = {}
 
--- Where a stroke is at a tail: whether its middle is on the spine, it begins at it, or beside it.
+-- Place of a stroke at a tail: whether its middle is on the spine, it begins at it, or beside it.
 function parts.place(ev, one, camera, spine, pixels, width)
     local x, y = middle_of(pixels)
     local middle = hair.nearest(spine, camera, ev.size, x, y)
@@ -122,7 +122,7 @@ function parts.hints(viewpoint, stroke, ev, one, camera, pixels)
     return list
 end
 
---- What a stroke at the tail that is its target may mean, likeliest first, as curve_tool has it; empty if it
+--- Readings of a stroke at the tail that is its target, likeliest first, as curve_tool has them; empty if it
 -- is not at it. The tail was drawn from `viewpoint`.
 function tail.readings(viewpoint, stroke, ev, one)
     local curve = stroke.target
@@ -192,8 +192,8 @@ function tail.leaving(one, points)
     return list
 end
 
---- The spine of a tail from a stroke over the head, or in the middle of it: from where it is high enough for
--- a tie.
+--- The spine of a tail from a stroke over the head, or in the middle of it: from a point high enough for a
+-- tie.
 function tail.spine(ev, one, pixels, in_middle)
     local scalp, given = one.scalp, { points = pixels, size = ev.size }
     if in_middle then
@@ -225,7 +225,7 @@ end
 -- The same to the middle of a line.
 local function offset(spine, points) return (off_spine(spine, points[math.ceil(#points / 2)])) end
 
--- A profile from the tie on: where it begins farther on, and no section is drawn, the tie would go there.
+-- A profile from the tie on: if it begins farther on, and no section is drawn, the tie would go there.
 local function from_tie(curve, points)
     local tie, spine, line = curve:tie(), curve:course(), { table.unpack(points) }
     local off, place = off_spine(spine, line[1])
@@ -321,8 +321,8 @@ local function is_of_other(one, curve, point)
     return best ~= curve
 end
 
---- Draws streams over the hair around a tail into its tie, in place of those that did so; not from where
--- another tail is nearer.
+--- Draws streams over the hair around a tail into its tie, in place of former such streams; not from points
+-- nearer to another tail.
 function tail.gather(one, curve)
     local tie, scalp = curve:tie(), one.scalp
     for _, stream in ipairs(hair.curves(one, "stream")) do
@@ -340,7 +340,7 @@ function tail.gather(one, curve)
     hairdo.gather(one.style, direction_of(scalp, tie), options)
 end
 
---- How much of the hair of a style is in its tails, 0 to 1; 1 where streams lead other hair elsewhere.
+--- Fraction of the hair of a style in its tails, 0 to 1; 1 if streams lead other hair elsewhere.
 function tail.share(one, strands)
     local counted, sum = {}, 0
     for _, curve in ipairs(one.style:curves()) do
@@ -366,7 +366,7 @@ local function draw_circle(view, one, tie, radius)
     hair_view.line(view, one, points, { color = "#e8a33d", width = 2, closed = true })
 end
 
---- Draws the tie of a tail, its ring, and what was drawn for it.
+--- Draws the tie of a tail, its ring, and the strokes for it.
 function tail.draw(view, one, curve)
     local tie, inner, outer = curve:tie(), ring_of(curve:options())
     for _, radius in ipairs{ tie.radius, inner, outer } do draw_circle(view, one, tie, radius) end

@@ -28,7 +28,7 @@ local function tie_at(one, points, camera, size)
     return best
 end
 
--- Whether a point is beside a tie or behind it, where hair that follows it would miss the tie.
+-- Whether a point is beside a tie or behind it, so that hair that follows it would miss the tie.
 local function is_past(found, point)
     local off = vectors.plus(point, found.center, -1)
     local height, far = vectors.dot(off, found.direction), vectors.length(off)
@@ -36,7 +36,7 @@ local function is_past(found, point)
 end
 
 --- Points of a stream that ends at a tie, as `camera` sees it, so that they end in it, half a radius from its
--- middle on the side that they come from; nil where it does not end at one.
+-- middle on the side that they come from; nil if it does not end at one.
 function tie.led_into(one, points, camera, size)
     local found = tie_at(one, points, camera, size)
     if not found then return nil end

@@ -48,7 +48,7 @@ TEST_CASE("the verdict says in one line that a seam is good, or all that is not"
     CHECK(says(all, "31 degrees"));
     CHECK(says(all, "0.4 degrees"));
     CHECK(says(all, "3 pairs of faces"));
-    CHECK(says(all, "join 1 meet is a guess"));
+    CHECK(says(all, "boundaries of join 1 is a guess"));
 }
 
 namespace {

@@ -58,7 +58,7 @@ Region region_under_line(const Mesh& target, Index face, const PasteMap& base,
 
 namespace {
 
-// The surface that took the place of what went.
+// Height of the removed feature over the surface that took its place.
 double greatest_height(const Mesh& target, const Region& gone, const Mesh& closed,
                        Index first_patch_face, const Context& context) {
     std::vector<Index> patch;

@@ -1,4 +1,4 @@
-/// A target whose features have been removed where a part goes (thesis section 3.4.1); private to
+/// A target with the features removed at a part's place (thesis section 3.4.1); private to
 /// kernel/merge.
 #pragma once
 
@@ -21,29 +21,29 @@ struct ClearedTarget {
     Mesh mesh;
     /// From its elements to those of the target as given.
     MeshMap map;
-    /// The region for parts, with the patch in place of what was removed from it.
+    /// The region for parts, with the patch in place of the removed part.
     std::optional<Region> onto;
-    /// Of the target as given: the vertices of the faces that went.
+    /// The vertices of the removed faces of the target as given.
     Region gone;
     PasteClearing found;
 };
 
-/// Where a part comes to lie at most: the vertices within `radius` of a point of the surface, in a
-/// straight line, that hang together with it. Errors: cancelled.
+/// Returns an upper bound of a part's place: the connected vertices within `radius` of a point of
+/// the surface, in a straight line. Errors: cancelled.
 Region region_under(const Mesh& target, const SurfacePoint& point, double radius,
                     const Context& context);
 
-/// What lies under the boundary of a part: the vertices that hang together with `face` and whose
-/// nearest point on the surface `base`, which is the target without its features, lies inside the
-/// line, of the plane of `base`. Errors: cancelled.
+/// Returns the vertices under the boundary of a part: those connected with `face` whose nearest
+/// point on the surface `base`, which is the target without its features, lies inside the line, of
+/// the plane of `base`. Errors: cancelled.
 Region region_under_line(const Mesh& target, Index face, const PasteMap& base,
                          std::span<const Vec2> line, const Context& context);
 
 /// Removes a region with its ring. Errors: as erase_feature.
 ClearedTarget cleared_target(const Mesh& target, const std::optional<Region>& onto,
                              const Region& gone, const Context& context);
-/// Removes what lies in a region and nothing beyond it. Nothing where it is a face wide. Errors: as
-/// erase_feature.
+/// Removes the features in a region and nothing beyond it. Returns nothing if it is a face wide.
+/// Errors: as erase_feature.
 std::optional<ClearedTarget> cleared_inside(const Mesh& target, const std::optional<Region>& onto,
                                             const Region& under, const Context& context);
 

@@ -52,7 +52,7 @@ double distance_to_rim(const std::vector<RimWay>& rim, const Vec3& p) {
 }
 
 // The sine of the slope, over a plane, at which the surface around comes to a point: the mean over
-// the rim, of which what is near counts most.
+// the rim, weighted towards near points.
 double slope_at(const std::vector<RimWay>& rim, const Vec3& p, const Vec3& up) {
     double sum = 0.0, weights = 0.0;
     for (const RimWay& one : rim) {
@@ -64,7 +64,8 @@ double slope_at(const std::vector<RimWay>& rim, const Vec3& p, const Vec3& up) {
     return std::clamp(sum / weights, -1.0, 1.0);
 }
 
-// Of a cap over a disk of radius `reach` whose slope at the rim has this sine, `inward` from it.
+// Height of a cap over a disk of radius `reach` whose slope at the rim has this sine, `inward` from
+// it.
 double cap_height(double reach, double sine, double inward) {
     if (!(std::abs(sine) > 1e-6)) return 0.0;
     const double radius = reach / std::abs(sine), rest = reach - inward;

@@ -11,7 +11,7 @@ namespace lissom {
 /// Lifts the vertices of a flat patch to the height of a ball's cap whose slope at the rim is that
 /// of the surface around `hole` (its vertices have the same numbers in `mesh`): flat in a flat
 /// surface, half a ball on a tube. Thin plates, which are found from the flat patch, bend too
-/// little where the rim is steep.
+/// little at a steep rim.
 void dome(Mesh& mesh, const FillReport& patch, const Path& hole);
 
 }  // namespace lissom

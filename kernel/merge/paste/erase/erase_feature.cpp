@@ -33,7 +33,7 @@ constexpr double kEvenTurn = 15.0 * kDegree;
 // times as dense then.
 constexpr double kSteepPatch = 30.0 * kDegree;
 constexpr double kDensities[] = {1.0, 2.0, 4.0};
-// Curvature is continued where it varies, around the cut, by less than this part of its mean.
+// Curvature is continued if it varies, around the cut, by less than this part of its mean.
 constexpr double kEvenCurvature = 0.05;
 constexpr Index kRimRings = 3;
 // A surface that has turned away by more than this is another side of a crease.
@@ -88,8 +88,8 @@ struct Surrounded {
     double width = 0.0;
 };
 
-// What an erasure may take beside its region: distances from that, infinite beyond the ring and
-// across creases.
+// Elements that an erasure may take beside its region: distances from that, infinite beyond the
+// ring and across creases.
 class ErasureReach {
   public:
     ErasureReach(const Mesh& mesh, const Region& region, double width, const Context& context)
@@ -133,7 +133,7 @@ class ErasureReach {
     }
 
   private:
-    // Of the region its own side counts where its outline runs along a crease.
+    // The region's own side counts if its outline runs along a crease.
     void find_normals(const Region& region) {
         normals_ = vertex_normals(mesh_);
         std::vector<Vec3> own(normals_.size(), Vec3::Zero());
@@ -208,8 +208,8 @@ double curvature_at(const Mesh& mesh, Index v) {
     return area > 0.0 ? 0.5 * turn / area : 0.0;
 }
 
-// Of the ring's edges; infinite at open boundaries, which a patch cannot take the place of.
-// So are they beyond the reach of the erasure.
+// Costs of the ring's edges; infinite at open boundaries, which a patch cannot replace. So are they
+// beyond the reach of the erasure.
 std::vector<double> cut_costs(const Mesh& mesh, const LoopSearch& ring, const ErasureReach& reach,
                               double scale) {
     std::vector<double> curvature(at(mesh.vertex_count()), 0.0);
@@ -279,7 +279,7 @@ double greatest_turn(const Mesh& mesh, Index first_face) {
     return angle.value();
 }
 
-// Whether what is known of the curvature around a hole is worth continuing.
+// Whether the known curvature around a hole is worth continuing.
 bool has_even_rim(const Mesh& rest, const Path& hole) {
     const Region rim(rest.shared_topology(), hole.vertices());
     std::vector<double> values;
@@ -321,7 +321,7 @@ Closed closed_by_dome(const Mesh& rest, const Path& hole, FillOptions how, const
 }
 
 // Tangents are continued first, which never does harm: by a patch as dense as the surface around
-// it, or by denser ones and caps where that bends too little from a steep rim.
+// it, or by denser ones and caps if that bends too little from a steep rim.
 Closed closed_bending(const Mesh& rest, const Path& hole, FillOptions how, double allowed,
                       const Context& context) {
     Closed best = closed_by(rest, hole, how, context);
@@ -391,7 +391,7 @@ MeshMap with_patch(const MeshPart& rest, const Topology& old, const Mesh& filled
     return map;
 }
 
-// What is cut out, and along which loop.
+// Cut faces, and the loop along which they are cut.
 struct Excision {
     std::vector<Index> faces, loop;
     double cost = 0.0, width = 0.0;
@@ -403,7 +403,7 @@ struct Excision {
                 "smaller region, or fill the boundary first");
 }
 
-// Of the faces that would go, those beyond the reach of the erasure.
+// The faces to be cut that lie beyond the reach of the erasure.
 Elements taken_beyond(const Mesh& mesh, const ErasureReach& reach, std::span<const Index> faces) {
     Elements elements{ElementKind::face, 0, {}};
     for (const Index f : faces) {
@@ -436,8 +436,8 @@ Excision cut_in_ring(const Mesh& mesh, const Surrounded& around, const ErasureRe
                 beyond);
 }
 
-// Of the parts of the surface beside a region the largest is the rest; others go with the region,
-// so that they must lie within its reach, or be pinholes of single vertices.
+// The largest part of the surface beside a region is the rest; other parts go with the region, so
+// that they must lie within its reach, or be pinholes of single vertices.
 void require_no_islands(const Mesh& mesh, const Region& region, ErasureReach& reach) {
     const std::vector<char> marked = region.mask();
     const auto is_beside = [&](Index v) {
@@ -465,7 +465,7 @@ void require_no_islands(const Mesh& mesh, const Region& region, ErasureReach& re
     }
 }
 
-// A ring that closes around what was not marked is made narrower.
+// A ring that closes around an unmarked part is made narrower.
 Excision cut_around(const Mesh& mesh, const Region& region, const EraseOptions& options,
                     const Context& context) {
     const double radius = outline_radius(mesh, region), width = options.ring * radius;
@@ -474,7 +474,7 @@ Excision cut_around(const Mesh& mesh, const Region& region, const EraseOptions& 
     for (int step = 0;; ++step) {
         const Surrounded around = surrounded(mesh, region, reach, width, step, context);
         Excision cut = cut_in_ring(mesh, around, reach, options.bend * radius, context);
-        // What joins the parts of the region, at bow-ties too, has to go with it.
+        // Faces that join the parts of the region, at bow-ties too, have to go with it.
         const FaceSet feature(mesh.topology(), around.regions.feature);
         std::vector<Index> others = cut.faces;
         std::erase_if(others, [&](Index f) { return feature.contains(f); });

@@ -1,5 +1,5 @@
-/// Removal of features: what stands out of a surface, or is sunk in it, goes, and the surface
-/// around it closes over the place (the fill of thesis section 3.4.1).
+/// Removal of features: bumps and dents of a surface go, and the surface around them closes over
+/// the place (the fill of thesis section 3.4.1).
 #pragma once
 
 #include <string>
@@ -18,17 +18,17 @@ namespace lissom {
 
 struct EraseOptions {
     /// How far around the region the surface may be cut, along edges, in radii of the region's
-    /// outline (its length over 2 pi); 0 cuts along the outline itself. Less is used where the
-    /// surface around is no ring that far.
+    /// outline (its length over 2 pi); 0 cuts along the outline itself. Less is used if the surface
+    /// around is no ring that far.
     double ring = 0.5;
     /// Weight of curvature in the cost of the cut: an edge costs |e| (1 + bend R k), with the
     /// outline's radius R and k = |k1| + |k2| of the surface around its ends. 0 or more; 0 cuts
     /// along the shortest loop.
     double bend = 1.0;
-    /// In what the patch continues the surface around it. Curvature only where that is even around
-    /// the cut (its standard deviation over three rings is at most .05 of its mean) and the patch
-    /// does not turn more from face to face; elsewhere tangents, for what little is known of the
-    /// curvature would be carried on.
+    /// Order of continuity of the patch with the surface around it. Curvature is continued only if
+    /// it is even around the cut (its standard deviation over three rings is at most .05 of its
+    /// mean) and the patch does not turn more from face to face; elsewhere tangents, as an
+    /// uncertain curvature would be carried on.
     FairContinuity continuity = FairContinuity::curvature;
     /// Vertices that the patch may have at most.
     Index maximum_vertices = 200000;
@@ -40,17 +40,17 @@ struct EraseReport {
     Index loop_size = 0;
     double loop_cost = 0.0, ring = 0.0;
     Index removed_vertices = 0, removed_faces = 0;
-    /// In what the patch continues the surface, and the greatest angle between neighbouring faces
-    /// of which one is in the patch, in radians.
+    /// Order of continuity of the patch, and the greatest angle between neighbouring faces of which
+    /// one is in the patch, in radians.
     FairContinuity continuity = FairContinuity::curvature;
     double greatest_dihedral = 0.0;
     /// The same of the faces around the patch, within three rings of it.
     double greatest_around = 0.0;
-    /// How dense the patch is, over the surface around it: more than 1 where it would have been too
-    /// coarse to bend as it must.
+    /// Density of the patch, over that of the surface around it: more than 1 if it would have been
+    /// too coarse to bend as it must.
     double density = 1.0;
     /// Whether the patch turns no more than 30 degrees from face to face, or than the surface
-    /// around it; and in words what holds or what does not.
+    /// around it; and a sentence with the reason.
     bool ok = false;
     std::string verdict;
     /// The patch; its ids are those of the result.
@@ -59,27 +59,27 @@ struct EraseReport {
 
 struct ErasedFeature {
     Mesh mesh;
-    /// Where its elements come from; those of the patch come from nowhere.
+    /// Origin of its elements; those of the patch have none.
     MeshMap map;
     /// The cut, on the mesh as given and counter-clockwise around the region.
     Path loop;
     EraseReport report;
 };
 
-/// Removes what `region` marks: cuts along the least-cost loop around it, which runs where the
-/// surface is even, and closes the hole by a patch as dense as its surroundings, or up to four
-/// times as dense where that lets it bend more evenly from a steep rim. Nothing goes beyond the
-/// region and the ring around it, nor across a crease at which the surface around it falls away by
-/// more than 60 degrees. The region may have any genus, several parts and open boundaries; the
-/// place is a disk afterwards. Everything outside the loop keeps its order and its values to the
-/// bit. On the patch, labels and attributes of faces are those of the nearest faces around; values
-/// of vertices and corners are continued harmonically from its rim, from one side of a seam of
-/// corner values where one meets it; normals are those of the patch. Joints and weights are blended
-/// as in `fill`. Errors: topology_mismatch; region_empty where the region holds no face, or nothing
-/// lies around it; not_a_disk, naming vertices, where the surface around it is no ring, or naming
-/// faces that it runs around and does not hold; boundary_conflict where an open boundary is so near
-/// that no loop around the region stays off it; invalid_argument for options out of range;
-/// not_positive_definite; memory_limit; cancelled.
+/// Removes the feature that `region` marks: cuts along the least-cost loop around it, which runs
+/// over even surface, and closes the hole by a patch as dense as its surroundings, or up to four
+/// times as dense if that lets it bend more evenly from a steep rim. Nothing goes beyond the region
+/// and the ring around it, nor across a crease at which the surface around it falls away by more
+/// than 60 degrees. The region may have any genus, several parts and open boundaries; the place is
+/// a disk afterwards. Everything outside the loop keeps its order and its values to the bit. On the
+/// patch, labels and attributes of faces are those of the nearest faces around; values of vertices
+/// and corners are continued harmonically from its rim, from one side of any seam of corner values;
+/// normals are those of the patch. Joints and weights are blended as in `fill`.
+/// Errors: topology_mismatch; region_empty if the region holds no face, or nothing lies around it;
+/// not_a_disk, naming vertices, if the surface around it is no ring, or naming faces that it runs
+/// around and does not hold; boundary_conflict if an open boundary is so near that no loop around
+/// the region stays off it; invalid_argument for options out of range; not_positive_definite;
+/// memory_limit; cancelled.
 ErasedFeature erase_feature(const Mesh& mesh, const Region& region,
                             const EraseOptions& options = {}, const Context& context = {});
 

@@ -82,7 +82,7 @@ std::vector<Index> PatchGraph::rim() const {
     return loop;
 }
 
-// The values at the places of a patch: nothing where a place has none.
+// Values at the places of a patch: nothing at a place without one.
 using PatchRows = std::vector<std::optional<std::vector<double>>>;
 
 void fill_harmonically(const PatchGraph& graph, Index width, PatchRows& values,
@@ -146,7 +146,7 @@ std::optional<std::vector<double>> agreed_value(const Mesh& mesh, const Attribut
     return found;
 }
 
-// Leaves the longest stretch of the rim that has values, where not all of it does.
+// Keeps only the longest stretch of the rim that has values, if not all of it does.
 void keep_longest_stretch(const std::vector<Index>& rim, PatchRows& values) {
     const std::size_t n = rim.size();
     std::size_t best = 0, length = 0;

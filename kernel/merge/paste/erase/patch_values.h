@@ -7,11 +7,11 @@
 
 namespace lissom {
 
-/// Continues what a mesh holds over the patch that `fill` has added, the faces from `first_face`
+/// Continues the values of a mesh over the patch that `fill` has added, the faces from `first_face`
 /// and the vertices from `first_vertex` on:
 /// - labels and attributes of faces are those of the nearest faces around, by steps over edges;
 /// - attributes of vertices, but for joints and weights, and of corners are harmonic, from their
-///   values at the rim. Where corners at one rim vertex differ, as at the seams of texture
+/// values at the rim. If corners at one rim vertex differ, as at the seams of texture
 ///   coordinates, only the longest stretch of the rim between such vertices counts;
 /// - normals are those of the surface, of unit length.
 /// Errors: not_positive_definite; memory_limit; cancelled: the mesh may then hold some of them.

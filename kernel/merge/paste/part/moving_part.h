@@ -43,18 +43,18 @@ class MovingPart {
 
     PastePart part_;
     BoundaryDeformer deformer_;
-    /// The place among what is held of each vertex of the loop.
+    /// Place of each vertex of the loop among the held vertices.
     std::vector<std::size_t> held_;
 };
 
-/// The parts inside the boundaries that were asked for last: most moves change where a boundary
-/// lies, and not which one it is.
+/// The parts inside the last boundaries: most moves change the place of a boundary, and not its
+/// vertices.
 class MovingParts {
   public:
     enum class Boundary { line, loop, outline, outline_line, inner, inner_line };
     using Make = std::function<PastePart()>;
 
-    /// The part inside a boundary, `make` where it is not the last one of its kind.
+    /// Returns the part inside a boundary, from `make` if it is not the last one of its kind.
     std::shared_ptr<MovingPart> inside(Boundary kind, std::span<const Index> loop, const Make& make,
                                        const BoundaryDeformOptions& options,
                                        const Context& context);

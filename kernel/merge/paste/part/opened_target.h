@@ -1,4 +1,4 @@
-/// The target of a paste, opened where the part goes; private to kernel/merge.
+/// The target of a paste, opened at the part's place; private to kernel/merge.
 #pragma once
 
 #include <span>
@@ -23,11 +23,11 @@ struct OpenedTarget {
     std::vector<Index> loop;
 };
 
-/// Cuts out of the target what lies inside a loop of the plane, counter-clockwise, in which some of
+/// Cuts out of the target the part inside a loop of the plane, counter-clockwise, in which some of
 /// its vertices lie at `uv`: those of its chart. The boundary runs near the loop, on the surface:
 /// it is the line along which the distance to the loop, linear on triangles, is 0, so that there
-/// are no slivers and no teeth. Errors: boundary_conflict where no vertex of the target, or all of
-/// its region, lies inside, or where the loop crosses itself; as `cut`; cancelled.
+/// are no slivers and no teeth. Errors: boundary_conflict if no vertex or all of the target's
+/// region lies inside, or if the loop crosses itself; as `cut`; cancelled.
 OpenedTarget open_target(const Mesh& target, std::span<const Index> vertices,
                          std::span<const Vec2> uv, std::span<const Vec2> loop,
                          const Context& context);

@@ -117,7 +117,7 @@ PastePart part_inside(const Mesh& source, const PasteRegions& regions, const Pas
     const std::vector<Index> faces = around.faces();
     const MeshPart piece = extract_faces(source, faces, context);
     CutContour contour;
-    // What has no place in the plane is the feature.
+    // Vertices without a place in the plane are the feature.
     contour.value.assign(piece.vertex_map.size(), 1.0);
     std::vector<Index> vertices;
     std::vector<Vec2> uv;
@@ -230,8 +230,8 @@ PasteDistortion feature_distortion(const PastePart& part, const Mesh& moved, dou
 
 namespace {
 
-// For each point of the source's loop the parameter of the hole that is nearest to its image,
-// ascending without wrap; where these turn back, between those of its neighbours.
+// Parameter of the hole that is nearest to the image of each point of the source's loop, ascending
+// without wrap; parameters that turn back lie between those of their neighbours.
 std::vector<double> ascending_parameters(const Loop& source, const Loop& hole,
                                          std::span<const RingPoint> rim) {
     const std::size_t n = rim.size();

@@ -32,13 +32,13 @@ struct PastePart {
 /// The faces inside a loop of the ring. Errors: cancelled.
 PastePart part_inside(const Mesh& source, const PasteRegions& regions, std::span<const Index> loop,
                       const Context& context);
-/// The same of a closed line, in the plane of the chart, that divides faces: vertices nearer to it
-/// than a quarter of an edge slide onto it, so that there are no slivers.
-/// Errors: boundary_conflict where the line does not part the ring in two; cancelled.
+/// Returns the same of a closed line, in the plane of the chart, that divides faces: vertices
+/// nearer to it than a quarter of an edge slide onto it, so that there are no slivers.
+/// Errors: boundary_conflict if the line does not part the ring in two; cancelled.
 PastePart part_inside(const Mesh& source, const PasteRegions& regions, const PasteChart& chart,
                       std::span<const Vec2> line, const Context& context);
 
-/// The points of a part's loop with their images. Errors: boundary_conflict where one has none.
+/// Returns the points of a part's loop with images. Errors: boundary_conflict if one has none.
 std::vector<RingPoint> rim_of(const PastePart& part, const RingSurface& surface);
 
 /// Frames by the least rotation from the turned normals of the source to those of the target,
@@ -49,7 +49,7 @@ std::vector<BoundaryValue> paste_values(std::span<const RingPoint> rim,
                                         const PasteSimilarity& similarity, double scale,
                                         double crease);
 
-/// Of the faces within three rings of the loop, or of those of the given faces of the source.
+/// Returns the distortion of faces within three rings of the loop, or of given faces of the source.
 PasteDistortion near_distortion(const PastePart& part, const Mesh& moved, double scale);
 PasteDistortion feature_distortion(const PastePart& part, const Mesh& moved, double scale,
                                    std::span<const Index> feature);

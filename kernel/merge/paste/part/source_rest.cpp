@@ -13,7 +13,7 @@
 namespace lissom {
 namespace {
 
-// As for the planes beside a seam (band_quality.cpp).
+// Width of the strips, as for the planes beside a seam (band_quality.cpp).
 constexpr double kRestStrip = 1.0 / 3.0;
 constexpr std::size_t kRestPlanes = 48;
 
@@ -45,7 +45,7 @@ double steepest_edge(const Mesh& mesh, std::span<const Index> faces) {
     return greatest.value();
 }
 
-// A face near the loop: where it is, along its normal, and whether it belongs to the part.
+// A face near the loop: its place, along its normal, and whether it belongs to the part.
 struct RestFace {
     Vec3 center = Vec3::Zero(), area = Vec3::Zero();
     bool inside = false;

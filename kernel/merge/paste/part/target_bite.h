@@ -39,9 +39,9 @@ struct BittenMesh {
     bool dent = false;
 };
 
-/// Measures how much of the sharp edges near a seam the result has not any more: they stand out of
-/// it, or lie below what is still the target's surface. Lines of sharp edges shorter than half the
-/// seam's radius do not count. `seam` has the points of the seam. Errors: cancelled.
+/// Measures the loss of sharp edges near a seam: parts of them that stand out of the result, or lie
+/// below the surface still left of the target. Lines of sharp edges shorter than half the seam's
+/// radius do not count. `seam` has the points of the seam. Errors: cancelled.
 TargetBite target_bite(std::span<const SharpEdge> edges, std::span<const Vec3> seam,
                        const BittenMesh& result, const Context& context);
 

@@ -10,7 +10,7 @@
 namespace lissom {
 namespace {
 
-// As many as sewing takes around a seam, which may run near the border of the chart.
+// Rings that sewing takes around a seam, which may run near the border of the chart.
 constexpr Index kPieceRings = 8;
 
 // The places that elements of a sewn mesh have in the piece that was opened; none on the side of

@@ -1,5 +1,5 @@
-/// The piece of a target that a part is pasted onto in place of the whole, so that a paste that
-/// follows the mouse costs what is under it; private to kernel/merge.
+/// The piece of a target that a part is pasted onto instead of the whole, so that the cost of a
+/// paste that follows the mouse depends on the surface under it; private to kernel/merge.
 #pragma once
 
 #include <optional>
@@ -28,9 +28,9 @@ struct PasteGround {
     PasteGround(const Mesh& target, const PasteChart& chart, const Context& context);
 };
 
-/// What the elements of a paste are followed to, and whether they are.
+/// Meshes that the elements of a paste are followed to, and whether they are.
 struct PasteOrigins {
-    /// From the target to what it was made of, the target as given; itself where it is null.
+    /// From the target to its origin, the target as given; null for the target itself.
     const MeshMap* target = nullptr;
     /// The elements of the target as given come before those of the source.
     const Topology& given;
@@ -48,8 +48,8 @@ struct PastedOn {
 
 class TargetPiece {
   public:
-    /// The faces of a chart with some rings around them and what is near to them in space; all of
-    /// the target where that is most of it. The target must outlive the piece.
+    /// Takes the faces of a chart with some rings around them and the faces near to them in space;
+    /// all of the target if that is most of it. The target must outlive the piece.
     TargetPiece(const Mesh& target, const PasteChart& chart, const Context& context);
     /// All of it.
     static TargetPiece whole(const Mesh& target, const PasteChart& chart);
@@ -60,8 +60,8 @@ class TargetPiece {
     /// The chart's vertices in the numbers of `mesh`.
     const std::vector<Index>& chart_vertices() const { return chart_vertices_; }
 
-    /// The target with what was sewn onto the piece after it was opened. Nothing where the same on
-    /// the whole target might have made a difference.
+    /// Returns the target with the result that was sewn onto the piece after it was opened. Returns
+    /// nothing if the same on the whole target might have made a difference.
     std::optional<PastedOn> put_back(const OpenedTarget& opened, const PastePart& part, Sewn sewn,
                                      const PasteOrigins& origins, const Context& context) const;
 

@@ -16,7 +16,7 @@ namespace {
 // An axis lies in the surface as far as this part of it does.
 constexpr double kClearDirection = 0.3;
 
-// Adds the faces around the ring's vertices and keeps them where an annulus is left.
+// Adds the faces around the ring's vertices and keeps them if an annulus is left.
 std::vector<Index> with_rows(const Mesh& source, const PasteRegions& regions) {
     const Topology& topology = source.topology();
     FaceSet wide(topology, regions.ring);
@@ -30,7 +30,7 @@ std::vector<Index> with_rows(const Mesh& source, const PasteRegions& regions) {
     return annulus ? wide.faces() : regions.ring;
 }
 
-// The inner boundary of the faces, in the direction of what lies inside it.
+// The inner boundary of the faces, in the direction of the part inside it.
 std::vector<Index> inner_loop(const Mesh& source, std::span<const Index> faces,
                               const PasteRegions& regions) {
     const FaceSet set(source.topology(), faces);
@@ -107,8 +107,8 @@ Mesh chart_mesh(const Mesh& mesh, const PasteChart& chart) {
     return {std::move(positions), std::move(faces)};
 }
 
-// A map without faces that are turned over: onto a disk where the one that was asked for has some.
-// LSCM alone, which the thesis takes as it comes, is left as it is.
+// A map without faces that are turned over: onto a disk if the requested one has some. LSCM alone,
+// which the thesis takes as it comes, is left as it is.
 Parameterization laid_out(const Mesh& mesh, std::span<const Index> faces,
                           ParameterizeOptions options, const char* what, const Context& context) {
     Parameterization map = parameterize(mesh, faces, options, context);
@@ -130,8 +130,8 @@ double angle_of(const Vec2& v) {
     return std::atan2(v.y(), v.x());
 }
 
-// The angle from the direction of the first fit to that of the second; where a direction hardly
-// lies in either surface, that of the next axis.
+// The angle from the direction of the first fit to that of the second; the next axis serves if a
+// direction hardly lies in either surface.
 double angle_between_fits(const PlaneFit& source, const PlaneFit& target, const Vec3& up,
                           const Vec3& toward) {
     Vec2 from = source.in_plane(up), to = target.in_plane(toward);

@@ -20,7 +20,7 @@
 
 namespace lissom {
 
-/// A piece of surface in the plane with what placements need of it.
+/// A piece of surface in the plane with the values that placements need of it.
 struct PasteChart {
     Parameterization map;
     /// Mean of the feature's outline in the plane (of the source).
@@ -35,17 +35,17 @@ struct PasteChart {
     MapQuality quality() const;
 };
 
-/// The ring, with a row of faces on each side of it where these leave it an annulus, and triangles
-/// of least area over the feature's outline. Maps other than LSCM turn no face over: where that
-/// method would, one onto a disk is taken. Errors: boundary_conflict, naming faces, where that
-/// turns some over too; as `parameterize`.
+/// Returns the ring, with a row of faces on each side of it if these leave it an annulus, and
+/// triangles of least area over the feature's outline. Maps other than LSCM turn no face over: one
+/// onto a disk is taken instead of a map that would.
+/// Errors: boundary_conflict, naming faces, if that turns some over too; as `parameterize`.
 PasteChart source_chart(const Mesh& source, const PasteRegions& regions, ParameterizeMethod method,
                         const Context& context);
 /// Faces that are a disk, the same way. Errors: the same.
 PasteChart target_chart(const Mesh& target, std::span<const Index> faces, ParameterizeMethod method,
                         const Context& context);
 
-/// Where one vertex of the ring lies on the target.
+/// Image of one vertex of the ring on the target.
 struct ImagePoint {
     /// Whether it lies on the target's region; nothing else is known otherwise.
     bool inside = false;
@@ -63,7 +63,7 @@ struct PlanarMap {
     Vec2 operator()(const Vec2& p) const;
 };
 
-/// What maps of any region of the target need of both meshes, which must outlive it.
+/// Values that maps of any region of the target need of both meshes, which must outlive it.
 struct PasteSurfaces {
     PasteSurfaces(const Mesh& source, const Mesh& target);
 
@@ -72,7 +72,7 @@ struct PasteSurfaces {
     SpatialTree target_tree;
 };
 
-/// Both charts, and what it takes to place one on the other many times.
+/// Both charts, with the structures for placing one on the other many times.
 class PasteMap {
   public:
     /// The surfaces must outlive it. `nearest` is for those who ask for nearest points.
@@ -84,8 +84,8 @@ class PasteMap {
     const PasteChart& source() const { return source_; }
     const PasteChart& target() const { return target_; }
 
-    /// The map of the plane that a placement asks for, `angle` being the whole angle from the
-    /// base direction. Errors: boundary_conflict where the point is not on the target's region;
+    /// Returns the map of the plane that a placement asks for, `angle` being the whole angle from
+    /// the base direction. Errors: boundary_conflict if the point is not on the target's region;
     /// invalid_argument for a scale that is not above 0 or a direction without length; not_finite.
     PlanarMap planar(const PastePlacement& placement, double angle) const;
     /// One image a place of the source's chart.
@@ -103,7 +103,7 @@ class PasteMap {
 
     const PasteSurfaces& surfaces_;
     PasteChart source_, target_;
-    /// Of the target's region, whose vertices are places of the chart.
+    /// Tree of the target's region, whose vertices are places of the chart.
     std::optional<SpatialTree> chart_tree_;
     UvGrid grid_;
 };

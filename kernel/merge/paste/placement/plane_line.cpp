@@ -7,7 +7,7 @@
 namespace lissom {
 namespace {
 
-// Of a vertex that changes its sign, over the mean side of the line.
+// Value of a vertex that changes its sign, over the mean side of the line.
 constexpr double kSpeckValue = 1e-3;
 
 double cross(const Vec2& a, const Vec2& b) {

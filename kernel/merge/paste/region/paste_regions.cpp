@@ -17,7 +17,7 @@ namespace {
 constexpr double kShrink = 0.85;
 constexpr int kShrinks = 28;
 
-// Of a ring that is sought: what its share is made smaller by, and the least that is tried.
+// Factor by which the share of a sought ring is made smaller, and the least share that is tried.
 constexpr double kNarrowerShare = 0.6, kLeastShare = 0.05;
 
 Elements vertices_named(std::span<const Index> vertices) {
@@ -44,7 +44,7 @@ bool lies_beside(const FaceSet& set, std::span<const Index> faces) {
     });
 }
 
-// Of what lies around the set the largest part is the rest of the surface.
+// The largest part around the set is the rest of the surface.
 void fill_islands(FaceSet& set, const FaceSet* bounds) {
     std::vector<std::vector<Index>> outside = set.outside_parts(bounds);
     std::erase_if(outside, [&](const auto& part) { return !lies_beside(set, part); });
@@ -53,7 +53,7 @@ void fill_islands(FaceSet& set, const FaceSet* bounds) {
     }
 }
 
-// Of several parts the one with most faces of `wanted`; of equals the largest.
+// Keeps, of several parts, the one with most faces of `wanted`; of equals the largest.
 void keep_one_part(FaceSet& set, std::span<const Index> wanted) {
     const std::vector<std::vector<Index>> parts = set.parts();
     const FaceSet marked(set.topology(), wanted);
@@ -169,7 +169,7 @@ FaceSet deep_faces(const Mesh& source, const FaceSet& region, double share,
     return deep;
 }
 
-// Open boundaries inside the region, and what lies around them, belong to the feature that is
+// Open boundaries inside the region, and the faces around them, belong to the feature that is
 // sought, unless they touch the region's outline.
 void add_open_boundaries(const FaceSet& region, FaceSet& feature) {
     const Topology& topology = region.topology();
@@ -257,8 +257,8 @@ bool is_disk(const FaceSet& set) {
     return set.loops().size() == 1 && set.euler_characteristic() == 1;
 }
 
-// Whether what lies around a connected set without bow-ties is certainly connected: beside its one
-// loop there are faces everywhere, which meet from each vertex of it to the next.
+// Whether the surroundings of a connected set without bow-ties are certainly connected: beside its
+// one loop there are faces everywhere, which meet from each vertex of it to the next.
 bool has_no_islands(const FaceSet& set) {
     const std::vector<std::vector<Index>> loops = set.loops();
     return loops.size() == 1 && std::none_of(loops[0].begin(), loops[0].end(), [&](Index v) {
@@ -269,7 +269,7 @@ bool has_no_islands(const FaceSet& set) {
 void require_disk(const FaceSet& set) {
     const std::vector<std::vector<Index>> loops = set.loops();
     if (is_disk(set)) return;
-    // What is closed has no boundary to name.
+    // A closed surface has no boundary to name.
     const Elements elements =
         loops.empty() ? faces_named(set.faces()) : vertices_named(loops.back());
     throw Error(ErrorCode::not_a_disk,
@@ -364,7 +364,7 @@ std::vector<Index> disk_around(const Mesh& target, const SurfacePoint& point, do
         const Index seed[] = {point.face};
         keep_one_part(set, seed);
         set.grow_at_bow_ties(nullptr);
-        // Far faces are not looked at where there is no need.
+        // Far faces are read only if they must be.
         if (!has_no_islands(set)) fill_islands(set, nullptr);
         if (is_disk(set)) return set.faces();
         if (step == kShrinks) require_disk(set);

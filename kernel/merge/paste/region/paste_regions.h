@@ -1,5 +1,5 @@
-/// The regions of a paste: what is pasted, the ring around it in which the boundary is sought, and
-/// where it goes (thesis section 3.4.1); private to kernel/merge.
+/// The regions of a paste: the pasted part, the ring around it in which the boundary is sought, and
+/// the place on the target (thesis section 3.4.1); private to kernel/merge.
 #pragma once
 
 #include <optional>
@@ -23,28 +23,28 @@ struct PasteRegions {
     std::vector<Index> outer, inner;
 };
 
-/// Cleans what was marked: of the region the part that holds most of the feature stays, both grow
-/// where their faces meet at a vertex only, islands in them are filled, and several parts of a
-/// feature are joined by the faces between them. Without a feature it is what lies farther from the
-/// region's outline, along edges, than `share`, 0 to 1, of the way to the farthest vertex or of the
-/// outline's radius, its length over 2 pi, whichever is less; with the open boundaries inside the
-/// region, and with its handles, for which the ring is made narrower.
-/// The feature may have any genus, and open boundaries of its own.
-/// Errors, naming vertices: topology_mismatch for regions of another mesh; region_empty where
-/// region or feature holds no face, or the region has no outline; invalid_argument for a share out
-/// of range; boundary_conflict where the feature touches the region's outline; not_a_disk where the
-/// ring has a handle or more than its two boundaries; cancelled.
+/// Cleans the marked faces: of the region the part that holds most of the feature stays, both grow
+/// at vertices that alone join their faces, islands in them are filled, and several parts of a
+/// feature are joined by the faces between them. Without a given feature, it is the part farther
+/// from the region's outline, along edges, than `share`, 0 to 1, of the way to the farthest vertex
+/// or of the outline's radius, its length over 2 pi, whichever is less; with the open boundaries
+/// inside the region, and with its handles, for which the ring is made narrower. The feature may
+/// have any genus, and open boundaries of its own. Errors, naming vertices: topology_mismatch for
+/// regions of another mesh; region_empty if region or feature holds no face, or the region has no
+/// outline; invalid_argument for a share out of range; boundary_conflict if the feature touches the
+/// region's outline; not_a_disk if the ring has a handle or more than its two boundaries;
+/// cancelled.
 PasteRegions paste_regions(const Mesh& source, const Region& region,
                            const std::optional<Region>& feature, double share,
                            const Context& context);
 
-/// Faces of a region that were marked, cleaned the same way, with islands in them: they may have
-/// handles. Errors: topology_mismatch; region_empty where there are none, or nothing around them;
-/// cancelled.
+/// Returns the marked faces of a region, cleaned the same way, with islands in them: they may have
+/// handles.
+/// Errors: topology_mismatch; region_empty if there are none, or nothing around them; cancelled.
 std::vector<Index> outlined_faces(const Mesh& mesh, const Region& region, const Context& context);
 
-/// Faces of the target that were marked, cleaned the same way. Errors: topology_mismatch;
-/// region_empty; not_a_disk, naming vertices, where they have a hole or a handle; cancelled.
+/// Returns the marked faces of the target, cleaned the same way. Errors: topology_mismatch;
+/// region_empty; not_a_disk, naming vertices, if they have a hole or a handle; cancelled.
 std::vector<Index> target_faces(const Mesh& target, const Region& onto, const Context& context);
 
 /// Faces of the target within `radius` along edges of a point: the greatest disk of at most that

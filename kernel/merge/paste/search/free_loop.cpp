@@ -17,7 +17,7 @@ constexpr int kBandRings = 4;
 constexpr double kKnownLimit = 1.0 + 1e-9;
 // Points of a smoothed loop, over the mean edge of the band.
 constexpr double kSampling = 0.8;
-// Of the filter 2 X - (I + a L)^-1 X, which takes teeth away and hardly shrinks.
+// Width of the filter 2 X - (I + a L)^-1 X, which takes teeth away and hardly shrinks.
 constexpr double kFilterWidth = 4.0;
 constexpr int kFilterReach = 42;
 constexpr int kFilterRounds = 2;
@@ -267,7 +267,7 @@ std::vector<Vec2> filtered(const std::vector<Vec2>& line) {
 }
 
 // The points of a line, those that leave the ring or the target's region replaced by the same ones
-// of `within`. Nothing where these leave it too.
+// of `within`. Nothing if these leave it too.
 std::optional<std::vector<RingPoint>> clamped(const RingSurface& surface,
                                               std::span<const Vec2> line,
                                               std::span<const Vec2> within) {

@@ -36,8 +36,8 @@ struct RingTriangles {
     Vec2 middle = Vec2::Zero();
 };
 
-/// The ring as a surface of which every point has an image: vertices have those that are given,
-/// points of triangles what lies between these in the plane of the target.
+/// The ring as a surface of which every point has an image: vertices have the given ones, points of
+/// triangles the interpolated ones in the plane of the target.
 class RingSurface {
   public:
     /// One image a place of the source's chart. All must outlive it.
@@ -49,8 +49,8 @@ class RingSurface {
     std::span<const ImagePoint> images() const { return images_; }
     /// The point with given weights of three places.
     RingPoint point(const Triangle& places, const Vec3& weights) const;
-    /// What lies between vertices of the source, by their weights. Without an image where a vertex
-    /// has none, or no place in the chart.
+    /// Returns the point between vertices of the source, by their weights. Without an image if a
+    /// vertex has none, or no place in the chart.
     RingPoint blend(std::span<const ElementMap::Source> vertices) const;
     /// The point at a place of the plane, or nothing outside the ring.
     std::optional<RingPoint> locate(const Vec2& uv) const;
@@ -70,9 +70,9 @@ struct FreeLoop {
     double energy = 0.0, misfit = 0.0;
 };
 
-/// The cheapest loop through vertices and middles of edges within four rings of `from`, sampled
-/// evenly, smoothed, and kept in the ring and on the target's region. Nothing where it would cross
-/// itself or cost more than `from`. Errors: cancelled.
+/// Returns the cheapest loop through vertices and middles of edges within four rings of `from`,
+/// sampled evenly, smoothed, and kept in the ring and on the target's region. Returns nothing if it
+/// would cross itself or cost more than `from`. Errors: cancelled.
 std::optional<FreeLoop> free_loop(const RingSurface& surface, const PasteLoop& from,
                                   const EnergyOptions& options, const Context& context);
 
@@ -80,11 +80,11 @@ std::optional<FreeLoop> free_loop(const RingSurface& surface, const PasteLoop& f
 enum class Outline { outer, inner };
 
 /// A line along an outline of the ring, without its teeth: smoothed, and drawn away from it until
-/// it lies in the ring. Nothing where it leaves the target's region or crosses itself.
+/// it lies in the ring. Returns nothing if it leaves the target's region or crosses itself.
 std::optional<FreeLoop> outline_loop(const RingSurface& surface, const PasteLoop& outline,
                                      Outline which, const EnergyOptions& options);
 
-/// A line where it comes to lie on another surface. Nothing where it leaves that or crosses itself.
+/// Returns a line carried to another surface. Returns nothing if it leaves that or crosses itself.
 std::optional<FreeLoop> carried_loop(const RingSurface& surface, const FreeLoop& line,
                                      const PasteLoop& from, const EnergyOptions& options);
 

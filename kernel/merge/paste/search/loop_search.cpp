@@ -209,8 +209,8 @@ class RingDivision {
         std::vector<Index> before, behind;
     };
 
-    // The edges of faces may be used and those of `rim`, and no others: where the loops around a
-    // half touch there are no faces between them.
+    // The edges of faces may be used and those of `rim`, and no others: there are no faces between
+    // the loops around a half at points at which these touch.
     void use(const std::vector<Index>& faces, const std::vector<Index>& rim, char flag) {
         for (const Index f : faces) {
             for (Index k = ring_.face_begin_[at(f)]; k < ring_.face_begin_[at(f) + 1]; ++k) {
@@ -247,7 +247,7 @@ class RingDivision {
                 keep(std::move(loop.vertices));
                 return;
             }
-            // What this vertex is connected with has no loop either.
+            // Vertices connected with this one have no loop either.
             std::erase_if(candidates, [&](Index c) { return search_.reached(ring_.cut_[at(c)]); });
         }
     }
@@ -255,7 +255,7 @@ class RingDivision {
     double least_through(Index place) const { return search_.least_through(ring_.cut_[at(place)]); }
 
     // Seeks through vertices of the cut, given by their places in it, ascending. Only a loop that
-    // is cheaper than all before is found, and divides what is left.
+    // is cheaper than all before is found, and divides the rest.
     void divide(const std::vector<Index>& faces, const std::vector<Index>& rim,
                 std::vector<Index> candidates) {
         use(faces, rim, 1);

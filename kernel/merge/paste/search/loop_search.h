@@ -25,15 +25,15 @@ class LoopSearch {
     /// Number of the edge between two vertices, or kNoIndex.
     Index edge_between(Index a, Index b) const;
 
-    /// Vertices of the closed path with the least cost that runs once around the ring,
+    /// Returns the vertices of the closed path with the least cost that runs once around the ring,
     /// counter-clockwise; it visits no vertex twice. Costs are above 0, or infinite for edges that
-    /// must not be used. `known` may be a loop whose edges have finite costs; it is returned where
-    /// none is cheaper. Empty where there is none. Errors: cancelled.
+    /// must not be used. `known` may be a loop whose edges have finite costs; it is returned if
+    /// none is cheaper. Empty if there is none. Errors: cancelled.
     ///
     /// By divide and conquer (Reif 1983): no cheaper loop crosses the cheapest one through a vertex
     /// of the cut, so that one divides the ring, and each half is searched with its part of the
-    /// cut. Halves keep all of the loop between them. What walks cost at least, found first by one
-    /// search from all of the cut, leaves out most of the ring and of the cut.
+    /// cut. Halves keep all of the loop between them. A lower bound of the costs of walks, found
+    /// first by one search from all of the cut, leaves out most of the ring and of the cut.
     std::vector<Index> cheapest(std::span<const double> cost, std::span<const Index> known,
                                 const Context& context) const;
     std::vector<Index> cheapest(std::span<const double> cost, const Context& context) const {

@@ -21,7 +21,7 @@ Mat3 rotation_of(const Mat3& products) {
     return size > 0.0 ? nearest_rotation(products / size) : Mat3(Mat3::Identity());
 }
 
-// Of the ends of a loop's edges, each vertex of it twice, about their means.
+// Products of the ends of a loop's edges, each vertex of it twice, about their means.
 Mat3 products_of_points(std::span<const RingEdge> ring, std::span<const Index> edges) {
     std::vector<Vec3> points, images;
     Vec3 middle = Vec3::Zero(), image_middle = Vec3::Zero();

@@ -23,14 +23,14 @@ struct PasteSimilarity {
     double scale = 1.0;
 };
 
-/// An edge e of the ring and what it becomes on the target.
+/// An edge e of the ring and its image on the target.
 struct RingEdge {
     Vec3 edge = Vec3::Zero(), image = Vec3::Zero();
-    /// Where both start.
+    /// Starts of both.
     Vec3 from = Vec3::Zero(), image_from = Vec3::Zero();
     /// Unit normals in its middle.
     Vec3 source_normal = Vec3::Zero(), target_normal = Vec3::Zero();
-    /// False where an end has no image.
+    /// False if an end has no image.
     bool inside = false;
 };
 
@@ -43,10 +43,10 @@ struct EnergyOptions {
     /// does not depend on how finely the surface is divided. lambda and mu hold the scale of the
     /// first loop, so that they do not change while the scale does.
     bool thesis = false;
-    /// The scale that lambda and mu hold, where a search goes on with another's; above 0.
+    /// The scale for lambda and mu, if a search goes on with another's; above 0.
     std::optional<double> first_scale = std::nullopt;
     Index iterations = 20;
-    /// The search ends where the energy falls by less than this part of it.
+    /// The search ends if the energy falls by less than this part of it.
     double tolerance = 1e-5;
 };
 
@@ -60,7 +60,7 @@ class PasteEnergy {
     PasteEnergy(std::vector<RingEdge> edges, const EnergyOptions& options)
         : edges_(std::move(edges)), options_(options) {}
 
-    /// The numbers of a loop's edges, or nothing where one has no image or is not in the ring.
+    /// Returns the numbers of a loop's edges, or nothing if one has no image or is not in the ring.
     std::vector<Index> edges_of(const LoopSearch& ring, std::span<const Index> loop) const;
     /// Costs of all edges; infinite for those without an image.
     std::vector<double> costs(const PasteSimilarity& similarity) const;
@@ -96,9 +96,9 @@ struct PasteLoop {
     double first_scale = 1.0, energy = 0.0, misfit = 0.0;
 };
 
-/// Alternates similarity and loop. Starts from `start` where it is not empty, else from the
-/// outline of the region, or where that has no image from the feature's.
-/// Errors: boundary_conflict, naming vertices, where no loop around the feature has an image on the
+/// Alternates similarity and loop. Begins with `start` unless it is empty, else with the outline of
+/// the region, or, if that has no image, with the feature's.
+/// Errors: boundary_conflict, naming vertices, if no loop around the feature has an image on the
 /// target's region; cancelled.
 PasteLoop search_boundary(const PasteMap& map, const PasteRegions& regions, const LoopSearch& ring,
                           std::span<const ImagePoint> images, std::span<const Index> start,

@@ -25,7 +25,7 @@ bool is_sheet(int sheet) {
     return sheet >= -1 && sheet <= 1;
 }
 
-// Of bounds: one more to either side, since walks begin and end a sheet apart.
+// Sheets of bounds: one more to either side, since walks begin and end a sheet apart.
 constexpr int kBoundSheets = 5;
 // Bounds are sums in another order than walks.
 constexpr double kBoundRounding = 1.0 + 1e-12;

@@ -19,9 +19,9 @@ struct WindingEdge {
 };
 
 struct WindingLoop {
-    /// Each once, in order; empty where there is no loop.
+    /// Each once, in order; empty if there is no loop.
     std::vector<Index> vertices;
-    /// Of the whole walk that it was found in.
+    /// Cost of the whole walk that it was found in.
     double cost = std::numeric_limits<double>::infinity();
 };
 
@@ -51,15 +51,15 @@ class WindingSearch {
     /// Both must outlive it. Costs are above 0, or infinite for edges that must not be used.
     WindingSearch(const WindingGraph& graph, std::span<const double> cost);
 
-    /// Finds what walks through vertices cost at least, where all loops around the ring pass one of
-    /// `starts`, so that `through` leaves out what belongs to no walk that costs less than `limit`.
+    /// Finds lower bounds of the costs of walks through vertices, if all loops around the ring pass
+    /// one of `starts`, so that `through` leaves out vertices without a walk below `limit`.
     void bound(std::span<const Index> starts, double limit);
-    /// What closed walks through one of those cost at least: infinite where that is the limit or
+    /// Returns the lower bound of closed walks through one of those: infinite for the limit or
     /// more.
     double least_through(Index start) const;
-    /// The cheapest closed walk through `start` that runs once around the ring, counter-clockwise,
-    /// or the loop in it where it visits a vertex twice: a loop with a tail to the start. `usable`,
-    /// one flag an edge, may leave edges out; walks that cost `limit` or more are not found.
+    /// Returns the cheapest closed walk through `start` once around the ring, counter-clockwise, or
+    /// the loop in it if it visits a vertex twice: a loop with a tail to the start. `usable`, one
+    /// flag an edge, may leave edges out; walks that cost `limit` or more are not found.
     WindingLoop through(Index start, std::span<const char> usable = {},
                         double limit = std::numeric_limits<double>::infinity());
     /// Whether the last search came to a vertex.
@@ -78,12 +78,12 @@ class WindingSearch {
     std::vector<Step> walk() const;
 
     const WindingGraph& graph_;
-    // Of arcs.
+    // Costs of arcs.
     std::vector<double> cost_;
     std::vector<double> distance_;
     std::vector<Index> from_, touched_;
     std::vector<std::pair<double, Index>> heap_;
-    // Least costs from the starts on sheet 0 to each vertex on the sheets -2 to 2, where they are
+    // Least costs from the starts on sheet 0 to each vertex on the sheets -2 to 2, if they are
     // known.
     std::vector<double> bound_;
     // The cheapest walk so far: to a node, over an edge or none, and back from another one.
