@@ -1,6 +1,7 @@
 #include "bindings/c/context.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <new>
 
@@ -13,15 +14,13 @@ namespace {
 // Least and greatest number of bytes of a struct of options: of any version there may be.
 constexpr std::size_t kLeastOptions = 2 * sizeof(std::size_t), kGreatestOptions = 4096;
 
-// An id has 24 bits for the place, from 1, 24 for the generation and 16 for the context.
-constexpr int kPlaceBits = 24, kGenerationBits = 24;
-constexpr std::uint64_t kPlaceMask = (1u << kPlaceBits) - 1;
-constexpr std::uint32_t kLastGeneration = (1u << kGenerationBits) - 1;
+// Ids that a context takes at a time, and the first: numbers that a host counts by itself are none.
+constexpr std::uint64_t kIdBlock = 1024, kFirstId = std::uint64_t{1} << 32;
 
-// Numbers of contexts, so that a handle of another one is told: the only state of the process.
-std::uint16_t next_context() {
-    static std::atomic<std::uint16_t> last{0};
-    return ++last;
+// The first id that no context has taken: the only state of the process.
+std::uint64_t take_ids() {
+    static std::atomic<std::uint64_t> free{kFirstId};
+    return free.fetch_add(kIdBlock, std::memory_order_relaxed);
 }
 
 lissom_status status_of(ErrorCode code) {
@@ -106,7 +105,7 @@ Mat3 axes_of(const lissom_space& space) {
 
 }  // namespace
 
-void CallError::guard(const std::function<void()>& work) noexcept {
+void CallError::guard(FunctionRef<void()> work) noexcept {
     try {
         try {
             status = LISSOM_OK;
@@ -134,66 +133,58 @@ void CallError::guard(const std::function<void()>& work) noexcept {
     } catch (...) {
         // The text of the error needs memory that there is not.
         status = LISSOM_MEMORY_LIMIT;
+        message.clear();
+        elements = {};
     }
 }
 
 // ---- Objects
 
-std::uint64_t ObjectTable::id_of(std::size_t place) const {
-    return (place + 1) | std::uint64_t{objects_[place].generation} << kPlaceBits |
-           std::uint64_t{context_} << (kPlaceBits + kGenerationBits);
+std::uint64_t IdSource::next() {
+    if (next_ == end_) {
+        next_ = take_ids();
+        end_ = next_ + kIdBlock;
+    }
+    return next_++;
 }
 
 std::uint64_t ObjectTable::add(Kind kind, std::shared_ptr<void> content, MemoryCharge charge) {
-    if (free_.empty()) {
-        if (objects_.size() >= kPlaceMask) {
-            throw Error(ErrorCode::memory_limit, "there are too many objects; release some");
-        }
-        objects_.emplace_back();
-        free_.push_back(objects_.size() - 1);
-    }
-    const std::size_t place = free_.back();
-    Object& object = objects_[place];
+    const std::uint64_t id = ids_.next();
+    Object& object = objects_[id];
     object.kind = kind;
     object.content = std::move(content);
     object.charge = std::move(charge);
-    free_.pop_back();
-    ++size_;
-    return id_of(place);
+    return id;
 }
 
 ObjectTable::Object* ObjectTable::find(std::uint64_t id, Kind kind) {
-    const std::uint64_t place = (id & kPlaceMask) - 1;
-    if ((id & kPlaceMask) == 0 || place >= objects_.size() || id_of(place) != id) return nullptr;
-    Object& object = objects_[place];
-    return object.kind == kind ? &object : nullptr;
+    const auto found = objects_.find(id);
+    return found != objects_.end() && found->second.kind == kind ? &found->second : nullptr;
 }
 
 const ObjectTable::Object* ObjectTable::find(std::uint64_t id, Kind kind) const {
     return const_cast<ObjectTable*>(this)->find(id, kind);
 }
 
-void ObjectTable::release(Object& object) {
-    const auto place = static_cast<std::size_t>(&object - objects_.data());
-    const std::uint32_t generation = object.generation + 1;
-    object = Object{};
-    object.generation = generation;
-    --size_;
-    // A place whose generations are used up stays empty: no handle comes twice.
-    if (generation < kLastGeneration) free_.push_back(place);
-}
-
-void ObjectTable::for_each(const std::function<void(std::uint64_t, Object&)>& visit) {
-    for (std::size_t place = 0; place < objects_.size(); ++place) {
-        if (objects_[place].kind != Kind::none) visit(id_of(place), objects_[place]);
-    }
+void ObjectTable::for_each(FunctionRef<void(std::uint64_t, Object&)> visit) {
+    for (auto& [id, object] : objects_) visit(id, object);
 }
 
 // ---- Space
 
 Space::Space(const lissom_space& space) : axes_(axes_of(space)), reverses_(space.clockwise) {}
 
+Vec3 Space::to_kernel(const double p[3]) const {
+    const Vec3 given(p[0], p[1], p[2]);
+    require(given.allFinite(), "a coordinate is not finite", ErrorCode::not_finite);
+    return axes_ * given;
+}
+
 Affine Space::to_kernel(const lissom_transform& transform) const {
+    for (const double number : transform.m) {
+        require(std::isfinite(number), "a number of the transform is not finite",
+                ErrorCode::not_finite);
+    }
     Affine map;
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column) {
@@ -219,8 +210,9 @@ lissom_transform Space::to_host(const Affine& map) const {
 
 // ---- Calls
 
-lissom_status run(lissom_context* context, const std::function<void()>& work) noexcept {
+lissom_status run(lissom_context* context, FunctionRef<void()> work) noexcept {
     if (!context) return LISSOM_INVALID_HANDLE;
+    context->user_thread.store(std::this_thread::get_id(), std::memory_order_relaxed);
     context->error.guard(work);
     return context->error.status;
 }
@@ -287,6 +279,44 @@ void wait_for(const lissom_context& context, Job& job) {
     job.ended.wait(false, std::memory_order_acquire);
 }
 
+// A call that any thread may make: its error is told to the thread that uses the context alone.
+lissom_status tell(const lissom_context* context, lissom_status status, const char* text) {
+    if (!context ||
+        context->user_thread.load(std::memory_order_relaxed) != std::this_thread::get_id()) {
+        return status;
+    }
+    CallError& error = const_cast<lissom_context*>(context)->error;
+    error.guard([&] {
+        if (status != LISSOM_OK) throw StatusError(status, text);
+    });
+    return error.status;
+}
+
+lissom_status refuse_job(const lissom_context* context) {
+    return tell(context, LISSOM_INVALID_HANDLE, "there is no such job: it was finished");
+}
+
+// The text of an error; its explanation if there was no memory for one.
+const char* message_of(const CallError& error) {
+    const bool lost = error.status != LISSOM_OK && error.message.empty();
+    return lost ? lissom_status_explanation(error.status) : error.message.c_str();
+}
+
+// Gives up the job and its objects, and takes over its result or throws its error.
+std::uint64_t finish(lissom_context& context, std::uint64_t id, Job& job) {
+    wait_for(context, job);
+    hold(context, job, -1);
+    {
+        const std::lock_guard lock(context.jobs_mutex);
+        context.jobs.erase(id);
+    }
+    if (job.error.status != LISSOM_OK) {
+        throw StatusError(job.error.status, std::move(job.error.message),
+                          std::move(job.error.elements));
+    }
+    return job.take ? job.take() : 0;
+}
+
 }  // namespace
 
 void begin_job(lissom_context& context, std::vector<std::pair<std::uint64_t, Kind>> held,
@@ -296,10 +326,9 @@ void begin_job(lissom_context& context, std::vector<std::pair<std::uint64_t, Kin
     made->work = std::move(work);
     made->take = std::move(take);
     made->held = std::move(held);
-    std::uint64_t id = 0;
+    const std::uint64_t id = context.objects.new_id();
     {
         const std::lock_guard lock(context.jobs_mutex);
-        id = context.next_job++;
         context.jobs.emplace(id, made);
     }
     if (context.kernel.cancelled()) made->context.cancel();
@@ -318,9 +347,7 @@ using namespace lissom;
 using namespace lissom::c;
 
 lissom_context::lissom_context(const lissom_context_options& given)
-    : options(given), space(given.space), kernel(kernel_options(given)), objects(next_context()) {
-    // Ids of jobs name the context, as ids of objects do.
-    next_job = objects.first_job();
+    : options(given), space(given.space), kernel(kernel_options(given)) {
     connect_scripts(*this);
 }
 
@@ -347,7 +374,7 @@ std::uint64_t lissom_context::add_mesh(Mesh&& mesh) {
     return add(Kind::mesh, sharing.make_mesh(std::move(mesh)));
 }
 
-std::int32_t lissom_context::count(const std::function<std::int32_t()>& work) {
+std::int32_t lissom_context::count(FunctionRef<std::int32_t()> work) noexcept {
     std::int32_t result = -1;
     const lissom_status status = run(this, [&] { result = work(); });
     return status == LISSOM_OK ? result : -1;
@@ -400,7 +427,7 @@ const lissom_error* lissom_last_error(const lissom_context* context) {
     const CallError& error = own.error;
     own.shown = {error.status,
                  error.status == LISSOM_OK ? "" : lissom_status_name(error.status),
-                 error.message.c_str(),
+                 message_of(error),
                  static_cast<lissom_element>(error.elements.kind),
                  error.elements.count,
                  error.elements.ids.data(),
@@ -444,42 +471,30 @@ bool lissom_job_is_valid(const lissom_context* context, lissom_job job) {
 lissom_status lissom_job_poll(const lissom_context* context, lissom_job job,
                               lissom_job_state* state) {
     const auto found = context ? find_job(*context, job) : nullptr;
-    if (!found || !state) return LISSOM_INVALID_HANDLE;
+    if (!found) return refuse_job(context);
+    if (!state) return tell(context, LISSOM_INVALID_ARGUMENT, "state is NULL");
     *state = found->ended.load(std::memory_order_acquire) ? LISSOM_JOB_DONE : LISSOM_JOB_RUNNING;
-    return LISSOM_OK;
+    return tell(context, LISSOM_OK, "");
 }
 
 lissom_status lissom_job_cancel(const lissom_context* context, lissom_job job) {
     const auto found = context ? find_job(*context, job) : nullptr;
-    if (!found) return LISSOM_INVALID_HANDLE;
+    if (!found) return refuse_job(context);
     found->context.cancel();
-    return LISSOM_OK;
+    return tell(context, LISSOM_OK, "");
 }
 
 lissom_status lissom_job_finish(lissom_context* context, lissom_job job, uint64_t* result) {
-    if (!context) return LISSOM_INVALID_HANDLE;
-    const auto found = find_job(*context, job);
-    if (!found) {
-        return run(context, [] {
-            throw StatusError(LISSOM_INVALID_HANDLE, "there is no such job: it was finished");
-        });
-    }
-    wait_for(*context, *found);
-    hold(*context, *found, -1);
-    {
-        const std::lock_guard lock(context->jobs_mutex);
-        context->jobs.erase(job.id);
-    }
-    context->error = found->error;
-    if (context->error.status != LISSOM_OK) return context->error.status;
     return run(context, [&] {
-        const std::uint64_t made = found->take ? found->take() : 0;
+        const auto found = find_job(*context, job);
+        if (!found) {
+            throw StatusError(LISSOM_INVALID_HANDLE, "there is no such job: it was finished");
+        }
+        const std::uint64_t made = finish(*context, job.id, *found);
         if (result) {
             *result = made;
-        } else if (made != 0) {
-            context->objects.for_each([&](std::uint64_t id, ObjectTable::Object& object) {
-                if (id == made) context->objects.release(object);
-            });
+        } else {
+            context->objects.release(made);
         }
     });
 }

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,28 @@ enum class Kind : std::uint8_t {
     object,
 };
 
+/// A callable of the caller, for the time of a call: unlike a std::function it takes no memory.
+template <typename Signature>
+class FunctionRef;
+
+template <typename Result, typename... Arguments>
+class FunctionRef<Result(Arguments...)> {
+  public:
+    template <typename Function>
+    FunctionRef(const Function& function)
+        : function_(&function), call_([](const void* own, Arguments... arguments) -> Result {
+              return (*static_cast<const Function*>(own))(std::forward<Arguments>(arguments)...);
+          }) {}
+
+    Result operator()(Arguments... arguments) const {
+        return call_(function_, std::forward<Arguments>(arguments)...);
+    }
+
+  private:
+    const void* function_;
+    Result (*call_)(const void*, Arguments...);
+};
+
 /// A refusal that the kernel knows nothing of.
 class StatusError : public std::exception {
   public:
@@ -58,18 +81,24 @@ struct CallError {
     Elements elements = {};
 
     /// Runs `work` and keeps its exceptions.
-    void guard(const std::function<void()>& work) noexcept;
+    void guard(FunctionRef<void()> work) noexcept;
 };
 
-/// Objects by handle. An id holds the place in the table, how often that was used before, and the
-/// number of the context, so that stale and foreign handles are told from others.
+/// Makes ids of objects and jobs. No other source of the process makes the same, so that stale and
+/// foreign handles are told from others. They stay below 2^53, which JSON readers of doubles keep.
+class IdSource {
+  public:
+    std::uint64_t next();
+
+  private:
+    std::uint64_t next_ = 0, end_ = 0;
+};
+
+/// Objects by handle.
 class ObjectTable {
   public:
-    explicit ObjectTable(std::uint16_t context) : context_(context) {}
-
     struct Object {
         Kind kind = Kind::none;
-        std::uint32_t generation = 0;
         /// Jobs that work with it.
         int jobs = 0;
         std::shared_ptr<void> content;
@@ -80,20 +109,17 @@ class ObjectTable {
     /// Returns the object, or null for a handle that is not valid or of another kind.
     Object* find(std::uint64_t id, Kind kind);
     const Object* find(std::uint64_t id, Kind kind) const;
-    void release(Object& object);
-    std::size_t size() const { return size_; }
-    /// Returns the id of the context's first job.
-    std::uint64_t first_job() const { return (std::uint64_t{context_} << 48) + 1; }
-    /// Calls visit(id, object) for every object.
-    void for_each(const std::function<void(std::uint64_t, Object&)>& visit);
+    /// Forgets an object, of any kind; nothing if there is none.
+    void release(std::uint64_t id) noexcept { objects_.erase(id); }
+    std::size_t size() const { return objects_.size(); }
+    /// Returns a new id, for a job.
+    std::uint64_t new_id() { return ids_.next(); }
+    /// Calls visit(id, object) for every object, in the order in which they were made.
+    void for_each(FunctionRef<void(std::uint64_t, Object&)> visit);
 
   private:
-    std::uint64_t id_of(std::size_t place) const;
-
-    std::uint16_t context_;
-    std::vector<Object> objects_;
-    std::vector<std::size_t> free_;
-    std::size_t size_ = 0;
+    IdSource ids_;
+    std::map<std::uint64_t, Object> objects_;
 };
 
 /// Conversion between the host's space and the kernel's.
@@ -103,9 +129,10 @@ class Space {
 
     Vec3 to_kernel(const Vec3& p) const { return axes_ * p; }
     Vec3 to_host(const Vec3& p) const { return axes_.transpose() * p; }
+    /// Both of these throw NOT_FINITE if a number of the host is not finite.
     Affine to_kernel(const lissom_transform& transform) const;
+    Vec3 to_kernel(const double p[3]) const;
     lissom_transform to_host(const Affine& map) const;
-    Vec3 to_kernel(const double p[3]) const { return axes_ * Vec3(p[0], p[1], p[2]); }
     /// Returns whether faces run the other way.
     bool reverses() const { return reverses_; }
 
@@ -165,7 +192,8 @@ struct lissom_context {
     /// Jobs that were not finished; polled and cancelled from any thread.
     mutable std::mutex jobs_mutex;
     std::map<std::uint64_t, std::shared_ptr<lissom::c::Job>> jobs;
-    std::uint64_t next_job = 1;
+    /// The thread of the last call: lissom_last_error is for that one.
+    std::atomic<std::thread::id> user_thread{std::this_thread::get_id()};
     lissom::c::Sharing sharing;
     std::shared_ptr<lissom::c::ScriptHost> scripts;
 
@@ -186,7 +214,7 @@ struct lissom_context {
         return std::static_pointer_cast<T>(shared(id, kind));
     }
     /// Returns the number of a list of an object, or -1 for an invalid handle.
-    std::int32_t count(const std::function<std::int32_t()>& work);
+    std::int32_t count(lissom::c::FunctionRef<std::int32_t()> work) noexcept;
 
   private:
     const std::shared_ptr<void>& shared(std::uint64_t id, lissom::c::Kind kind);
@@ -195,7 +223,7 @@ struct lissom_context {
 namespace lissom::c {
 
 /// Runs a call: `work` throws its errors.
-lissom_status run(lissom_context* context, const std::function<void()>& work) noexcept;
+lissom_status run(lissom_context* context, FunctionRef<void()> work) noexcept;
 
 /// Begins a job that works with `held`, and gives its handle.
 void begin_job(lissom_context& context, std::vector<std::pair<std::uint64_t, Kind>> held,

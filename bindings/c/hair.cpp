@@ -49,7 +49,7 @@ std::vector<Vec3> style_points(const lissom_context& context, const Hairstyle& s
 
 template <typename Shape>
 lissom_status add_curve(lissom_context* context, lissom_hairstyle style, int32_t* curve,
-                        const std::function<void(const Hairstyle&, Shape&)>& fill) {
+                        FunctionRef<void(const Hairstyle&, Shape&)> fill) {
     return run(context, [&] {
         require_given(curve, "curve");
         Hairstyle& own = style_of(*context, style);

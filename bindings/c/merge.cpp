@@ -25,17 +25,17 @@ CutOptions cut_options(const lissom_cut_options* given) {
 
 // Keeps both parts of a cut, or none.
 void keep_cut(lissom_context& context, Cut&& cut, lissom_mesh* kept, lissom_mesh* rest) {
+    for (const CutWarning& warning : cut.report.warnings) {
+        context.kernel.log(LogLevel::warning, warning.message);
+    }
     const std::uint64_t first = context.add_mesh(std::move(cut.kept.mesh));
     try {
         if (rest) rest->id = context.add_mesh(std::move(cut.rest.mesh));
     } catch (...) {
-        context.objects.release(*context.objects.find(first, Kind::mesh));
+        context.objects.release(first);
         throw;
     }
     kept->id = first;
-    for (const CutWarning& warning : cut.report.warnings) {
-        context.kernel.log(LogLevel::warning, warning.message);
-    }
 }
 
 Path boundary_of(const Mesh& mesh, Index number, const char* side) {
@@ -99,10 +99,9 @@ MergeOptions merge_options(const lissom_merge_options* given) {
     return options;
 }
 
-void tell_report(lissom_context& context, const MergeReport& found, lissom_merge_report* report) {
-    if (!report) return;
+// The texts of a report are kept before its mesh is: after an error there is neither.
+lissom_merge_report told_report(lissom_context& context, const MergeReport& found) {
     auto told = lissom_default_merge_report();
-    told.struct_size = report->struct_size;
     told.ok = found.ok;
     told.scale = found.joins.empty() ? 1.0 : found.joins.front().scale;
     told.greatest_dihedral = found.seam.after.greatest_dihedral;
@@ -112,6 +111,16 @@ void tell_report(lissom_context& context, const MergeReport& found, lissom_merge
     for (const std::string& warning : found.warnings) context.more_text += warning + "\n";
     told.verdict = context.text.c_str();
     told.warnings = context.more_text.c_str();
+    return told;
+}
+
+void give_merged(lissom_context& context, MergeResult&& merged, std::optional<double> scale,
+                 lissom_mesh* mesh, lissom_merge_report* report) {
+    auto told = told_report(context, merged.report);
+    if (scale) told.scale = *scale;
+    mesh->id = context.add_mesh(std::move(merged.mesh));
+    if (!report) return;
+    told.struct_size = report->struct_size;
     std::memcpy(report, &told, std::min(report->struct_size, sizeof told));
 }
 
@@ -231,8 +240,7 @@ lissom_status lissom_merge(lissom_context* context, lissom_mesh source, lissom_m
         MergeResult result =
             merge(own, *other, joins_of(*context, joins, join_count, own, {&other, 1}),
                   merge_options(options), context->kernel);
-        mesh->id = context->add_mesh(std::move(result.mesh));
-        tell_report(*context, result.report, report);
+        give_merged(*context, std::move(result), std::nullopt, mesh, report);
     });
 }
 
@@ -251,8 +259,7 @@ lissom_status lissom_merger_solve(lissom_context* context, lissom_merger merger,
         require_given(mesh, "mesh");
         if (report) take_options(report, lissom_default_merge_report());
         MergeResult result = merger_of(*context, merger).solve(context->kernel);
-        mesh->id = context->add_mesh(std::move(result.mesh));
-        tell_report(*context, result.report, report);
+        give_merged(*context, std::move(result), std::nullopt, mesh, report);
     });
 }
 
@@ -308,9 +315,7 @@ lissom_status lissom_paste_merge(lissom_context* context, lissom_paste paste, li
         require_given(mesh, "mesh");
         if (report) take_options(report, lissom_default_merge_report());
         PasteResult result = paste_of(*context, paste).merge({}, context->kernel);
-        mesh->id = context->add_mesh(std::move(result.merged.mesh));
-        tell_report(*context, result.merged.report, report);
-        if (report) report->scale = result.report.scale;
+        give_merged(*context, std::move(result.merged), result.report.scale, mesh, report);
     });
 }
 

@@ -16,6 +16,8 @@ namespace {
 
 LoadOptions load_options(const lissom_mesh_load_options* given) {
     const auto taken = take_options(given, lissom_default_mesh_load_options());
+    require(taken.weld >= LISSOM_WELD_AUTOMATIC && taken.weld <= LISSOM_WELD_NONE,
+            "there is no such weld");
     LoadOptions options;
     if (taken.weld == LISSOM_WELD_SEAMS) options.weld = Weld::seams;
     if (taken.weld == LISSOM_WELD_ALL) options.weld = Weld::all;

@@ -11,7 +11,7 @@ bool is_valid(const lissom_context* context, std::uint64_t id, Kind kind) {
 
 lissom_status release(lissom_context* context, std::uint64_t id, Kind kind) {
     return run(context, [&] {
-        ObjectTable::Object* object = context->objects.find(id, kind);
+        const ObjectTable::Object* object = context->objects.find(id, kind);
         if (!object) {
             throw StatusError(LISSOM_INVALID_HANDLE,
                               "the object was released already, or never was");
@@ -19,7 +19,7 @@ lissom_status release(lissom_context* context, std::uint64_t id, Kind kind) {
         if (object->jobs > 0) {
             throw StatusError(LISSOM_BUSY, "a job works with the object; finish the job first");
         }
-        context->objects.release(*object);
+        context->objects.release(id);
     });
 }
 

@@ -3,19 +3,17 @@
 
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "bindings/c/context.h"
+#include "bindings/c/script/json.h"
 #include "bindings/lua/core/state.h"
 #include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/sandbox/sandbox.h"
 
 namespace lissom::c {
-
-using Json = nlohmann::ordered_json;
 
 /// A value that Lua's registry keeps for a handle of the host.
 struct LuaReference {
@@ -59,23 +57,25 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     /// Returns a handle for the object of a userdata at `index`: its own if it has one.
     std::uint64_t handle_of(int index);
 
-    /// Checks values of JSON to be pushed; at most `kDepth` deep. Errors: invalid_argument.
-    void check_values(const Json& values);
-    /// Pushes values by JSON, in protected mode, with `values` checked.
-    void push_values(const Json& values);
+    /// Finds the objects of values to be pushed. Errors: INVALID_HANDLE.
+    void check_values(const List& values);
+    /// Pushes values, in protected mode, once they are checked.
+    void push_values(const List& values);
     /// Returns the value at `index`, objects as handles. Errors: invalid_argument for values
-    /// without JSON.
-    Json value_at(int index, int depth = 0);
+    /// without JSON: functions, numbers that are not finite, tables that are list and record at
+    /// once.
+    Value value_at(int index, int depth = 0);
     /// Returns the values from `first` to the top; at most `kMostValues` with all they hold.
-    Json values_from(int first);
+    List values_from(int first);
 
-    static constexpr int kDepth = 100;
     static constexpr std::size_t kMostValues = 4'000'000;
 
   private:
-    void push_value(const Json& value);
+    void push_value(const Value& value);
     void push_object(std::uint64_t id);
-    Json table_at(int index, int depth);
+    Value table_at(int index, int depth);
+    Fields fields_at(int index, int depth);
+    List list_at(int index, int depth);
     // Lua's object around the content of a handle, or null.
     template <typename T>
     std::shared_ptr<T> known(const void* content);

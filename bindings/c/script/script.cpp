@@ -24,21 +24,13 @@ class StackGuard {
     int top_;
 };
 
-Json list_of(const char* text) {
-    Json list = Json::array();
-    if (!text) return list;
-    try {
-        list = Json::parse(text);
-    } catch (const Json::exception& error) {
-        throw Error(ErrorCode::invalid_argument, std::string("arguments: ") + error.what());
-    }
-    require(list.is_array(), "the arguments are not a JSON list");
-    return list;
+List list_of(const char* text) {
+    return text ? list_of_json(text) : List();
 }
 
-void give(lissom_context& context, const Json& json, lissom_bytes* bytes) {
+void give(lissom_context& context, const List& list, lissom_bytes* bytes) {
     if (!bytes) return;
-    context.bytes = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    context.bytes = json_of(list);
     *bytes = {context.bytes.data(), context.bytes.size()};
 }
 
@@ -47,7 +39,7 @@ void give(lissom_context& context, const Json& json, lissom_bytes* bytes) {
 struct Running {
     ScriptHost* host;
     const Script* script;
-    const Json* arguments;
+    const List* arguments;
 };
 
 // Protected: loads the script and runs it, with its values on the stack.
@@ -85,7 +77,7 @@ void check_syntax(ScriptHost& host, const Script& script) {
 }
 
 // Runs a script, or only up to its parameters; its results are on the stack.
-void run_script(ScriptHost& host, Script& script, const Json& arguments, bool only_parameters) {
+void run_script(ScriptHost& host, Script& script, const List& arguments, bool only_parameters) {
     lua_State* L = host.lua();
     lua::State& state = host.binding();
     state.host.arguments = {script.name.substr(1), words_of(script)};
@@ -106,23 +98,29 @@ void run_script(ScriptHost& host, Script& script, const Json& arguments, bool on
     throw_lua_error(L, LISSOM_SCRIPT_ERROR);
 }
 
-Json value_of(const std::optional<lua::ParameterValue>& value) {
-    if (!value) return nullptr;
-    return std::visit([](const auto& one) { return Json(one); }, *value);
+Value value_of(const std::optional<lua::ParameterValue>& value) {
+    if (!value) return {};
+    return std::visit([](const auto& one) { return Value(one); }, *value);
 }
 
-Json described(const lua::ScriptParameter& parameter) {
-    Json json{{"name", parameter.name}, {"type", lua::type_name(parameter.type)}};
-    if (parameter.default_value) json["default"] = value_of(parameter.default_value);
-    json["value"] = value_of(parameter.value ? parameter.value : parameter.default_value);
-    if (std::isfinite(parameter.min)) json["min"] = parameter.min;
-    if (std::isfinite(parameter.max)) json["max"] = parameter.max;
-    if (parameter.step) json["step"] = *parameter.step;
-    if (!parameter.choices.empty()) json["choices"] = parameter.choices;
-    if (!parameter.unit.empty()) json["unit"] = parameter.unit;
-    if (!parameter.group.empty()) json["group"] = parameter.group;
-    if (!parameter.help.empty()) json["help"] = parameter.help;
-    return json;
+Fields described(const lua::ScriptParameter& parameter) {
+    Fields fields;
+    fields.add("name", parameter.name);
+    fields.add("type", std::string(lua::type_name(parameter.type)));
+    if (parameter.default_value) fields.add("default", value_of(parameter.default_value));
+    fields.add("value", value_of(parameter.value ? parameter.value : parameter.default_value));
+    if (std::isfinite(parameter.min)) fields.add("min", parameter.min);
+    if (std::isfinite(parameter.max)) fields.add("max", parameter.max);
+    if (parameter.step) fields.add("step", *parameter.step);
+    if (!parameter.choices.empty()) {
+        fields.add("choices", List(parameter.choices.begin(), parameter.choices.end()));
+    }
+    const std::pair<const char*, const std::string*> texts[] = {
+        {"unit", &parameter.unit}, {"group", &parameter.group}, {"help", &parameter.help}};
+    for (const auto& [name, text] : texts) {
+        if (!text->empty()) fields.add(name, *text);
+    }
+    return fields;
 }
 
 void set_parameter(Script& script, const std::string& name, const std::string& value) {
@@ -187,7 +185,7 @@ const lua::Entry& entry_of(const lua::Registry& registry, const std::string& nam
 struct Calling {
     ScriptHost* host;
     const lua::Entry* entry;
-    const Json* arguments;
+    const List* arguments;
 };
 
 // The function of the module under a name with dots.
@@ -226,7 +224,7 @@ int call_protected(lua_State* L) {
     return lua_gettop(L) - 1;
 }
 
-Json call_by_name(ScriptHost& host, const lua::Entry& entry, const Json& arguments) {
+List call_by_name(ScriptHost& host, const lua::Entry& entry, const List& arguments) {
     lua_State* L = host.lua();
     const StackGuard guard(L);
     host.check_values(arguments);
@@ -281,7 +279,7 @@ lissom_status lissom_script_load(lissom_context* context, const char* text, size
         ScriptHost& host = scripts_of(*context);
         const StackGuard guard(host.lua());
         check_syntax(host, *made);
-        if (may_declare(*made)) run_script(host, *made, Json::array(), true);
+        if (may_declare(*made)) run_script(host, *made, List(), true);
         script->id = context->add(Kind::script, std::move(made), size);
     });
 }
@@ -290,10 +288,11 @@ lissom_status lissom_script_parameters(lissom_context* context, lissom_script sc
                                        lissom_bytes* json) {
     return run(context, [&] {
         require_given(json, "json");
-        Json list = Json::array();
+        List list;
         const Script& own = script_of(*context, script);
         if (own.parameters) {
-            for (const auto& parameter : own.parameters->list) list.push_back(described(parameter));
+            for (const auto& parameter : own.parameters->list)
+                list.emplace_back(described(parameter));
         }
         give(*context, list, json);
     });
@@ -312,7 +311,7 @@ lissom_status lissom_script_run(lissom_context* context, lissom_script script,
     return run(context, [&] {
         ScriptHost& host = scripts_of(*context);
         const StackGuard guard(host.lua());
-        const Json values = list_of(arguments);
+        const List values = list_of(arguments);
         Script& own = script_of(*context, script);
         run_script(host, own, values, false);
         if (json) give(*context, host.values_from(guard.top() + 1), json);
