@@ -38,17 +38,14 @@ Deformer& deformer_of(lissom_context& context, lissom_deformer deformer) {
     return context.content<Deformer>(deformer.id, Kind::deformer);
 }
 
-void find_surface(Deformer& deformer, lissom_quality quality, const Context& context) {
+FrameQuality quality_of(lissom_quality quality) {
     switch (quality) {
         case LISSOM_PREVIEW:
-            deformer.solve(FrameQuality::preview, context);
-            return;
+            return FrameQuality::preview;
         case LISSOM_DRAFT:
-            deformer.solve(FrameQuality::draft, context);
-            return;
+            return FrameQuality::draft;
         case LISSOM_FULL:
-            deformer.solve(FrameQuality::full, context);
-            return;
+            return FrameQuality::full;
     }
     throw Error(ErrorCode::invalid_argument, "there is no such quality");
 }
@@ -198,8 +195,9 @@ lissom_status lissom_deformer_begin_prepare(lissom_context* context, lissom_defo
 
 lissom_status lissom_deformer_solve(lissom_context* context, lissom_deformer deformer,
                                     lissom_quality quality) {
-    return run(context,
-               [&] { find_surface(deformer_of(*context, deformer), quality, context->kernel); });
+    return run(context, [&] {
+        deformer_of(*context, deformer).solve(quality_of(quality), context->kernel);
+    });
 }
 
 lissom_status lissom_deformer_begin_solve(lissom_context* context, lissom_deformer deformer,
@@ -209,8 +207,10 @@ lissom_status lissom_deformer_begin_solve(lissom_context* context, lissom_deform
         const auto own = context->share<Deformer>(deformer.id, Kind::deformer);
         begin_job(
             *context, {{deformer.id, Kind::deformer}},
-            [own, quality](const Context& inner) { find_surface(*own, quality, inner); }, nullptr,
-            job);
+            [own, wanted = quality_of(quality)](const Context& inner) {
+                own->solve(wanted, inner);
+            },
+            nullptr, job);
     });
 }
 

@@ -25,11 +25,11 @@
 ///     compiled before continue to work.
 ///
 /// Objects
-///     An object is a handle of 8 bytes, passed by value. All bits zero is no object. A handle that
-///     was released, comes from another context or is of another kind is refused
-///     (LISSOM_INVALID_HANDLE) and never touches memory. Objects are independent: a mesh may be
-///     released while a deformer of it is in use. `lissom_X_release` frees one,
-///     `lissom_context_destroy` all.
+///     An object is a handle of 8 bytes, passed by value: a number below 2^53 that no other object
+///     of the process has or had. Zero is no object. A handle that was released, comes from another
+///     context or is of another kind is refused (LISSOM_INVALID_HANDLE) and never touches memory.
+///     Objects are independent: a mesh may be released while a deformer of it is in use.
+///     `lissom_X_release` frees one, `lissom_context_destroy` all.
 ///
 /// Threads
 ///     Use a context and its objects from one thread at a time; different contexts may be used at
@@ -350,7 +350,9 @@ LISSOM_API lissom_status lissom_object_release(lissom_context* context, lissom_o
 
 typedef enum lissom_job_state { LISSOM_JOB_RUNNING = 0, LISSOM_JOB_DONE = 1 } lissom_job_state;
 
-/// Receives whether the job has ended, successfully or not. Does not wait. [any thread]
+/// Receives whether the job has ended, successfully or not. Does not wait. Called on the thread of
+/// the last other call with the context it sets lissom_last_error, as does lissom_job_cancel.
+/// Errors: INVALID_HANDLE; INVALID_ARGUMENT. [any thread]
 LISSOM_API lissom_status lissom_job_poll(const lissom_context* context, lissom_job job,
                                          lissom_job_state* state);
 /// Asks this job alone to stop; finish it all the same. [any thread]
@@ -1002,9 +1004,11 @@ LISSOM_API lissom_status lissom_script_run(lissom_context* context, lissom_scrip
 /// table of options, as in the reference. An object is {"object": ID} with the `id` of a handle,
 /// which is the object itself and no copy. `json` receives the list of results in the same format,
 /// objects with "type": "lissom.Mesh", ...: lissom.Mesh, Region, Deformer, Hairstyle and Strands
-/// are handles of those kinds, all others of lissom_object. Release what you no longer need.
-/// Errors: OUT_OF_RANGE for an unknown name, with the nearest; INVALID_ARGUMENT for bad JSON or
-/// arguments; INVALID_HANDLE; those of the function.
+/// are handles of those kinds, all others of lissom_object. Release objects that are not needed.
+/// Integers have 64 bits; a number beyond, a result that is not finite, a table that is a list and
+/// has names, and any other value that JSON cannot hold are refused. Errors: OUT_OF_RANGE for an
+/// unknown name, with the nearest; INVALID_ARGUMENT for bad JSON or arguments; INVALID_HANDLE;
+/// those of the function.
 LISSOM_API lissom_status lissom_call(lissom_context* context, const char* name,
                                      const char* arguments, lissom_bytes* json);
 

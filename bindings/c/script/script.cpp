@@ -1,4 +1,6 @@
 // Scripts of a host, and calls by name.
+#include <cmath>
+
 #include "bindings/c/data.h"
 #include "bindings/c/files.h"
 #include "bindings/c/script/host.h"
@@ -150,6 +152,7 @@ std::vector<std::filesystem::path> folders_of(const char* const* names, std::int
 }
 
 lua::SandboxLimits limits_of(const lissom_sandbox_options& given) {
+    require(std::isfinite(given.seconds), "the seconds of a sandbox are not finite");
     lua::SandboxLimits limits;
     limits.seconds = given.seconds;
     limits.instructions = given.instructions;
