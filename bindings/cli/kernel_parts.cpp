@@ -8,6 +8,8 @@ ProgramParts kernel_parts() {
     ProgramParts parts;
     parts.verbs = {
         {"run", "FILE [--name value ...]", "Runs a Lua script.", run_script},
+        {"batch", "FILE --over FILES --out TEMPLATE",
+         "Runs a script for each of many files or values.", batch},
         {"test", "PATH...", "Runs the tests of scripts.", run_tests},
         {"inspect", "FILE...", "Describes the contents of meshes, hair and scenes.", inspect},
         {"convert", "IN OUT", "Writes meshes and hair in another format.", convert},

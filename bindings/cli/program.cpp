@@ -92,6 +92,7 @@ lua::HostOptions Program::host_options() {
     options.context = context_options();
     options.registry = std::move(registry);
     options.operation_ended = [this] { clear_progress(); };
+    options.check_file = file_used;
     return options;
 }
 

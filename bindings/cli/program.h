@@ -9,6 +9,7 @@
 ///     }
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <iosfwd>
 #include <memory>
@@ -93,6 +94,8 @@ class Program {
     std::function<bool(LogLevel, std::string_view)> log_filter;
     /// Receives progress instead of the terminal, if it is set.
     std::function<void(std::string_view label, double fraction)> progress_listener;
+    /// Hears of each file that a script opens by the library, if it is set.
+    std::function<void(const std::filesystem::path& file, lua::FileUse use)> file_used;
     /// Threads of the kernel's loops; 0 for as many as there are cores.
     int threads = 0;
 

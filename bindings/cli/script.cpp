@@ -100,6 +100,20 @@ std::string search_path(const std::string& script) {
     return path;
 }
 
+// A list of the files of all modules loaded.
+int push_module_files(lua_State* L) {
+    constexpr const char* kText =
+        "local files = {}\n"
+        "for name in pairs(package.loaded) do\n"
+        "    local file = type(name) == 'string' and package.searchpath(name, package.path)\n"
+        "    if file then files[#files + 1] = file end\n"
+        "end\n"
+        "return files";
+    if (luaL_loadstring(L, kText) != LUA_OK) return lua_error(L);
+    lua_call(L, 0, 1);
+    return 1;
+}
+
 // ---- Messages
 
 bool starts_with(const char* text, const char* start) {
@@ -325,6 +339,21 @@ ScriptResult Script::call_function() {
     lua_remove(L_, function);
     program_.clear_progress();
     return status == LUA_OK ? ScriptResult{} : failure();
+}
+
+std::vector<std::string> Script::module_files() {
+    std::vector<std::string> files;
+    lua_pushcfunction(L_, push_module_files);
+    if (lua_pcall(L_, 0, 1, 0) == LUA_OK) {
+        const auto count = static_cast<lua_Integer>(lua_rawlen(L_, -1));
+        for (lua_Integer i = 1; i <= count; ++i) {
+            lua_rawgeti(L_, -1, i);
+            files.emplace_back(lua_tostring(L_, -1));
+            lua_pop(L_, 1);
+        }
+    }
+    lua_pop(L_, 1);
+    return files;
 }
 
 // Takes the table of explain_error from the stack.

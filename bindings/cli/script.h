@@ -54,6 +54,9 @@ class Script {
     /// Calls the function on top of the stack, whose results stay there.
     ScriptResult call_function();
 
+    /// Returns the files of the modules that the script has loaded.
+    std::vector<std::string> module_files();
+
     /// Returns the folder of the Lua library installed with the program; empty if it is not found.
     static std::string shipped_scripts();
 

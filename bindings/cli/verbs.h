@@ -9,6 +9,7 @@
 namespace lissom::cli {
 
 int run_script(Program& program, const std::vector<std::string>& words);
+int batch(Program& program, const std::vector<std::string>& words);
 int run_tests(Program& program, const std::vector<std::string>& words);
 int inspect(Program& program, const std::vector<std::string>& words);
 int convert(Program& program, const std::vector<std::string>& words);

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,13 +23,17 @@ extern char** environ;
 namespace lissom::cli {
 namespace {
 
-// Environment variable with the child's channel to its parent.
-constexpr int kChannel = 3;
+// Descriptors of the child: its channel to the parent, and one that it holds open.
+constexpr int kChannel = 3, kHeld = 4;
 // Descriptors of the parent stay above those of a child.
 constexpr int kFirstOwn = 10;
 
 void require_done(int error, const char* what) {
     if (error != 0) throw std::runtime_error(std::string(what) + ": " + std::strerror(error));
+}
+
+double seconds_of(const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 // Moves a descriptor above those of a child; no child inherits it.
@@ -58,7 +63,7 @@ struct Channel {
 // group.
 class SpawnSettings {
   public:
-    SpawnSettings(const std::filesystem::path& output, int channel) {
+    SpawnSettings(const std::filesystem::path& output, int channel, int held) {
         posix_spawn_file_actions_init(&actions_);
         posix_spawnattr_init(&attributes_);
         posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
@@ -66,6 +71,7 @@ class SpawnSettings {
                                          O_WRONLY | O_CREAT | O_APPEND, 0666);
         posix_spawn_file_actions_adddup2(&actions_, 1, 2);
         posix_spawn_file_actions_adddup2(&actions_, channel, kChannel);
+        if (held >= 0) posix_spawn_file_actions_adddup2(&actions_, held, kHeld);
         posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
         posix_spawnattr_setpgroup(&attributes_, 0);
     }
@@ -111,8 +117,11 @@ struct ChildProcess::Parts {
         close(channel);
         channel = -1;
         int status = 0;
-        while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+        rusage usage{};
+        while (wait4(process, &status, 0, &usage) < 0 && errno == EINTR) {
         }
+        end.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+        end.memory = 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
         end.by_signal = WIFSIGNALED(status);
         end.status = end.by_signal ? WTERMSIG(status) : WEXITSTATUS(status);
         ended = true;
@@ -120,14 +129,14 @@ struct ChildProcess::Parts {
 };
 
 ChildProcess::ChildProcess(const std::vector<std::string>& words,
-                           const std::filesystem::path& output)
+                           const std::filesystem::path& output, int held)
     : own_(std::make_unique<Parts>()) {
     std::vector<std::string> line = {program_file().string()};
     line.insert(line.end(), words.begin(), words.end());
     const Channel channel;
     own_->channel = channel.read_end;
     try {
-        own_->process = SpawnSettings(output, channel.write_end).spawn(std::move(line));
+        own_->process = SpawnSettings(output, channel.write_end, held).spawn(std::move(line));
     } catch (...) {
         close(channel.write_end);
         close(channel.read_end);

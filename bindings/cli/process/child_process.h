@@ -2,6 +2,7 @@
 /// needs is in child_process.cpp, for systems with POSIX.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -14,6 +15,10 @@ struct ProcessEnd {
     /// Exit status of the process; the number of the signal that ended it, if there was one.
     int status = 0;
     bool by_signal = false;
+    /// Seconds of processors that it used, with its ended children.
+    double cpu_seconds = 0.0;
+    /// Greatest memory, in bytes.
+    std::uint64_t memory = 0;
 
     /// Returns "status 3", "signal 11 (Segmentation fault)".
     std::string text() const;
@@ -25,8 +30,10 @@ struct ProcessEnd {
 class ChildProcess {
   public:
     /// Starts the program with `words` as its command line. Both its outputs go to the end of the
-    /// file `output`. Throws std::runtime_error if the system refuses.
-    ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& output);
+    /// file `output`. If `held` is not negative, this descriptor stays open in the process and in
+    /// all that it starts. Throws std::runtime_error if the system refuses.
+    ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& output,
+                 int held = -1);
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;

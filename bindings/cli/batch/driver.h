@@ -1,0 +1,75 @@
+/// Runs the jobs of a plan, several processes at a time.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "bindings/cli/batch/ledger.h"
+#include "bindings/cli/batch/plan.h"
+
+namespace lissom::cli {
+
+/// How a batch stands.
+struct BatchProgress {
+    /// Jobs of the plan; done before, done now, and failed in all their attempts.
+    std::size_t all = 0, kept = 0, done = 0, failed = 0;
+    double seconds = 0.0;
+
+    std::size_t ended() const { return kept + done + failed; }
+    /// Jobs a second since the start, without those done before.
+    double rate() const;
+    /// Seconds until the end as the rate tells; below 0 if nothing is known yet.
+    double seconds_left() const;
+};
+
+struct BatchOptions {
+    /// Processes at a time, threads of each.
+    int jobs = 1, threads = 1;
+    /// Attempts after the first of a job that failed, but not of one that was called wrongly.
+    int retries = 1;
+    /// Seconds that an attempt may take; 0: any.
+    double timeout = 0.0;
+    /// Returns whether the batch shall stop; asked often.
+    std::function<bool()> stopped;
+    /// Hears of each job that starts, with the reason, and of each that ends.
+    std::function<void(const BatchJob& job, const std::string& reason)> started;
+    std::function<void(const BatchJob& job, const JobRecord& record)> ended;
+    /// Hears of the state a few times each second.
+    std::function<void(const BatchProgress&)> progress;
+};
+
+/// Folder of the records, logs and locks of a batch below that of its outputs.
+inline constexpr const char* kBatchFolder = ".batch";
+
+/// Records of one program's jobs, and the files that they depend on.
+class BatchState {
+  public:
+    explicit BatchState(const BatchPlan& plan);
+
+    /// Returns the reason to run a job: "new", "in/cow.obj has changed"; "" for one that is done:
+    /// program, script, arguments and inputs are as they were, and outputs as they were written.
+    std::string reason_to_run(const BatchJob& job);
+    /// Returns the last record of a job, or null.
+    const JobRecord* record(const BatchJob& job) const { return ledger_.find(job.output.string()); }
+    void add(const std::vector<JobRecord>& records) { ledger_.add(records); }
+
+    FileDigests& digests() { return digests_; }
+    const std::string& program() const { return program_; }
+    std::filesystem::path folder() const { return folder_; }
+
+  private:
+    std::string changed_argument(const BatchJob& job, const JobRecord& record) const;
+
+    std::filesystem::path folder_;
+    std::string program_;
+    FileDigests digests_;
+    Ledger ledger_;
+};
+
+/// Runs what is not done. Only one process works on a folder at a time. Errors: file_write_failed
+/// if another one does, or if the disk is full: jobs that have ended are kept.
+BatchProgress run_batch(const BatchPlan& plan, BatchState& state, const BatchOptions& options);
+
+}  // namespace lissom::cli

@@ -1,0 +1,63 @@
+/// The plan of a batch: all jobs, checked before the first one starts.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings/cli/batch/axis.h"
+#include "bindings/cli/batch/output_name.h"
+#include "bindings/cli/program.h"
+#include "bindings/lua/core/script_parameters.h"
+
+namespace lissom::cli {
+
+/// The words of a command line that make a plan.
+struct BatchWords {
+    std::string script;
+    /// Patterns of files, or tables; "NAME=" in front names the parameter.
+    std::vector<std::string> over;
+    /// "NAME=VALUES" and "NAME=VALUE".
+    std::vector<std::string> sweep, set;
+    /// Template of the outputs; "NAME=" in front names the parameter.
+    std::string out;
+};
+
+/// One run of the script.
+struct BatchJob {
+    /// Place in the plan, from 1.
+    std::size_t number = 0;
+    /// Parameters and values, by name; without that of the output.
+    std::vector<std::pair<std::string, std::string>> arguments;
+    /// Files among them.
+    std::vector<std::filesystem::path> inputs;
+    /// The file or folder that it makes.
+    std::filesystem::path output;
+};
+
+struct BatchPlan {
+    std::string script;
+    /// Parameter of the script that takes the output, and whether it takes a folder.
+    std::string out_parameter;
+    bool makes_folders = false;
+    /// Folder of all outputs; the state of the batch and its summary are there too.
+    std::filesystem::path folder;
+    std::vector<BatchJob> jobs;
+};
+
+/// Returns the parameters that a script declares by lissom.params, without running it further.
+/// Errors: invalid_argument if it declares none or fails before.
+lua::ParameterSet script_parameters(Program& program, const std::string& script);
+
+/// Makes the plan of a script with these parameters. Errors: invalid_argument for unknown
+/// parameters and placeholders, which names the nearest, for values that a parameter refuses,
+/// parameters without value, and outputs of two jobs that are one file; file_not_found for a
+/// pattern that matches nothing and for inputs that do not exist.
+BatchPlan make_plan(const lua::ParameterSet& parameters, const BatchWords& words);
+
+/// Returns the words that run a job: "--name=value" each, with `output` as its output.
+std::vector<std::string> script_words(const BatchPlan& plan, const BatchJob& job,
+                                      const std::filesystem::path& output);
+
+}  // namespace lissom::cli

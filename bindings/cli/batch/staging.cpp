@@ -1,0 +1,116 @@
+#include "bindings/cli/batch/staging.h"
+
+#include <algorithm>
+#include <set>
+
+#include "bindings/cli/batch/durable_files.h"
+#include "kernel/core/error.h"
+#include "kernel/io/stream/file.h"
+
+namespace lissom::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool was_written(const JobRecord* before, const fs::path& file) {
+    return before &&
+           std::any_of(before->outputs.begin(), before->outputs.end(),
+                       [&](const FileStamp& stamp) { return stamp.path == file.string(); });
+}
+
+void move_file(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::rename(from, to, error);
+    if (error) {
+        throw Error(ErrorCode::file_write_failed, display_name(to) + ": " + error.message());
+    }
+}
+
+// Files of the job's last run that this one has not made.
+void remove_others(const JobRecord* before, const std::vector<FileStamp>& made) {
+    if (!before) return;
+    std::set<std::string> kept;
+    for (const FileStamp& stamp : made) kept.insert(stamp.path);
+    for (const FileStamp& stamp : before->outputs) {
+        std::error_code ignored;
+        if (!kept.contains(stamp.path)) fs::remove(stamp.path, ignored);
+    }
+}
+
+}  // namespace
+
+Staging::Staging(fs::path work, const fs::path& output, bool makes_folder)
+    : work_(std::move(work)), output_(output) {
+    std::error_code ignored;
+    fs::remove_all(work_, ignored);
+    make_folder(makes_folder ? this->output() : work_);
+}
+
+Staging::~Staging() {
+    std::error_code ignored;
+    fs::remove_all(work_, ignored);
+}
+
+std::vector<fs::path> Staging::files() const {
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(work_)) {
+        if (entry.is_regular_file()) found.push_back(entry.path());
+    }
+    std::sort(found.begin(), found.end());
+    // The output is last: if it is there, all that belongs to it is.
+    std::stable_partition(found.begin(), found.end(),
+                          [this](const fs::path& file) { return file != output(); });
+    return found;
+}
+
+void Staging::require_output() const {
+    std::error_code error;
+    const bool is_made = fs::is_directory(output(), error) ? !fs::is_empty(output(), error)
+                                                           : fs::is_regular_file(output(), error);
+    if (is_made) return;
+    throw Error(ErrorCode::file_not_found,
+                "the script ended well and made no " + output_.filename().string() +
+                    ": it must write to the path that its parameter gives");
+}
+
+void Staging::require_place(const fs::path& staged, const fs::path& place, const JobRecord* before,
+                            FileDigests& digests) const {
+    std::error_code error;
+    if (fs::is_directory(place, error)) {
+        throw Error(ErrorCode::file_is_directory,
+                    display_name(place) + " is a folder: remove it, or choose another --out");
+    }
+    const bool is_own = place == output_ || was_written(before, place) ||
+                        place.string().starts_with(output_.string() + "/");
+    if (is_own || !fs::exists(place, error)) return;
+    if (digests.stamp(place).digest == digests.stamp(staged).digest) return;
+    throw Error(ErrorCode::file_write_failed,
+                display_name(place) +
+                    " exists with other content, of another job or not of this "
+                    "batch: give each job a folder, as --out 'out/{n}/FILE'");
+}
+
+std::vector<FileStamp> Staging::publish(const JobRecord* before, FileDigests& digests,
+                                        std::set<fs::path>& folders) {
+    require_output();
+    const fs::path folder = output_.parent_path().empty() ? "." : output_.parent_path();
+    std::vector<FileStamp> made;
+    const std::vector<fs::path> staged = files();
+    for (const fs::path& file : staged) {
+        require_place(file, (folder / file.lexically_relative(work_)).lexically_normal(), before,
+                      digests);
+    }
+    for (const fs::path& file : staged) {
+        const fs::path place = (folder / file.lexically_relative(work_)).lexically_normal();
+        const fs::path place_folder = place.parent_path().empty() ? "." : place.parent_path();
+        if (!folders.contains(place_folder)) make_folder(place_folder);
+        flush_to_disk(file);
+        move_file(file, place);
+        folders.insert(place_folder);
+        made.push_back(digests.stamp(place));
+    }
+    remove_others(before, made);
+    return made;
+}
+
+}  // namespace lissom::cli

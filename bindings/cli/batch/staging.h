@@ -1,0 +1,45 @@
+/// Outputs of a job: made in a folder of their own, then moved to their place whole.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bindings/cli/batch/digest.h"
+#include "bindings/cli/batch/ledger.h"
+
+namespace lissom::cli {
+
+/// The work folder of one job.
+class Staging {
+  public:
+    /// Makes an empty folder at `work` for an output; a folder also for the output itself if
+    /// `makes_folder`. Errors: file_write_failed.
+    Staging(std::filesystem::path work, const std::filesystem::path& output, bool makes_folder);
+    /// Removes the folder.
+    ~Staging();
+    Staging(const Staging&) = delete;
+    Staging& operator=(const Staging&) = delete;
+
+    /// Path that the script writes to.
+    std::filesystem::path output() const { return work_ / output_.filename(); }
+
+    /// Moves all files to the folder of the output, each on the disk before it is renamed, and
+    /// removes those of `before` that were not made again. Returns their stamps, and adds to
+    /// `folders` those that are to be flushed to the disk. Errors: file_not_found if the script
+    /// made no output; file_write_failed, also if the output of another job has the place of a file
+    /// with other content.
+    std::vector<FileStamp> publish(const JobRecord* before, FileDigests& digests,
+                                   std::set<std::filesystem::path>& folders);
+
+  private:
+    std::vector<std::filesystem::path> files() const;
+    void require_output() const;
+    void require_place(const std::filesystem::path& staged, const std::filesystem::path& place,
+                       const JobRecord* before, FileDigests& digests) const;
+
+    std::filesystem::path work_, output_;
+};
+
+}  // namespace lissom::cli

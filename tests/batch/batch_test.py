@@ -1,0 +1,347 @@
+#!/usr/bin/env python3
+"""Tests `lissom batch` from outside: its plan, what runs again and why, and what is left after kills.
+LISSOM_TRIALS is the number of random kills. Usage: batch_test.py PROGRAM"""
+import csv
+import fcntl
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.path.abspath(sys.argv.pop(1))
+TRIALS = int(os.environ.get("LISSOM_TRIALS", "30"))
+
+# Writes its parameters into its output; `mode` makes it fail in a way.
+SCRIPT = r'''
+local lissom = require "lissom"
+local p = lissom.params{
+    number = { type = "number", default = 0, min = -1000, max = 1000 },
+    count = { type = "integer", default = 1, min = 0 },
+    mode = { type = "choice", default = "good", choices = { "good", "fails", "usage", "nothing", "never_ends", "dies",
+        "warns", "orphan" } },
+    text = { type = "string", default = "" },
+    mesh = { type = "file", default = "" },
+    out = { type = "file", default = "out.txt" },
+}
+local word = require "word"
+if p.mode == "fails" then error("on purpose") end
+if p.mode == "usage" then os.exit(2) end
+if p.mode == "nothing" then return end
+if p.mode == "never_ends" then while true do end end
+if p.mode == "dies" then os.execute("kill -SEGV $PPID") end
+if p.mode == "warns" then lissom.shapes.box():region{ all = true }:grow(0) end
+local faces = p.mesh ~= "" and lissom.load(p.mesh):face_count() or 0
+local file = assert(io.open(p.out, "w"))
+file:write(string.format("%s %.17g %d %s %d\n", word, p.number, p.count, p.text, faces))
+file:close()
+if p.mode == "orphan" then os.execute("sleep 2 >/dev/null 2>&1 &") end
+'''
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+
+class Folder(unittest.TestCase):
+    """A test with a folder of its own, in which the program runs."""
+
+    def setUp(self):
+        self.folder = os.path.realpath(tempfile.mkdtemp(prefix="lissom-batch-"))
+        self.write("make.lua", SCRIPT)
+        self.write("word.lua", 'return "word"')
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def write(self, name, text):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def read(self, *names):
+        with open(self.path(*names), encoding="utf-8") as file:
+            return file.read()
+
+    def words(self, *words):
+        return [PROGRAM, "batch", *words]
+
+    def batch(self, *words, status=0):
+        run = subprocess.run(self.words(*words), cwd=self.folder, capture_output=True, text=True, timeout=300)
+        self.assertEqual(run.returncode, status, run.stdout + run.stderr)
+        return run
+
+    def plan(self, *words):
+        return json.loads(self.batch(*words, "--list", "--json").stdout)["jobs"]
+
+    def reasons(self, *words):
+        return [job["reason"] for job in self.plan(*words)]
+
+    def outputs(self, folder="out"):
+        found = {}
+        for at, folders, files in os.walk(self.path(folder)):
+            folders[:] = [name for name in folders if name != ".batch"]
+            for name in files:
+                if name not in ("index.html", "summary.csv", "summary.json"):
+                    path = os.path.join(at, name)
+                    with open(path, "rb") as file:
+                        found[os.path.relpath(path, self.path(folder))] = file.read()
+        return found
+
+
+class Plans(Folder):
+    def test_axes_multiply_and_the_last_varies_fastest(self):
+        jobs = self.plan("make.lua", "--sweep", "number=0:1:0.5", "--sweep", "count=1,2", "--set", "text=x",
+                         "--out", "out/{number}/{count}.txt")
+        self.assertEqual([job["output"] for job in jobs],
+                         [f"out/{n}/{c}.txt" for n in ("0", "0.5", "1") for c in (1, 2)])
+        self.assertEqual(jobs[0]["arguments"], {"number": "0", "count": "1", "text": "x"})
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_files_and_rows_of_a_table_are_axes(self):
+        for name in ("in/a.obj", "in/deep/b c.obj", "in/ü.obj"):
+            self.write(name, TRIANGLE)
+        jobs = self.plan("make.lua", "--over", "in/**/*.obj", "--out", "out/{dir}/{name}.{ext}")
+        self.assertEqual([job["output"] for job in jobs], ["out/a.obj", "out/deep/b c.obj", "out/ü.obj"])
+        self.write("t.csv", 'text,number,label\n"a, ""b""",1,one\nc,2,two\n')
+        jobs = self.plan("make.lua", "--over", "t.csv", "--out", "out/{label}.txt")
+        self.assertEqual([job["arguments"] for job in jobs],
+                         [{"text": 'a, "b"', "number": "1"}, {"text": "c", "number": "2"}])
+
+    def test_wrong_plans_are_usage_errors_that_say_why(self):
+        self.write("torn.csv", "number,text\n1,a\n2\n")
+        self.write("strange.csv", "numbr\n1\n")
+        self.write("none.lua", "print(1)")
+        for text, *words in (
+                ("did you mean 'number'", "make.lua", "--sweep", "numbr=1", "--out", "o/{n}"),
+                ("number from -1000 to 1000 expected", "make.lua", "--sweep", "number=1,2000", "--out", "o/{n}"),
+                ("no value for {numbr}, did you mean 'number'", "make.lua", "--sweep", "number=1", "--out", "{numbr}"),
+                ("both write o/1", "make.lua", "--sweep", "number=1,2", "--out", "o/1"),
+                ("outside of", "make.lua", "--sweep", "number=1", "--out", "o/{n}/../../x"),
+                ("never ends", "make.lua", "--sweep", "number=0:9:-1", "--out", "o/{n}"),
+                ("matches 'nothing/*.obj'", "make.lua", "--over", "nothing/*.obj", "--out", "o/{n}"),
+                ("torn.csv:3: the row has 1 value for 2 columns", "make.lua", "--over", "torn.csv", "--out", "o/{n}"),
+                ("did you mean 'number'", "make.lua", "--over", "strange.csv", "--out", "o/{n}"),
+                ("given twice", "make.lua", "--sweep", "number=1", "--set", "number=2", "--out", "o/{n}"),
+                ("no such file", "make.lua", "--set", "mesh=nix.obj", "--out", "o/{n}"),
+                ("declares no parameters", "none.lua", "--out", "o/{n}"),
+                ("no such file", "nix.lua", "--out", "o/{n}"),
+                ("write over the input", "make.lua", "--set", "mesh=word.lua", "--out", "word.lua"),
+                ("--out are needed", "make.lua")):
+            run = self.batch(*words, status=2)
+            self.assertIn(text, run.stderr)
+        self.assertFalse(os.path.exists(self.path("o")))
+
+    def test_values_never_lead_out_of_the_folder(self):
+        self.write("t.csv", "text\n../../x\n..\na/b\n\n\"\"\n")
+        jobs = self.plan("make.lua", "--over", "t.csv", "--out", "out/{text}/{n}.txt")
+        self.assertEqual([job["output"] for job in jobs],
+                         ["out/.._.._x/1.txt", "out/__/2.txt", "out/a_b/3.txt", "out/_/4.txt"])
+
+
+class Runs(Folder):
+    SWEEP = ("make.lua", "--sweep", "number=1,2,3", "--out", "out/{number}.txt")
+
+    def test_only_what_has_changed_runs_again_and_says_why(self):
+        self.batch(*self.SWEEP)
+        self.assertEqual(self.outputs(), {f"{n}.txt": b"word %d 1  0\n" % n for n in (1, 2, 3)})
+        self.assertEqual(self.reasons(*self.SWEEP), ["", "", ""])
+        os.utime(self.path("make.lua"), (1, 1))
+        os.utime(self.path("out", "1.txt"), (1, 1))
+        self.assertEqual(self.reasons(*self.SWEEP), ["", "", ""])
+        self.write("out/2.txt", "other")
+        os.remove(self.path("out", "3.txt"))
+        self.assertEqual(self.reasons(*self.SWEEP),
+                         ["", "out/2.txt is not as it was written", "out/3.txt is missing"])
+        self.assertIn("2 done, 1 done before", self.batch(*self.SWEEP).stdout)
+        self.assertEqual(self.reasons(*self.SWEEP, "--set", "count=5"), ["count is given now"] * 3)
+        self.write("word.lua", 'return "changed"')
+        self.assertEqual(self.reasons(*self.SWEEP), ["./word.lua has changed"] * 3)
+        self.batch(*self.SWEEP)
+        self.assertEqual(self.outputs()["1.txt"], b"changed 1 1  0\n")
+        self.write("make.lua", SCRIPT + "\n")
+        self.assertEqual(self.reasons(*self.SWEEP), ["make.lua has changed"] * 3)
+
+    def test_a_changed_input_runs_its_own_job_again(self):
+        for name in ("in/a.obj", "in/b.obj"):
+            self.write(name, TRIANGLE)
+        words = ("make.lua", "--over", "in/*.obj", "--out", "out/{name}.txt")
+        self.batch(*words)
+        self.write("in/b.obj", TRIANGLE + "v 1 1 0\nf 2 4 3\n")
+        self.write("in/0.obj", TRIANGLE)
+        self.assertEqual(self.reasons(*words), ["new", "", "in/b.obj has changed"])
+        self.batch(*words)
+        self.assertEqual(self.outputs()["b.txt"], b"word 0 1  2\n")
+
+    def test_each_ending_is_told_and_the_rest_goes_on(self):
+        words = ("make.lua", "--sweep", "mode=good,fails,usage,nothing,dies,never_ends", "--timeout", "1",
+                 "--retries", "1", "--out", "out/{mode}.txt")
+        run = self.batch(*words, status=1)
+        self.assertEqual(list(self.outputs()), ["good.txt"])
+        with open(self.path("out", "summary.csv"), encoding="utf-8", newline="") as file:
+            rows = {row["mode"]: row for row in csv.DictReader(file)}
+        self.assertEqual({mode: row["outcome"] for mode, row in rows.items()},
+                         {"good": "done", "fails": "failed", "usage": "failed", "nothing": "failed",
+                          "dies": "crashed", "never_ends": "timed_out"})
+        self.assertEqual({mode: row["attempts"] for mode, row in rows.items()},
+                         {"good": "1", "fails": "2", "usage": "1", "nothing": "2", "dies": "2", "never_ends": "2"})
+        self.assertIn("on purpose", rows["fails"]["message"])
+        self.assertIn("made no nothing.txt", rows["nothing"]["message"])
+        self.assertIn("on purpose", self.read("out", rows["fails"]["log"]))
+        self.assertGreater(float(rows["good"]["memory_mib"]), 1)
+        self.assertIn("failed  out/fails.txt", run.stdout)
+        self.assertEqual(self.reasons(*words)[:2], ["", "failed before"])
+        self.assertEqual(os.listdir(self.path("out", ".batch", "work")), [])
+
+    def test_a_folder_is_an_output_too_and_loses_what_is_not_made_again(self):
+        self.write("many.lua", '''
+            local p = require("lissom").params{ files = { type = "integer", default = 1 },
+                out = { type = "folder", default = "out" } }
+            for i = 1, p.files do assert(io.open(p.out .. "/" .. i, "w")):write("x"):close() end''')
+        self.batch("many.lua", "--set", "files=3", "--out", "out/all")
+        self.assertEqual(sorted(self.outputs()), ["all/1", "all/2", "all/3"])
+        self.batch("many.lua", "--set", "files=1", "--out", "out/all")
+        self.assertEqual(sorted(self.outputs()), ["all/1"])
+
+    def test_files_that_two_jobs_write_must_be_equal(self):
+        self.write("beside.lua", '''
+            local p = require("lissom").params{ a = { type = "integer", default = 1 }, b = { type = "integer",
+                default = 1 }, out = { type = "file", default = "out" } }
+            assert(io.open(p.out, "w")):write(p.a):close()
+            assert(io.open(p.out:gsub("[^/]*$", "shared"), "w")):write(p.b):close()''')
+        self.batch("beside.lua", "--sweep", "a=1,2", "--out", "out/{a}")
+        run = self.batch("beside.lua", "--sweep", "a=1,2", "--sweep", "b=1,2", "--out", "two/{a}{b}", "--jobs", "1",
+                         status=1)
+        self.assertIn("exists with other content", run.stdout)
+
+    def test_a_second_batch_in_the_folder_is_refused(self):
+        os.makedirs(self.path("out", ".batch"))
+        with open(self.path("out", ".batch", "lock"), "w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            lock.write("somewhere.12.34\n")
+            lock.flush()
+            run = self.batch(*self.SWEEP, status=1)
+        self.assertIn("somewhere.12.34", run.stderr)
+        self.batch(*self.SWEEP)
+
+    def test_torn_and_strange_records_are_passed_over(self):
+        self.batch(*self.SWEEP)
+        results = self.path("out", ".batch", "results")
+        name = os.path.join(results, os.listdir(results)[0])
+        with open(name, "r+", encoding="utf-8") as file:
+            text = file.read()
+            file.seek(0)
+            file.truncate()
+            file.write(text[:-40])
+        with open(os.path.join(results, "z.jsonl"), "wb") as file:
+            file.write(b"\x00\xff{]\n{}\n[1,2]\n")
+        self.assertEqual(sorted(self.reasons(*self.SWEEP)), ["", "", "new"])
+        self.batch(*self.SWEEP)
+        self.assertEqual(self.reasons(*self.SWEEP), ["", "", ""])
+
+    def test_an_interrupt_keeps_what_is_done(self):
+        process = subprocess.Popen(self.words("make.lua", "--sweep", "number=1,2", "--sweep", "mode=good,never_ends",
+                                              "--out", "out/{number}{mode}.txt"), cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        for _ in range(600):
+            if os.path.exists(self.path("out", "1good.txt")):
+                break
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("1good.txt", self.outputs())
+        self.assertTrue(os.path.exists(self.path("out", "index.html")))
+
+    def test_progress_is_told_as_json(self):
+        run = self.batch(*self.SWEEP, "--progress", "json")
+        last = json.loads(run.stderr.splitlines()[-1])
+        self.assertEqual((last["all"], last["done"], last["failed"]), (3, 3, 0))
+
+
+class Kills(Folder):
+    """After any kills the outputs are those of an undisturbed run."""
+
+    WORDS = ("make.lua", "--sweep", "number=1:25:1", "--jobs", "3", "--out")
+
+    def group_of(self, process):
+        """Processes that the driver has started."""
+        try:
+            with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
+                return [int(word) for word in file.read().split()]
+        except OSError:
+            return []
+
+    def kill_at_random(self, rng, process):
+        time.sleep(rng.uniform(0.0, 0.25))
+        victims = rng.choice((["driver"], ["driver"], ["worker"], ["driver", "worker"]))
+        children = self.group_of(process)
+        if "driver" in victims:
+            process.kill()
+        if "worker" in victims and children:
+            try:
+                os.kill(rng.choice(children), signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        if "driver" not in victims:
+            time.sleep(0.05)
+            process.kill()
+        process.wait()
+
+    def test_random_kills_change_nothing(self):
+        self.batch(*self.WORDS, "undisturbed/{number}.txt")
+        rng = random.Random(1)
+        for _ in range(TRIALS):
+            process = subprocess.Popen(self.words(*self.WORDS, "out/{number}.txt"), cwd=self.folder,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.kill_at_random(rng, process)
+            if rng.random() < 0.2:
+                made = list(self.outputs())
+                if made:
+                    os.remove(self.path("out", rng.choice(made)))
+            if rng.random() < 0.1:
+                shutil.rmtree(self.path("out"), ignore_errors=True)
+        self.batch(*self.WORDS, "out/{number}.txt")
+        self.assertEqual(self.outputs(), self.outputs("undisturbed"))
+        self.assertEqual(set(self.reasons(*self.WORDS, "out/{number}.txt")), {""})
+        self.assertEqual(os.listdir(self.path("out", ".batch", "work")), [])
+
+    def test_what_a_dead_job_has_started_holds_its_place(self):
+        words = ("make.lua", "--set", "mode=orphan", "--out", "out/x.txt")
+        self.batch(*words)
+        os.remove(self.path("out", "x.txt"))
+        started = time.monotonic()
+        self.batch(*words)
+        self.assertGreater(time.monotonic() - started, 0.5)
+        self.assertEqual(list(self.outputs()), ["x.txt"])
+
+    @unittest.skipUnless(os.geteuid() == 0 and shutil.which("mount"), "a small disk needs root")
+    def test_a_full_disk_stops_the_batch_and_loses_nothing(self):
+        os.mkdir(self.path("small"))
+        mount = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=3m", "none", self.path("small")],
+                               capture_output=True, check=False)
+        if mount.returncode != 0:
+            self.skipTest("this system mounts no small disk")
+        try:
+            self.write("large.lua", '''
+                local p = require("lissom").params{ n = { type = "integer", default = 1 }, out = { type = "file",
+                    default = "" } }
+                local file = assert(io.open(p.out, "w"))
+                assert(file:write(("x"):rep(700000)))
+                assert(file:close())''')
+            words = ("large.lua", "--sweep", "n=1:9:1", "--jobs", "2", "--out", "small/{n}.txt")
+            run = self.batch(*words, status=1)
+            self.assertIn("is full", run.stderr)
+            self.assertTrue(all(len(text) == 700000 for text in self.outputs("small").values()))
+        finally:
+            subprocess.run(["umount", self.path("small")], check=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
