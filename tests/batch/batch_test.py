@@ -72,8 +72,9 @@ class Folder(unittest.TestCase):
     def words(self, *words):
         return [PROGRAM, "batch", *words]
 
-    def batch(self, *words, status=0):
-        run = subprocess.run(self.words(*words), cwd=self.folder, capture_output=True, text=True, timeout=300)
+    def batch(self, *words, status=0, environment=None):
+        run = subprocess.run(self.words(*words), cwd=self.folder, capture_output=True, text=True, timeout=300,
+                             env=environment)
         self.assertEqual(run.returncode, status, run.stdout + run.stderr)
         return run
 
@@ -341,6 +342,77 @@ class Kills(Folder):
             self.assertTrue(all(len(text) == 700000 for text in self.outputs("small").values()))
         finally:
             subprocess.run(["umount", self.path("small")], check=True)
+
+
+class Slurm(Folder):
+    """A cluster that is acted (see fake_slurm.py)."""
+
+    WORDS = ("make.lua", "--sweep", "number=1:25:1", "--out", "out/{number}.txt", "--slurm")
+
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path("bin"))
+        os.mkdir(self.path("slurm"))
+        for name in ("sbatch", "squeue", "scontrol"):
+            os.symlink(os.path.join(os.path.dirname(os.path.abspath(__file__)), "fake_slurm.py"),
+                       self.path("bin", name))
+
+    def submit(self, *words, status=0, **more):
+        environment = dict(os.environ, PATH=self.path("bin") + ":" + os.environ["PATH"],
+                           FAKE_SLURM=self.path("slurm"), **more)
+        return self.batch(*words, status=status, environment=environment)
+
+    def calls(self):
+        return self.read("slurm", "calls").splitlines()
+
+    def all_outputs(self):
+        return {f"{n}.txt": b"word %d 1  0\n" % n for n in range(1, 26)}
+
+    def test_one_array_runs_all_and_a_task_writes_the_summary(self):
+        self.submit(*self.WORDS, "--", "--account=me", "--mem=2G", FAKE_ARRAY_SIZE="2")
+        self.assertEqual(self.outputs(), self.all_outputs())
+        array, collector = self.calls()
+        for word in ("--array=0-1", "--requeue", "--open-mode=append", "--signal=B:TERM@60", "--account=me", "--mem=2G"):
+            self.assertIn(word, array.split())
+        self.assertIn("--dependency=afterany:101", collector.split())
+        for _ in range(200):
+            if os.path.exists(self.path("slurm", "102.ended")):
+                break
+            time.sleep(0.05)
+        self.assertIn("25 jobs, 25 done", self.read("out", "index.html"))
+        self.assertIn("0 done, 25 done before", self.submit(*self.WORDS).stdout)
+        self.assertEqual(len(self.calls()), 2)
+
+    def test_tasks_that_run_twice_do_no_harm(self):
+        self.submit(*self.WORDS, FAKE_MODE="twice", FAKE_ARRAY_SIZE="3")
+        self.assertEqual(self.outputs(), self.all_outputs())
+        records = [json.loads(line) for name in os.listdir(self.path("out", ".batch", "results"))
+                   for line in self.read("out", ".batch", "results", name).splitlines()]
+        self.assertEqual(sorted(record["output"] for record in records),
+                         sorted("out/" + name for name in self.all_outputs()))
+
+    def test_what_a_cluster_loses_is_submitted_by_the_same_command(self):
+        run = self.submit(*self.WORDS, FAKE_MODE="lose", FAKE_ARRAY_SIZE="6", status=1)
+        self.assertRegex(run.stdout, "13 done, 12 left")
+        self.submit(*self.WORDS, FAKE_MODE="forget", FAKE_ARRAY_SIZE="6")
+        self.assertEqual(self.outputs(), self.all_outputs())
+
+    def test_a_missing_or_refusing_sbatch_is_told(self):
+        run = self.submit(*self.WORDS, status=1, FAKE_MODE="refuse")
+        self.assertIn("Invalid account", run.stderr)
+        os.remove(self.path("bin", "sbatch"))
+        if not shutil.which("sbatch"):
+            self.assertIn("sbatch is not installed", self.submit(*self.WORDS, status=1).stderr)
+        self.assertIn("belong to --slurm", self.batch(*self.WORDS[:-1], "--", "--mem=2G", status=2).stderr)
+
+    def test_a_submission_is_exported_for_sites_that_change_it(self):
+        run = self.submit(*self.WORDS[:-1], "--export", "task.sh", "--", "--account=me")
+        self.assertFalse(os.path.exists(self.path("slurm", "calls")))
+        words = run.stdout.split()
+        self.assertEqual((words[0], words[-1]), ("sbatch", "task.sh"))
+        self.assertIn("--account=me", words)
+        subprocess.run(["sh", "task.sh"], cwd=self.folder, check=True, env=dict(os.environ, SLURM_ARRAY_TASK_ID="0"))
+        self.assertTrue(self.outputs())
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "bindings/cli/batch/cluster.h"
 #include "bindings/cli/batch/driver.h"
 #include "bindings/cli/batch/job_process.h"
 #include "bindings/cli/batch/plan.h"
@@ -21,8 +22,14 @@ struct Wanted {
     BatchOptions options;
     std::string progress = "auto";
     bool list = false;
-    // Not for users: the task of a process that a batch has started.
-    std::string job;
+    bool slurm = false;
+    std::string export_file;
+    // Words after "--".
+    std::vector<std::string> for_sbatch;
+    // Not for users: the task of a process that a batch has started, and the tasks of a cluster.
+    std::string job, submission;
+    int task = -1;
+    bool collect = false;
 };
 
 void declare(CLI::App& app, Wanted& wanted) {
@@ -51,7 +58,14 @@ void declare(CLI::App& app, Wanted& wanted) {
                    "auto (default: a line on a terminal), plain, json or none")
         ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
     app.add_flag("--list", wanted.list, "Print the plan, and why each job would run; run nothing");
+    app.add_flag("--slurm", wanted.slurm,
+                 "Run the jobs by Slurm, in one array; words after -- go to sbatch");
+    app.add_option("--export", wanted.export_file,
+                   "Write a script of tasks for sbatch to this file, and submit nothing");
     app.add_option("--job", wanted.job)->group("");
+    app.add_option("--submission", wanted.submission)->group("");
+    app.add_option("--task", wanted.task)->group("");
+    app.add_flag("--collect", wanted.collect)->group("");
 }
 
 std::string arguments_text(const BatchJob& job) {
@@ -164,26 +178,61 @@ int report_end(Program& program, const BatchPlan& plan, const BatchState& state,
         if (progress.kept > 0) std::cout << ", " << progress.kept << " done before";
         if (progress.failed > 0) std::cout << ", " << progress.failed << " failed";
         if (stopped) std::cout << ", " << progress.all - progress.ended() << " left";
+        if (stopped) std::cout << " (the same command goes on)";
         std::cout << "; " << (plan.folder / "index.html").string() << std::endl;
     }
-    if (stopped) return kInterrupted;
+    if (stopped) return program.interrupted() ? kInterrupted : kFailure;
     return progress.failed > 0 ? kFailure : kSuccess;
+}
+
+void listen(Program& program, const BatchPlan& plan, ProgressWriter& writer,
+            BatchOptions& options) {
+    // Ctrl-C ends the batch, and not the program at once.
+    program.context();
+    options.stopped = [&program] { return program.interrupted(); };
+    options.progress = [&writer](const BatchProgress& progress) { writer.show(progress); };
+    options.ended = [&program, &plan](const BatchJob& job, const JobRecord& record) {
+        report_failure(program, plan, job, record);
+    };
+}
+
+int export_plan(const BatchPlan& plan, BatchState& state, const Wanted& wanted) {
+    std::string line;
+    for (const std::string& word :
+         export_to_slurm(plan, state, wanted.options, wanted.export_file, wanted.for_sbatch)) {
+        line += (line.empty() ? "" : " ") + word;
+    }
+    std::cout << line << std::endl;
+    return kSuccess;
 }
 
 int run_plan(Program& program, const BatchPlan& plan, Wanted& wanted) {
     BatchState state(plan);
     if (wanted.list) return list_plan(program, plan, state);
     ProgressWriter writer(program, wanted.progress);
-    // Ctrl-C ends the batch, and not the program at once.
-    program.context();
-    wanted.options.stopped = [&program] { return program.interrupted(); };
-    wanted.options.progress = [&writer](const BatchProgress& progress) { writer.show(progress); };
-    wanted.options.ended = [&](const BatchJob& job, const JobRecord& record) {
-        report_failure(program, plan, job, record);
-    };
-    const BatchProgress progress = run_batch(plan, state, wanted.options);
+    listen(program, plan, writer, wanted.options);
+    if (!wanted.export_file.empty()) return export_plan(plan, state, wanted);
+    const BatchProgress progress =
+        wanted.slurm ? run_on_slurm(plan, state, wanted.options, wanted.for_sbatch)
+                     : run_batch(plan, state, wanted.options);
     write_summary(plan, state);
     return report_end(program, plan, state, progress);
+}
+
+// A task of a cluster, or the one that comes last.
+int run_submitted(Program& program, Wanted& wanted) {
+    const Submission submission = read_submission(wanted.submission);
+    if (wanted.collect) {
+        std::filesystem::current_path(submission.directory);
+        write_summary(submission.plan, BatchState(submission.plan));
+        return kSuccess;
+    }
+    ProgressWriter writer(program, "none");
+    BatchOptions options = submission.options;
+    listen(program, submission.plan, writer, options);
+    const BatchProgress progress =
+        run_task(submission, static_cast<std::size_t>(std::max(0, wanted.task)), options);
+    return progress.failed > 0 || progress.ended() < progress.all ? kFailure : kSuccess;
 }
 
 }  // namespace
@@ -198,13 +247,21 @@ int batch(Program& program, const std::vector<std::string>& words) {
     declare(app, wanted);
     wanted.options.jobs = 0;
     int status = kSuccess;
-    if (!program.parse(app, words, status)) return status;
+    const auto rest = std::find(words.begin(), words.end(), "--");
+    if (rest != words.end()) wanted.for_sbatch.assign(rest + 1, words.end());
+    if (!program.parse(app, {words.begin(), rest}, status)) return status;
+    if (!wanted.for_sbatch.empty() && !wanted.slurm && wanted.export_file.empty()) {
+        return program.fail("lissom batch: words after -- belong to --slurm", kUsage);
+    }
+    if (!wanted.submission.empty()) return run_submitted(program, wanted);
     if (!wanted.job.empty()) return run_job(program, wanted.job);
     if (wanted.words.script.empty() || wanted.words.out.empty()) {
         return program.fail("lissom batch: SCRIPT and --out are needed (see lissom batch --help)",
                             kUsage);
     }
-    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    const bool elsewhere = wanted.slurm || !wanted.export_file.empty();
+    const int cores =
+        elsewhere ? 1 : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     if (wanted.options.jobs == 0) wanted.options.jobs = cores;
     wanted.options.threads =
         program.threads > 0 ? program.threads : std::max(1, cores / wanted.options.jobs);

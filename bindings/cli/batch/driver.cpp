@@ -15,6 +15,7 @@
 #include "bindings/cli/batch/staging.h"
 #include "bindings/cli/json.h"
 #include "bindings/cli/process/child_process.h"
+#include "bindings/cli/process/process_number.h"
 #include "kernel/core/error.h"
 #include "kernel/core/version.h"
 #include "kernel/io/stream/file.h"
@@ -54,13 +55,14 @@ class Attempt {
   public:
     Attempt(const BatchPlan& plan, const BatchJob& job, int number, const BatchOptions& options,
             const BatchState& state)
-        : job_(job),
+        : plan_(plan),
+          job_(job),
           number_(number),
-          timeout_(options.timeout),
+          options_(options),
+          folder_(state.folder()),
           lock_(state.folder() / "locks" / job_key(job)) {
         log_ = state.folder() / "logs" / (job_key(job) + "." + std::to_string(number) + ".log");
         is_free_ = lock_.take();
-        if (is_free_) start(plan, options, state);
     }
     ~Attempt() {
         // Ends the process before its folder and lock go.
@@ -75,10 +77,25 @@ class Attempt {
     int number() const { return number_; }
     const ChildProcess& process() const { return *process_; }
 
+    void start() {
+        std::error_code ignored;
+        fs::remove(log_, ignored);
+        // A process that outlives its driver keeps its own folder.
+        const std::string work = job_key(job_) + "." + std::to_string(process_number());
+        staging_.emplace(folder_ / "work" / work, job_.output, plan_.makes_folders);
+        const JobTask task{plan_.script, script_words(plan_, job_, staging_->output())};
+        start_ = Clock::now();
+        process_ = std::make_unique<ChildProcess>(
+            std::vector<std::string>{"batch", "--threads", std::to_string(options_.threads),
+                                     "--job", task_line(task)},
+            log_, lock_.descriptor());
+    }
+
     // Takes the news; returns whether the process has ended.
     bool has_ended() {
         for (const std::string& line : process_->lines()) take(line);
-        if (!process_->has_ended() && timeout_ > 0.0 && seconds_after(start_) > timeout_) {
+        if (!process_->has_ended() && options_.timeout > 0.0 &&
+            seconds_after(start_) > options_.timeout) {
             is_late_ = true;
             process_->kill();
         }
@@ -96,18 +113,6 @@ class Attempt {
     }
 
   private:
-    void start(const BatchPlan& plan, const BatchOptions& options, const BatchState& state) {
-        std::error_code ignored;
-        fs::remove(log_, ignored);
-        staging_.emplace(state.folder() / "work" / job_key(job_), job_.output, plan.makes_folders);
-        const JobTask task{plan.script, script_words(plan, job_, staging_->output())};
-        start_ = Clock::now();
-        process_ = std::make_unique<ChildProcess>(
-            std::vector<std::string>{"batch", "--threads", std::to_string(options.threads), "--job",
-                                     task_line(task)},
-            log_, lock_.descriptor());
-    }
-
     void take(const std::string& line) {
         try {
             news_ = read_news(line);
@@ -126,7 +131,7 @@ class Attempt {
                          : end.by_signal          ? "crashed"
                          : end.status == kSuccess ? "done"
                                                   : "failed";
-        record.message = is_late_        ? "it took longer than " + number_text(timeout_) + " s"
+        record.message = is_late_ ? "it took longer than " + number_text(options_.timeout) + " s"
                          : end.by_signal ? end.text()
                                          : news_.message.substr(0, kMessageLength);
         record.log = fs::path(log_).lexically_relative(state.folder().parent_path()).string();
@@ -163,9 +168,11 @@ class Attempt {
         return stamps;
     }
 
+    const BatchPlan& plan_;
     const BatchJob& job_;
     int number_;
-    double timeout_;
+    const BatchOptions& options_;
+    fs::path folder_;
     FileLock lock_;
     fs::path log_;
     bool is_free_ = false, is_late_ = false;
@@ -233,9 +240,20 @@ class Driver {
                 waiting_.push_back(std::move(next));
                 continue;
             }
+            if (options_.shares_folder && next.attempt == 1 && is_done_elsewhere(*next.job)) {
+                ++progress_.kept;
+                continue;
+            }
+            attempt->start();
             if (options_.started) options_.started(*next.job, next.reason);
             running_.push_back(std::move(attempt));
         }
+    }
+
+    // To be asked with the lock of the job, which another process may have had.
+    bool is_done_elsewhere(const BatchJob& job) {
+        state_.refresh();
+        return state_.reason_to_run(job).empty();
     }
 
     void wait() const {
@@ -310,7 +328,7 @@ std::string first_line(const fs::path& file) {
 // Work folders of processes that were killed.
 void remove_abandoned_work(const fs::path& folder) {
     for (const fs::directory_entry& work : fs::directory_iterator(folder / "work")) {
-        FileLock lock(folder / "locks" / work.path().filename());
+        FileLock lock(folder / "locks" / work.path().stem());
         std::error_code ignored;
         if (lock.take()) fs::remove_all(work.path(), ignored);
     }
@@ -365,18 +383,23 @@ std::string BatchState::reason_to_run(const BatchJob& job) {
     return "";
 }
 
-BatchProgress run_batch(const BatchPlan& plan, BatchState& state, const BatchOptions& options) {
-    for (const char* name : {"results", "logs", "locks", "work"}) {
+std::unique_ptr<FileLock> lock_batch(const BatchPlan& plan, const BatchState& state, bool shares) {
+    for (const char* name : {"results", "logs", "locks", "work", "slurm"}) {
         make_folder(state.folder() / name);
     }
-    FileLock lock(state.folder() / "lock");
-    if (!lock.take()) {
+    auto lock = std::make_unique<FileLock>(state.folder() / "lock");
+    if (!(shares ? lock->share() : lock->take())) {
         throw Error(ErrorCode::file_write_failed, "another batch works in " +
                                                       display_name(plan.folder) + ": process " +
                                                       first_line(state.folder() / "lock"));
     }
-    lock.write(process_name() + "\n");
-    remove_abandoned_work(state.folder());
+    lock->write(process_name() + "\n");
+    if (!shares) remove_abandoned_work(state.folder());
+    return lock;
+}
+
+BatchProgress run_batch(const BatchPlan& plan, BatchState& state, const BatchOptions& options) {
+    const std::unique_ptr<FileLock> lock = lock_batch(plan, state, options.shares_folder);
     return Driver(plan, state, options).run();
 }
 

@@ -3,9 +3,10 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
+#include <memory>
 #include <string>
 
+#include "bindings/cli/batch/durable_files.h"
 #include "bindings/cli/batch/ledger.h"
 #include "bindings/cli/batch/plan.h"
 
@@ -38,6 +39,8 @@ struct BatchOptions {
     std::function<void(const BatchJob& job, const JobRecord& record)> ended;
     /// Hears of the state a few times each second.
     std::function<void(const BatchProgress&)> progress;
+    /// Other processes may work on other jobs of the folder, as the tasks of a cluster do.
+    bool shares_folder = false;
 };
 
 /// Folder of the records, logs and locks of a batch below that of its outputs.
@@ -55,6 +58,9 @@ class BatchState {
     const JobRecord* record(const BatchJob& job) const { return ledger_.find(job.output.string()); }
     void add(const std::vector<JobRecord>& records) { ledger_.add(records); }
 
+    /// Reads the records that other processes have added.
+    void refresh() { ledger_.refresh(); }
+
     FileDigests& digests() { return digests_; }
     const std::string& program() const { return program_; }
     std::filesystem::path folder() const { return folder_; }
@@ -68,8 +74,12 @@ class BatchState {
     Ledger ledger_;
 };
 
-/// Runs what is not done. Only one process works on a folder at a time. Errors: file_write_failed
-/// if another one does, or if the disk is full: jobs that have ended are kept.
+/// Takes the lock of the folder of a batch, or a part of it, after making the folder. Errors:
+/// file_write_failed, also if another process has it.
+std::unique_ptr<FileLock> lock_batch(const BatchPlan& plan, const BatchState& state, bool shares);
+
+/// Runs what is not done, with the lock of the folder. Errors: file_write_failed, also if the disk
+/// is full: jobs that have ended are kept.
 BatchProgress run_batch(const BatchPlan& plan, BatchState& state, const BatchOptions& options);
 
 }  // namespace lissom::cli

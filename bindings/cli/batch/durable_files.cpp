@@ -85,6 +85,10 @@ bool FileLock::take() {
     return flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
 }
 
+bool FileLock::share() {
+    return flock(descriptor_, LOCK_SH | LOCK_NB) == 0;
+}
+
 void FileLock::write(std::string_view text) const {
     if (ftruncate(descriptor_, 0) == 0) write_all(descriptor_, text);
 }

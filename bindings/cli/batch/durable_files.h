@@ -55,6 +55,8 @@ class FileLock {
 
     /// Takes the lock if nobody has it.
     bool take();
+    /// Takes a part of the lock, if nobody has all of it.
+    bool share();
     /// Replaces the text in the file, which tells others who has the lock.
     void write(std::string_view text) const;
     int descriptor() const { return descriptor_; }

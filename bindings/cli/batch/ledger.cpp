@@ -72,10 +72,15 @@ JobRecord read_record(const std::string& line) {
     return record;
 }
 
-Ledger::Ledger(const fs::path& folder) : file_(folder / (process_name() + ".jsonl")) {
+Ledger::Ledger(const fs::path& folder)
+    : folder_(folder), file_(folder / (process_name() + ".jsonl")) {
+    refresh();
+}
+
+void Ledger::refresh() {
     std::vector<fs::path> files;
     std::error_code missing;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_, missing)) {
         if (entry.path().extension() == ".jsonl") files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
@@ -83,8 +88,13 @@ Ledger::Ledger(const fs::path& folder) : file_(folder / (process_name() + ".json
 }
 
 void Ledger::read(const fs::path& file) {
+    std::streamoff& begin = read_[file];
+    if (static_cast<std::streamoff>(file_identity(file).size) == begin) return;
     std::ifstream stream(file, std::ios::binary);
-    for (std::string line; std::getline(stream, line);) {
+    stream.seekg(begin);
+    // A last line without an end is being written, or was when its process was killed.
+    for (std::string line; std::getline(stream, line) && !stream.eof();) {
+        begin += static_cast<std::streamoff>(line.size()) + 1;
         try {
             JobRecord record = read_record(line);
             JobRecord& known = records_[record.output];

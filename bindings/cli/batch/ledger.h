@@ -55,12 +55,18 @@ class Ledger {
     /// Writes records to the disk, into the folder, which must exist. Errors: file_write_failed.
     void add(const std::vector<JobRecord>& records);
 
+    /// Reads the records that other processes have added.
+    void refresh();
+
     const std::map<std::string, JobRecord>& records() const { return records_; }
 
   private:
     void read(const std::filesystem::path& file);
 
+    std::filesystem::path folder_;
     GrowingFile file_;
+    // Bytes of each file that were read, up to the end of a line.
+    std::map<std::filesystem::path, std::streamoff> read_;
     std::map<std::string, JobRecord> records_;
 };
 

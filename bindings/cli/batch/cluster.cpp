@@ -1,0 +1,167 @@
+#include "bindings/cli/batch/cluster.h"
+
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include "bindings/cli/batch/slurm.h"
+#include "bindings/cli/json.h"
+#include "kernel/core/error.h"
+#include "kernel/io/stream/file.h"
+
+namespace lissom::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kLookSeconds = 1.0, kAskSeconds = 8.0;
+
+std::int64_t now_in_milliseconds() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+}
+
+// Mean seconds of the jobs that were done, 0 if there are none.
+double mean_seconds(const BatchPlan& plan, const BatchState& state) {
+    double sum = 0.0, count = 0.0;
+    for (const BatchJob& job : plan.jobs) {
+        const JobRecord* const record = state.record(job);
+        if (!record || !record->is_done()) continue;
+        sum += record->seconds;
+        ++count;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+fs::path submission_file(const BatchState& state) {
+    return fs::absolute(state.folder() / "slurm" / "submission.json");
+}
+fs::path array_file(const BatchState& state) {
+    return state.folder() / "slurm" / "array.json";
+}
+
+// The array that was submitted last and has not ended, as far as Slurm tells.
+std::optional<SlurmArray> running_array(const BatchState& state) {
+    std::error_code error;
+    if (!fs::exists(array_file(state), error)) return {};
+    const Json json = Json::parse(read_file(array_file(state)).bytes, nullptr, false);
+    if (!json.is_object()) return {};
+    const SlurmArray array{json.value("id", ""), json.value("name", "")};
+    if (slurm_state(array) != SlurmState::waits_or_runs) return {};
+    return array;
+}
+
+// Jobs that were not done when the watch began, and how they stand.
+class Watch {
+  public:
+    Watch(const BatchPlan& plan, BatchState& state, const BatchOptions& options, std::int64_t since)
+        : plan_(plan), state_(state), options_(options), since_(since) {
+        for (const BatchJob& job : plan.jobs) {
+            if (state.reason_to_run(job).empty()) continue;
+            watched_.push_back(&job);
+        }
+        progress_.all = plan.jobs.size();
+        progress_.kept = plan.jobs.size() - watched_.size();
+    }
+
+    void look() {
+        state_.refresh();
+        progress_.done = progress_.failed = 0;
+        for (const BatchJob* job : watched_) {
+            const JobRecord* const record = state_.record(*job);
+            if (!record || record->time < since_) continue;
+            progress_.done += record->is_done();
+            progress_.failed += !record->is_done() && record->attempts > options_.retries;
+        }
+        progress_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+        if (options_.progress) options_.progress(progress_);
+    }
+
+    const BatchProgress& progress() const { return progress_; }
+
+  private:
+    const BatchPlan& plan_;
+    BatchState& state_;
+    const BatchOptions& options_;
+    std::int64_t since_;
+    std::vector<const BatchJob*> watched_;
+    BatchProgress progress_;
+    Clock::time_point start_ = Clock::now();
+};
+
+BatchProgress watch(const BatchPlan& plan, BatchState& state, const BatchOptions& options,
+                    const SlurmArray& array, std::int64_t since) {
+    Watch watch(plan, state, options, since);
+    Clock::time_point asked = Clock::now();
+    for (bool ended = false; !options.stopped();) {
+        watch.look();
+        if (ended || watch.progress().ended() == watch.progress().all) break;
+        std::this_thread::sleep_for(std::chrono::duration<double>(kLookSeconds));
+        if (std::chrono::duration<double>(Clock::now() - asked).count() < kAskSeconds) continue;
+        ended = slurm_state(array) == SlurmState::ended;
+        asked = Clock::now();
+    }
+    return watch.progress();
+}
+
+}  // namespace
+
+Submission make_submission(const BatchPlan& plan, BatchState& state, const BatchOptions& options,
+                           std::size_t most_tasks) {
+    const std::unique_ptr<FileLock> lock = lock_batch(plan, state, false);
+    Submission submission;
+    submission.plan = plan;
+    submission.options = options;
+    submission.directory = fs::current_path();
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
+        if (!state.reason_to_run(plan.jobs[i]).empty()) open.push_back(i);
+    }
+    submission.tasks = divide(open, mean_seconds(plan, state), options.jobs, most_tasks);
+    return submission;
+}
+
+BatchProgress run_on_slurm(const BatchPlan& plan, BatchState& state, const BatchOptions& options,
+                           const std::vector<std::string>& more) {
+    if (const std::optional<SlurmArray> before = running_array(state)) {
+        return watch(plan, state, options, *before, 0);
+    }
+    const std::int64_t since = now_in_milliseconds();
+    const Submission submission = make_submission(plan, state, options, most_tasks());
+    if (submission.tasks.empty()) return watch(plan, state, options, {}, since);
+    write_submission(submission, submission_file(state));
+    const SlurmArray array = submit(submission, submission_file(state), more);
+    write_file_atomically(array_file(state),
+                          json_text({{"id", array.id}, {"name", array.name}}) + "\n");
+    return watch(plan, state, options, array, since);
+}
+
+std::vector<std::string> export_to_slurm(const BatchPlan& plan, BatchState& state,
+                                         const BatchOptions& options, const fs::path& script,
+                                         const std::vector<std::string>& more) {
+    const Submission submission = make_submission(plan, state, options, most_tasks());
+    const fs::path file = submission_file(state);
+    write_submission(submission, file);
+    write_file_atomically(script, task_script(file));
+    return sbatch_words(submission, "lissom", file.parent_path(), script, more);
+}
+
+BatchProgress run_task(const Submission& submission, std::size_t task, BatchOptions options) {
+    if (task >= submission.tasks.size()) {
+        throw Error(ErrorCode::out_of_range, "the submission has " +
+                                                 std::to_string(submission.tasks.size()) +
+                                                 " tasks, not task " + std::to_string(task));
+    }
+    fs::current_path(submission.directory);
+    BatchPlan plan = submission.plan;
+    plan.jobs.clear();
+    for (const std::size_t job : submission.tasks[task]) {
+        plan.jobs.push_back(submission.plan.jobs.at(job));
+    }
+    BatchState state(plan);
+    options.shares_folder = true;
+    return run_batch(plan, state, options);
+}
+
+}  // namespace lissom::cli
