@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+"""Runs `lissom batch --slurm` on a Slurm of four nodes on the loopback: requeued tasks, a node whose tasks go on after it
+has failed, a controller that forgets, a time limit, jobs that are purged, and more jobs than an array may have.
+Needs slurmctld, slurmd, munged, and root. Usage: slurm_test.py PROGRAM"""
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.path.abspath(sys.argv.pop(1))
+NODES = 4
+
+CONFIGURATION = """ClusterName=test
+SlurmctldHost=localhost(127.0.0.1)
+SlurmctldPort=16817
+CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
+AuthInfo=socket={folder}/munge.socket
+SlurmUser=root
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool.%n
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.%n.pid
+SlurmctldLogFile={folder}/slurmctld.log
+SlurmdLogFile={folder}/slurmd.%n.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+SchedulerParameters=batch_sched_delay=0,sched_min_interval=0,sched_interval=1
+SlurmdParameters=config_overrides
+ReturnToService=2
+SlurmdTimeout=10
+KillWait=2
+MinJobAge=2
+MaxArraySize=1001
+NodeName=n[1-{nodes}] NodeHostname=localhost NodeAddr=127.0.0.1 Port=[17001-{last}] CPUs=2
+PartitionName=main Nodes=ALL Default=YES MaxTime=60
+"""
+
+SCRIPT = r'''
+local p = require("lissom").params{ n = { type = "integer", default = 1 }, seconds = { type = "number", default = 0 },
+    out = { type = "file", default = "" } }
+if p.seconds > 0 then os.execute("sleep " .. p.seconds) end
+local file = assert(io.open(p.out, "w"))
+file:write(p.n, "\n")
+file:close()
+'''
+
+
+class Cluster:
+    """Slurm in a folder of its own."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        os.environ["SLURM_CONF"] = self.path("slurm.conf")
+        with open(self.path("slurm.conf"), "w", encoding="ascii") as file:
+            file.write(CONFIGURATION.format(folder=folder, nodes=NODES, last=17000 + NODES))
+        for name in ["state"] + [f"spool.n{i + 1}" for i in range(NODES)]:
+            os.mkdir(self.path(name))
+        with open(self.path("munge.key"), "wb", opener=lambda path, flags: os.open(path, flags, 0o600)) as file:
+            file.write(os.urandom(1024))
+        os.chmod(folder, 0o755)
+        subprocess.run(["munged", "--key-file=" + self.path("munge.key"), "--socket=" + self.path("munge.socket"),
+                        "--pid-file=" + self.path("munged.pid"), "--log-file=" + self.path("munged.log"),
+                        "--seed-file=" + self.path("munge.seed"), "--num-threads=4"], check=True)
+        self.start_controller()
+        for i in range(NODES):
+            self.start_node(i + 1)
+        self.wait_for_nodes()
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def start_controller(self, *words):
+        subprocess.run(["slurmctld", *words], check=True)
+
+    def start_node(self, number):
+        subprocess.run(["slurmd", "-N", f"n{number}"], check=True)
+
+    def wait_for_nodes(self):
+        for _ in range(600):
+            run = subprocess.run(["sinfo", "-h", "-o", "%D %t"], capture_output=True, text=True, check=False)
+            if run.stdout.strip() == f"{NODES} idle":
+                return
+            time.sleep(0.1)
+        raise RuntimeError("the nodes of Slurm do not come up: " + run.stdout)
+
+    def process(self, name):
+        with open(self.path(name + ".pid"), encoding="ascii") as file:
+            return int(file.read())
+
+    def kill(self, name):
+        os.kill(self.process(name), signal.SIGKILL)
+        time.sleep(0.2)
+
+    def stop(self):
+        for name in ["slurmctld"] + [f"slurmd.n{i + 1}" for i in range(NODES)] + ["munged"]:
+            try:
+                os.kill(self.process(name), signal.SIGTERM)
+            except (OSError, ValueError):
+                pass
+        time.sleep(2)
+
+
+class Slurm(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.root = tempfile.mkdtemp(prefix="lissom-slurm-")
+        cls.cluster = Cluster(cls.root)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.cluster.stop()
+        shutil.rmtree(cls.root, ignore_errors=True)
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="job-", dir=self.root)
+        with open(os.path.join(self.folder, "make.lua"), "w", encoding="ascii") as file:
+            file.write(SCRIPT)
+
+    def start(self, *words):
+        return subprocess.Popen([PROGRAM, "batch", "make.lua", "--out", "out/{n}.txt", "--slurm", *words],
+                                cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    def run_all(self, *words, timeout=600):
+        process = self.start(*words)
+        text = process.communicate(timeout=timeout)[0]
+        return process.returncode, text
+
+    def wait_for_outputs(self, count):
+        for _ in range(1200):
+            if len(self.outputs()) >= count:
+                return
+            time.sleep(0.1)
+        self.fail("no outputs come")
+
+    def outputs(self):
+        out = os.path.join(self.folder, "out")
+        found = {}
+        for name in os.listdir(out) if os.path.isdir(out) else []:
+            if name.endswith(".txt"):
+                with open(os.path.join(out, name), encoding="ascii") as file:
+                    found[name] = file.read()
+        return found
+
+    def expect_all(self, count):
+        self.assertEqual(self.outputs(), {f"{n}.txt": f"{n}\n" for n in range(1, count + 1)})
+
+    def until_all(self, *words, tries=4):
+        """Gives the same command until all is done."""
+        for _ in range(tries):
+            status, text = self.run_all(*words)
+            if status == 0:
+                return
+        self.fail(text)
+
+    def test_more_jobs_than_an_array_may_have(self):
+        status, text = self.run_all("--sweep", "n=1:3000:1")
+        self.assertEqual(status, 0, text)
+        self.expect_all(3000)
+
+    def test_a_node_fails_and_its_task_goes_on(self):
+        words = ("--sweep", "n=1:48:1", "--set", "seconds=1")
+        process = self.start(*words)
+        self.wait_for_outputs(1)
+        self.cluster.kill("slurmd.n1")
+        time.sleep(15)
+        self.cluster.start_node(1)
+        process.communicate(timeout=600)
+        self.until_all(*words)
+        self.expect_all(48)
+        self.cluster.wait_for_nodes()
+
+    def test_a_controller_that_forgets_uses_an_id_again(self):
+        words = ("--sweep", "n=1:24:1", "--set", "seconds=0.5")
+        process = self.start(*words)
+        self.wait_for_outputs(1)
+        self.cluster.kill("slurmctld")
+        self.cluster.start_controller("-c")
+        process.communicate(timeout=600)
+        self.until_all(*words)
+        self.expect_all(24)
+        self.cluster.wait_for_nodes()
+
+    def test_a_time_limit_ends_tasks_and_the_same_command_goes_on(self):
+        words = ("--sweep", "n=1:3:1", "--set", "seconds=50", "--", "--time=1")
+        status, text = self.run_all(*words)
+        self.assertEqual(status, 1, text)
+        self.until_all("--sweep", "n=1:3:1", "--set", "seconds=0", "--", "--time=1")
+        self.expect_all(3)
+
+    def test_a_refused_option_is_told(self):
+        status, text = self.run_all("--sweep", "n=1:3:1", "--", "--partition=nowhere")
+        self.assertEqual(status, 1)
+        self.assertIn("nowhere", text)
+
+
+if __name__ == "__main__":
+    missing = [name for name in ("slurmctld", "slurmd", "munged", "sbatch") if not shutil.which(name)]
+    if missing or os.geteuid() != 0:
+        print("skipped: " + (", ".join(missing) + " is not installed" if missing else "needs root"))
+        sys.exit(77)
+    unittest.main()
