@@ -70,6 +70,11 @@ const std::vector<Rule>& rules() {
         {"viewer/window/screen/glfw_functions.cpp", {}, {"GLFW", "platform"}},
         {"viewer/window/panel/drawn_lists.cpp", {"viewer"}, {"ImGui"}},
         {"viewer/window/panel/panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
+        {"viewer/window/panel/panel_style.cpp", {"viewer"}, {"ImGui"}},
+        {"viewer/window/panel/panel_input.cpp", {"viewer"}, {"ImGui"}},
+        {"viewer/window/panel/prompt.cpp", {"viewer"}, {"ImGui"}},
+        {"viewer/window/panel/console_view.cpp", {"viewer"}, {"ImGui"}},
+        {"viewer/window/panel/side_view.cpp", {"viewer"}, {"ImGui", "printing", "platform"}},
         {"viewer/window/panel/tool_panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
         {"viewer/window/panel/parameter_widgets.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
         {"viewer/window/panel/text_history.cpp", {"viewer"}, {"ImGui"}},
@@ -117,8 +122,9 @@ const std::vector<Names>& room_orders() {
          "bindings/cli", "bindings/cli/test"},
         {"viewer/render/draw/image", "viewer/render/draw", "viewer/render/strands",
          "viewer/render/gl", "viewer/render", "viewer/lua", "viewer/window/screen",
-         "viewer/window/tools", "viewer/window/session", "viewer/window/makers",
-         "viewer/window/panel", "viewer/window/app", "viewer/window", "viewer/main"},
+         "viewer/window/tools", "viewer/window/session", "viewer/window/document",
+         "viewer/window/session/session", "viewer/window/makers", "viewer/window/panel",
+         "viewer/window/app", "viewer/window", "viewer/main"},
     };
     return orders;
 }
