@@ -38,7 +38,7 @@ ConstraintSet holding_in_fact(const RestShape& rest, const ConstraintSet& constr
     ConstraintSet result = constraints;
     const int rings = rest.options().free_rings;
     if (rings == 0) return result;
-    Holding holding = find_holding(*rest.work, constraints);
+    HolderMap holding = find_holding(*rest.work, constraints);
     free_gap_rings(*rest.work, rings, holding);
     for (std::size_t h = 0; h < result.handles.size(); ++h) {
         if (!constraints.handles[h] || constraints.handles[h]->soft()) continue;
@@ -60,7 +60,7 @@ void collect_held(Preparation& next, const ConstraintSet& constraints) {
 }
 
 void find_who_holds(Preparation& next, const ConstraintSet& constraints, const Context& context) {
-    Holding holding = find_holding(*next.work, constraints);
+    HolderMap holding = find_holding(*next.work, constraints);
     next.gaps = handle_gaps(*next.rest->work, find_holding(*next.rest->work, constraints));
     next.following = hold_loose_parts(*next.work, next.rest->options().loose, holding, context);
     require_constraints(*next.work, holding.known);

@@ -114,14 +114,14 @@ BoundaryValue common_value(const Mesh& mesh, const Region& feature, const Region
 }
 
 // Tells how a join without keys was placed.
-void note_place(const MergePreparation& preparation, const FoundPlaces& found, std::size_t j,
-                JoinReport& join, std::vector<std::string>& warnings) {
+void note_place(Place place, const FoundPlaces& found, std::size_t j, JoinReport& join,
+                std::vector<std::string>& warnings) {
     join.placed = found.by;
     join.certainty = found.certainty[j];
     join.any_turn = found.any_turn;
     join.guessed = found.by == Placing::shape || join.certainty < kCertain;
     const std::string name = "join " + std::to_string(j + 1) + ": ";
-    if (found.by == Placing::shape && preparation.options.place == Place::as_placed) {
+    if (found.by == Placing::shape && place == Place::as_placed) {
         warnings.push_back(name +
                            "the source must be turned over to meet the target, so that how it lies "
                            "does not say which way it belongs; the shapes decide");
@@ -160,11 +160,10 @@ void turn_as(const CurveFit& fit, std::vector<BoundaryValue>& values) {
 }
 
 // One value a held vertex; those not on a loop stay as they are.
-std::vector<BoundaryValue> values_of(const MergePreparation& preparation,
+std::vector<BoundaryValue> values_of(const Boundaries& from, const LoopValueOptions& options,
                                      std::span<const LoopPair> pairs,
                                      std::span<const std::optional<CurveFit>> fits,
                                      const Region& held) {
-    const Boundaries& from = preparation.boundaries;
     const std::vector<Index>& ids = held.vertices();
     std::vector<BoundaryValue> values;
     for (const Index v : ids) {
@@ -172,8 +171,8 @@ std::vector<BoundaryValue> values_of(const MergePreparation& preparation,
     }
     for (std::size_t j = 0; j < pairs.size(); ++j) {
         const LoopPair& pair = pairs[j];
-        std::vector<BoundaryValue> loop = loop_values(from.source_curves[j], from.target_curves[j],
-                                                      pair, preparation.method.values);
+        std::vector<BoundaryValue> loop =
+            loop_values(from.source_curves[j], from.target_curves[j], pair, options);
         if (!fits.empty() && fits[j]) turn_as(*fits[j], loop);
         for (std::size_t i = 0; i < loop.size(); ++i) {
             values[std::lower_bound(ids.begin(), ids.end(), pair.source[i]) - ids.begin()] =
@@ -184,10 +183,10 @@ std::vector<BoundaryValue> values_of(const MergePreparation& preparation,
 }
 
 // All of the region under one similarity.
-BoundaryDeformation laid(const MergePreparation& preparation, const CurveFit& fit) {
+BoundaryDeformation laid(const Mesh& mesh, const Region& region, const CurveFit& fit) {
     BoundaryDeformation result;
-    for (const Index v : preparation.deformer->region().vertices()) {
-        result.positions.push_back(fit(preparation.boundaries.source.mesh.position(v)));
+    for (const Index v : region.vertices()) {
+        result.positions.push_back(fit(mesh.position(v)));
     }
     result.transforms.assign(result.positions.size(), fit.scale * fit.rotation);
     return result;
@@ -222,10 +221,9 @@ void follow(const Mesh& mesh, const Region& moved, const BoundaryDeformation& de
 }
 
 // Parts without a join move along; in the fixed configuration they stay.
-Motion motion_of(const MergePreparation& preparation, BoundaryDeformation deformed) {
-    const Mesh& mesh = preparation.boundaries.source.mesh;
-    const Region& region = preparation.deformer->region();
-    const bool stays = preparation.options.configuration == Configuration::fixed;
+Motion motion_of(const Mesh& mesh, const Region& region, Configuration configuration,
+                 BoundaryDeformation deformed) {
+    const bool stays = configuration == Configuration::fixed;
     if (stays || region.size() == mesh.vertex_count()) return {region, std::move(deformed)};
     Motion motion{Region::all(mesh.shared_topology()), {}};
     BoundaryDeformation& whole = motion.deformed;
@@ -275,13 +273,12 @@ struct MatchedKeys {
 };
 
 // How the parts of a join fit with its keys, or near a place that was found.
-std::optional<CurveFit> fit_of(const MergePreparation& preparation, std::size_t j,
+std::optional<CurveFit> fit_of(const Boundaries& from, const MergeOptions& options, std::size_t j,
                                std::span<const ParameterPair> keys, const FoundPlaces* found) {
-    if (preparation.options.thesis) return std::nullopt;
-    const Boundaries& from = preparation.boundaries;
+    if (options.thesis) return std::nullopt;
     const FitSides sides{from.source.mesh, from.target, from.source_curves[j],
                          from.target_curves[j]};
-    const Configuration configuration = preparation.options.configuration;
+    const Configuration configuration = options.configuration;
     if (!found) return part_fit(sides, keys, configuration);
     if (configuration == Configuration::fixed) return std::nullopt;
     if (found->by == Placing::shape) {
@@ -302,14 +299,14 @@ MatchedKeys matched_keys(const MergePreparation& preparation, std::size_t j,
     const Boundaries& from = preparation.boundaries;
     JoinReport& join = matching.joins[j];
     MatchedKeys matched{std::move(keys), {}};
-    matched.fit = fit_of(preparation, j, matched.keys, nullptr);
+    matched.fit = fit_of(from, preparation.options, j, matched.keys, nullptr);
     if (!matched.keys.empty()) return matched;
     join.placed = Placing::as_placed;
     if (!matched.fit) {
         const FoundPlaces& found = find();
-        matched.fit = fit_of(preparation, j, {}, &found);
+        matched.fit = fit_of(from, preparation.options, j, {}, &found);
         matched.keys = {found.keys[j]};
-        note_place(preparation, found, j, join, matching.warnings);
+        note_place(preparation.options.place, found, j, join, matching.warnings);
     }
     if (matched.fit) {
         matched.keys = {key_of(*matched.fit, from.source_curves[j], from.target_curves[j])};
@@ -318,9 +315,8 @@ MatchedKeys matched_keys(const MergePreparation& preparation, std::size_t j,
 }
 
 // Returns one pair of loops, and fills in its report.
-LoopPair matched_loops(const MergePreparation& preparation, std::size_t j,
+LoopPair matched_loops(const Boundaries& from, LoopMeasure measure, std::size_t j,
                        const MatchedKeys& matched, JoinReport& join) {
-    const Boundaries& from = preparation.boundaries;
     const Loop &source = from.source_curves[j], &target = from.target_curves[j];
     join.refined = from.refined[j] != 0;
     join.target_refined = from.target_refined[j] != 0;
@@ -328,9 +324,9 @@ LoopPair matched_loops(const MergePreparation& preparation, std::size_t j,
     join.target_size = target.size();
     join.fits = matched.fit.has_value();
     join.scale = matched.fit ? matched.fit->scale : loop_scale(source, target);
-    LoopPair pair = matched.fit ? matched.fit->pair
-                                : corresponding(source, target, matched.keys,
-                                                preparation.method.loops == LoopMeasure::robust);
+    LoopPair pair =
+        matched.fit ? matched.fit->pair
+                    : corresponding(source, target, matched.keys, measure == LoopMeasure::robust);
     if (!from.overlap) join.key = key_of(source, target, matched.keys.front());
     join.turn = rotation_vector(similarity_of(source, target, pair).rotation);
     return pair;
@@ -372,7 +368,8 @@ Matching match_boundaries(const MergePreparation& preparation,
                                     : nearest_vertex(source, placed.parameters.front().source));
         MatchedKeys matched =
             matched_keys(preparation, j, std::move(placed.parameters), find, result);
-        result.pairs.push_back(matched_loops(preparation, j, matched, result.joins[j]));
+        result.pairs.push_back(matched_loops(preparation.boundaries, preparation.method.loops, j,
+                                             matched, result.joins[j]));
         result.fits.push_back(std::move(matched.fit));
         note_same_side(preparation, j, result);
     }
@@ -385,15 +382,16 @@ BoundaryDeformation deformed_by(const MergePreparation& preparation,
                                 const Context& context) {
     const Boundaries& from = preparation.boundaries;
     if (const auto fit = common_fit(fits, from.source_curves, from.target_curves)) {
-        return laid(preparation, *fit);
+        return laid(from.source.mesh, preparation.deformer->region(), *fit);
     }
     BoundaryDeformer& deformer = *preparation.deformer;
-    BoundaryDeformation deformed =
-        deformer.solve(values_of(preparation, pairs, fits, deformer.held()), context);
+    BoundaryDeformation deformed = deformer.solve(
+        values_of(from, preparation.method.values, pairs, fits, deformer.held()), context);
     if (!preparation.featured) return deformed;
     BoundaryDeformer& featured = *preparation.featured;
     const Mesh& mesh = preparation.boundaries.source.mesh;
-    std::vector<BoundaryValue> values = values_of(preparation, pairs, fits, featured.held());
+    std::vector<BoundaryValue> values =
+        values_of(from, preparation.method.values, pairs, fits, featured.held());
     const std::vector<Index>& ids = featured.held().vertices();
     for (const Region& feature : preparation.features) {
         Vec3 center;
@@ -420,7 +418,8 @@ Moved deform_source(const MergePreparation& preparation, const Matching& matchin
         deformed = result.overlap->deform(preparation.deformer->region(), *preparation.kept,
                                           deformed, context);
     }
-    const Motion motion = motion_of(preparation, std::move(deformed));
+    const Motion motion = motion_of(rest, preparation.deformer->region(),
+                                    preparation.options.configuration, std::move(deformed));
     std::vector<Vec3> positions(rest.positions().begin(), rest.positions().end());
     for (std::size_t row = 0; row < motion.deformed.positions.size(); ++row) {
         positions[at(motion.region.vertices()[row])] = motion.deformed.positions[row];

@@ -23,15 +23,15 @@ Mat3 limited(const Mat3& rotation, const TurnLimit& limit) {
 double energy_at(const EnergyLoop& loop, std::span<const Vec4> x, Index v, const Mat3& transform) {
     const Vec3 own = x[at(v)].head<3>(), rest = loop.rest[v].head<3>();
     double sum = 0.0;
-    Vec3 bent = -transform * loop.laplacian[v].head<3>();
+    Vec3 bending = -transform * loop.laplacian[v].head<3>();
     for (Index e = loop.ring_begin[v]; e < loop.ring_begin[v + 1]; ++e) {
         const Index u = loop.neighbor[e];
         const Vec3 edge = own - x[at(u)].head<3>();
         const Vec3 wanted = transform * (rest - loop.rest[u].head<3>());
         sum += 0.5 * loop.edge_weight[e] * (edge - wanted).squaredNorm();
-        bent += loop.coefficient[e] * edge;
+        bending += loop.coefficient[e] * edge;
     }
-    return sum + loop.row_weight[v] * bent.squaredNorm();
+    return sum + loop.row_weight[v] * bending.squaredNorm();
 }
 
 }  // namespace

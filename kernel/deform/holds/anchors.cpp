@@ -181,7 +181,7 @@ Ties without(const Ties& ties, const std::vector<Index>& dropped) {
 }
 
 // Points of one handle may determine each other, as one transform moves them all.
-void drop_repeated(WorkingPatch& work, const Holding& holding) {
+void drop_repeated(WorkingPatch& work, const HolderMap& holding) {
     const auto owner = [&](Index t) {
         return work.anchor_owner[work.ties.anchor[t] - work.patch.surface_count];
     };
@@ -217,7 +217,7 @@ std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest,
     auto work =
         std::make_shared<WorkingPatch>(AnchorBuilder(rest, constraints, transition).build());
     add_empty_anchors(*work);
-    const Holding holding = find_holding(*work, constraints);
+    const HolderMap holding = find_holding(*work, constraints);
     drop_repeated(*work, holding);
     const std::vector<Index> dependent = dependent_ties(work->ties, holding.known.position);
     if (!dependent.empty()) refuse_tie(*work, work->ties.row[dependent.front()]);

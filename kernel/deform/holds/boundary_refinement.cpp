@@ -25,7 +25,7 @@ bool is_side(const WeightedTriangles& triangles, std::size_t t, int k) {
 }
 
 // Edges between two vertices of one holder on triangles that it does not hold as a whole.
-std::vector<Edge> border_edges(const Patch& patch, const Holding& holding) {
+std::vector<Edge> border_edges(const Patch& patch, const HolderMap& holding) {
     std::vector<Edge> edges;
     for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
         const Triangle& corners = patch.triangles.triangle[t];
@@ -43,7 +43,7 @@ std::vector<Edge> border_edges(const Patch& patch, const Holding& holding) {
 }
 
 // Mean length of the edges of the surface with an end that moves.
-double mean_free_length(const Patch& patch, const Holding& holding) {
+double mean_free_length(const Patch& patch, const HolderMap& holding) {
     double sum = 0.0, count = 0.0;
     for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
         const Triangle& corners = patch.triangles.triangle[t];
@@ -91,7 +91,7 @@ SparseRow mean_of(const std::vector<SparseRow>& rows) {
 
 class Refiner {
   public:
-    Refiner(Patch patch, const Holding& holding)
+    Refiner(Patch patch, const HolderMap& holding)
         : patch_(std::move(patch)), holding_(holding), around_(patch_.real_count) {
         for (std::size_t t = 0; t < triangles().size(); ++t) {
             for (const Index v : triangles().triangle[t]) around_[v].push_back(t);
@@ -224,7 +224,7 @@ class Refiner {
     }
 
     Patch patch_;
-    const Holding& holding_;
+    const HolderMap& holding_;
     std::vector<std::vector<std::size_t>> around_;
     std::vector<char> held_;
     std::map<Edge, Index> middle_;
@@ -232,7 +232,7 @@ class Refiner {
 
 }  // namespace
 
-Index common_holder(const SparseRow& row, const Holding& holding) {
+Index common_holder(const SparseRow& row, const HolderMap& holding) {
     const Index holder = holding.owner[row.front().first];
     if (holder < 0 && holder != kPinned) return kFree;
     const bool common = std::all_of(row.begin(), row.end(), [&](const auto& entry) {
@@ -241,7 +241,8 @@ Index common_holder(const SparseRow& row, const Holding& holding) {
     return common ? holder : kFree;
 }
 
-std::optional<Patch> refined_at_borders(const Patch& patch, const Holding& holding, double length) {
+std::optional<Patch> refined_at_borders(const Patch& patch, const HolderMap& holding,
+                                        double length) {
     const double spacing = mean_free_length(patch, holding);
     if (spacing == 0.0) return std::nullopt;
     std::vector<Edge> coarse =

@@ -21,10 +21,10 @@ inline constexpr double kRefinedBorder = 1.0;
 /// 1984), which keeps the angles of triangles; or nothing if no border is coarse. New vertices lie
 /// on the triangles of the patch, so that its surface stays as it is, and those between vertices of
 /// one holder are held by it. Quads that are reached become four triangles around their mean.
-std::optional<Patch> refined_at_borders(const Patch& patch, const Holding& holding,
+std::optional<Patch> refined_at_borders(const Patch& patch, const HolderMap& holding,
                                         double length = kRefinedBorder);
 
 /// Returns the holder that vertices of the patch share and that fixes their position, or kFree.
-Index common_holder(const SparseRow& row, const Holding& holding);
+Index common_holder(const SparseRow& row, const HolderMap& holding);
 
 }  // namespace lissom

@@ -129,10 +129,10 @@ bool is_held(const Part& part) {
                 std::move(vertices));
 }
 
-Holding pin_outside_region(const WorkingPatch& work) {
+HolderMap pin_outside_region(const WorkingPatch& work) {
     const std::size_t n = work.patch.vertex_count;
     const std::vector<char> none(n, 0);
-    Holding holding{std::vector<Index>(n, kFree), {none, none, none}, {}};
+    HolderMap holding{std::vector<Index>(n, kFree), {none, none, none}, {}};
     for (Index i = 0; i < work.patch.surface_count; ++i) {
         if (work.patch.in_region[i] && work.rings.count(i) > 0) continue;
         holding.owner[i] = kPinned;
@@ -142,7 +142,7 @@ Holding pin_outside_region(const WorkingPatch& work) {
 }
 
 // Vertices without faces follow a soft handle as they follow a hard one.
-void hold_handle(const WorkingPatch& work, const Handle& handle, Index h, Holding& holding) {
+void hold_handle(const WorkingPatch& work, const Handle& handle, Index h, HolderMap& holding) {
     for (const Index v : handle.local) {
         const bool isolated = work.rings.count(v) == 0;
         if (handle.soft() && !isolated) continue;
@@ -153,7 +153,7 @@ void hold_handle(const WorkingPatch& work, const Handle& handle, Index h, Holdin
 }
 
 // Vertices of a refinement between vertices of one holder are its own.
-void hold_inserted(const Patch& patch, Holding& holding) {
+void hold_inserted(const Patch& patch, HolderMap& holding) {
     for (Index v = patch.mesh_count(); v < patch.real_count; ++v) {
         const SparseRow& row = patch.inserted[v - patch.mesh_count()];
         const Index holder = common_holder(row, holding), first = row.front().first;
@@ -165,7 +165,7 @@ void hold_inserted(const Patch& patch, Holding& holding) {
 }
 
 // Gives free vertices around a point its gradient.
-void turn_around(const SparseRow& row, Index owner, Index point, Holding& holding) {
+void turn_around(const SparseRow& row, Index owner, Index point, HolderMap& holding) {
     for (const auto& [v, c] : row) {
         if (holding.owner[v] != kFree) continue;
         holding.owner[v] = owner;
@@ -175,7 +175,7 @@ void turn_around(const SparseRow& row, Index owner, Index point, Holding& holdin
 }
 
 // A normal point is free as long as its vertex needs a gradient: nothing else asks for it.
-void hold_normal_points(const Patch& patch, Holding& holding) {
+void hold_normal_points(const Patch& patch, HolderMap& holding) {
     for (std::size_t k = 0; k < patch.normal_points.size(); ++k) {
         const Index point = patch.first_normal_point() + index_of(k), v = patch.normal_points[k];
         const bool free = holding.known.gradient_wanted[at(v)] != 0;
@@ -187,7 +187,7 @@ void hold_normal_points(const Patch& patch, Holding& holding) {
     }
 }
 
-void hold_anchors(const WorkingPatch& work, Holding& holding) {
+void hold_anchors(const WorkingPatch& work, HolderMap& holding) {
     for (Index v = work.patch.surface_count; v < work.patch.vertex_count; ++v) {
         const Index anchor = v - work.patch.surface_count;
         holding.owner[v] = work.anchor_owner[anchor];
@@ -208,8 +208,8 @@ bool changes_patch(const ConstraintSet& constraints, double transition) {
            });
 }
 
-Holding find_holding(const WorkingPatch& work, const ConstraintSet& constraints) {
-    Holding holding = pin_outside_region(work);
+HolderMap find_holding(const WorkingPatch& work, const ConstraintSet& constraints) {
+    HolderMap holding = pin_outside_region(work);
     for (std::size_t h = 0; h < constraints.handles.size(); ++h) {
         if (constraints.handles[h])
             hold_handle(work, *constraints.handles[h], index_of(h), holding);

@@ -30,7 +30,7 @@ using VertexConstraints = std::map<Index, VertexConstraint>;
 bool changes_patch(const ConstraintSet& constraints, double transition);
 
 /// Owners of the local vertices of a patch, and the known values that follow.
-struct Holding {
+struct HolderMap {
     std::vector<Index> owner;
     KnownMask known;
     /// Anchors and vertices with the value of a target that is no hard vertex, and its number.
@@ -45,7 +45,7 @@ std::shared_ptr<const WorkingPatch> anchored(const WorkingPatch& rest,
 
 /// Outside the region, and without faces, vertices are pinned. A hard point that asks for a
 /// gradient gives it to the vertices around it that nobody else holds.
-Holding find_holding(const WorkingPatch& work, const ConstraintSet& constraints);
+HolderMap find_holding(const WorkingPatch& work, const ConstraintSet& constraints);
 
 /// Local vertices, ascending, of each connected part that nothing holds at all.
 std::vector<std::vector<Index>> loose_parts(const WorkingPatch& work, const KnownMask& known);

@@ -7,7 +7,7 @@
 namespace lissom {
 namespace {
 
-bool is_held(const Holding& holding, Index v) {
+bool is_held(const HolderMap& holding, Index v) {
     const Index owner = holding.owner[at(v)];
     return holding.known.position[at(v)] && owner != kFree && owner != kLoose;
 }
@@ -17,7 +17,7 @@ double distance(const WorkingPatch& work, Index a, Index b) {
 }
 
 // Neighbours of a free vertex that are held, the nearest of each holder.
-std::map<Index, Index> holders_around(const WorkingPatch& work, const Holding& holding, Index v) {
+std::map<Index, Index> holders_around(const WorkingPatch& work, const HolderMap& holding, Index v) {
     std::map<Index, Index> nearest;
     for (const Index n : work.rings.ring(v)) {
         if (n >= work.patch.real_count || !is_held(holding, n)) continue;
@@ -29,7 +29,7 @@ std::map<Index, Index> holders_around(const WorkingPatch& work, const Holding& h
 
 // How many edges lie between each vertex of a handle and its vertices at gaps; kNoIndex for those
 // that none leads to.
-std::vector<Index> hops_from_gaps(const WorkingPatch& work, const Holding& holding) {
+std::vector<Index> hops_from_gaps(const WorkingPatch& work, const HolderMap& holding) {
     std::vector<Index> hops(holding.owner.size(), kNoIndex), front;
     const auto reach = [&](Index v, Index hop) {
         if (holding.owner[at(v)] < 0 || hops[at(v)] != kNoIndex) return;
@@ -53,7 +53,7 @@ std::vector<Index> hops_from_gaps(const WorkingPatch& work, const Holding& holdi
 
 }  // namespace
 
-std::vector<HandleGap> handle_gaps(const WorkingPatch& work, const Holding& holding) {
+std::vector<HandleGap> handle_gaps(const WorkingPatch& work, const HolderMap& holding) {
     std::vector<HandleGap> near, far;
     for (Index v = 0; v < work.patch.real_count; ++v) {
         if (is_held(holding, v)) {
@@ -76,7 +76,7 @@ std::vector<HandleGap> handle_gaps(const WorkingPatch& work, const Holding& hold
     return near;
 }
 
-void free_gap_rings(const WorkingPatch& work, int rings, Holding& holding) {
+void free_gap_rings(const WorkingPatch& work, int rings, HolderMap& holding) {
     if (rings == 0) return;
     const std::vector<Index> hops = hops_from_gaps(work, holding);
     // The deepest vertex of each handle; one that no gap leads to is deep enough.

@@ -17,10 +17,10 @@ struct HandleGap {
 };
 
 /// The gaps of one edge, then those of two, by vertices.
-std::vector<HandleGap> handle_gaps(const WorkingPatch& work, const Holding& holding);
+std::vector<HandleGap> handle_gaps(const WorkingPatch& work, const HolderMap& holding);
 
 /// Frees up to `rings` rings of each handle from its vertices at gaps inwards, but never all of a
 /// handle: of a small one the innermost ring stays.
-void free_gap_rings(const WorkingPatch& work, int rings, Holding& holding);
+void free_gap_rings(const WorkingPatch& work, int rings, HolderMap& holding);
 
 }  // namespace lissom

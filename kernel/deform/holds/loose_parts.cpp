@@ -9,7 +9,7 @@
 namespace lissom {
 namespace {
 
-void make_known(const Patch& patch, const std::vector<Index>& part, Holding& holding) {
+void make_known(const Patch& patch, const std::vector<Index>& part, HolderMap& holding) {
     for (const Index v : part) {
         holding.owner[at(v)] = kLoose;
         holding.known.position[at(v)] = 1;
@@ -19,7 +19,8 @@ void make_known(const Patch& patch, const std::vector<Index>& part, Holding& hol
 }
 
 // Vertices of the region without faces that no handle holds are parts by themselves.
-std::vector<std::vector<Index>> single_vertices(const WorkingPatch& work, const Holding& holding) {
+std::vector<std::vector<Index>> single_vertices(const WorkingPatch& work,
+                                                const HolderMap& holding) {
     std::vector<std::vector<Index>> single;
     for (const Index v : work.patch.of_region) {
         if (work.rings.count(v) == 0 && holding.owner[at(v)] == kPinned) single.push_back({v});
@@ -55,7 +56,7 @@ struct HeldSurface {
     std::vector<Index> stands_for;
 };
 
-HeldSurface held_surface(const Patch& patch, const Holding& holding) {
+HeldSurface held_surface(const Patch& patch, const HolderMap& holding) {
     HeldSurface result;
     std::vector<Vec3> positions;
     FaceList faces;
@@ -76,7 +77,7 @@ HeldSurface held_surface(const Patch& patch, const Holding& holding) {
 
 class Binder {
   public:
-    Binder(const WorkingPatch& work, const Holding& holding, const Context& context)
+    Binder(const WorkingPatch& work, const HolderMap& holding, const Context& context)
         : patch_(work.patch),
           holding_(holding),
           part_(parts_of(work)),
@@ -120,7 +121,7 @@ class Binder {
     }
 
     const Patch& patch_;
-    const Holding& holding_;
+    const HolderMap& holding_;
     std::vector<Index> part_;
     HeldSurface surface_;
     std::optional<SpatialTree> tree_;
@@ -129,7 +130,7 @@ class Binder {
 }  // namespace
 
 std::vector<FollowingPart> hold_loose_parts(const WorkingPatch& work, UnheldParts loose,
-                                            Holding& holding, const Context& context) {
+                                            HolderMap& holding, const Context& context) {
     if (loose == UnheldParts::error) return {};
     std::vector<std::vector<Index>> parts = loose_parts(work, holding.known);
     for (const std::vector<Index>& part : parts) make_known(work.patch, part, holding);

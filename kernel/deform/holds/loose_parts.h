@@ -24,6 +24,6 @@ struct FollowingPart {
 /// Makes unconstrained parts known: they stay, or are returned with the surface that they follow,
 /// single vertices without faces among them. Nothing is done for UnheldParts::error.
 std::vector<FollowingPart> hold_loose_parts(const WorkingPatch& work, UnheldParts loose,
-                                            Holding& holding, const Context& context);
+                                            HolderMap& holding, const Context& context);
 
 }  // namespace lissom

@@ -82,11 +82,12 @@ Screw screw_of(const Vec3& turn, const Vec3& shift) {
     if (angle < kNoAngle) return {turn, Vec3::Zero(), shift};
     const Vec3 axis = turn / angle, along = axis.dot(shift) * axis;
     const double begun = smooth_step(angle / kScrewAngle);
-    const double bent = 1.0 - smooth_step((angle - kWideScrew) / (kWidestScrew - kWideScrew));
+    const double screw_part = 1.0 - smooth_step((angle - kWideScrew) / (kWidestScrew - kWideScrew));
     Screw screw{turn, begun * along, Vec3::Zero()};
-    if (bent > 0.0) {
+    if (screw_part > 0.0) {
         const double wider = 0.5 * angle / std::sin(0.5 * angle);
-        screw.velocity += begun * bent * wider * (rotation_of_turn(-0.5 * turn) * (shift - along));
+        screw.velocity +=
+            begun * screw_part * wider * (rotation_of_turn(-0.5 * turn) * (shift - along));
     }
     screw.remainder = shift - screw.shift(1.0);
     return screw;

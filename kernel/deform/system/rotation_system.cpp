@@ -280,20 +280,20 @@ void RotationSystem::add_correction(const Scratch& scratch, std::span<Vec4> x,
 }
 
 void RotationSystem::bend(const PaddedMat3* transforms, std::span<const Vec4> x,
-                          std::vector<Vec4>& bent, const Context& context) const {
+                          std::vector<Vec4>& bending, const Context& context) const {
     const EnergyLoop loop = energy();
-    bent.resize(rest_.size());
+    bending.resize(rest_.size());
     context.parallel_for(0, rings_.size(), kFrameGrain, [&](Index begin, Index end) {
-        loop.bend(transforms, x.data(), bent.data(), begin, end);
+        loop.bend(transforms, x.data(), bending.data(), begin, end);
     });
 }
 
 Vec3 RotationSystem::force(const PaddedMat3* transforms, std::span<const Vec4> x,
                            std::span<const Index> vertices, Scratch& scratch,
                            const Context& context) const {
-    bend(transforms, x, scratch.bent, context);
+    bend(transforms, x, scratch.bending, context);
     std::vector<Vec3> parts(vertices.size());
-    energy().descend(transforms, x.data(), scratch.bent.data(), vertices.data(), parts.data(), 0,
+    energy().descend(transforms, x.data(), scratch.bending.data(), vertices.data(), parts.data(), 0,
                      count_of(vertices));
     Vec3 sum = Vec3::Zero();
     for (const Vec3& part : parts) sum += part;
@@ -313,10 +313,10 @@ std::vector<RotationSystem::Response> RotationSystem::responses(std::span<const 
     std::vector<Vec3> pulls(at(real));
     std::vector<char> is_free(at(real), 0);
     for (const Index v : free_) is_free[v] = 1;
-    bend(nullptr, x, scratch.bent, context);
+    bend(nullptr, x, scratch.bending, context);
     const EnergyLoop loop = energy();
     loop.fit(x.data(), all.data(), levers.data(), 0, real);
-    loop.descend(nullptr, x.data(), scratch.bent.data(), all.data(), pulls.data(), 0, real);
+    loop.descend(nullptr, x.data(), scratch.bending.data(), all.data(), pulls.data(), 0, real);
     std::vector<Response> result(at(count));
     for (Index k = 0; k < count; ++k) {
         Response& response = result[k];
@@ -348,12 +348,12 @@ Vec3 RotationSystem::solved_force(const PaddedMat3* transforms, std::span<const 
 void RotationSystem::find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
                                    std::vector<Vec3>& residual, Scratch& scratch,
                                    const Context& context) const {
-    bend(transforms, x, scratch.bent, context);
+    bend(transforms, x, scratch.bending, context);
     const EnergyLoop loop = energy();
     residual.resize(free_.size());
     const auto count = count_of(free_);
     context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
-        loop.descend(transforms, x.data(), scratch.bent.data(), free_.data(), residual.data(),
+        loop.descend(transforms, x.data(), scratch.bending.data(), free_.data(), residual.data(),
                      begin, end);
     });
     ties_.subtract_from(x, free_, residual);

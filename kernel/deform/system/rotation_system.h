@@ -34,7 +34,7 @@ class RotationSystem {
     /// Buffers of a solve, sized as needed; kept by the caller because a frame is short beside the
     /// time to get fresh pages.
     struct Scratch {
-        std::vector<Vec4> bent, step;
+        std::vector<Vec4> bending, step;
         std::vector<Vec3> residual, change, correction;
         std::vector<double> columns;
         SingleFactor::Scratch single;
@@ -105,7 +105,7 @@ class RotationSystem {
     void assemble(const std::vector<char>& position_known, const Context& context);
     void fade_laplacian(const Patch& patch, const std::vector<char>& position_known);
     void add_ties(const WorkingPatch& work);
-    void bend(const PaddedMat3* transforms, std::span<const Vec4> x, std::vector<Vec4>& bent,
+    void bend(const PaddedMat3* transforms, std::span<const Vec4> x, std::vector<Vec4>& bending,
               const Context& context) const;
     void find_residual(const PaddedMat3* transforms, std::span<const Vec4> x,
                        std::vector<Vec3>& residual, Scratch& scratch, const Context& context) const;

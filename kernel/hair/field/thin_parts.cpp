@@ -16,9 +16,9 @@ constexpr int kMostPlaces = 2000;
 constexpr std::size_t kTrianglesPerCheckpoint = 4096;
 
 // Lowers the values at the corners of cells.
-class Lowering {
+class ThinPartCorrection {
   public:
-    Lowering(const DistanceGrid& distances)
+    ThinPartCorrection(const DistanceGrid& distances)
         : layout_(distances.layout()),
           box_(layout_.box()),
           trusted_(kTrustedDistance * layout_.step),
@@ -87,7 +87,7 @@ std::vector<float> collision_distances(const DistanceGrid& distances, const Mesh
                                        const Context& context) {
     const auto positions = head.positions();
     const std::vector<Triangle> triangles = triangulate_faces(head.topology(), positions).triangles;
-    Lowering lowering(distances);
+    ThinPartCorrection lowering(distances);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         if (t % kTrianglesPerCheckpoint == 0) context.checkpoint();
         const auto& [a, b, c] = triangles[t];

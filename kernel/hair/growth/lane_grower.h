@@ -103,7 +103,7 @@ constexpr std::int32_t code(StrandEnd end) {
 }
 
 // The first point after a root, or the code of the reason for an earlier end, else 0.
-struct Sprout {
+struct FirstSegment {
     Eigen::Vector3f to;
     std::int32_t end;
 };
@@ -491,7 +491,7 @@ class LaneGrower {
             seed_of_[k] = next_;
             const StrandSeed& seed = seeds_[next_++];
             start(k, seed);
-            const Sprout& sprout = sprouts_[next_ - 1];
+            const FirstSegment& sprout = sprouts_[next_ - 1];
             if (sprout.end == 0) {
                 set(to_, k, sprout.to);
                 growing_[k] = -1;
@@ -552,7 +552,7 @@ class LaneGrower {
     std::array<std::size_t, kLanes> seed_of_{};
     std::size_t next_ = 0;
     // First segments of the seeds.
-    std::vector<Sprout> sprouts_;
+    std::vector<FirstSegment> sprouts_;
     int growing_count_ = 0;
 };
 

@@ -87,7 +87,7 @@ SymmetricMatrix BandSystem::normal_matrix() const {
 }
 
 // Solved for displacements, so that a band that has the wanted coordinates does not move.
-std::vector<Vec3> BandSystem::bent(Index s, std::span<const Vec3> wanted) const {
+std::vector<Vec3> BandSystem::with_curvatures(Index s, std::span<const Vec3> wanted) const {
     const std::size_t n = at(unknown_count_);
     std::vector<double> b(3 * n, 0.0);
     for (Index i = 0; i < patch_.real_count; ++i) {
@@ -117,7 +117,7 @@ void BandSystem::bend(std::span<const std::vector<Vec3>> wanted, const Context& 
     system_.factor(matrix, context);
     for (Index s = 0; s < shape_count(); ++s) {
         context.checkpoint();
-        set_shape(s, bent(s, wanted[at(s)]));
+        set_shape(s, with_curvatures(s, wanted[at(s)]));
     }
     measure();
 }

@@ -91,7 +91,7 @@ class BandSystem {
     };
 
     SymmetricMatrix normal_matrix() const;
-    std::vector<Vec3> bent(Index s, std::span<const Vec3> wanted) const;
+    std::vector<Vec3> with_curvatures(Index s, std::span<const Vec3> wanted) const;
     MorphColumns moved_morphs(const Mesh& mesh, std::span<const double> parts) const;
 
     Patch patch_;

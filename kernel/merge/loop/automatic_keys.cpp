@@ -146,9 +146,9 @@ class OffsetSearch {
 
 // How far a rotation brings the directions together that belong together, in the planes of the
 // loops.
-class Leaning {
+class DirectionCost {
   public:
-    Leaning(const LoopJoin& join, std::span<const DirectionPair> directions)
+    DirectionCost(const LoopJoin& join, std::span<const DirectionPair> directions)
         : source_axis_(join.source->axis()), target_axis_(join.target->axis()) {
         for (const DirectionPair& pair : directions) {
             add(kDirectionWeight, pair.source.normalized(), pair.target.normalized(), false);
@@ -334,7 +334,7 @@ class CandidateSearch {
 }  // namespace
 
 bool directions_count(const LoopJoin& join, std::span<const DirectionPair> directions) {
-    return Leaning({join.source, join.target}, directions).counts();
+    return DirectionCost({join.source, join.target}, directions).counts();
 }
 
 bool is_turned_over(const LoopJoin& join) {
@@ -358,7 +358,7 @@ std::vector<TurnCandidate> turn_candidates(const LoopJoin& join) {
 std::vector<OffsetGuess> guess_offsets(std::span<const LoopJoin> joins,
                                        std::span<const DirectionPair> directions) {
     const OffsetSearch search(joins);
-    const Leaning leaning(joins.front(), directions);
+    const DirectionCost leaning(joins.front(), directions);
     std::vector<OffsetGuess> guesses{best_offset(
         [&](double offset) {
             const SimilarityMap fit = search.fit(offset);

@@ -40,9 +40,9 @@ struct Scratch {
 };
 
 // Executor of a block: the calling thread alone, or all threads of a context, chunk by chunk.
-class Crew {
+class BlockExecutor {
   public:
-    Crew(Index size, Index tallest, std::size_t most_chunks, const Context* context)
+    BlockExecutor(Index size, Index tallest, std::size_t most_chunks, const Context* context)
         : position(std::make_unique_for_overwrite<Index[]>(at(size))), context_(context) {
         for (std::size_t i = 0; i < most_chunks; ++i) scratch_.emplace_back(tallest);
     }
@@ -97,7 +97,7 @@ class Factorization {
     Index run(const Context& context) {
         Index failed = factor_subtrees(context);
         if (failed != kNoIndex) return failed;
-        Crew crew(nodes_.size(), plan_.tallest, most_chunks(plan_), &context);
+        BlockExecutor crew(nodes_.size(), plan_.tallest, most_chunks(plan_), &context);
         for (std::size_t i = 0; failed == kNoIndex && i < plan_.top.size(); ++i) {
             context.checkpoint();
             failed = factor_node(plan_.top[i], crew);
@@ -121,7 +121,7 @@ class Factorization {
     }
 
     Index factor_bin(Index bin, const Context& context) {
-        Crew alone(nodes_.size(), plan_.tallest, 1, nullptr);
+        BlockExecutor alone(nodes_.size(), plan_.tallest, 1, nullptr);
         for (const Index t : plan_.bins[bin]) {
             const FactorPlan::Subtree& subtree = plan_.subtrees[t];
             for (Index s = subtree.first; s < subtree.last; ++s) {
@@ -148,7 +148,7 @@ class Factorization {
         return {above.data(), size, size, extensions_.get() + first_extension_[t]};
     }
 
-    Index factor_node(Index s, Crew& crew) {
+    Index factor_node(Index s, BlockExecutor& crew) {
         const Block node = block(s);
         std::fill(node.value, node.entry(0, node.columns), 0.0);
         for (Index e = plan_.first_entry[s]; e < plan_.first_entry[s + 1]; ++e) {
@@ -160,7 +160,7 @@ class Factorization {
     }
 
     // Subtracts from block `b` the products of all blocks before it.
-    void update(Index b, const Block& target, Crew& crew) const {
+    void update(Index b, const Block& target, BlockExecutor& crew) const {
         if (plan_.first_update[b] == plan_.first_update[b + 1]) return;
         for (Index i = 0; i < target.height; ++i) crew.position[target.row[i]] = i;
         crew.run(chunks_of(target.columns, kUpdateColumns), true,
@@ -222,7 +222,7 @@ class Factorization {
     }
 
     // Factors a block in place, panel by panel.
-    Index eliminate(const Block& node, Crew& crew) const {
+    Index eliminate(const Block& node, BlockExecutor& crew) const {
         const double size = static_cast<double>(node.height) * node.columns * node.columns;
         const bool share = size >= kLeastShared;
         for (Index first = 0; first < node.columns; first += kPanelColumns) {
@@ -243,7 +243,7 @@ class Factorization {
 
     // Subtracts from a panel the products of the columns before it in the same block.
     void subtract_earlier(const Block& node, Index first, Index columns, bool share,
-                          Crew& crew) const {
+                          BlockExecutor& crew) const {
         const Index rows = node.height - first;
         crew.run(chunks_of(rows, kRowGrain), share, [&](Index chunk, Scratch& scratch) {
             const Index begin = first + chunk * kRowGrain;
@@ -253,7 +253,8 @@ class Factorization {
         });
     }
 
-    void solve_below(const Block& node, const DensePanel& panel, bool share, Crew& crew) const {
+    void solve_below(const Block& node, const DensePanel& panel, bool share,
+                     BlockExecutor& crew) const {
         const Index first = panel.first + panel.columns, rows = node.height - first;
         crew.run(chunks_of(rows, kRowGrain), share, [&](Index chunk, Scratch& scratch) {
             DensePanel own = panel;

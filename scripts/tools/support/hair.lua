@@ -269,7 +269,10 @@ function hair.forget_begun(stroke, scene)
 end
 
 --- Message of an error, without its place in a script and its code.
-function hair.message(text) return (tostring(text):gsub("^[^\n]-:%d+: ", ""):gsub(" %[[%l_]+%]$", "")) end
+function hair.message(problem)
+    if type(problem) == "table" and problem.message then return problem.message end
+    return (tostring(problem):gsub("^[^\n]-:%d+: ", ""))
+end
 
 --- The code of an error; nil if a script has raised a text.
 function hair.code(problem) return type(problem) == "table" and problem.code or nil end

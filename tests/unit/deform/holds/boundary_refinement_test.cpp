@@ -113,7 +113,7 @@ Affine twist(double angle = 1.0) {
 
 struct Held {
     WorkingPatch work;
-    Holding holding;
+    HolderMap holding;
 };
 
 Held held_ends(const Scene& scene) {
@@ -124,7 +124,7 @@ Held held_ends(const Scene& scene) {
         constraints.handles.push_back(std::make_shared<const Handle>(std::move(handle)));
     }
     WorkingPatch work(build_patch(scene.mesh, scene.all(), 1), {});
-    Holding holding = find_holding(work, constraints);
+    HolderMap holding = find_holding(work, constraints);
     return {std::move(work), std::move(holding)};
 }
 
