@@ -66,7 +66,7 @@ int push_clearing(const Call& call, const PasteClearing& clearing) {
 }
 
 int push_paste_report(const Call& call, const PasteReport& report) {
-    lua_createtable(call.lua(), 0, 18);
+    lua_createtable(call.lua(), 0, 19);
     push_paste_search(call, report.search);
     call.set_field("search");
     push_map_quality(call, report.source_map);
@@ -93,6 +93,7 @@ int push_paste_report(const Call& call, const PasteReport& report) {
     }
     call.set_field("kept_outline", call.push(report.kept_outline));
     call.set_field("tight", call.push(report.tight));
+    call.set_field("draped", call.push(report.draped));
     call.set_field("smooth", call.push(report.smooth));
     call.set_field("draft", call.push(report.draft));
     call.set_field("euler_characteristic", call.push(report.euler_characteristic));
@@ -184,6 +185,9 @@ std::vector<Record> paste_records() {
           {"boolean", "tight",
            "The feature's own outline was pasted along, since more of the target's sharp edges "
            "stays there."},
+          {"boolean", "draped",
+           "The feature stands on sharp edges of the target: it kept its shape, and its foot was "
+           "drawn down to the surface."},
           {"boolean", "smooth", "The boundary runs through faces."},
           {"boolean", "draft", "It is a draft: merged without that option its seam is better."},
           {"integer", "euler_characteristic", "Euler characteristic of the result."},

@@ -21,6 +21,10 @@ PartTrial outline_trial(const PartTrials& trials, const Context& context);
 /// The feature inside its own outline, without teeth if that can be.
 PartTrial tight_trial(const PartTrials& trials, const Context& context);
 
+/// The feature as it was, with its foot drawn down to the target, if that has sharp edges under it;
+/// nothing if it has none or the foot would go too deep.
+std::optional<PartTrial> draped_trial(const PartTrials& trials, const Context& context);
+
 struct BestTrial {
     PartTrial trial;
     /// Distortion near the outline, of the part before iterations, if it was compared.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/merge/paste/part/draped_part.h"
 #include "kernel/merge/paste/placement/plane_line.h"
 
 namespace lissom {
@@ -26,6 +27,7 @@ BoundaryDeformOptions paste_deformation(bool thesis) {
 }  // namespace
 
 PasteDistortion PartTrials::move(PartTrial& trial, const Context& context) const {
+    if (trial.draped) return drape(trial, context);
     const double crease = options.thesis ? 0.0 : options.crease;
     const std::vector<BoundaryValue> values =
         paste_values(trial.rim, trial.similarity, trial.scale, crease);
@@ -40,6 +42,18 @@ PasteDistortion PartTrials::move(PartTrial& trial, const Context& context) const
         trial.near = near;
     }
     return plain;
+}
+
+PasteDistortion PartTrials::drape(PartTrial& trial, const Context& context) const {
+    std::vector<Vec3> images;
+    for (const RingPoint& point : trial.rim) images.push_back(point.image.position);
+    const auto ground = [&](const Vec3& point, const Vec3& axis) -> std::optional<Vec3> {
+        const std::optional<ImagePoint> found = surface.map().along(point, axis, point);
+        return found ? std::optional<Vec3>(found->position) : std::nullopt;
+    };
+    trial.moved = Drape(trial.part(), images, trial.similarity, trial.scale, ground).moved(context);
+    trial.near = near_distortion(trial.part(), trial.moved.mesh, trial.scale);
+    return trial.near;
 }
 
 // False if the boundary would cross itself or the part be distorted more.

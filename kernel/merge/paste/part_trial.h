@@ -10,6 +10,7 @@
 #include "kernel/core/index.h"
 #include "kernel/merge/paste/part/moving_part.h"
 #include "kernel/merge/paste/part/paste_part.h"
+#include "kernel/merge/paste/part/target_bite.h"
 #include "kernel/merge/paste/paste.h"
 #include "kernel/merge/paste/paste_options.h"
 #include "kernel/merge/paste/paste_state.h"
@@ -30,6 +31,8 @@ struct PartTrial {
     bool smooth = false, outline = false;
     /// The boundary is the feature's own outline.
     bool tight = false;
+    /// The part keeps its shape, and its foot is drawn to the surface.
+    bool draped = false;
     MovedPart moved;
     PasteDistortion near;
     /// The same before the part was refined and its boundary slid over the target.
@@ -52,6 +55,8 @@ struct PartTrials {
     bool refines = false;
     /// Boundaries slide to the relaxed position of the part, as long as that lowers it.
     bool settles = false;
+    /// Sharp edges of the target's chart, whose vertices are places of that.
+    std::span<const SharpEdge> sharp = {};
 
     /// Deforms the part of a trial to its rim. Returns its distortion without a refinement.
     PasteDistortion move(PartTrial& trial, const Context& context) const;
@@ -67,6 +72,7 @@ struct PartTrials {
     std::optional<PartTrial> along_smooth_inner(const Context& context) const;
 
   private:
+    PasteDistortion drape(PartTrial& trial, const Context& context) const;
     bool slide(PartTrial& trial, double part, const Context& context) const;
     void settle(PartTrial& trial, const Context& context) const;
     PasteLoop fitted(std::span<const Index> loop) const;

@@ -115,6 +115,13 @@ const PasteGround& Paste::State::ground(const Context& context) {
     return ground ? *ground : ground.emplace(target, used->map->target(), context);
 }
 
+std::span<const SharpEdge> Paste::State::edges_to_stand_on(const Context& context) {
+    if (bound_to_boundary()) return {};
+    std::optional<std::vector<SharpEdge>>& edges = used->edges;
+    if (edges) return *edges;
+    return edges.emplace(sharp_edges(chart_mesh(target, used->map->target()), context));
+}
+
 // How well the outlines fit, a missing image counting as a full edge.
 double Paste::State::misfit_at(const PasteMap& on, const std::vector<ImagePoint>& images) const {
     PasteEnergy energy(ring_edges(on, *ring, images), energy_for(options, 1));
@@ -312,7 +319,9 @@ std::optional<Paste::State::PlacedOn> Paste::State::placed_within(const PastePla
 void Paste::State::place_on_disk(const PastePlacement& placement, std::span<const Index> start,
                                  const PasteEffort& effort, const Context& context) {
     std::optional<PlacedOn> found;
-    for (const double room : {kRoom, kMoreRoom, kMostRoom}) {
+    // On an edge a boundary that looks along the part reaches farther.
+    const bool wide = !options.thesis && has_edges_near(placement);
+    for (const double room : {wide ? kMoreRoom : kRoom, wide ? kRoom : kMoreRoom, kMostRoom}) {
         if (found && (covers(found->place) || room == kMostRoom)) break;
         std::optional<PlacedOn> next = placed_within(placement, room, start, effort, context);
         if (next && (!found || covers(next->place))) found = std::move(next);

@@ -118,6 +118,9 @@ struct PasteReport {
     bool kept_outline = false;
     /// The feature's own outline was used in place of that: more of the target's sharp edges stays.
     bool tight = false;
+    /// The feature stands on sharp edges of the target: it kept its shape, and its foot was drawn
+    /// down to the surface along the feature's own outline.
+    bool draped = false;
     /// The boundary runs through faces.
     bool smooth = false;
     /// Removed features of the target, if any.

@@ -193,9 +193,34 @@ void spare_edges(const PartTrials& trials, const TargetPiece& target,
     }
 }
 
+// How many kinds of faults a verdict would find first.
+int faults_of(const SewnPart& pasted, const Context& context) {
+    const LaidPart& laid = pasted.laid;
+    const Crossings found =
+        new_crossings(laid.opened.mesh, laid.trial.part().mesh, pasted.sewn, context);
+    const auto groups = crossing_groups(pasted.sewn, found.pairs, context);
+    const bool crosses = std::any_of(groups.begin(), groups.end(),
+                                     [](const CrossingGroup& group) { return !group.shallow; });
+    return (folds(pasted.sewn) ? 1 : 0) + (is_bitten(pasted.bite) ? 1 : 0) + (crosses ? 1 : 0);
+}
+
+// The part on sharp edges of the target; nothing if there are none or it has no room.
+std::optional<SewnPart> sewn_on_edges(const PartTrials& trials, const TargetPiece& target,
+                                      const PasteMergeOptions& options, const Context& context) {
+    std::optional<PartTrial> draped = draped_trial(trials, context);
+    if (!draped) return std::nullopt;
+    try {
+        return sewn_along(trials, target, *std::move(draped), options, context);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::boundary_conflict) throw;
+        return std::nullopt;
+    }
+}
+
 // The part on a piece of the target, along the boundary that folds least.
-SewnPart sewn_onto(const PartTrials& trials, const TargetPiece& target, bool other_allowed,
-                   PasteReport& report, const PasteMergeOptions& options, const Context& context) {
+SewnPart sewn_along_best(const PartTrials& trials, const TargetPiece& target, bool other_allowed,
+                         PasteReport& report, const PasteMergeOptions& options,
+                         const Context& context) {
     BestTrial best = best_trial(trials, options.compare && other_allowed, context);
     report.outline_near = best.outline_near;
     SewnPart result = sewn_along(trials, target, std::move(best.trial), options, context);
@@ -205,6 +230,18 @@ SewnPart sewn_onto(const PartTrials& trials, const TargetPiece& target, bool oth
             spare_edges(trials, target, options, result, context);
     }
     return result;
+}
+
+// The same, unless it stands better on sharp edges.
+SewnPart sewn_onto(const PartTrials& trials, const TargetPiece& target, bool other_allowed,
+                   PasteReport& report, const PasteMergeOptions& options, const Context& context) {
+    std::optional<SewnPart> on_edges = sewn_on_edges(trials, target, options, context);
+    if (on_edges && options.draft) return *std::move(on_edges);
+    const int faults = on_edges ? faults_of(*on_edges, context) : 0;
+    if (on_edges && faults == 0) return *std::move(on_edges);
+    SewnPart best = sewn_along_best(trials, target, other_allowed, report, options, context);
+    const bool better = on_edges && faults <= faults_of(best, context);
+    return better ? *std::move(on_edges) : std::move(best);
 }
 
 }  // namespace
@@ -218,8 +255,9 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     const bool refines = options.compare && !state.options.thesis && !options.draft;
     const bool settles = refines && state.optimized && !state.bound_to_boundary() &&
                          state.options.correspondence == PasteCorrespondence::closest;
-    const PartTrials trials{state.options, state.regions,      surface, *state.ring, placed,
-                            state.parts,   options.lock_scale, refines, settles};
+    const PartTrials trials{
+        state.options, state.regions,      surface, *state.ring, placed,
+        state.parts,   options.lock_scale, refines, settles,     state.edges_to_stand_on(context)};
     PasteReport report;
     report.search = placed.loop.report;
     report.source_map = state.source_map.quality();
@@ -254,6 +292,7 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.smooth = trial.smooth;
     report.kept_outline = trial.outline;
     report.tight = trial.tight;
+    report.draped = trial.draped;
     report.near = pasted.laid.near;
     report.laid = trial.near;
     report.feature =
@@ -287,15 +326,29 @@ LaidPart Paste::State::laid_on_ground(const PartTrials& trials, const PartTrial&
     return laid_part(trials, piece.mesh(), piece.chart_vertices(), trial, context);
 }
 
+// The part as a draft of `merge` has it.
+LaidPart Paste::State::drafted(const PartTrials& trials, const PasteDraftOptions& wanted,
+                               const Context& context) {
+    const bool free = covers(placed) && !bound_to_boundary();
+    if (const auto draped = draped_trial(trials, context)) {
+        try {
+            return laid_on_ground(trials, *draped, context);
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::boundary_conflict) throw;
+        }
+    }
+    const BestTrial best = best_trial(trials, wanted.compare && free, context);
+    return laid_on_ground(trials, best.trial, context);
+}
+
 PasteDraft Paste::draft(const PasteDraftOptions& options, const Context& context) try {
     State& state = *state_;
     const PlacedFeature& placed = state.placed;
     const RingSurface surface(*state.used->map, *state.triangles, placed.images);
-    const PartTrials trials{state.options, state.regions, surface,           *state.ring,
-                            placed,        state.parts,   options.lock_scale};
-    BestTrial best = best_trial(
-        trials, options.compare && state.covers(placed) && !state.bound_to_boundary(), context);
-    const LaidPart laid = state.laid_on_ground(trials, best.trial, context);
+    const PartTrials trials{
+        state.options, state.regions,      surface, *state.ring, placed,
+        state.parts,   options.lock_scale, false,   false,       state.edges_to_stand_on(context)};
+    const LaidPart laid = state.drafted(trials, options, context);
     return {part_at_seam(laid), laid.trial.part().loop, laid.trial.scale,
             laid.trial.smooth,  laid.trial.outline,     laid.near,
             laid.trial.near};

@@ -11,6 +11,7 @@
 #include "kernel/core/index.h"
 #include "kernel/merge/paste/erase/cleared_target.h"
 #include "kernel/merge/paste/part/moving_part.h"
+#include "kernel/merge/paste/part/target_bite.h"
 #include "kernel/merge/paste/part/target_piece.h"
 #include "kernel/merge/paste/paste.h"
 #include "kernel/merge/paste/paste_options.h"
@@ -46,6 +47,8 @@ struct TargetOnMap {
     std::unique_ptr<PasteMap> map;
     std::optional<TargetPiece> piece = std::nullopt;
     std::optional<PasteGround> ground = std::nullopt;
+    /// Sharp edges between places of its chart.
+    std::optional<std::vector<SharpEdge>> edges = std::nullopt;
 };
 
 /// How long a boundary is sought.
@@ -83,6 +86,8 @@ struct Paste::State {
     /// The region for parts and the longest edge of the target as given.
     std::optional<Region> onto;
     double longest_edge = 0.0;
+    /// Its sharp edges, once they were asked for.
+    mutable std::optional<std::vector<SharpEdge>> given_edges = std::nullopt;
     /// If `target` is another one, finer under the part or without its features there: the target
     /// as given, and the origin of the elements of `target`.
     Mesh given;
@@ -103,6 +108,9 @@ struct Paste::State {
     void move_to(const PastePlacement& placement, const PasteEffort& effort,
                  const Context& context);
     const Mesh& as_given() const { return altered ? given : target; }
+    /// Whether sharp edges of the target as given lie within the part's reach.
+    bool has_edges_near(const PastePlacement& placement) const;
+    double coarse_edge(const PastePlacement& placement) const;
     bool needs_another(const PastePlacement& placement) const;
     double reach_of(const PastePlacement& placement) const;
     AlteredTarget roomy(const PastePlacement& placement, const Context& context) const;
@@ -147,8 +155,12 @@ struct Paste::State {
     void use_map(std::unique_ptr<PasteMap> on);
     const TargetPiece& target_piece(const Context& context);
     const PasteGround& ground(const Context& context);
+    /// Sharp edges that a part may stand on; none if the target was cleared under its boundary.
+    std::span<const SharpEdge> edges_to_stand_on(const Context& context);
     LaidPart laid_on_ground(const PartTrials& trials, const PartTrial& trial,
                             const Context& context);
+    LaidPart drafted(const PartTrials& trials, const PasteDraftOptions& wanted,
+                     const Context& context);
     double misfit_at(const PasteMap& on, const std::vector<ImagePoint>& images) const;
     void choose_angle(const PasteMap& on, PlacedFeature& place, const Context& context) const;
     PlacedFeature place(const PasteMap& on, const PastePlacement& placement,

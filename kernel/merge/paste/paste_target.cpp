@@ -16,6 +16,9 @@ namespace {
 // Edges under a part that are longer than this part of its reach are halved, until none is longer
 // than the other one.
 constexpr double kCoarsePart = 0.6, kFinePart = 0.3;
+// The first beside sharp edges, in lines of at least half a reach, on which a part stands along its
+// feature's outline.
+constexpr double kCoarseOnEdges = 0.35, kEdgesNear = 0.5;
 
 // A region of a mesh on one that was made of it: the vertices that come from its vertices alone.
 Region carried(const Region& region, const Mesh& mesh, const MeshMap& map) {
@@ -55,17 +58,35 @@ double Paste::State::reach_of(const PastePlacement& placement) const {
     return placement.scale * source_map.length_ratio * source_map.reach;
 }
 
+bool Paste::State::has_edges_near(const PastePlacement& placement) const {
+    if (!given_edges) given_edges = sharp_edges(as_given(), {});
+    if (given_edges->empty()) return false;
+    const double reach = reach_of(placement);
+    const Vec3 at = surfaces ? surfaces->target_tree.nearest(placement.at).position
+                             : SpatialTree(as_given()).nearest(placement.at).position;
+    return std::any_of(given_edges->begin(), given_edges->end(), [&](const SharpEdge& edge) {
+        return edge.line >= kEdgesNear * reach && (nearest_point_of(edge, at) - at).norm() < reach;
+    });
+}
+
+// The longest edge that a target may have under a part.
+double Paste::State::coarse_edge(const PastePlacement& placement) const {
+    const double reach = reach_of(placement);
+    const bool fine = longest_edge <= kCoarseOnEdges * reach;
+    return (fine || !has_edges_near(placement) ? kCoarsePart : kCoarseOnEdges) * reach;
+}
+
 bool Paste::State::needs_another(const PastePlacement& placement) const {
-    return clears() || longest_edge > kCoarsePart * reach_of(placement);
+    return clears() || longest_edge > coarse_edge(placement);
 }
 
 AlteredTarget Paste::State::roomy(const PastePlacement& placement, const Context& context) const {
     const Mesh& mesh = as_given();
-    const double reach = reach_of(placement);
-    if (!(longest_edge > kCoarsePart * reach)) return {mesh, std::nullopt, onto};
+    const double reach = reach_of(placement), coarse = coarse_edge(placement);
+    if (!(longest_edge > coarse)) return {mesh, std::nullopt, onto};
     const SurfacePoint point = SpatialTree(mesh, context).nearest(placement.at);
-    const FinePlace place{point.face, point.position, reach + placement.offset.norm(),
-                          kCoarsePart * reach, kFinePart * reach};
+    const FinePlace place{point.face, point.position, reach + placement.offset.norm(), coarse,
+                          kFinePart * reach};
     std::optional<FinerMesh> finer = finer_near(mesh, {&place, 1}, context);
     if (!finer) return {mesh, std::nullopt, onto};
     if (onto) require_same_topology(mesh, onto->topology(), "the target's region");

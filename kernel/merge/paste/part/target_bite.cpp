@@ -101,7 +101,7 @@ std::vector<SharpEdge> sharp_edges(const Mesh& mesh, const Context& context) {
     });
     std::vector<SharpEdge> edges;
     for (const auto& [a, b] : ends) {
-        edges.push_back({mesh.position(a), mesh.position(b), lines.length(a)});
+        edges.push_back({mesh.position(a), mesh.position(b), lines.length(a), a, b});
     }
     return edges;
 }

@@ -18,6 +18,8 @@ struct SharpEdge {
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();
     /// Length of all of the sharp edges that hang together with it.
     double line = 0.0;
+    /// Its vertices.
+    Index first = kNoIndex, second = kNoIndex;
 };
 
 /// The least angle of a sharp edge, in radians: a twelfth of a turn and a bit, so that round bodies

@@ -98,15 +98,6 @@ struct PlaneFit {
     }
 };
 
-// The triangles of a chart as a mesh whose vertices are places of the chart.
-Mesh chart_mesh(const Mesh& mesh, const PasteChart& chart) {
-    std::vector<Vec3> positions;
-    for (const Index v : chart.map.vertex) positions.push_back(mesh.position(v));
-    FaceList faces;
-    for (const Triangle& t : chart.map.surface_triangles()) faces.add(t);
-    return {std::move(positions), std::move(faces)};
-}
-
 // A map without faces that are turned over: onto a disk if the requested one has some. LSCM alone,
 // which the thesis takes as it comes, is left as it is.
 Parameterization laid_out(const Mesh& mesh, std::span<const Index> faces,
@@ -143,6 +134,14 @@ double angle_between_fits(const PlaneFit& source, const PlaneFit& target, const 
 }
 
 }  // namespace
+
+Mesh chart_mesh(const Mesh& mesh, const PasteChart& chart) {
+    std::vector<Vec3> positions;
+    for (const Index v : chart.map.vertex) positions.push_back(mesh.position(v));
+    FaceList faces;
+    for (const Triangle& t : chart.map.surface_triangles()) faces.add(t);
+    return {std::move(positions), std::move(faces)};
+}
 
 Index PasteChart::place_of(Index vertex) const {
     const auto found = std::lower_bound(map.vertex.begin(), map.vertex.end(), vertex);
@@ -233,6 +232,22 @@ ImagePoint PasteMap::image_at(const Triangle& places, const Vec3& weights) const
 ImagePoint PasteMap::nearest(const Vec3& point) const {
     const SurfacePoint found = chart_tree_->nearest(point);
     return image_at(found.triangle, found.barycentric);
+}
+
+std::optional<ImagePoint> PasteMap::along(const Vec3& point, const Vec3& direction,
+                                          const Vec3& near) const {
+    if (!chart_tree_) return std::nullopt;
+    const double far = (chart_tree_->bounds().max - chart_tree_->bounds().min).norm() +
+                       (chart_tree_->bounds().center() - point).norm();
+    std::optional<SurfacePoint> found;
+    for (const SurfacePoint& hit :
+         chart_tree_->pick_all(point + far * direction.stableNormalized(), -direction)) {
+        if (!(hit.normal.dot(direction) > 0.0)) continue;
+        const double distance = (hit.position - near).norm();
+        if (!found || distance < (found->position - near).norm()) found = hit;
+    }
+    if (!found) return std::nullopt;
+    return image_at(found->triangle, found->barycentric);
 }
 
 std::optional<ImagePoint> PasteMap::on_target(const Vec2& uv) const {

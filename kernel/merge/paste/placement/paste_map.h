@@ -35,6 +35,9 @@ struct PasteChart {
     MapQuality quality() const;
 };
 
+/// The triangles of a chart as a mesh whose vertices are places of the chart.
+Mesh chart_mesh(const Mesh& mesh, const PasteChart& chart);
+
 /// Returns the ring, with a row of faces on each side of it if these leave it an annulus, and
 /// triangles of least area over the feature's outline. Maps other than LSCM turn no face over: one
 /// onto a disk is taken instead of a map that would.
@@ -92,6 +95,10 @@ class PasteMap {
     std::vector<ImagePoint> images(const PlanarMap& plane) const;
     /// The point of the target's region nearest to a point of space.
     ImagePoint nearest(const Vec3& point) const;
+    /// Of the points at which a line meets the target's region and that look along it, the one
+    /// nearest to `near`. Nothing where there is none, or without `nearest`.
+    std::optional<ImagePoint> along(const Vec3& point, const Vec3& direction,
+                                    const Vec3& near) const;
     /// The point of the target's surface at a place of its plane.
     std::optional<ImagePoint> on_target(const Vec2& uv) const;
 

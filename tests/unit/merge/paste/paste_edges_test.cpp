@@ -1,7 +1,9 @@
 // Pastes on and beside sharp edges, at corners and beside borders of generated shapes.
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "kernel/merge/paste/paste.h"
 #include "kernel/mesh/query/spatial_tree.h"
@@ -74,6 +76,38 @@ bool tells(const MergeReport& report, MergeFault fault) {
                        [&](const MergeReason& reason) { return reason.fault == fault; });
 }
 
+// How far points lie from the surface of the cube from -1 to 1, at most.
+double off_cube(std::span<const Vec3> points) {
+    double off = 0.0;
+    for (const Vec3& p : points) {
+        off = std::max(off, std::abs(p.cwiseAbs().maxCoeff() - 1.0));
+    }
+    return off;
+}
+
+std::vector<Vec3> seam_points(const PasteResult& result) {
+    std::vector<Vec3> points;
+    for (const Index v : result.merged.seams[0]) {
+        points.push_back(result.merged.mesh.position(v));
+    }
+    return points;
+}
+
+// How far the vertices of a mesh lie above the cube, at most.
+double height_over_cube(const Mesh& mesh) {
+    double height = 0.0;
+    for (const Vec3& p : mesh.positions()) {
+        const Vec3 beyond = (p.cwiseAbs() - Vec3::Ones()).cwiseMax(0.0);
+        height = std::max(height, beyond.norm());
+    }
+    return height;
+}
+
+// The bump alone.
+Region bump_of(const Mesh& sheet) {
+    return select_sphere(sheet, Vec3::Zero(), 0.72);
+}
+
 const Vec3 kOnCube[] = {{1, 1, 0.1}, {1, 0.8, 0}, {1, 0.9, 0.3}, {0.4, 1, 1}};
 
 }  // namespace
@@ -95,6 +129,58 @@ TEST_CASE("paste: edges of a box stay beyond a part that stands on them, and it 
             CHECK(report.intersections.empty());
         }
     }
+}
+
+TEST_CASE("paste: a part on an edge or a corner of a box keeps its shape and stands on all sides") {
+    const Mesh bump = bump_on_sheet();
+    const Region region = select_sphere(bump, Vec3::Zero(), 0.92);
+    const Vec3 places[] = {{1, 1, 0},      {1, 0.97, 0.4}, {0.93, 1, 0.3},  {0.3, 1, 1},
+                           {1, 0.3, 0.98}, {1, 1, 1},      {0.95, 0.97, 1}, {1, 1, 0.9}};
+    for (const Index segments : {1, 12}) {
+        const Mesh cube = cube_of(segments);
+        for (const Vec3& at : places) {
+            CAPTURE(segments);
+            CAPTURE(at.transpose());
+            Paste paste(bump, cube, region, bump_of(bump), std::nullopt,
+                        {.at = at, .up = Vec3::UnitZ(), .angle = 0.0, .scale = 0.35});
+            paste.optimize();
+            const PasteResult made = paste.merge();
+            CHECK(made.report.draped);
+            CHECK(made.merged.mesh.topology().is_closed());
+            CHECK(off_cube(seam_points(made)) < 4e-3);
+            CHECK(height_over_cube(made.merged.mesh) > 0.75 * 0.35 * 0.7);
+            CHECK_FALSE(tells(made.merged.report, MergeFault::bite));
+            CHECK_FALSE(tells(made.merged.report, MergeFault::crossings));
+            CHECK_FALSE(tells(made.merged.report, MergeFault::folds));
+        }
+    }
+}
+
+TEST_CASE("paste: a drag across an edge and a corner of a box refuses no frame") {
+    const Mesh bump = bump_on_sheet(), cube = cube_of(4);
+    const Region region = select_sphere(bump, Vec3::Zero(), 0.92);
+    const auto at = [](int frame) {
+        const double t = frame / 29.0;
+        return Vec3(std::min(1.0, 1.5 - t), std::min(1.0, 0.5 + t), 0.9 * t);
+    };
+    Paste paste(bump, cube, region, bump_of(bump), std::nullopt,
+                {.at = at(0), .up = Vec3::UnitZ(), .scale = 0.3});
+    paste.optimize();
+    int on_edges = 0;
+    for (int frame = 0; frame < 30; ++frame) {
+        CAPTURE(frame);
+        paste.slide({.at = at(frame), .up = Vec3::UnitZ(), .scale = 0.3});
+        const PasteDraft draft = paste.draft();
+        std::vector<Vec3> rim;
+        for (const Index v : draft.rim) rim.push_back(draft.part.position(v));
+        CHECK(off_cube(rim) < 5e-3);
+        if (frame % 3 != 0) continue;
+        const PasteResult made = paste.merge();
+        CHECK_FALSE(tells(made.merged.report, MergeFault::bite));
+        CHECK_FALSE(tells(made.merged.report, MergeFault::crossings));
+        if (made.report.draped) ++on_edges;
+    }
+    CHECK(on_edges >= 4);
 }
 
 TEST_CASE("paste: a part is as large as was asked for, however near edges and corners are") {

@@ -76,7 +76,8 @@ std::vector<PastePlacement> on_cube(double scale) {
 
 }  // namespace
 
-TEST_CASE("scatter: sharp edges of the target stay, and parts beside them move or are left out") {
+TEST_CASE(
+    "scatter: parts on sharp edges of the target stand there, and the edges go on beyond them") {
     const Mesh horn = horned_ball(12);
     for (const Index segments : {1, 12}) {
         CAPTURE(segments);
@@ -86,21 +87,20 @@ TEST_CASE("scatter: sharp edges of the target stay, and parts beside them move o
         const ScatterResult result = scatter(horn, cube, around_horn(horn), std::nullopt, places);
         MESSAGE(result.verdict);
         CHECK(result.mesh.topology().is_closed());
-        CHECK(cube_edges_gone(result.mesh) < 0.01);
+        CHECK(cube_edges_gone(result.mesh) < 0.05);
+        CHECK_FALSE(has_fault(result, MergeFault::bite));
         CHECK(result.placed >= 9);
         CHECK(result.placed + count_of(result.refused) == count_of(places));
         CHECK(result.placed == parts_in(result));
-        // Nothing of that is done for those who want parts where they put them, but it is told.
+        // None is moved for those who want parts where they put them.
         ScatterOptions keep;
         keep.crossings = ScatterCrossings::keep;
         const ScatterResult kept =
             scatter(horn, cube, around_horn(horn), std::nullopt, places, keep);
         CHECK(kept.moved.empty());
         CHECK(kept.shrunk.empty());
-        if (cube_edges_gone(kept.mesh) > 0.03) {
-            CHECK_FALSE(kept.ok);
-            CHECK(has_fault(kept, MergeFault::bite));
-        }
+        CHECK(cube_edges_gone(kept.mesh) < 0.05);
+        CHECK(kept.placed == count_of(places));
     }
 }
 
