@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
+#include "kernel/merge/crossings/hidden_crossings.h"
+#include "kernel/merge/crossings/shallow_crossings.h"
 #include "kernel/merge/sew/seam_guard.h"
-#include "kernel/merge/shallow_crossings.h"
 #include "kernel/mesh/query/distances.h"
 
 namespace lissom {
@@ -171,6 +173,17 @@ double smallest_radius(const Sewn& sewn) {
     return least;
 }
 
+std::vector<Index> faces_of(std::span<const FacePair> pairs) {
+    std::vector<Index> faces;
+    for (const FacePair& pair : pairs) {
+        faces.push_back(pair.first);
+        faces.push_back(pair.second);
+    }
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+}
+
 Vec3 middle_of_faces(const Mesh& mesh, std::span<const Index> faces) {
     Vec3 sum = Vec3::Zero();
     double count = 0.0;
@@ -213,26 +226,19 @@ std::vector<CrossingGroup> crossing_groups(const Sewn& sewn, std::span<const Fac
                                            const Context& context) {
     if (pairs.empty()) return {};
     const std::vector<char> near = near_seams(sewn, context);
-    std::map<CrossingPlace, CrossingGroup> groups;
-    std::map<CrossingPlace, std::vector<FacePair>> grouped;
-    for (const FacePair& pair : pairs) {
-        const CrossingPlace place = place_of(sewn, near, pair);
-        CrossingGroup& group = groups[place];
-        group.place = place;
-        ++group.pairs;
-        grouped[place].push_back(pair);
-        group.faces.push_back(pair.first);
-        group.faces.push_back(pair.second);
+    const std::vector<char> hidden = hidden_pairs(sewn.mesh, pairs, context);
+    using Kind = std::pair<CrossingPlace, bool>;
+    std::map<Kind, std::vector<FacePair>> grouped;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        grouped[{place_of(sewn, near, pairs[k]), hidden[k] != 0}].push_back(pairs[k]);
     }
     std::vector<CrossingGroup> result;
-    for (auto& entry : groups) {
-        std::vector<Index>& faces = entry.second.faces;
-        std::sort(faces.begin(), faces.end());
-        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-        entry.second.middle = middle_of_faces(sewn.mesh, faces);
-        entry.second.shallow =
-            is_shallow(sewn.mesh, grouped[entry.first], kShallow * smallest_radius(sewn), context);
-        result.push_back(std::move(entry.second));
+    for (const auto& [kind, members] : grouped) {
+        CrossingGroup group{kind.first, count_of(members), faces_of(members)};
+        group.middle = middle_of_faces(sewn.mesh, group.faces);
+        group.hidden = kind.second;
+        group.shallow = is_shallow(sewn.mesh, members, kShallow * smallest_radius(sewn), context);
+        result.push_back(std::move(group));
     }
     return result;
 }

@@ -29,9 +29,9 @@ struct Crossings {
 Crossings new_crossings(const Mesh& target, const Mesh& source, const Sewn& sewn,
                         const Context& context);
 
-/// Sorts pairs of faces by place: near a seam, else by the sides that they are on. Those of a place
-/// are shallow if they part when both surfaces draw back by a hundredth of the smallest radius of
-/// a seam.
+/// Sorts pairs of faces by place: near a seam, else by the sides that they are on; and by whether
+/// the surface hides them from outside. Those of a group are shallow if they part when both
+/// surfaces draw back by a hundredth of the smallest radius of a seam.
 std::vector<CrossingGroup> crossing_groups(const Sewn& sewn, std::span<const FacePair> pairs,
                                            const Context& context);
 

@@ -86,17 +86,17 @@ BandQuality band_of(const MergePreparation& preparation, const Sewn& sewn, const
     const std::vector<Index> of_target = faces_on(sewn.side_of_face, SeamSide::target);
     const std::vector<Index> of_source = faces_on(sewn.side_of_face, SeamSide::source);
     const Boundaries& from = preparation.boundaries;
-    const std::vector<Index> origin = source_vertices(sewn.map, from.target.vertex_count());
-    return band_quality({&sewn.mesh, of_target, seam}, {&sewn.mesh, of_source, seam, false, origin},
+    const std::vector<Vec3> rest =
+        places_on_second(sewn.map, from.source.mesh, from.target.vertex_count());
+    return band_quality({&sewn.mesh, of_target, seam}, {&sewn.mesh, of_source, seam, false, rest},
                         {&from.target, {}, from.target_loops[j]},
                         {&from.source.mesh, {}, from.source.loops[j]}, join.scale,
                         preparation.options.configuration == Configuration::fixed, context);
 }
 
 // Options of a merge that the caller could still change.
-OpenOptions open_options(const MergePreparation& preparation, const Matching& matching,
+OpenOptions open_options(const MergeOptions& options, const Matching& matching,
                          const MergeReport& report) {
-    const MergeOptions& options = preparation.options;
     const bool blends = options.suit_transition || options.source_transition > 0.0 ||
                         options.target_transition > 0.0;
     OpenOptions open;
@@ -116,8 +116,9 @@ OpenOptions open_options(const MergePreparation& preparation, const Matching& ma
 
 }  // namespace
 
-MergeReport report_of(const MergePreparation& preparation, const Matching& matching,
-                      const Moved& moved, const MergedSides& merged, const Context& context) {
+MergeReport report_of(const MergePreparation& preparation, const MergeOptions& options,
+                      const Matching& matching, const Moved& moved, const MergedSides& merged,
+                      const Context& context) {
     MergeReport report;
     report.source_rim = preparation.source_rim;
     report.target_rim = preparation.target_rim;
@@ -141,7 +142,7 @@ MergeReport report_of(const MergePreparation& preparation, const Matching& match
     for (std::size_t j = 0; j < report.joins.size(); ++j) {
         report.joins[j].band = band_of(preparation, merged.sewn, report.joins[j], j, context);
     }
-    judge(report, open_options(preparation, matching, report));
+    judge(report, open_options(options, matching, report));
     return report;
 }
 
@@ -156,8 +157,7 @@ MergeResult Merger::solve(const Context& context) try {
     progress.step(0.5);
     const Moved moved = deform_source(preparation, matching, context);
     progress.step(0.5);
-    MergedSides merged = sew_sides(preparation, matching, moved, context);
-    MergeReport report = report_of(preparation, matching, moved, merged, context);
+    auto [merged, report] = judged_sides(preparation, matching, moved, context);
     report.solve_seconds = seconds_since(start);
     const Boundaries& from = preparation.boundaries;
     const MeshMap origins =

@@ -121,6 +121,12 @@ struct MergeOptions {
     /// Looks for faces that run through others and did not before; see
     /// MergeReport::intersections.
     bool find_intersections = true;
+    /// If the verdict finds fault with the surface around the seams, and a seam that conforms
+    /// without a transition is asked for, sews again with the seam fair and then with a transition
+    /// of suitable widths, and keeps the result with fewest faults; a warning says so.
+    /// Takes the time of sewing up to three times. Not of the thesis's way, nor if `collar` is off
+    /// or `smooth` is 0.
+    bool mend = false;
     /// Directions of source and targets that are to lie the same way, for joins without keys. They
     /// count as far as they lie in the planes of the boundaries.
     std::vector<DirectionPair> directions = {};
@@ -190,6 +196,8 @@ enum class MergeFault {
     bend,
     /// The rim of the source stands out beside the seam more than it did.
     flare,
+    /// The surface comes to a point beside the seam, more sharply than it did.
+    spike,
     /// The surface turns more at an edge of the seam than beside the boundaries before.
     seam,
     /// The places at which the boundaries meet are a guess that may be wrong.
@@ -219,6 +227,9 @@ struct CrossingGroup {
     /// The surfaces only touch: they part if both draw back along their normals by a hundredth of
     /// the seam's radius. Such groups are no reason against a merge.
     bool shallow = false;
+    /// The surface hides the places from outside, as within a closed mouth or a neck: at most 3 of
+    /// 100 directions lead out of them. Such groups are told, and are no reason against a merge.
+    bool hidden = false;
 };
 
 /// Why a merge is not good.

@@ -103,9 +103,8 @@ KeptCreases kept_creases(const Boundaries& boundaries, const MergeOptions& optio
     return kept;
 }
 
-SewOptions sewing(const MergePreparation& preparation, const Matching& matching,
-                  const std::vector<Index>& firm, bool collar) {
-    const MergeOptions& options = preparation.options;
+SewOptions sewing(const MergePreparation& preparation, const MergeOptions& options,
+                  const Matching& matching, const std::vector<Index>& firm, bool collar) {
     SewOptions how;
     for (const auto& fit : matching.fits) how.kept.push_back(fit ? 1 : 0);
     how.firm = firm;
@@ -178,15 +177,14 @@ void finish_seams(const MergeOptions& options, const Matching& matching, const M
 
 // Sews with collars, and without if that hides the seam better: no step after the collar may be
 // possible on folded sides.
-MergedSides sew_well(const MergePreparation& preparation, const Matching& matching,
-                     const Moved& moved, const Context& context) {
-    const MergeOptions& options = preparation.options;
+MergedSides sew_well(const MergePreparation& preparation, const MergeOptions& options,
+                     const Matching& matching, const Moved& moved, const Context& context) {
     const Mesh& target = preparation.boundaries.target;
     const KeptCreases firm = kept_creases(preparation.boundaries, options);
     const auto sew_with = [&](bool collar) {
         MergedSides merged;
         merged.sewn = sew(target, moved.source, matching.pairs,
-                          sewing(preparation, matching, firm.near, collar), context);
+                          sewing(preparation, options, matching, firm.near, collar), context);
         finish_seams(options, matching, moved, firm.all, merged, context);
         require_sound(merged.sewn, target, moved.source, matching.pairs);
         return merged;
@@ -202,10 +200,10 @@ MergedSides sew_well(const MergePreparation& preparation, const Matching& matchi
 
 }  // namespace
 
-MergedSides sew_sides(const MergePreparation& preparation, const Matching& matching,
-                      const Moved& moved, const Context& context) {
-    MergedSides merged = sew_well(preparation, matching, moved, context);
-    if (!preparation.options.find_intersections) return merged;
+MergedSides sew_sides(const MergePreparation& preparation, const MergeOptions& options,
+                      const Matching& matching, const Moved& moved, const Context& context) {
+    MergedSides merged = sew_well(preparation, options, matching, moved, context);
+    if (!options.find_intersections) return merged;
     Crossings found = new_crossings(preparation.boundaries.target,
                                     preparation.boundaries.source.mesh, merged.sewn, context);
     merged.intersections = std::move(found.pairs);

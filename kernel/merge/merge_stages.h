@@ -223,10 +223,21 @@ struct MergedSides {
     std::vector<FacePair> intersections;
     Index known_intersections = 0;
 };
-MergedSides sew_sides(const MergePreparation& preparation, const Matching& matching,
-                      const Moved& moved, const Context& context);
+/// With the seams of `options`, which agree with those of the preparation on all else.
+MergedSides sew_sides(const MergePreparation& preparation, const MergeOptions& options,
+                      const Matching& matching, const Moved& moved, const Context& context);
 
-MergeReport report_of(const MergePreparation& preparation, const Matching& matching,
-                      const Moved& moved, const MergedSides& merged, const Context& context);
+MergeReport report_of(const MergePreparation& preparation, const MergeOptions& options,
+                      const Matching& matching, const Moved& moved, const MergedSides& merged,
+                      const Context& context);
+
+/// Sides as they were sewn, and what was found of them.
+struct JudgedSides {
+    MergedSides merged;
+    MergeReport report;
+};
+/// As the options of the preparation say, mended if they allow it.
+JudgedSides judged_sides(const MergePreparation& preparation, const Matching& matching,
+                         const Moved& moved, const Context& context);
 
 }  // namespace lissom

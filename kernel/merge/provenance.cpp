@@ -1,6 +1,7 @@
 #include "kernel/merge/provenance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -148,13 +149,20 @@ std::vector<Index> kept_vertices(const ElementMap& map, Index old_count) {
     return kept;
 }
 
-std::vector<Index> source_vertices(const MeshMap& map, Index first_count) {
-    std::vector<Index> result(at(map.vertices.size()), kNoIndex);
+std::vector<Vec3> places_on_second(const MeshMap& map, const Mesh& second, Index first_count) {
+    std::vector<Vec3> places;
+    places.reserve(at(map.vertices.size()));
     for (Index v = 0; v < map.vertices.size(); ++v) {
-        const Index from = map.vertices.main_source(v);
-        if (from >= first_count) result[at(v)] = from - first_count;
+        Vec3 sum = Vec3::Zero();
+        double weight = 0.0;
+        for (const ElementMap::Source& from : map.vertices[v]) {
+            if (from.element < first_count) continue;
+            sum += from.weight * second.position(from.element - first_count);
+            weight += from.weight;
+        }
+        places.push_back(weight > 0.0 ? Vec3(sum / weight) : Vec3(Vec3::Constant(NAN)));
     }
-    return result;
+    return places;
 }
 
 }  // namespace lissom

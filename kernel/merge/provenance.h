@@ -4,9 +4,11 @@
 
 #include <vector>
 
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/edit/extract.h"
+#include "kernel/mesh/mesh.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {
@@ -31,8 +33,8 @@ MeshMap composed_of_two(const MeshMap& outer, const Topology& first_between, con
                         const MeshMap& second, const Topology& first_origin);
 /// For each old vertex the new one that is nothing but it, or kNoIndex.
 std::vector<Index> kept_vertices(const ElementMap& map, Index old_count);
-/// For each new vertex the one of the second of two appended meshes that it mainly comes from, or
-/// kNoIndex; the first has `first_count` vertices.
-std::vector<Index> source_vertices(const MeshMap& map, Index first_count);
+/// For each new vertex its place on `second`, the second of two appended meshes, of which the first
+/// has `first_count` vertices: the mean of what it comes from there, or NaN if that is nothing.
+std::vector<Vec3> places_on_second(const MeshMap& map, const Mesh& second, Index first_count);
 
 }  // namespace lissom

@@ -41,6 +41,8 @@ constexpr double kBent = 35.0 / kRadian, kBentMost = 60.0 / kRadian, kMoreBent =
 // Limit of the outward turn of a source's rim: of 80 merges of real models, good ones gain up to 30
 // degrees, those with a rim that plainly stands out 41 to 94, and those between are split.
 constexpr double kFlared = 33.0 / kRadian;
+// Tips of merges of real models that look right lack up to 58 degrees, visible ones 82 and more.
+constexpr double kSpiked = 75.0 / kRadian, kMoreSpiked = 1.3;
 
 [[gnu::format(printf, 1, 2)]] std::string text_of(const char* format, ...) {
     char text[256];
@@ -155,7 +157,7 @@ void judge_crossings(const MergeReport& report, const OpenOptions& open, Reasons
         return note_crossings(all, "", open, reasons);
     }
     for (const CrossingGroup& group : report.crossings) {
-        if (group.shallow) continue;
+        if (group.shallow || group.hidden) continue;
         const std::string middle = text_of(" (around %.3g, %.3g, %.3g)", group.middle.x(),
                                            group.middle.y(), group.middle.z());
         note_crossings(group, place_text(group.place) + middle, open, reasons);
@@ -248,6 +250,18 @@ void judge_flare(const MergeReport& report, Index j, const OpenOptions& open, Re
                        remedy_of({{true, kCut}, {open.moves, kMove}})});
 }
 
+void judge_spike(const MergeReport& report, Index j, const OpenOptions& open, Reasons& reasons) {
+    const BandQuality& band = report.joins[at(j)].band;
+    const double limit = std::max(kSpiked, kMoreSpiked * band.rest_spike);
+    if (report.joins[at(j)].fits || !(band.spike > limit)) return;
+    reasons.push_back({MergeFault::spike, j, band.spike, limit,
+                       text_of("the surface comes to a point beside the seam%s: %s are missing to "
+                               "flat there, and %s were before",
+                               at_join(report, j).c_str(), angle_text(band.spike).c_str(),
+                               angle_text(band.rest_spike).c_str()),
+                       remedy_of({{open.fair, kFair}, {open.moves, kMove}, {true, kCut}})});
+}
+
 constexpr const char* kNotSought = "faces that run through one another were not looked for";
 
 void note_seam(double turn, double limit, const std::string& text, const OpenOptions& open,
@@ -328,7 +342,7 @@ Reasons reasons_of(const MergeReport& report, const OpenOptions& open) {
     judge_crossings(report, open, reasons);
     judge_sides(report, open, reasons);
     for (const auto& judge_join :
-         {judge_folds, judge_roughness, judge_volume, judge_bend, judge_flare}) {
+         {judge_folds, judge_roughness, judge_volume, judge_bend, judge_flare, judge_spike}) {
         for (Index j = 0; j < count_of(report.joins); ++j) judge_join(report, j, open, reasons);
     }
     judge_bite(report, open, reasons);
@@ -345,13 +359,21 @@ std::string crossings_text(const MergeReport& report, const OpenOptions& open) {
     if (report.known_intersections > 0) {
         text += " (" + std::to_string(report.known_intersections) + " pairs did)";
     }
-    Index touching = 0;
-    for (const CrossingGroup& group : report.crossings) touching += group.pairs;
-    if (touching > 0) {
-        text += ", but for " + std::to_string(touching) +
-                (touching == 1 ? " pair that touches" : " pairs that touch");
+    Index touching = 0, hidden = 0;
+    for (const CrossingGroup& group : report.crossings) {
+        (group.shallow ? touching : hidden) += group.pairs;
     }
-    return text;
+    std::vector<std::string> but;
+    if (touching > 0) {
+        but.push_back(std::to_string(touching) +
+                      (touching == 1 ? " pair that touches" : " pairs that touch"));
+    }
+    if (hidden > 0) {
+        but.push_back(std::to_string(hidden) +
+                      (hidden == 1 ? " pair inside, which is hidden from outside"
+                                   : " pairs inside, which are hidden from outside"));
+    }
+    return but.empty() ? text : text + ", but for " + joined_by(but, " and ");
 }
 
 }  // namespace
@@ -372,6 +394,8 @@ const char* fault_name(MergeFault fault) {
             return "bend";
         case MergeFault::flare:
             return "flare";
+        case MergeFault::spike:
+            return "spike";
         case MergeFault::seam:
             return "seam";
         case MergeFault::place:

@@ -33,7 +33,8 @@ struct Verdict {
 
 /// Judges the whole band around each seam against the parts as they were before. It is good if
 /// - no faces run through one another that did not before (`open.sought`: they were looked for),
-///   but for those that only touch (CrossingGroup::shallow);
+///   but for those that only touch (CrossingGroup::shallow) or lie within the body
+///   (CrossingGroup::hidden);
 /// - source and target do not lie on the same side of their boundary;
 /// - the surface does not fold back within one radius of the seam and did not before;
 /// - within half a radius it is at most 1.4 times as rough as both sides were, or turns by less
@@ -44,6 +45,8 @@ struct Verdict {
 ///   boundaries;
 /// - the rim of the source turns outward by at most 33 degrees more than at rest; not measured of
 ///   a paste, whose rim is tilted on purpose;
+/// - tips and pits within half a radius of the seam lack at most 75 degrees to full turns, or 1.3
+///   times as much as the sharpest did before;
 /// - the surface turns by no more than 30 degrees at an edge of the seam and 20 in the mean (two
 ///   thirds of the crease of a paste), or by no more than at edges beside the boundaries, 1.3 times
 ///   as much in the mean;

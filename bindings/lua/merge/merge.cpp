@@ -67,6 +67,8 @@ MergeOptions merge_options(const Call& call) {
     }
     options.greatest_turn = call.number("greatest_turn") * kPi / 180.0;
     options.find_intersections = call.boolean("intersections");
+    // A seam that is asked for is made.
+    options.mend = call.boolean("mend") && !call.has("seam") && !call.has("transition");
     return options;
 }
 
@@ -427,6 +429,13 @@ std::vector<Parameter> merge_parameters(bool intersections) {
             .thesis("2.5", "false, as which boundaries have too few vertices is not said"),
         boolean("intersections",
                 "Looks for faces that run through one another and did not before, for the report.")
+            .defaults(intersections),
+        boolean("mend",
+                "If the verdict finds fault with the surface around the seams, and neither `seam` "
+                "nor `transition` is given, sews again with the seam fair and then with a "
+                "transition, and keeps the result with fewest faults; a warning says so. Takes the "
+                "time "
+                "of sewing up to three times. Not without smoothing or collar.")
             .defaults(intersections),
         choice("fidelity", {"default", "thesis"},
                "thesis: section 3.3 to the letter, for comparison, unless another option "

@@ -74,7 +74,7 @@ void push_place(const Call& call, const JoinReport& join) {
 }
 
 void push_band_quality(const Call& call, const BandQuality& band) {
-    lua_createtable(call.lua(), 0, 12);
+    lua_createtable(call.lua(), 0, 14);
     call.set_field("roughness", call.push(kDegrees * band.roughness));
     call.set_field("rest_roughness", call.push(kDegrees * band.rest_roughness));
     call.set_field("bend", call.push(kDegrees * band.bend));
@@ -84,6 +84,8 @@ void push_band_quality(const Call& call, const BandQuality& band) {
     call.set_field("folded", call.push(band.folded));
     call.set_field("rest_folded", call.push(band.rest_folded));
     call.set_field("flare", call.push(kDegrees * band.flare));
+    call.set_field("spike", call.push(kDegrees * band.spike));
+    call.set_field("rest_spike", call.push(kDegrees * band.rest_spike));
     call.set_field("source_volume", call.push(band.source_volume));
     call.set_field("target_volume", call.push(band.target_volume));
     call.set_field("radius", call.push(band.radius));
@@ -91,7 +93,8 @@ void push_band_quality(const Call& call, const BandQuality& band) {
 
 bool is_angle(MergeFault fault) {
     return fault == MergeFault::roughness || fault == MergeFault::bend ||
-           fault == MergeFault::flare || fault == MergeFault::seam || fault == MergeFault::slivers;
+           fault == MergeFault::flare || fault == MergeFault::spike || fault == MergeFault::seam ||
+           fault == MergeFault::slivers;
 }
 
 // Its text with the remedy, for tostring.
@@ -529,6 +532,11 @@ std::vector<Record> merge_records() {
           {"number", "flare",
            "The RMS angle by which the rim of the source turns outward beside the seam more than "
            "at rest; 0 of a paste."},
+          {"number", "spike",
+           "Sharpness of the sharpest tip or pit within half a radius of the seam: the greatest "
+           "sum of angles missing to full turns around the vertices within .15 radii, in degrees. "
+           "The corner of a cube has 90, a needle 360."},
+          {"number", "rest_spike", "The same of both sides before."},
           {"number", "source_volume",
            "Volume between source and seam, over that of the source at rest at its scale: 1 if "
            "it was kept, negative if it turned inside out."},
@@ -537,12 +545,13 @@ std::vector<Record> merge_records() {
         {"lissom.MergeReason",
          "Why a merge is not good. tostring gives text and remedy.",
          {{"string", "fault",
-           "crossings, side, folds, roughness, volume, bend, flare, bite, seam, place or slivers; "
+           "crossings, side, folds, roughness, volume, bend, flare, spike, bite, seam, place or "
+           "slivers; "
            "of a scatter \"left out\" as well."},
           {"integer|nil", "join", "The join that it is of; nil of all of them."},
           {"number", "value",
-           "Measured value: degrees for roughness, bend, flare, seam and slivers; radii of the "
-           "seam for folds and bites; pairs of faces for crossings; the part that was kept for "
+           "Measured value: degrees for roughness, bend, flare, spike, seam and slivers; radii of "
+           "the seam for folds and bites; pairs of faces for crossings; the part that was kept for "
            "volume; the certainty for place."},
           {"number", "limit", "The limit that it passes."},
           {"integer[]|nil", "faces", "For crossings: the faces of the merged mesh concerned."},

@@ -6,6 +6,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "kernel/merge/loop/band_spike.h"
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/loop/rim_flare.h"
 #include "kernel/mesh/query/distances.h"
@@ -135,6 +136,8 @@ class Side {
     double radius() const { return radius_; }
     MadeRim rim() const { return {mesh_, faces_, loop_, distance_, radius_}; }
 
+    double spike() const { return band_spike(mesh_, distance_, radius_); }
+
     // Sum over the faces with a vertex within that many radii, without the seam's edges.
     EdgeSum edges(double radii) const {
         std::vector<Index> near;
@@ -248,9 +251,11 @@ BandQuality band_quality(const BandSide& made_target, const BandSide& made_sourc
     result.folded = folds(on_target, &EdgeSum::folded) + folds(on_source, &EdgeSum::folded);
     result.rest_folded =
         folds(old_target, &EdgeSum::nearly_folded) + folds(old_source, &EdgeSum::nearly_folded);
-    if (!made_source.origin.empty()) {
+    result.spike = on_target.spike();
+    result.rest_spike = std::max(old_target.spike(), old_source.spike());
+    if (!made_source.rest.empty()) {
         const bool inside_out = old_source.volume(old_source.middle()) < 0.0;
-        result.flare = rim_flare(on_source.rim(), *source.mesh, made_source.origin, inside_out);
+        result.flare = rim_flare(on_source.rim(), made_source.rest, inside_out);
     }
     const Vec3& middle = on_target.middle();
     if (!target.is_piece) {

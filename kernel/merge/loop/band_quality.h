@@ -30,6 +30,10 @@ struct BandQuality {
     /// which shows as a flared rim: the RMS over the seam of the greatest gain; 0 if the origin of
     /// its vertices is unknown.
     double flare = 0.0;
+    /// Sharpness of the sharpest tip or pit within half a radius of the seam: the greatest sum of
+    /// angles missing to full turns around the vertices within .15 radii. The corner of a cube has
+    /// a quarter turn, a needle a full one. And the same of both sides before.
+    double spike = 0.0, rest_spike = 0.0;
     /// Volume of the source and of the target between the surface and the middle of the seam, over
     /// that at rest at the source's scale: 1 for a part that kept it. It is 1 as well for a side
     /// with less than the seam's own dome.
@@ -46,9 +50,9 @@ struct BandSide {
     std::span<const Index> loop = {};
     /// The mesh is a piece of a larger one: its volume is not known.
     bool is_piece = false;
-    /// For a source in a merged mesh: the vertex of the source at rest that each vertex comes from,
-    /// or kNoIndex.
-    std::span<const Index> origin = {};
+    /// For a source in a merged mesh: the place of each vertex of the mesh on the source at rest,
+    /// NaN for a vertex that was not on it.
+    std::span<const Vec3> rest = {};
 };
 
 /// Measures the band around a seam that `target` and `source` were joined at; `scale` is how much

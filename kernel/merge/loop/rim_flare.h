@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 
@@ -19,12 +20,11 @@ struct MadeRim {
 
 /// Returns the outward turn of the source beside its seam, beyond that at rest, such as that of a
 /// widened boundary: the RMS over points of the seam of the greatest gain, in radians, between
-/// neighbouring strips of surface a sixth of a radius wide, or as wide as its faces are large, up
-/// to one radius away. Only turns by which the surface stands out count: a fillet is no flare.
-/// `rest` is the source before, `origin` the vertex of it that each vertex of the merged mesh
-/// comes from, or kNoIndex; faces with other vertices do not count. `inside_out`: the faces look
-/// inward.
-double rim_flare(const MadeRim& made, const Mesh& rest, std::span<const Index> origin,
-                 bool inside_out);
+/// neighbouring strips of surface a sixth of a radius wide, or as wide as its faces are long or
+/// large, up to one radius away. The direction of a strip is that of its area, so that slivers
+/// count for little. Only turns by which the surface stands out count: a fillet is no flare. `rest`
+/// is the place of each vertex of the merged mesh on the source before, NaN for a vertex without
+/// one; faces with such vertices do not count. `inside_out`: the faces look inward.
+double rim_flare(const MadeRim& made, std::span<const Vec3> rest, bool inside_out);
 
 }  // namespace lissom

@@ -50,7 +50,7 @@ Names of_deformer() {
 Names of_merge() {
     const auto& [configuration, place, fixed, motion, reach, frames, seam, smooth, collar,
                  source_width, target_width, suit, weight, overlap, trim, turn, refine,
-                 intersections, directions, thesis] = MergeOptions{};
+                 intersections, mend, directions, thesis] = MergeOptions{};
     const MergeOptions t = MergeOptions::literal(Configuration::fixed);
     CHECK(MergeOptions::literal().configuration == configuration);
     CHECK(MergeOptions::literal().turn_frames);
@@ -71,6 +71,7 @@ Names of_merge() {
     note(names, "greatest_turn", turn != t.greatest_turn);
     note(names, "subdivide", refine != t.refine);
     note(names, "intersections", intersections != t.find_intersections);
+    CHECK(mend == t.mend);
     CHECK(directions.size() == t.directions.size());
     CHECK(thesis != t.thesis);
     CHECK((overlap == t.overlap));

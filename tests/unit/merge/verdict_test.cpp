@@ -139,6 +139,16 @@ TEST_CASE(
     CHECK(verdict_of(fits, {}).good);
 }
 
+TEST_CASE("a point beside the seam is not good, but where the parts had one as sharp") {
+    BandQuality band = good_band();
+    band.spike = 200.0 * kDegree;
+    const MergeReason reason = only_reason(report_with(band));
+    CHECK(reason.fault == MergeFault::spike);
+    CHECK(reason.value == doctest::Approx(200.0 * kDegree));
+    band.rest_spike = 180.0 * kDegree;
+    CHECK(verdict_of(report_with(band), {}).good);
+}
+
 TEST_CASE("surfaces that only touch are told, and are no reason against a merge") {
     MergeReport report = report_with(good_band());
     report.intersections.resize(3);
@@ -151,6 +161,20 @@ TEST_CASE("surfaces that only touch are told, and are no reason against a merge"
     report.crossings[1].shallow = true;
     CHECK(verdict_of(report, {}).good);
     CHECK(says(verdict_of(report, {}), "but for 3 pairs that touch"));
+}
+
+TEST_CASE("crossings that no view from outside shows are told, and are no reason against a merge") {
+    MergeReport report = report_with(good_band());
+    report.intersections.resize(3);
+    report.crossings.resize(2);
+    report.crossings[0].pairs = 1;
+    report.crossings[1].pairs = 2;
+    report.crossings[1].hidden = true;
+    REQUIRE(verdict_of(report, {}).reasons.size() == 1);
+    CHECK(verdict_of(report, {}).reasons[0].value == 1.0);
+    report.crossings[0].shallow = true;
+    CHECK(verdict_of(report, {}).good);
+    CHECK(says(verdict_of(report, {}), "1 pair that touches and 2 pairs inside"));
 }
 
 TEST_CASE("a seam that turns all around is not good, though one edge beside it was as steep") {

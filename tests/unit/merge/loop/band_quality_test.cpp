@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kernel/core/geometry.h"
+#include "kernel/merge/merge_once.h"
 #include "kernel/merge/sew/seam_guard.h"
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -165,11 +166,9 @@ TEST_CASE("a step that crumples the band is refused, though one edge there is st
 TEST_CASE(
     "a rim that was bent outward is seen by the flare, a fillet and a shape at rest are not") {
     const Barrel barrel;
-    std::vector<Index> origin(at(barrel.mesh.vertex_count()));
-    for (Index v = 0; v < barrel.mesh.vertex_count(); ++v) origin[at(v)] = v;
     const auto flare = [&](const Mesh& made, const Mesh& rest) {
         return band_quality({&made, barrel.below, barrel.seam},
-                            {&made, barrel.above, barrel.seam, false, origin},
+                            {&made, barrel.above, barrel.seam, false, rest.positions()},
                             {&rest, barrel.below, barrel.seam}, {&rest, barrel.above, barrel.seam},
                             1.0, false)
             .flare;
@@ -196,6 +195,45 @@ TEST_CASE(
     flip(rest_over);
     flip(rim_over);
     CHECK(flare(rim_over, rest_over) == doctest::Approx(flare(rim, barrel.mesh)));
+}
+
+TEST_CASE("a straight tube of many sides on one of few has no flare, whatever slivers it has") {
+    const auto lobed = [](double from) {
+        return [from](double angle, double height) {
+            const double radius = 1.0 + 0.1 * std::cos(3.0 * angle);
+            return Vec3(from + 2.0 * height, radius * std::cos(angle), radius * std::sin(angle));
+        };
+    };
+    const Mesh source = tube(600, 5, lobed(0.0)), target = tube(16, 5, lobed(2.2));
+    const MergeResult made = merge(source, target, {}, {.find_intersections = false});
+    CHECK(made.report.seam.collar_added > 0);
+    CHECK(made.report.joins[0].band.flare < 10.0 * kDegree);
+}
+
+TEST_CASE("a tip beside the seam is seen, one that was there before, ridges and ledges are not") {
+    const Barrel barrel;
+    CHECK(barrel.measured(barrel.mesh).spike < 1e-6);
+    CHECK(barrel.measured(barrel.mesh).rest_spike < 1e-6);
+    const auto with_tip = [&](double out) {
+        return barrel.moved([out](Vec3& p) {
+            const double reach = (p - Vec3(0.0, 0.2, 1.0)).norm() / 0.3;
+            if (reach < 1.0) p.z() += out * (1.0 - reach);
+        });
+    };
+    const Mesh spiky = with_tip(0.5);
+    CHECK(barrel.measured(spiky).spike > 120.0 * kDegree);
+    CHECK(barrel.measured(with_tip(-0.5)).spike > 120.0 * kDegree);
+    CHECK(barrel.measured(with_tip(0.1)).spike < 60.0 * kDegree);
+    const BandQuality same = band_quality(
+        {&spiky, barrel.below, barrel.seam}, {&spiky, barrel.above, barrel.seam},
+        {&spiky, barrel.below, barrel.seam}, {&spiky, barrel.above, barrel.seam}, 1.0, false);
+    CHECK(same.spike == doctest::Approx(same.rest_spike));
+    const Mesh ledge = barrel.moved([](Vec3& p) {
+        const double out = 1.0 + 0.4 * std::exp(-30.0 * p.y() * p.y());
+        p.x() *= out;
+        p.z() *= out;
+    });
+    CHECK(barrel.measured(ledge).spike < 60.0 * kDegree);
 }
 
 TEST_CASE("lost volume is seen on a mesh that is inside out as well") {

@@ -1,4 +1,4 @@
-#include "kernel/merge/shallow_crossings.h"
+#include "kernel/merge/crossings/shallow_crossings.h"
 
 #include <algorithm>
 #include <initializer_list>

@@ -1,0 +1,60 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "kernel/core/geometry.h"
+#include "kernel/merge/merge_once.h"
+#include "tests/unit/shapes.h"
+#include "tests/unit/support.h"
+
+using namespace lissom;
+using namespace lissom::test;
+
+namespace {
+
+// A cylinder and a waisted jug whose mouth opens wide: the rim of the cylinder stands out.
+MergeResult cylinder_on_jug(MergeOptions options) {
+    const Mesh source = tube(40, 25, [](double angle, double height) {
+        return Vec3(std::sin(angle), 2.2 + 3.0 * height, std::cos(angle));
+    });
+    const Mesh target = tube(32, 21, [](double angle, double height) {
+        const double radius = 1.0 + 0.8 * std::sin(6.0 * height);
+        return Vec3(radius * std::sin(angle), 2.0 * height, radius * std::cos(angle));
+    });
+    return merge(source, target, {}, options);
+}
+
+bool is_told(const MergeReport& report) {
+    return std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& w) {
+        return w.find("the plain seam had faults") != std::string::npos;
+    });
+}
+
+}  // namespace
+
+TEST_CASE("a seam that the verdict finds fault with is sewn another way, which is told") {
+    const MergeResult plain = cylinder_on_jug({});
+    REQUIRE(!plain.report.ok);
+    CHECK(!is_told(plain.report));
+    const MergeResult mended = cylinder_on_jug({.mend = true});
+    CHECK(mended.report.ok);
+    CHECK(is_told(mended.report));
+    CHECK(mended.report.joins[0].band.roughness < plain.report.joins[0].band.roughness);
+    CHECK(mended.report.joins[0].band.flare < plain.report.joins[0].band.flare);
+}
+
+TEST_CASE("a seam is not mended that is good, was asked for, or must keep the target") {
+    CHECK(!is_told(cylinder_on_jug({.seam = SeamKind::fair, .mend = true}).report));
+    const MergeOptions firm{.smooth = 0, .collar = false};
+    MergeOptions firm_mend = firm;
+    firm_mend.mend = true;
+    CHECK(hash(cylinder_on_jug(firm).mesh) == hash(cylinder_on_jug(firm_mend).mesh));
+    const Mesh lower = open_tube(24, 8);
+    Mesh upper = open_tube(30, 8);
+    for (Vec3& p : upper.edit_positions()) p.y() += 2.2;
+    const MergeResult good = merge(upper, lower, {}, {.mend = true});
+    CHECK(good.report.ok);
+    CHECK(!is_told(good.report));
+}
