@@ -221,7 +221,7 @@ end
 
 local direction_options = { "source_up", "source_front", "target_up", "target_front" }
 local merge_options = { "configuration", "place", "fixed", "reach", "frames", "seam", "smooth", "collar",
-    "transition", "trim", "greatest_turn", "subdivide", "intersections", "fidelity", "source_up",
+    "transition", "trim", "greatest_turn", "subdivide", "intersections", "mend", "fidelity", "source_up",
     "source_front", "target_up", "target_front" }
 
 --- The values of a recipe's parameters (`schema` as of lissom.params), those given or else the defaults,

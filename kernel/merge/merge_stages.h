@@ -231,12 +231,12 @@ MergeReport report_of(const MergePreparation& preparation, const MergeOptions& o
                       const Matching& matching, const Moved& moved, const MergedSides& merged,
                       const Context& context);
 
-/// Sides as they were sewn, and what was found of them.
+/// Sewn sides and their report.
 struct JudgedSides {
     MergedSides merged;
     MergeReport report;
 };
-/// As the options of the preparation say, mended if they allow it.
+/// Sews and judges as the options of the preparation say, and mends if they allow it.
 JudgedSides judged_sides(const MergePreparation& preparation, const Matching& matching,
                          const Moved& moved, const Context& context);
 

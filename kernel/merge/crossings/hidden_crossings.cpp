@@ -30,7 +30,7 @@ std::vector<Vec3> views() {
     return directions;
 }
 
-// Where a segment passes through a triangle.
+// Point at which a segment passes through a triangle, if it does.
 std::optional<Vec3> passing(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b,
                             const Vec3& c) {
     const Vec3 along = to - from, normal = (b - a).cross(c - a);
@@ -56,7 +56,7 @@ struct MeanPoint {
     Vec3 value() const { return sum / count; }
 };
 
-// Where the edges of one face pass through another.
+// Adds the points at which the edges of one face pass through another.
 void add_passings(const Mesh& mesh, Index edges_of, Index through, MeanPoint& mean) {
     const std::span<const Index> face = mesh.topology().face(edges_of);
     const std::span<const Index> other = mesh.topology().face(through);

@@ -10,9 +10,9 @@
 
 namespace lissom {
 
-/// Returns for each pair of faces that run through one another whether the surface hides the place
-/// where they do: at most 3 of 100 directions lead from it to the outside, as in a closed mouth or
-/// within a body that is open at its end.
+/// Returns for each pair of faces that run through one another whether the surface hides their line
+/// of crossing: at most 3 of 100 directions lead from its middle to the outside, as in a closed
+/// mouth or within a body that is open at its end.
 std::vector<char> hidden_pairs(const Mesh& mesh, std::span<const FacePair> pairs,
                                const Context& context);
 

@@ -12,7 +12,7 @@
 namespace lissom {
 namespace {
 
-// In radii of the seam: where tips are looked for, and the size of one.
+// Widths of the band that is searched for tips, and of a tip, in radii of the seam.
 constexpr double kSpikeBand = 0.5, kSpikeTip = 0.15;
 // Vertices that may be the middle of a tip, at most about.
 constexpr std::size_t kSpikeMiddles = 2000;

@@ -197,7 +197,7 @@ TEST_CASE(
     CHECK(flare(rim_over, rest_over) == doctest::Approx(flare(rim, barrel.mesh)));
 }
 
-TEST_CASE("a straight tube of many sides on one of few has no flare, whatever slivers it has") {
+TEST_CASE("a straight tube of many sides on one of few has no flare, for all its slivers") {
     const auto lobed = [](double from) {
         return [from](double angle, double height) {
             const double radius = 1.0 + 0.1 * std::cos(3.0 * angle);
