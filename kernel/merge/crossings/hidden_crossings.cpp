@@ -15,8 +15,9 @@ namespace {
 
 // Directions that a place is looked at from, and how many of them may see it.
 constexpr std::size_t kViews = 128, kSeenFrom = 4;
-// Surfaces as near as this part of the mesh's size do not hide a place: it lies on them.
-constexpr double kOnSurface = 1e-7;
+// Surfaces as near as this part of the longest edge of the crossing faces do not hide a place: it
+// lies on them, but for the bend of polygons.
+constexpr double kOnSurface = 0.1;
 
 // Spread evenly over the sphere, along a spiral.
 std::vector<Vec3> views() {
@@ -82,9 +83,23 @@ Vec3 crossing_place(const Mesh& mesh, const FacePair& pair) {
     return mean.value();
 }
 
-bool is_hidden(const SpatialTree& tree, const Vec3& place, std::span<const Vec3> directions) {
+double longest_edge(const Mesh& mesh, const FacePair& pair) {
+    double longest = 0.0;
+    for (const Index f : {pair.first, pair.second}) {
+        const std::span<const Index> face = mesh.topology().face(f);
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const Vec3 edge = mesh.position(face[(k + 1) % face.size()]) - mesh.position(face[k]);
+            longest = std::max(longest, edge.norm());
+        }
+    }
+    return longest;
+}
+
+bool is_hidden(const SpatialTree& tree, const Mesh& mesh, const FacePair& pair,
+               std::span<const Vec3> directions) {
+    const Vec3 place = crossing_place(mesh, pair);
     HideOptions how;
-    how.touching = kOnSurface * tree.bounds().diagonal();
+    how.touching = kOnSurface * longest_edge(mesh, pair);
     std::size_t seen = 0;
     for (const Vec3& direction : directions) {
         if (!tree.hides(place, direction, how)) ++seen;
@@ -103,7 +118,7 @@ std::vector<char> hidden_pairs(const Mesh& mesh, std::span<const FacePair> pairs
     const std::vector<Vec3> directions = views();
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         context.checkpoint();
-        hidden[k] = is_hidden(tree, crossing_place(mesh, pairs[k]), directions) ? 1 : 0;
+        hidden[k] = is_hidden(tree, mesh, pairs[k], directions) ? 1 : 0;
     }
     return hidden;
 }
