@@ -89,6 +89,8 @@ class Program {
     /// Receives the text of --help; null for the standard output.
     std::ostream* help_stream = nullptr;
     bool debug = false;
+    /// Scripts have functions of Lua's debug library that can crash the program.
+    bool unsafe_debug = false;
     /// Receives each message of the log first, if it is set; false keeps the message from the
     /// standard error.
     std::function<bool(LogLevel, std::string_view)> log_filter;

@@ -277,6 +277,9 @@ int run_script(Program& program, const std::vector<std::string>& words) {
         "lissom run");
     std::string file;
     app.add_option("FILE", file, "The script; - for the standard input")->required();
+    app.add_flag("--unsafe-debug", program.unsafe_debug,
+                 "The whole of Lua's debug library, for debuggers and coverage: a script can crash "
+                 "the program by it");
     const SandboxFlags sandbox(app);
     int status = kSuccess;
     if (!program.parse(app, split.own, status)) return status;
@@ -287,6 +290,10 @@ int run_script(Program& program, const std::vector<std::string>& words) {
             kUsage);
     }
     const std::optional<lua::SandboxLimits> limits = sandbox.limits();
+    if (limits && program.unsafe_debug) {
+        return program.fail("--unsafe-debug is for scripts that are trusted, without --sandbox",
+                            kUsage);
+    }
     if (sandbox.has_wall()) return run_behind_wall(program, split.script, *limits);
     return run_file(program, split.script, limits);
 }

@@ -31,7 +31,9 @@ bool is_within(const fs::path& path, const fs::path& folder) {
 // Arguments of opening a state, reachable through a light userdata inside lua_pcall.
 struct Opening {
     const lua::HostOptions* options;
+    lua::Stoppable* stoppable;
     std::string path;
+    bool unsafe_debug;
 };
 
 int open_lissom(lua_State* L) {
@@ -76,7 +78,9 @@ int prepare(lua_State* L) {
     lua_call(L, 0, 0);
     set_search_path(L, opening->path.c_str());
     set_arguments(L, opening->options->arguments);
+    opening->stoppable->open(L, opening->unsafe_debug);
     Interrupt::watch(L);
+    opening->stoppable->open_finalizers(L);
     if (lua::find_state(L)->only_help) guard_for_help(L);
     return 0;
 }
@@ -279,7 +283,8 @@ void Script::open_in_sandbox(const lua::SandboxLimits& given) {
 }
 
 void Script::open_trusted() {
-    const Opening opening{&options_, search_path(options_.arguments.script)};
+    const Opening opening{&options_, &stoppable_, search_path(options_.arguments.script),
+                          program_.unsafe_debug};
     L_ = luaL_newstate();
     if (!L_) throw std::bad_alloc();
     lua_pushcfunction(L_, prepare);
@@ -289,6 +294,7 @@ void Script::open_trusted() {
         lua_close(L_);
         throw std::runtime_error(message);
     }
+    stoppable_.follow(state().context);
 }
 
 Script::~Script() {

@@ -9,6 +9,7 @@
 
 #include "bindings/cli/program.h"
 #include "bindings/lua/sandbox/sandbox.h"
+#include "bindings/lua/sandbox/stoppable.h"
 
 namespace lissom::cli {
 
@@ -71,6 +72,7 @@ class Script {
     lua::HostOptions options_;
     // Null for a script that is trusted.
     std::unique_ptr<lua::Sandbox> sandbox_;
+    lua::Stoppable stoppable_;
     lua_State* L_ = nullptr;
 };
 

@@ -29,7 +29,7 @@ status_of() { # OUT COMMAND... : the exit status of the command, whose output go
 interrupted() { # SECONDS COMMAND...
     local seconds=$1 status=0
     shift
-    timeout --preserve-status --signal=INT "$seconds" "$@" >/dev/null 2>&1 || status=$?
+    timeout --preserve-status --signal=INT --kill-after=20 "$seconds" "$@" >/dev/null 2>&1 || status=$?
     echo "$status"
 }
 
@@ -47,6 +47,28 @@ expect "an open one is not" test "$(status_of /dev/null "$program" inspect a.obj
 
 echo 'while true do end' >endless.lua
 expect "Ctrl-C ends a script with 130" test "$(interrupted 1 "$program" run endless.lua)" = 130
+# Scripts that catch every error, and work that no hook of Lua sees.
+while IFS= read -r script; do
+    echo "$script" >stubborn.lua
+    expect "Ctrl-C ends: $script" test "$(interrupted 0.3 "$program" run stubborn.lua)" = 130
+done <<'LUA'
+while true do pcall(function() while true do end end) end
+while true do xpcall(function() while true do end end, function() while true do end end) end
+while true do pcall(coroutine.wrap(function() pcall(function() while true do end end) end)) end
+return ('a'):rep(300):find('a*a*a*a*a*a*b')
+while true do pcall(string.gsub, ('a'):rep(300), 'a*a*a*a*a*a*b', '') end
+table.move({}, 1, math.maxinteger - 1, 2)
+while true do setmetatable({}, { __gc = function() while true do end end }) end
+LUA
+echo 'X = setmetatable({}, { __gc = function() while true do pcall(function() while true do end end) end end })' \
+    >stubborn.lua
+expect "Ctrl-C ends a finalizer at the end" test "$(interrupted 0.3 "$program" run stubborn.lua)" = 0
+expect "a script has no crashing functions of debug" \
+    test "$(echo 'debug.getregistry()' | status_of /dev/null "$program" run -)" = 1
+expect "unless it is asked for" \
+    test "$(echo 'debug.getregistry()' | status_of /dev/null "$program" run --unsafe-debug -)" = 0
+expect "which is not for a sandbox" \
+    test "$(echo 'x = 1' | status_of /dev/null "$program" run --unsafe-debug --sandbox -)" = 2
 cat >smooth.lua <<'LUA'
 local lissom = require "lissom"
 lissom.shapes.grid():boundaries()[1]:smooth{ iterations = 2147483647 }

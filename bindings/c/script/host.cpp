@@ -14,6 +14,8 @@ namespace {
 
 // Instructions between two looks at whether the host has cancelled.
 constexpr int kInstructions = 10000;
+// Instructions of a finalizer when the state is closed.
+constexpr int kFinalInstructions = 10'000'000;
 
 // Keys of Lua's registry: their addresses.
 const char kHostKey = 0;
@@ -25,8 +27,28 @@ ScriptHost& host_of(lua_State* L) {
     return *host;
 }
 
+void stop_where_cancelled(lua_State* L, lua_Debug*);
+
+void look_for_cancel(lua_State* L) {
+    lua_sethook(L, stop_where_cancelled, LUA_MASKCOUNT, kInstructions);
+}
+
+// A script that catches the error gets it again at once, until the cancel is cleared.
 void stop_where_cancelled(lua_State* L, lua_Debug*) {
-    if (host_of(L).context().kernel.cancelled()) luaL_error(L, "cancelled [cancelled]");
+    if (!host_of(L).context().kernel.cancelled()) {
+        if (lua_gethookcount(L) == 1) look_for_cancel(L);
+        return;
+    }
+    lua_sethook(L, stop_where_cancelled, LUA_MASKCALL | LUA_MASKCOUNT, 1);
+    lua::drop_handlers(L);
+    luaL_error(L, "cancelled [cancelled]");
+}
+
+// Ends finalizers that run on while the state is closed: nobody can cancel them any more.
+void end_finalizer(lua_State* L, lua_Debug*) {
+    lua_sethook(L, end_finalizer, LUA_MASKCALL | LUA_MASKCOUNT, 1);
+    lua::drop_handlers(L);
+    luaL_error(L, "a finalizer has run for too long");
 }
 
 // print of scripts: to the log of the host.
@@ -41,6 +63,7 @@ int print_to_log(lua_State* L) {
 struct Opening {
     ScriptHost* host;
     const lua::HostOptions* options;
+    lua::Stoppable* stoppable;
 };
 
 // Runs in protected mode.
@@ -59,7 +82,9 @@ int prepare_state(lua_State* L) {
     luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
     lua_pushvalue(L, -2);
     lua_setfield(L, -2, "lissom");
-    lua_sethook(L, stop_where_cancelled, LUA_MASKCOUNT, kInstructions);
+    opening->stoppable->open(L);
+    opening->stoppable->open_finalizers(L);
+    look_for_cancel(L);
     return 0;
 }
 
@@ -85,7 +110,9 @@ LuaReference::~LuaReference() {
 }
 
 ScriptHost::~ScriptHost() {
-    if (L_ && !sandbox_) lua_close(L_);
+    if (!L_ || sandbox_) return;
+    lua_sethook(L_, end_finalizer, LUA_MASKCOUNT, kFinalInstructions);
+    lua_close(L_);
 }
 
 void ScriptHost::open_sandbox(lua::SandboxLimits limits) {
@@ -105,7 +132,12 @@ void ScriptHost::open_sandbox(lua::SandboxLimits limits) {
 
 int ScriptHost::call(int arguments, int results) {
     if (sandbox_) return sandbox_->call(arguments, results);
-    return lua_pcall(lua(), arguments, results, 0);
+    lua_State* L = lua();
+    look_for_cancel(L);
+    const int status = lua_pcall(L, arguments, results, 0);
+    // The host reads results and messages by calls that nothing protects.
+    lua_sethook(L, nullptr, 0, 0);
+    return status;
 }
 
 lua_State* ScriptHost::lua() {
@@ -114,7 +146,7 @@ lua_State* ScriptHost::lua() {
     if (!L) throw Error(ErrorCode::memory_limit, "there is not enough memory for a Lua state");
     lua::HostOptions options;
     options.context = state_options(context_);
-    Opening opening{this, &options};
+    Opening opening{this, &options, &stoppable_};
     lua_pushcfunction(L, prepare_state);
     lua_pushlightuserdata(L, &opening);
     if (lua_pcall(L, 1, 0, 0) != LUA_OK) {
@@ -125,6 +157,7 @@ lua_State* ScriptHost::lua() {
     }
     // Operations of scripts are those of the context: its cancel, progress and memory.
     lua::find_state(L)->context = context_.kernel;
+    stoppable_.follow(context_.kernel);
     L_ = L;
     return L_;
 }

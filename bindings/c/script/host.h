@@ -12,6 +12,7 @@
 #include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/sandbox/sandbox.h"
+#include "bindings/lua/sandbox/stoppable.h"
 
 namespace lissom::c {
 
@@ -89,6 +90,7 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     lua_State* L_ = nullptr;
     // Null if scripts are trusted.
     std::unique_ptr<lua::Sandbox> sandbox_;
+    lua::Stoppable stoppable_;
     // Depth of the results that are being converted.
     std::size_t values_left_ = kMostValues;
     // The Lua object around the content of a handle, by that content.

@@ -6,6 +6,7 @@
 
 #include "bindings/cli/terminal/script_place.h"
 #include "bindings/lua/core/compat.h"
+#include "bindings/lua/sandbox/stoppable.h"
 
 namespace lissom::cli {
 namespace {
@@ -18,9 +19,10 @@ volatile std::sig_atomic_t pressed_flag = 0, prompt_flag = 0;
 // runs on the thread that it interrupts.
 std::mutex pressing;
 
-void set_running(lua_State* L) {
+// Returns the one before.
+lua_State* set_running(lua_State* L) {
     const std::lock_guard lock(pressing);
-    running_thread.store(L);
+    return running_thread.exchange(L);
 }
 
 // Key of Lua's registry: the message of the first error of an interrupt.
@@ -37,6 +39,7 @@ void stop_script(lua_State* L, lua_Debug*) {
         lua_pushvalue(L, -1);
         lua_rawsetp(L, LUA_REGISTRYINDEX, &kStopped);
     }
+    lua::drop_handlers(L);
     lua_error(L);
 }
 
@@ -65,9 +68,10 @@ extern "C" void on_interrupt(int signal) {
 int call_in_thread(lua_State* L, lua_State* thread) {
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_insert(L, 1);
-    set_running(thread);
+    lua_State* const before = set_running(thread);
+    if (pressed_flag) arm(thread);
     const int status = lua_pcall(L, lua_gettop(L) - 1, LUA_MULTRET, 0);
-    set_running(L);
+    set_running(before);
     if (pressed_flag) arm(L);
     return status == LUA_OK ? lua_gettop(L) : lua_error(L);
 }

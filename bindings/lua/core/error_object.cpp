@@ -94,9 +94,24 @@ int error_to_string(lua_State* L) {
     return 1;
 }
 
+// Pushes the text of an operand; that of a value without one is its type, not its address.
+void push_operand(lua_State* L, int index) {
+    const bool has_text = lua_isstring(L, index) || luaL_getmetafield(L, index, "__tostring");
+    if (has_text) {
+        to_display_string(L, index);
+    } else {
+        lua_pushstring(L, luaL_typename(L, index));
+    }
+}
+
 int concatenate_error(lua_State* L) {
-    to_display_string(L, 1);
-    to_display_string(L, 2);
+    lua_settop(L, 2);
+    push_operand(L, 1);
+    lua_insert(L, 1);
+    lua_settop(L, 3);
+    push_operand(L, 3);
+    lua_replace(L, 2);
+    lua_settop(L, 2);
     lua_concat(L, 2);
     return 1;
 }

@@ -185,7 +185,9 @@ std::string missing_function_text(const Registry& registry, const std::string& p
 }
 
 const char* push_key_text(lua_State* L) {
-    return lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : to_display_string(L, 2);
+    // Other values would show their addresses.
+    const bool has_text = lua_isstring(L, 2) || lua_isboolean(L, 2);
+    return has_text ? to_display_string(L, 2) : luaL_typename(L, 2);
 }
 
 template <typename Compose>
@@ -370,13 +372,20 @@ void push_module(lua_State* L, const Registry& registry, int box) {
     lua_setmetatable(L, module);
 }
 
+// Hides the metatable on top of the stack from getmetatable.
+void hide_metatable(lua_State* L) {
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "__metatable");
+}
+
 // Pushes the StateBox with a new State.
 State& push_state(lua_State* L, const HostOptions& options) {
     auto* box = static_cast<StateBox*>(new_userdata(L, sizeof(StateBox)));
     *box = {&kBoxMark, nullptr};
-    lua_createtable(L, 0, 1);
+    lua_createtable(L, 0, 2);
     lua_pushcfunction(L, collect_state);
     lua_setfield(L, -2, "__gc");
+    hide_metatable(L);
     lua_setmetatable(L, -2);
     Failure failure;
     if (!failure.guard([&] { box->state = new State(options); })) {
@@ -395,9 +404,10 @@ void make_object_table(lua_State* L) {
 }
 
 void make_held_metatable(lua_State* L) {
-    lua_createtable(L, 0, 1);
+    lua_createtable(L, 0, 2);
     lua_pushcfunction(L, collect_held);
     lua_setfield(L, -2, "__gc");
+    hide_metatable(L);
     raw_set_pointer(L, LUA_REGISTRYINDEX, State::held_metatable_key());
 }
 

@@ -1,5 +1,6 @@
 #include "bindings/lua/sandbox/folder_rights.h"
 
+#include <chrono>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -36,6 +37,21 @@ bool is_below_any(const fs::path& path, const std::vector<fs::path>& folders) {
     return false;
 }
 
+// Times of files may lag behind the clock by this.
+constexpr auto kClockStep = std::chrono::milliseconds(20);
+
+// Bytes of the files below a folder that were written since `time`.
+std::size_t bytes_since(const fs::path& folder, fs::file_time_type time) {
+    std::size_t bytes = 0;
+    std::error_code failed, unknown;
+    for (fs::recursive_directory_iterator at(folder, failed), end; !failed && at != end;
+         at.increment(failed)) {
+        const bool is_new = at->is_regular_file(unknown) && at->last_write_time(unknown) >= time;
+        if (is_new && !unknown) bytes += static_cast<std::size_t>(at->file_size(unknown));
+    }
+    return bytes;
+}
+
 // A link to a file that is not there yet leads anywhere.
 bool is_open_link(const fs::path& path) {
     std::error_code failed;
@@ -62,12 +78,17 @@ void FolderRights::check(const fs::path& path, FileUse use) {
                         std::to_string(most_bytes_) + " bytes");
     }
     pending_ = path;
+    asked_ = std::filesystem::file_time_type::clock::now() - kClockStep;
 }
 
 void FolderRights::count_written() {
     std::error_code failed;
     const fs::path path = std::exchange(pending_, {});
     if (path.empty()) return;
+    if (fs::is_directory(path, failed)) {
+        bytes_ += bytes_since(path, asked_);
+        return;
+    }
     const auto size = fs::file_size(path, failed);
     if (!failed) bytes_ += static_cast<std::size_t>(size);
 }

@@ -30,8 +30,10 @@ class FolderRights {
     void count_written();
 
     std::vector<std::filesystem::path> read_, write_, modules_;
-    // The file that was asked for last: its size is not known before the next question.
+    // The file or folder that was asked for last, and when: its size is not known before the next
+    // question.
     std::filesystem::path pending_;
+    std::filesystem::file_time_type asked_ = {};
     std::size_t most_bytes_, bytes_ = 0;
 };
 

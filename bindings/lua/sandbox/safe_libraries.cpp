@@ -152,6 +152,42 @@ int set_metatable(lua_State* L) {
     return 1;
 }
 
+// Key of Lua's registry: the weak table from values to their numbers.
+const char kNumbers = 0;
+
+// Pushes the number of the value at `index`, counted from 1 in the order in which they are shown.
+void push_number_of(lua_State* L, int index) {
+    if (lua_rawgetp(L, LUA_REGISTRYINDEX, &kNumbers) == LUA_TNIL) {
+        lua_pop(L, 1);
+        lua_newtable(L);
+        lua_createtable(L, 0, 1);
+        lua_pushliteral(L, "k");
+        lua_setfield(L, -2, "__mode");
+        lua_setmetatable(L, -2);
+        lua_pushvalue(L, -1);
+        lua_rawsetp(L, LUA_REGISTRYINDEX, &kNumbers);
+    }
+    lua_pushvalue(L, index);
+    if (lua_rawget(L, -2) == LUA_TNIL) {
+        lua_pop(L, 1);
+        lua_rawgetp(L, -1, &kNumbers);
+        lua_pushinteger(L, lua_tointeger(L, -1) + 1);
+        lua_replace(L, -2);
+        lua_pushvalue(L, -1);
+        lua_rawsetp(L, -3, &kNumbers);
+        lua_pushvalue(L, index);
+        lua_pushvalue(L, -2);
+        lua_rawset(L, -4);
+    }
+    lua_remove(L, -2);
+}
+
+int show(lua_State* L) {
+    luaL_checkany(L, 1);
+    push_shown(L, 1);
+    return 1;
+}
+
 // Upvalue 1: Lua's.
 int collect_garbage(lua_State* L) {
     end_in_time(L);
@@ -379,10 +415,39 @@ void wrap_costly(lua_State* L, const char* library, std::initializer_list<const 
     lua_pop(L, 1);
 }
 
+void make_coroutines_stop(lua_State* L) {
+    lua_getglobal(L, LUA_COLIBNAME);
+    lua_pushcfunction(L, wrap_coroutine);
+    lua_setfield(L, -2, "wrap");
+    replace_field(L, "close", call_in_time);
+    lua_pop(L, 1);
+}
+
+void push_shown(lua_State* L, int index) {
+    index = lua_absindex(L, index);
+    const int type = lua_type(L, index);
+    const bool is_plain =
+        type == LUA_TNIL || type == LUA_TBOOLEAN || type == LUA_TNUMBER || type == LUA_TSTRING;
+    if (is_plain || luaL_getmetafield(L, index, "__tostring") != LUA_TNIL) {
+        if (!is_plain) lua_pop(L, 1);
+        luaL_tolstring(L, index, nullptr);
+        return;
+    }
+    const int named = luaL_getmetafield(L, index, "__name");
+    if (named != LUA_TNIL && named != LUA_TSTRING) lua_pop(L, 1);
+    if (named != LUA_TSTRING) lua_pushstring(L, luaL_typename(L, index));
+    push_number_of(L, index);
+    lua_pushfstring(L, "%s: %I", lua_tostring(L, -2), lua_tointeger(L, -1));
+    lua_replace(L, -3);
+    lua_pop(L, 1);
+}
+
 void make_base_safe(lua_State* L) {
     lua_pushglobaltable(L);
     remove_fields(L, -1, {"dofile", "loadfile", "warn"});
     lua_pop(L, 1);
+    lua_pushcfunction(L, show);
+    lua_setglobal(L, "tostring");
     replace_global(L, "load", load_text);
     replace_global(L, "setmetatable", set_metatable);
     replace_global(L, "collectgarbage", collect_garbage);
@@ -394,11 +459,9 @@ void make_base_safe(lua_State* L) {
     lua_pop(L, 1);
     keep_fields(L, LUA_DBLIBNAME, {"traceback"});
     replace_global(L, "xpcall", call_with_handler);
+    make_coroutines_stop(L);
     lua_getglobal(L, LUA_COLIBNAME);
-    lua_pushcfunction(L, wrap_coroutine);
-    lua_setfield(L, -2, "wrap");
     replace_field(L, "create", create_coroutine);
-    replace_field(L, "close", call_in_time);
     lua_pop(L, 1);
     wrap_costly(L, LUA_UTF8LIBNAME, {"len", "offset", "codepoint"});
 }

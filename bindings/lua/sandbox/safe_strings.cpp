@@ -1,6 +1,7 @@
 // Functions of strings that end when the script has to.
 #include <cctype>
 #include <cstdio>
+#include <limits>
 #include <string_view>
 
 #include "bindings/lua/sandbox/pattern.h"
@@ -260,6 +261,10 @@ int repeat(lua_State* L) {
         lua_pushliteral(L, "");
         return 1;
     }
+    constexpr std::size_t kMost = std::numeric_limits<lua_Integer>::max();
+    if (size + between > kMost / static_cast<std::size_t>(times)) {
+        return luaL_error(L, "resulting string too large");
+    }
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_insert(L, 1);
     lua_call(L, lua_gettop(L) - 1, 1);
@@ -267,8 +272,26 @@ int repeat(lua_State* L) {
     return 1;
 }
 
+// Shows the arguments of %s as tostring does: Lua's own shows addresses, as %p does.
+void show_arguments(lua_State* L) {
+    const std::string_view format = text_at(L, 1);
+    int argument = 1;
+    for (std::size_t at = format.find('%'); at < format.size(); at = format.find('%', at)) {
+        at = format.find_first_not_of("-+ #0123456789.", at + 1);
+        if (at >= format.size()) return;
+        const char kind = format[at++];
+        if (kind == '%') continue;
+        ++argument;
+        if (kind == 'p') luaL_error(L, "'%%p' shows addresses, which a sandbox does not give");
+        if (kind != 's' || argument > lua_gettop(L)) continue;
+        push_shown(L, argument);
+        lua_replace(L, argument);
+    }
+}
+
 // Upvalue 1: Lua's. One text alone may keep %q busy for seconds.
 int format(lua_State* L) {
+    show_arguments(L);
     const bool quotes = text_at(L, 1).find("%q") != std::string_view::npos;
     const int given = lua_gettop(L);
     std::size_t bytes = text_at(L, 1).size();
@@ -295,12 +318,18 @@ void wrap(lua_State* L, const char* name, lua_CFunction with) {
 
 }  // namespace
 
-void make_strings_safe(lua_State* L) {
+void make_patterns_stop(lua_State* L) {
     lua_getglobal(L, LUA_STRLIBNAME);
     const luaL_Reg functions[] = {
         {"find", find}, {"match", match}, {"gmatch", gmatch}, {"gsub", gsub}, {nullptr, nullptr}};
     luaL_setfuncs(L, functions, 0);
     wrap(L, "rep", repeat);
+    lua_pop(L, 1);
+}
+
+void make_strings_safe(lua_State* L) {
+    make_patterns_stop(L);
+    lua_getglobal(L, LUA_STRLIBNAME);
     wrap(L, "format", format);
     lua_pushnil(L);
     lua_setfield(L, -2, "dump");

@@ -58,14 +58,29 @@ class Watch {
 
 }  // namespace
 
-struct Sandbox::Parts {
+struct Sandbox::Parts : Work {
+    Parts(Sandbox& sandbox, SandboxLimits given, HostOptions host,
+          std::function<void(std::string_view)> printer, FolderRights folders)
+        : owner(sandbox),
+          limits(std::move(given)),
+          options(std::move(host)),
+          print(std::move(printer)),
+          rights(std::move(folders)) {}
+
+    void count(std::size_t more) override;
+    const char* end_text() override;
+
+    Sandbox& owner;
     SandboxLimits limits;
     HostOptions options;
     std::function<void(std::string_view)> print;
     FolderRights rights;
-    Stop stop = {};
     std::atomic<SandboxEnd> end = SandboxEnd::none;
     std::int64_t instructions = 0;
+    // Whether a script runs, and not the host.
+    bool runs = false;
+    // Bytes of warnings, from any thread.
+    std::atomic<std::size_t> warned = 0;
     lua_State* L = nullptr;
     std::shared_ptr<MemoryAccount> account = {};
 
@@ -77,6 +92,16 @@ struct Sandbox::Parts {
 };
 
 namespace {
+
+// Lua works for minutes without a call or an instruction where a value is its own __call: then its
+// stack grows, and that is where it is stopped. Small blocks are for messages.
+void* allocate_in_time(void* sandbox, void* block, std::size_t old_size, std::size_t new_size) {
+    constexpr std::size_t kSmall = std::size_t{256} << 10;
+    auto& parts = *static_cast<Sandbox::Parts*>(sandbox);
+    const bool grows = new_size > kSmall && (!block || new_size > old_size);
+    if (grows && parts.runs && parts.stop.asked()) return nullptr;
+    return allocate_counted(parts.account.get(), block, old_size, new_size);
+}
 
 void look_at_limits(lua_State* L, lua_Debug* event) {
     const Sandbox& sandbox = sandbox_of(L);
@@ -94,6 +119,10 @@ void look_at_limits(lua_State* L, lua_Debug* event) {
 
 int print(lua_State* L) {
     const Sandbox& sandbox = sandbox_of(L);
+    for (int i = lua_gettop(L); i >= 1; --i) {
+        push_shown(L, i);
+        lua_replace(L, i);
+    }
     push_printed(L);
     lua_pushliteral(L, "\n");
     lua_concat(L, 2);
@@ -157,6 +186,17 @@ void guard_files(Sandbox::Parts& parts) {
     };
 }
 
+// Warnings are output: hosts show them.
+void count_warnings(Sandbox::Parts& parts) {
+    auto& log = parts.options.context.log;
+    log = [&parts, log = std::move(log)](LogLevel level, std::string_view text) {
+        const std::size_t most = parts.limits.output_bytes;
+        const bool counts = level == LogLevel::warning && most != 0;
+        if (counts && (parts.warned += text.size()) > most) return parts.ask(SandboxEnd::output);
+        if (log) log(level, text);
+    };
+}
+
 void require_limits(const SandboxLimits& limits) {
     if (limits.seconds >= 0.0 && limits.instructions >= 0) return;
     throw Error(ErrorCode::invalid_argument,
@@ -165,25 +205,34 @@ void require_limits(const SandboxLimits& limits) {
 
 }  // namespace
 
-// New coroutines have the extra space of the state that the sandbox has opened.
+// New coroutines have the extra space of the first state.
+void set_work(lua_State* L, Work& work) {
+    *static_cast<Work**>(lua_getextraspace(L)) = &work;
+}
+
+Work& work_of(lua_State* L) {
+    return **static_cast<Work**>(lua_getextraspace(L));
+}
+
 Sandbox& sandbox_of(lua_State* L) {
-    return **static_cast<Sandbox**>(lua_getextraspace(L));
+    return static_cast<Sandbox::Parts&>(work_of(L)).owner;
 }
 
 void charge(lua_State* L, std::size_t instructions) {
-    Sandbox::Parts& parts = sandbox_of(L).parts();
-    const std::int64_t limit = parts.limits.instructions;
-    parts.instructions += static_cast<std::int64_t>(instructions);
-    if (limit != 0 && parts.instructions > limit) parts.ask(SandboxEnd::instructions);
-    if (parts.stop.asked()) raise_stopped(L);
+    Work& work = work_of(L);
+    work.count(instructions);
+    if (work.stop.asked()) raise_stopped(L);
+}
+
+void Sandbox::Parts::count(std::size_t more) {
+    instructions += static_cast<std::int64_t>(more);
+    if (limits.instructions != 0 && instructions > limits.instructions) {
+        ask(SandboxEnd::instructions);
+    }
 }
 
 void charge_bytes(lua_State* L, std::size_t bytes) {
     charge(L, bytes / kBytesAnInstruction);
-}
-
-const Stop& stop_of(lua_State* L) {
-    return sandbox_of(L).parts().stop;
 }
 
 const std::vector<std::filesystem::path>& module_folders_of(const Sandbox& sandbox) {
@@ -191,23 +240,25 @@ const std::vector<std::filesystem::path>& module_folders_of(const Sandbox& sandb
 }
 
 void raise_stopped(lua_State* L) {
-    const char* text = "cancelled [cancelled]";
-    switch (sandbox_of(L).end()) {
+    luaL_error(L, "%s", work_of(L).end_text());
+    std::abort();
+}
+
+const char* Sandbox::Parts::end_text() {
+    // A cancel of the host is noticed here first, unless a limit was reached before.
+    ask(SandboxEnd::cancelled);
+    switch (end.load()) {
         case SandboxEnd::seconds:
-            text = "the time of the script is over [cancelled]";
-            break;
+            return "the time of the script is over [cancelled]";
         case SandboxEnd::instructions:
-            text = "the script has run as many instructions as it may [cancelled]";
-            break;
+            return "the script has run as many instructions as it may [cancelled]";
         case SandboxEnd::output:
-            text = "the script has written as much as it may [cancelled]";
-            break;
+            return "the script has written as much as it may [cancelled]";
         case SandboxEnd::none:
         case SandboxEnd::cancelled:
             break;
     }
-    luaL_error(L, "%s", text);
-    std::abort();
+    return "cancelled [cancelled]";
 }
 
 Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
@@ -215,18 +266,19 @@ Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
     require_limits(limits);
     FolderRights rights(limits.read_folders, limits.write_folders, limits.module_folders,
                         limits.output_bytes);
-    parts_.reset(
-        new Parts{std::move(limits), std::move(options), std::move(print), std::move(rights)});
+    parts_.reset(new Parts(*this, std::move(limits), std::move(options), std::move(print),
+                           std::move(rights)));
     Parts& parts = *parts_;
     parts.account =
         std::make_shared<MemoryAccount>(parts.limits.memory_bytes, parts.options.context.memory);
     parts.options.context.memory = parts.account;
     parts.options.addresses = false;
     guard_files(parts);
-    parts.L = lua_newstate(allocate_counted, parts.account.get());
+    count_warnings(parts);
+    parts.L = lua_newstate(allocate_in_time, &parts);
     bool opened = false;
     if (parts.L) {
-        *static_cast<Sandbox**>(lua_getextraspace(parts.L)) = this;
+        set_work(parts.L, parts);
         lua_pushcfunction(parts.L, prepare_sandbox);
         lua_pushlightuserdata(parts.L, this);
         opened = lua_pcall(parts.L, 1, 0, 0) == LUA_OK;
@@ -237,6 +289,7 @@ Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
         if (parts.L) lua_close(parts.L);
         throw Error(ErrorCode::memory_limit, "the sandbox cannot be opened: " + why);
     }
+    parts.stop.follow(state().context);
 }
 
 Sandbox::~Sandbox() {
@@ -249,6 +302,7 @@ lua_State* Sandbox::lua() const {
 
 void Sandbox::work_in(const Context& context) {
     state().context = context.charging(parts_->account).with_files(parts_->options.context.files);
+    parts_->stop.follow(context);
 }
 
 std::shared_ptr<MemoryAccount> Sandbox::memory() const {
@@ -272,7 +326,9 @@ int Sandbox::call(int arguments, int results, int handler) {
             parts.ask(SandboxEnd::seconds);
             context.cancel();
         });
+        parts.runs = true;
         status = lua_pcall(parts.L, arguments, results, handler);
+        parts.runs = false;
     }
     // The host reads results and messages by calls that nothing protects.
     lua_sethook(parts.L, nullptr, 0, 0);

@@ -3,15 +3,21 @@
 
 #include <atomic>
 
+#include "kernel/core/context.h"
+
 namespace lissom::lua {
 
 /// Thrown, in C++ only, by work that was stopped.
 struct Stopped {};
 
-/// Set once by whoever watches the limits; read on the thread of the script.
+/// Set once by the watch over the limits, or by the cancel of the context that it follows; read on
+/// the thread of the script.
 class Stop {
   public:
-    bool asked() const { return asked_.load(std::memory_order_relaxed); }
+    bool asked() const { return asked_.load(std::memory_order_relaxed) || context_.cancelled(); }
+    /// Takes a cancel of `context` for a stop from now on. To be called on the thread of the
+    /// script.
+    void follow(const Context& context) { context_ = context; }
     void ask() { asked_.store(true, std::memory_order_relaxed); }
     void clear() { asked_.store(false, std::memory_order_relaxed); }
 
@@ -28,6 +34,7 @@ class Stop {
     static constexpr unsigned kSteps = 4096;
 
     std::atomic<bool> asked_ = false;
+    Context context_;
 };
 
 }  // namespace lissom::lua

@@ -156,6 +156,69 @@ TEST_CASE("print goes to the log") {
     CHECK(told == "length\t3");
 }
 
+// Scripts that catch every error, and work that no hook of Lua sees.
+const char* const kStubborn[] = {
+    "while true do pcall(function() while true do end end) end",
+    "while true do xpcall(function() while true do end end, function() while true do end end) end",
+    "while true do pcall(coroutine.wrap(function() pcall(function() while true do end end) end)) "
+    "end",
+    "while true do coroutine.resume(coroutine.create(function() while true do end end)) end",
+    "return ('a'):rep(300):find('a*a*a*a*a*a*b')",
+    "while true do pcall(string.gsub, ('a'):rep(300), 'a*a*a*a*a*a*b', '') end",
+    "for _ in ('a'):rep(300):gmatch('a*a*a*a*a*a*b') do end",
+    "while true do string.rep('', math.maxinteger) end",
+    "table.move({}, 1, math.maxinteger - 1, 2)",
+    "setmetatable({}, { __gc = function() while true do end end }) collectgarbage() "
+    "while true do end",
+    "while true do setmetatable({}, { __gc = function() while true do "
+    "pcall(function() while true do end end) end end }) end",
+    "while true do local c = coroutine.create(function() local x <close> = setmetatable({}, "
+    "{ __close = function() while true do end end }) while true do end end) "
+    "coroutine.resume(c) coroutine.close(c) end",
+};
+
+TEST_CASE("a cancel from another thread ends every script until it is cleared") {
+    for (const char* text : kStubborn) {
+        CAPTURE(text);
+        const Host host;
+        const lissom_script script = load(host, text);
+        std::jthread other([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(40));
+            lissom_cancel(host);
+        });
+        CHECK(lissom_script_run(host, script, nullptr, nullptr) == LISSOM_CANCELLED);
+        other.join();
+        CHECK(run(host, "while true do end") == LISSOM_CANCELLED);
+        lissom_clear_cancel(host);
+        CHECK(run(host, "local n = 0 for i = 1, 1e5 do n = n + i end return n") == LISSOM_OK);
+    }
+}
+
+TEST_CASE("a context ends, whatever its finalizers do") {
+    const Host host;
+    CHECK(run(host,
+              "kept = setmetatable({}, { __gc = function() while true do "
+              "pcall(function() while true do end end) end end })") == LISSOM_OK);
+}
+
+TEST_CASE("functions of debug that can crash the host are out of a script's reach") {
+    const Host host;
+    CHECK(run(host, "debug.sethook()") == LISSOM_SCRIPT_ERROR);
+    CHECK(host.message().find("out of a script's reach") != std::string::npos);
+    CHECK(run(host,
+              "local lissom = require 'lissom' assert(not pcall(debug.getregistry)) "
+              "assert(debug.getupvalue(lissom.load, 1) == nil) "
+              "assert(debug.setupvalue(lissom.load, 1, 3) == nil) "
+              "assert(not pcall(debug.setmetatable, 'x', {})) "
+              "local box = lissom.shapes.box() assert(not pcall(debug.setmetatable, box, nil)) "
+              "assert(type(debug.getmetatable(box)) == 'string') "
+              "table.sort({ 2, 1 }, function(a, b) assert(debug.getlocal(2, 1) == nil) "
+              "assert(debug.setlocal(2, 1, 7) == nil) return a < b end) "
+              "local mine = 5 local function f() assert(select(2, debug.getlocal(2, 3)) == 5) end "
+              "f() local function g() return mine end assert(debug.getupvalue(g, 1) == 'mine') "
+              "assert(debug.setmetatable({}, { __index = { a = 1 } }).a == 1)") == LISSOM_OK);
+}
+
 TEST_CASE("an endless script ends by a cancel, and one that needs too much memory by an error") {
     auto options = lissom_default_context_options();
     options.memory_limit = 40'000'000;

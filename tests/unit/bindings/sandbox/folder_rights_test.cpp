@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "kernel/core/error.h"
 #include "tests/unit/io/io_support.h"
@@ -69,6 +71,21 @@ TEST_CASE("sandbox: links lead nowhere that the folders do not") {
     CHECK_FALSE(allows(rights, in / "link.obj", FileUse::write));
     CHECK_FALSE(allows(rights, in / "links/new.obj", FileUse::write));
     CHECK_FALSE(allows(rights, in / "open.obj", FileUse::write));
+}
+
+TEST_CASE("sandbox: the files of a folder that is written are added up, but those before it") {
+    const test::TemporaryFolder folder;
+    const fs::path scene = folder / "scene";
+    fs::create_directories(scene / "meshes");
+    write(scene / "old", 900);
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    FolderRights rights({}, {folder / ""}, {}, 1000);
+    CHECK(allows(rights, scene, FileUse::write));
+    write(scene / "a", 600);
+    CHECK(allows(rights, folder / "b", FileUse::write));
+    CHECK(allows(rights, scene, FileUse::write));
+    write(scene / "meshes" / "c", 600);
+    CHECK_FALSE(allows(rights, folder / "d", FileUse::write));
 }
 
 TEST_CASE("sandbox: what is written is added up") {

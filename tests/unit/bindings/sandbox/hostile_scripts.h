@@ -18,12 +18,20 @@ enum class HostileEnd {
     any,
 };
 
+/// A script that the first wall, that of Lua's own process, ends: by its time, by an error of the
+/// limit that `message` names, or because there is nothing to be had.
 struct HostileScript {
     std::string name, text;
     HostileEnd end;
     std::string message = {};
 };
 
+/// All of them.
 std::vector<HostileScript> hostile_scripts();
+
+/// Parts: texts that are kept, addresses, and callbacks within the library.
+std::vector<HostileScript> hostile_names();
+std::vector<HostileScript> hostile_addresses();
+std::vector<HostileScript> hostile_callbacks();
 
 }  // namespace lissom::test

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bindings/lua/sandbox/sandbox.h"
+#include "bindings/lua/sandbox/stoppable.h"
 
 namespace lissom::lua {
 namespace {
@@ -115,6 +116,18 @@ for _, call in ipairs{
     for _ = 1, 4 do note("yield", coroutine.resume(thread)) end
     note("close", coroutine.close(thread))
 end
+-- Long moves, which are made in pieces.
+local long = {}
+for i = 1, 3000000 do long[i] = i end
+for _, range in ipairs{ { 1, 2500000, 1001 }, { 1001, 2500000, 1 }, { 1, 2500000, 2500001 }, { 5, 2000000, 5 } } do
+    table.move(long, range[1], range[2], range[3])
+    note("moved", true, long[1], long[1000], long[1001], long[1048576], long[1048577], long[2500000], #long > 0)
+end
+-- Finalizers in the order of Lua.
+local order = {}
+for i = 1, 5 do setmetatable({}, { __gc = function() order[#order + 1] = i end }) end
+collectgarbage()
+note("finalized", true, table.concat(order, " "))
 return table.concat(lines, "\n")
 )lua";
 
@@ -124,9 +137,14 @@ std::string result_of(lua_State* L) {
     return text ? std::string(text, size) : "no text";
 }
 
-std::string by_stock_libraries() {
+// By stock Lua 5.4, or as `stoppable` changes it.
+std::string by_stock_libraries(Stoppable* stoppable = nullptr) {
     lua_State* L = luaL_newstate();
     luaL_openlibs(L);
+    if (stoppable) {
+        stoppable->open(L);
+        stoppable->open_finalizers(L);
+    }
     const bool failed = luaL_loadbufferx(L, kCalls, std::char_traits<char>::length(kCalls),
                                          "=calls", "t") != LUA_OK ||
                         lua_pcall(L, 0, 1, 0) != LUA_OK;
@@ -163,6 +181,9 @@ TEST_CASE("sandbox: functions of Lua's libraries do what those of stock Lua do")
     REQUIRE(stock.find("failed") != 0);
     CHECK(stock.size() > 100'000);
     CHECK_MESSAGE(stock == own, differences(stock, own));
+    Stoppable stoppable;
+    const std::string stopped = by_stock_libraries(&stoppable);
+    CHECK_MESSAGE(stock == stopped, differences(stock, stopped));
 }
 
 }  // namespace
