@@ -20,6 +20,7 @@
 #include "kernel/io/sniff.h"
 #include "kernel/io/stl/stl.h"
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/open_file.h"
 #include "kernel/io/stream/scalar.h"
 #include "kernel/mesh/measure/directions.h"
 #include "kernel/mesh/measure/measures.h"
@@ -288,6 +289,14 @@ class FileGroup {
     std::vector<Old> written_;
 };
 
+// Throws if a link stands in the place of a file beside the mesh's and leads out of its folder.
+void require_beside(const std::filesystem::path& file, const std::filesystem::path& mesh,
+                    const Context& context) {
+    if (context.files().write) return;
+    const std::filesystem::path folder = mesh.parent_path();
+    path_within(folder.empty() ? "." : folder, file.lexically_proximate(folder));
+}
+
 std::vector<std::string> extensions() {
     std::vector<std::string> list;
     for (const Format& format : kFormats) list.emplace_back(format.extension);
@@ -324,7 +333,10 @@ SavedFile save_mesh(const Mesh& mesh, const std::filesystem::path& path, const S
     });
     progress.step(0.2);
     FileGroup beside(context);
-    for (const SideFile& file : encoded.beside) beside.write(file.path, file.bytes);
+    for (const SideFile& file : encoded.beside) {
+        require_beside(file.path, path, context);
+        beside.write(file.path, file.bytes);
+    }
     write_file_atomically(path, encoded.bytes, context);
     beside.commit();
     return encoded.saved;

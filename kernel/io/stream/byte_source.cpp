@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/open_file.h"
 
 namespace lissom {
 namespace {
@@ -28,9 +29,8 @@ bool all_finite(std::span<const float> numbers) {
 
 ByteSource::ByteSource(const std::filesystem::path& path) : from_file_(true) {
     require_file(path);
-    file_.open(path, std::ios::binary);
+    file_ = open_to_read(path);
     size_ = addressable_size(path);
-    if (!file_) refuse(ErrorCode::file_unreadable, "cannot be read");
 }
 
 void ByteSource::read_bytes(void* to, std::size_t count) {

@@ -13,6 +13,7 @@
 #include "kernel/core/error.h"
 #include "kernel/core/nearest.h"
 #include "kernel/io/stream/file_error.h"
+#include "kernel/io/stream/open_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -91,6 +92,13 @@ void flush_folder([[maybe_unused]] const fs::path& folder) {
 
 fs::path folder_of(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+// Returns whether a path lies below a folder; both are from the root on, without links.
+bool is_within(const fs::path& path, const fs::path& folder) {
+    const auto [rest, path_rest] =
+        std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+    return rest == folder.end() || (rest->empty() && std::next(rest) == folder.end());
 }
 
 constexpr std::string_view kTemporaryBegin = ".lissom-", kTemporaryEnd = ".tmp";
@@ -374,6 +382,22 @@ void make_folder(const fs::path& path) {
                (error ? error : std::make_error_code(std::errc::file_exists)).message());
 }
 
+fs::path path_within(const fs::path& folder, const fs::path& name) {
+    require_no_zero(ErrorCode::unsafe_path, name);
+    std::error_code failed;
+    const fs::path real = fs::weakly_canonical(fs::absolute(folder / name, failed), failed);
+    const fs::path base = fs::weakly_canonical(fs::absolute(folder, failed), failed);
+    if (!failed && is_within(real, base)) return real;
+    refuse(ErrorCode::unsafe_path, folder / name,
+           "leads out of its folder; copy the file that it stands for into the folder");
+}
+
+std::ifstream open_to_read(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    if (stream) return stream;
+    refuse(ErrorCode::file_unreadable, path, "cannot be read: " + last_error().message());
+}
+
 std::size_t addressable_size(const fs::path& path) {
     const std::uintmax_t size = size_of_file(path);
     if (size > std::string().max_size()) {
@@ -387,11 +411,7 @@ std::size_t addressable_size(const fs::path& path) {
 FileContent read_file(const fs::path& path, const Context& context) {
     require_file(path, context);
     if (context.files().read) return read_by_host(path, context);
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) {
-        refuse(ErrorCode::file_unreadable, path, "cannot be read: " + last_error().message());
-    }
-
+    std::ifstream stream = open_to_read(path);
     const std::size_t size = addressable_size(path);
     FileContent content;
     content.charge = context.charge(size, "reading " + display_name(path));

@@ -5,6 +5,7 @@
 
 #include "kernel/io/stream/file.h"
 #include "kernel/io/stream/file_error.h"
+#include "kernel/io/stream/open_file.h"
 
 namespace lissom {
 namespace {
@@ -68,13 +69,28 @@ std::vector<std::string> files_below(const fs::path& folder) {
     return names;
 }
 
+// Returns whether the folder has a finished change; a link in its place is none.
+bool has_finished(const fs::path& folder) {
+    std::error_code error;
+    return fs::is_directory(fs::symlink_status(folder / kFinished, error));
+}
+
+// The place of a file of the folder, if need be among those of a finished change.
+fs::path place_in(const fs::path& folder, const std::string& name) {
+    std::error_code error;
+    const fs::path ready = fs::path(kFinished) / name;
+    const bool is_ready = has_finished(folder) && fs::exists(folder / ready, error);
+    return is_ready ? ready : fs::path(name);
+}
+
 // Gives the files of a finished change their names. Failures are left for the next time: readers
 // see the new files all the same.
 void settle(const fs::path& folder) {
     std::error_code error;
     const fs::path from = folder / kFinished;
-    if (!fs::is_directory(from, error)) return;
+    if (!has_finished(folder)) return;
     for (const std::string& name : files_below(from)) {
+        path_within(folder, fs::path(name).parent_path());
         fs::create_directories((folder / name).parent_path(), error);
         fs::rename(from / name, folder / name, error);
         require_done(error, folder / name);
@@ -156,14 +172,14 @@ void replace_in_folder(const fs::path& given, const FolderChange& change, const 
 
 FileContent read_from_folder(const fs::path& folder, const std::string& name,
                              const Context& context) {
-    std::error_code error;
-    const fs::path ready = folder / kFinished / name;
-    return read_file(fs::exists(ready, error) ? ready : folder / name, context);
+    const fs::path place = place_in(folder, name);
+    path_within(folder, place);
+    return read_file(folder / place, context);
 }
 
 bool has_in_folder(const fs::path& folder, const std::string& name) {
     std::error_code error;
-    return fs::exists(folder / kFinished / name, error) || fs::exists(folder / name, error);
+    return fs::exists(folder / place_in(folder, name), error);
 }
 
 }  // namespace lissom

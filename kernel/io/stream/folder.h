@@ -29,7 +29,7 @@ struct FolderChange {
 void replace_in_folder(const std::filesystem::path& folder, const FolderChange& change,
                        const Context& context = {});
 
-/// Errors: as `read_file`.
+/// Errors: as `read_file`; unsafe_path if a link leads out of the folder.
 FileContent read_from_folder(const std::filesystem::path& folder, const std::string& name,
                              const Context& context = {});
 

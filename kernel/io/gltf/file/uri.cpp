@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "kernel/io/stream/file.h"
+#include "kernel/io/stream/open_file.h"
 #include "kernel/io/stream/percent.h"
 #include "kernel/io/stream/read_error.h"
 
@@ -68,12 +69,6 @@ bool has_parent_part(const fs::path& path) {
     return std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
 }
 
-bool is_inside(const fs::path& path, const fs::path& folder) {
-    const auto [rest, path_rest] =
-        std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
-    return rest == folder.end() || (rest->empty() && std::next(rest) == folder.end());
-}
-
 fs::path safe_relative_path(std::string_view uri) {
     const std::string name = percent_decoded(uri);
     const bool has_odd_character = std::any_of(name.begin(), name.end(), [](char c) {
@@ -127,12 +122,11 @@ bool is_on_the_web(std::string_view uri) {
 
 fs::path GltfFolder::path_of(const fs::path& relative, std::string_view uri) const {
     if (context_.files().read) return (folder_ / relative).lexically_normal();
-    std::error_code failed;
-    const fs::path path = fs::weakly_canonical(folder_ / relative, failed);
-    if (failed) refuse_path(uri);
-    const fs::path folder = fs::weakly_canonical(folder_, failed);
-    if (failed || !is_inside(path, folder)) refuse_path(uri);
-    return path;
+    try {
+        return path_within(folder_, relative);
+    } catch (const Error&) {
+        refuse_path(uri);
+    }
 }
 
 SharedBytes GltfFolder::read_from_host(const fs::path& path) {
@@ -148,7 +142,7 @@ SharedBytes GltfFolder::read_path(const fs::path& path, std::size_t length) {
     SharedBytes& known = content_[path];
     if (known && known->size() >= length) return known;
     std::string bytes(length, '\0');
-    std::ifstream stream(path, std::ios::binary);
+    std::ifstream stream = open_to_read(path);
     if (!stream.read(bytes.data(), static_cast<std::streamsize>(length))) {
         refuse(ErrorCode::file_unreadable, "'" + display_name(path) + "' cannot be read");
     }

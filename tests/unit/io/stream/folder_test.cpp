@@ -80,6 +80,33 @@ TEST_CASE("folder: a cancelled change leaves the old files, or no folder") {
     CHECK_FALSE(has_in_folder(folder.path, "b"));
 }
 
+TEST_CASE("folder: links lead nowhere outside of it") {
+    TestFolder folder, outside;
+    outside.path += "_outside";
+    fs::remove_all(outside.path);
+    outside.write("secret", "s");
+    folder.write("inside", "i");
+    fs::create_symlink(outside.path / "secret", folder.path / "link");
+    fs::create_directory_symlink(outside.path, folder.path / "links");
+    fs::create_symlink("inside", folder.path / "own");
+    const auto code = [](const auto& call) { return error_of(call).code(); };
+    for (const char* name : {"link", "links/secret", "../lissom_folder_test_outside/secret"}) {
+        CHECK(code([&] { read_from_folder(folder.path, name); }) == ErrorCode::unsafe_path);
+    }
+    CHECK(folder.text("own") == "i");
+    // A change that seems to be finished, but moves files of others, or to elsewhere.
+    fs::create_directory_symlink(outside.path, folder.path / ".lissom-ready");
+    CHECK(code([&] { read_from_folder(folder.path, "secret"); }) == ErrorCode::file_not_found);
+    replace_in_folder(folder.path, {{{"a", "1"}}, {}});
+    CHECK(fs::exists(outside.path / "secret"));
+    fs::remove(folder.path / ".lissom-ready");
+    folder.write(".lissom-ready/links/evil", "e");
+    CHECK(code([&] {
+              replace_in_folder(folder.path, {{{"a", "2"}}, {"a"}});
+          }) == ErrorCode::unsafe_path);
+    CHECK_FALSE(fs::exists(outside.path / "evil"));
+}
+
 // What a process leaves that is killed before, or between, two renames.
 TEST_CASE("folder: a change that a killed process has finished writing counts, another does not") {
     TestFolder folder;
