@@ -17,8 +17,20 @@ bool is_set(std::string_view name, std::string_view base) {
 
 constexpr const char* kPurpose = "attributes of a mesh";
 
+// Bytes that a text takes beside its object: short ones lie in it.
+std::size_t bytes_of(const std::string& text) {
+    constexpr std::size_t kShort = 15;
+    return text.size() > kShort ? text.size() + 1 : 0;
+}
+
 std::size_t bytes_of(const Attribute& attribute) {
-    return attribute.values.size() * sizeof(double);
+    return attribute.values.size() * sizeof(double) + bytes_of(attribute.name);
+}
+
+std::size_t bytes_of(const FaceLabels& labels) {
+    std::size_t bytes = labels.of_face.size() * sizeof(Index);
+    for (const std::string& name : labels.names) bytes += bytes_of(name);
+    return bytes;
 }
 
 AttributeRole role_in_morph(std::string_view name) {
@@ -124,7 +136,7 @@ bool AttributeSet::remove(std::string_view name) {
 std::size_t AttributeSet::memory_bytes() const {
     std::size_t bytes = 0;
     for (const Attribute& a : attributes_) bytes += bytes_of(a);
-    for (const auto& [kind, labels] : labels_) bytes += labels.of_face.size() * sizeof(Index);
+    for (const auto& [kind, labels] : labels_) bytes += bytes_of(labels);
     return bytes;
 }
 

@@ -33,12 +33,16 @@ class ContentStore {
   public:
     /// Counted bytes are charged to `account` too; null: to none.
     explicit ContentStore(std::shared_ptr<MemoryAccount> account = nullptr)
-        : account_(std::make_shared<MemoryAccount>(0, std::move(account))) {}
+        : beside_(std::make_shared<MemoryAccount>(0, account)),
+          account_(std::make_shared<MemoryAccount>(0, std::move(account))) {}
 
     /// Bytes of all that is alive.
     std::size_t bytes() const { return account_->used() + counted_->used(); }
     /// Counts `bytes` for as long as the result lives.
     MemoryCharge charge(std::size_t bytes) const { return {account_, bytes, kPurpose}; }
+
+    /// Charges the account alone, for names and lists: they are no part of `bytes()`.
+    MemoryCharge charge_beside(std::size_t bytes) const { return {beside_, bytes, kPurpose}; }
 
     /// Keeps `value`, which counts `bytes`; for a value that is kept already, the same result.
     /// Null for null.
@@ -71,7 +75,7 @@ class ContentStore {
     }
     void forget_dead();
 
-    std::shared_ptr<MemoryAccount> account_;
+    std::shared_ptr<MemoryAccount> beside_, account_;
     std::shared_ptr<MemoryAccount> counted_ = std::make_shared<MemoryAccount>(0);
     // Keyed by the address of the value, which lives as long as its kept bytes.
     std::map<const void*, std::weak_ptr<const KeptBytes>> kept_;

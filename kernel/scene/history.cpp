@@ -31,7 +31,9 @@ std::size_t History::bytes_beside(std::size_t present) const {
 void History::push(std::string name, std::shared_ptr<const SceneState> next, std::size_t captured) {
     // Nothing may fail once steps have changed: the steps to be done again go last.
     const std::size_t present_bytes = bytes_of(*next);
-    Step step{std::move(name), captured, removed_bytes(*present(), *next), std::move(next)};
+    MemoryCharge charge = store_.charge_beside(sizeof(Step) + name.size());
+    Step step{std::move(name), captured, removed_bytes(*present(), *next), std::move(next),
+              std::move(charge)};
     steps_.insert(steps_.begin() + static_cast<std::ptrdiff_t>(place_), std::move(step));
     ++place_;
     while (steps_.size() > place_) steps_.pop_back();

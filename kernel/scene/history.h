@@ -22,6 +22,8 @@ class History {
         std::size_t captured = 0, removed = 0;
         /// The state that it led to.
         std::shared_ptr<const SceneState> state;
+        /// Memory of the step itself and its name.
+        MemoryCharge charge;
     };
 
     /// Begins with `first`. The contents of all states are in `store`, which outlives the history.

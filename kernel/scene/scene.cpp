@@ -23,6 +23,28 @@ void list_items(const std::shared_ptr<SceneItem>& item, std::unordered_set<const
     items.push_back({item, nullptr});
 }
 
+// A value that is charged for as long as it lives.
+template <typename T>
+std::shared_ptr<const T> charged(MemoryCharge charge, T&& value) {
+    struct Charged {
+        MemoryCharge charge;
+        T value;
+    };
+    const auto made =
+        std::make_shared<const Charged>(Charged{std::move(charge), std::forward<T>(value)});
+    return {made, &made->value};
+}
+
+std::shared_ptr<const NamedObject> charged_object(const ContentStore& store, NamedObject object) {
+    return charged(store.charge_beside(sizeof object + object.name.size()), std::move(object));
+}
+
+std::shared_ptr<const SceneState> charged_state(const ContentStore& store, SceneState state) {
+    const std::size_t bytes = state.objects.size() * sizeof(ObjectList::value_type) +
+                              state.items.size() * sizeof(CapturedItem);
+    return charged(store.charge_beside(sizeof state + bytes), std::move(state));
+}
+
 }  // namespace
 
 Scene::Scene(const SceneOptions& options)
@@ -63,8 +85,7 @@ ObjectId Scene::add(std::string name, std::shared_ptr<SceneItem> item, ObjectLoo
     require_look(look);
     const ObjectId id{next_id_};
     change("add", name, [&] {
-        objects_.push_back(std::make_shared<const NamedObject>(
-            NamedObject{id, name, std::move(look), std::move(item)}));
+        objects_.push_back(charged_object(store_, {id, name, std::move(look), std::move(item)}));
     });
     ++next_id_;
     return id;
@@ -83,7 +104,7 @@ void Scene::rename(ObjectId id, std::string name) {
     change("rename", (*place)->name, [&] {
         NamedObject renamed = **place;
         renamed.name = std::move(name);
-        *place = std::make_shared<const NamedObject>(std::move(renamed));
+        *place = charged_object(store_, std::move(renamed));
     });
 }
 
@@ -108,7 +129,7 @@ void Scene::set_look(ObjectId id, ObjectLook look) {
     change("change", (*place)->name, [&] {
         NamedObject changed = **place;
         changed.look = std::move(look);
-        *place = std::make_shared<const NamedObject>(std::move(changed));
+        *place = charged_object(store_, std::move(changed));
     });
 }
 
@@ -139,7 +160,7 @@ void Scene::capture() {
         const auto last = seen_->find(captured.item->identity(), i);
         captured.content = captured.item->capture(last, store_);
     }
-    if (!(next == *seen_)) seen_ = std::make_shared<const SceneState>(std::move(next));
+    if (!(next == *seen_)) seen_ = charged_state(store_, std::move(next));
 }
 
 void Scene::record(std::string name, std::size_t bytes_before) {

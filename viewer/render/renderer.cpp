@@ -16,8 +16,17 @@ bool is_power_of_two(int n) {
     return n > 0 && (n & (n - 1)) == 0;
 }
 
+// Pixels of the picture, and those of a tile as they are drawn: a driver without a graphics card
+// takes them from the same memory.
 std::size_t picture_bytes(const RenderOptions& options) {
-    return 4 * at(options.width) * options.height;
+    constexpr std::size_t kColor = 8, kDepth = 4, kOutput = 4, kTilePixels = 2048;
+    const auto tile_side = [&](int side) {
+        return std::min(at(side) * at(options.supersample), kTilePixels);
+    };
+    const std::size_t tile = tile_side(options.width) * tile_side(options.height);
+    const std::size_t several = options.samples > 1 ? at(options.samples) : 0;
+    return kOutput * at(options.width) * at(options.height) +
+           tile * (several * (kColor + kDepth) + kColor + kDepth + kOutput);
 }
 
 double least_opacity(const Snapshot& snapshot) {

@@ -165,6 +165,7 @@ int declare(Call& call) {
         }
     });
     if (!done) return call.fail();
+    call.charge(result);
     lua_createtable(call.lua(), count_of(rest), 0);
     for (std::size_t i = 0; i < rest.size(); ++i) {
         call.push(std::string_view(rest[i]));
@@ -245,7 +246,9 @@ int set_value(Call& call) {
             throw Error(ErrorCode::invalid_argument, error.message);
         }
     });
-    return done ? 0 : call.fail();
+    if (!done) return call.fail();
+    call.charge(self);
+    return 0;
 }
 
 int parameter_count(Call& call) {

@@ -247,6 +247,21 @@ std::vector<std::string_view> ParameterSet::names() const {
     return all;
 }
 
+std::size_t ParameterSet::memory_bytes() const {
+    std::size_t bytes = 0;
+    const auto add = [&](const std::optional<ParameterValue>& value) {
+        const auto* text = value ? std::get_if<std::string>(&*value) : nullptr;
+        if (text) bytes += text->size();
+    };
+    for (const ScriptParameter& p : list) {
+        bytes += sizeof p + p.name.size() + p.unit.size() + p.group.size() + p.help.size();
+        for (const std::string& choice : p.choices) bytes += sizeof choice + choice.size();
+        add(p.default_value);
+        add(p.value);
+    }
+    return bytes;
+}
+
 void ParameterSet::sort() {
     std::sort(list.begin(), list.end(), [](const ScriptParameter& a, const ScriptParameter& b) {
         return std::tie(a.group, a.name) < std::tie(b.group, b.name);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bindings/lua/core/compat.h"
+#include "kernel/core/memory_hold.h"
 
 namespace lissom::lua {
 
@@ -80,6 +81,11 @@ struct ParameterSet {
     static constexpr const char* kTypeName = "lissom.Params";
 
     std::vector<ScriptParameter> list;
+    std::size_t charged_bytes = 0;
+    MemoryHold held;
+
+    /// Bytes of the declarations, with their texts and values.
+    std::size_t memory_bytes() const;
 
     ScriptParameter* find(std::string_view name);
     std::vector<std::string_view> names() const;

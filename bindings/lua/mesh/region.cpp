@@ -139,11 +139,18 @@ int make_region(Call& call) {
     return new_region(call, mesh, [&] { return select(call, *mesh, asked); });
 }
 
+// Names are not counted as memory, but the entry of a region is.
+constexpr std::size_t kLongestName = 255;
+
 int set_region(Call& call) {
     const auto mesh = call.self<MeshObject>();
     const char* name = call.string("name");
     const auto region = call.object<RegionObject>("region");
-    const bool done = call.attempt([&] { mesh->mesh.set_region(name, region->current()); });
+    const bool done = call.attempt([&] {
+        require(std::string_view(name).size() <= kLongestName,
+                "the name of a region has at most 255 bytes");
+        mesh->mesh.set_region(name, region->current());
+    });
     if (!done) return call.fail();
     call.charge(mesh);
     return call.push_argument();
