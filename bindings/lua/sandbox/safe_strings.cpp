@@ -282,8 +282,9 @@ void show_arguments(lua_State* L) {
         const char kind = format[at++];
         if (kind == '%') continue;
         ++argument;
+        if (argument > lua_gettop(L)) return;
         if (kind == 'p') luaL_error(L, "'%%p' shows addresses, which a sandbox does not give");
-        if (kind != 's' || argument > lua_gettop(L)) continue;
+        if (kind != 's') continue;
         push_shown(L, argument);
         lua_replace(L, argument);
     }

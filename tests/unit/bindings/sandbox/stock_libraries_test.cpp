@@ -21,7 +21,7 @@ local function chain(t) return setmetatable({}, { __index = t, __newindex = t })
 local function values()
     return {
         0, 1, 2, 3, -1, -2, 7, 1.5, 2.0, 1e15, math.maxinteger, math.mininteger, 0 / 0, "", "a", "abc",
-        "a.b", "%a+", "(%w)(%w*)", "[%s%p]", "^a", "%d%d?", "%b()", "%f[%w]", "x%1", "%0%0", "hello world",
+        "a.b", "%a+", "(%w)(%w*)", "[%s%u]", "^a", "%d%d?", "%b()", "%f[%w]", "x%1", "%0%0", "hello world",
         "(1 + 2)", "i4", "<s1z", "\27Lua", "return 1, 2", "return", "return =", "10", "\0b\0", "\u{20ac}z",
         "%5.2f %s %q %d", "%q", "%Y", "!%H", true, false, {}, { 1, 2, 3 }, { 3, 1, 2, 5 },
         { "b", "a", "c" }, { 1, "x", 2 }, { 1, nil, 3 }, { a = "z", hello = 1 }, chain{ 4, 5, 6 },
