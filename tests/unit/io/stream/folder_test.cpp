@@ -97,7 +97,9 @@ TEST_CASE("folder: links lead nowhere outside of it") {
     // A change that seems to be finished, but moves files of others, or to elsewhere.
     fs::create_directory_symlink(outside.path, folder.path / ".lissom-ready");
     CHECK(code([&] { read_from_folder(folder.path, "secret"); }) == ErrorCode::file_not_found);
-    replace_in_folder(folder.path, {{{"a", "1"}}, {}});
+    CHECK(code([&] {
+              replace_in_folder(folder.path, {{{"a", "1"}}, {}});
+          }) == ErrorCode::file_write_failed);
     CHECK(fs::exists(outside.path / "secret"));
     fs::remove(folder.path / ".lissom-ready");
     folder.write(".lissom-ready/links/evil", "e");
