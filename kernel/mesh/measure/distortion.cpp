@@ -78,20 +78,35 @@ std::vector<double> angle_change(const Mesh& mesh, const Mesh& rest, std::span<c
 // them by this angle as well.
 constexpr double kFlipped = 30.0 * kPi / 180.0;
 
-// The angle between a face and the faces that it shares vertices with, each counting by its area.
+// Faces around whose areas cancel but for this share look no way, as those beside the end of a bar:
+// none can look against them.
+constexpr double kCoherent = 0.25;
+
+// How a face lies beside the faces that it shares vertices with, each counting by its area.
+struct Facing {
+    double angle = 0.0;
+    /// How far those look the same way, 0 to 1.
+    double coherence = 0.0;
+};
+
 class Neighborhood {
   public:
     Neighborhood(const Mesh& mesh, std::span<const Vec3> normals)
         : topology_(mesh.topology()), normals_(normals), area_(face_areas(mesh)) {}
 
-    double angle(Index f) const {
+    Facing facing(Index f) const {
         Vec3 sum = Vec3::Zero();
+        double whole = 0.0;
         for (const Index v : topology_.face(f)) {
             for (const Index g : topology_.faces_around(v)) {
-                if (g != f) sum += area_[g] * normals_[g];
+                if (g == f) continue;
+                sum += area_[at(g)] * normals_[at(g)];
+                whole += area_[at(g)];
             }
         }
-        return std::atan2(sum.cross(normals_[f]).norm(), sum.dot(normals_[f]));
+        const double angle =
+            std::atan2(sum.cross(normals_[at(f)]).norm(), sum.dot(normals_[at(f)]));
+        return {angle, whole > 0.0 ? sum.norm() / whole : 0.0};
     }
 
   private:
@@ -100,8 +115,9 @@ class Neighborhood {
     std::vector<double> area_;
 };
 
-bool has_flipped(double angle, double before) {
-    return angle > 0.5 * kPi && before <= 0.5 * kPi && angle - before > kFlipped;
+bool has_flipped(const Facing& now, const Facing& before) {
+    return now.angle > 0.5 * kPi && before.angle <= 0.5 * kPi &&
+           now.angle - before.angle > kFlipped && before.coherence > kCoherent;
 }
 
 }  // namespace
@@ -129,7 +145,7 @@ std::vector<Index> flipped_faces(const Mesh& mesh, const Mesh& rest, std::span<c
     const Neighborhood around(mesh, now), around_before(rest, before);
     std::vector<Index> flipped;
     std::copy_if(faces.begin(), faces.end(), std::back_inserter(flipped),
-                 [&](Index f) { return has_flipped(around.angle(f), around_before.angle(f)); });
+                 [&](Index f) { return has_flipped(around.facing(f), around_before.facing(f)); });
     return flipped;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
@@ -54,6 +55,23 @@ TEST_CASE("distortion: faces that fold over are flipped, those of the rest are n
     for (const Index f : found.flipped) {
         const auto face = rest.topology().face(f);
         CHECK(std::find(face.begin(), face.end(), middle) != face.end());
+    }
+}
+
+TEST_CASE("distortion: the end of a bar has not flipped, whichever way the sides beside it lean") {
+    const Mesh rest = make_bar({.width = 1.0, .length = 4.0, .across = 1, .along = 4});
+    Index longest = 0;
+    const Box box = bounds(rest);
+    (box.max - box.min).maxCoeff(&longest);
+    for (const double scale : {0.2, 0.9, 0.999, 1.001, 1.1, 2.0}) {
+        CAPTURE(scale);
+        Mesh leaning = rest;
+        for (Vec3& p : leaning.edit_positions()) {
+            if (p[longest] < box.max[longest] - 1e-9) continue;
+            const Vec3 center = box.max[longest] * Vec3::Unit(longest);
+            p = center + scale * (p - center);
+        }
+        CHECK(distortion(leaning, rest).flipped.empty());
     }
 }
 
