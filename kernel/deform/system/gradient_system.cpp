@@ -278,6 +278,57 @@ class Assembler {
     std::vector<CoherenceRows> coherence_;
 };
 
+// Entries below this share of what their diagonal entries allow are rounding.
+constexpr double kRounding = 1e-13;
+
+// The stencils for unknowns y of which those of normal points are x_p - x_v.
+GradientStencils relative_stencils(const WorkingPatch& work, const GradientStencils& gradients,
+                                   const std::vector<Index>& relative) {
+    GradientStencils result = gradients;
+    for (const Index v : relative) {
+        result.self[at(v)] += result.neighbor[at(work.rings.begin[at(v) + 1] - 1)];
+    }
+    return result;
+}
+
+// Flat vertices that are free, as is the point beside them, which M_v depends on.
+std::vector<Index> relative_vertices(const WorkingPatch& work, const GradientStencils& gradients,
+                                     const KnownMask& known) {
+    std::vector<Index> vertices;
+    for (std::size_t k = 0; k < work.patch.normal_points.size(); ++k) {
+        const Index v = work.patch.normal_points[k];
+        const Index point = work.patch.first_normal_point() + index_of(k);
+        if (!gradients.defined[at(v)] || known.gradient[at(v)]) continue;
+        if (!known.position[at(v)] && !known.position[at(point)]) vertices.push_back(v);
+    }
+    return vertices;
+}
+
+// Entries between positions within a plane and points off it cancel but for their rounding. The
+// diagonal is the first entry of each column.
+void drop_rounding(SymmetricMatrix& matrix) {
+    std::vector<double> diagonal(at(matrix.size()));
+    for (Index i = 0; i < matrix.size(); ++i)
+        diagonal[at(i)] = matrix.value[at(matrix.begin[at(i)])];
+    std::size_t kept = 0;
+    Index begin = 0;
+    for (Index i = 0; i < matrix.size(); ++i) {
+        const Index end = matrix.begin[at(i) + 1];
+        for (Index e = begin; e < end; ++e) {
+            const Index k = matrix.row[at(e)];
+            const double value = matrix.value[at(e)];
+            const double unit = diagonal[at(i)] * diagonal[at(k)];
+            if (k != i && !(value * value > kRounding * kRounding * unit)) continue;
+            matrix.row[kept] = k;
+            matrix.value[kept++] = value;
+        }
+        begin = end;
+        matrix.begin[at(i) + 1] = index_of(kept);
+    }
+    matrix.row.resize(kept);
+    matrix.value.resize(kept);
+}
+
 // Final position of `v` as a sum of solved positions: displaced vertices come back by v = M (v -
 // v') + v' (section 2.4.3).
 SparseRow final_position(const WorkingPatch& work, const GradientStencils& g, Index v) {
@@ -296,6 +347,22 @@ SparseRow final_position(const WorkingPatch& work, const GradientStencils& g, In
 GradientSystem::GradientSystem(const WorkingPatch& work, const GradientStencils& gradients,
                                const KnownMask& known, const DeformOptions& options,
                                const Context& context) {
+    const std::vector<Index> relative = relative_vertices(work, gradients, known);
+    if (relative.empty()) {
+        assemble(work, gradients, known, options, context);
+        return;
+    }
+    const std::vector<Index> row_of =
+        assemble(work, relative_stencils(work, gradients, relative), known, options, context);
+    for (const Index v : relative) {
+        relative_.emplace_back(row_of[at(work.rings.ring(v).back())], row_of[at(v)]);
+    }
+}
+
+std::vector<Index> GradientSystem::assemble(const WorkingPatch& work,
+                                            const GradientStencils& gradients,
+                                            const KnownMask& known, const DeformOptions& options,
+                                            const Context& context) {
     Assembler assembler(work, gradients, known, options);
     free_ = assembler.number_free_vertices();
     assembler.build_coherence(context);
@@ -315,10 +382,12 @@ GradientSystem::GradientSystem(const WorkingPatch& work, const GradientStencils&
         append_rows(gradients_begin_, gradients_column_, gradients_value_, part.gradient_begin,
                     part.gradient_column, part.gradient_value);
     }
+    if (!work.patch.normal_points.empty()) drop_rounding(matrix_);
     ties_ = TieRows(work.ties, assembler.row_of(), work.position_unit(),
                     [&](Index v) { return final_position(work, gradients, v); });
     ties_.add_to(matrix_);
     tie_bytes_ = TieRows::response_bytes(work.ties, count_of(free_));
+    return assembler.row_of();
 }
 
 void GradientSystem::factor(const Context& context) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -78,23 +79,42 @@ class GradientSystem {
     /// Moves a solution for known coordinates `position(k)` onto the hard ties.
     template <typename Position>
     void enforce_ties(const Position& position, std::span<double> x) const {
+        if (!ties_.has_hard()) return;
+        add_vertices(x, -1.0);
         ties_.enforce(position, x);
+        add_vertices(x, 1.0);
     }
 
     /// Solves for `columns` right-hand sides, to nearly full precision.
     std::vector<double> solve(std::span<const Extended> b, Index columns) const {
         std::vector<double> x(b.size());
         system_.solve_refined(matrix_, b, x, columns);
+        const std::size_t rows = free_.size();
+        for (Index c = 0; c < columns; ++c)
+            add_vertices(std::span(x).subspan(at(c) * rows, rows), 1.0);
         return x;
     }
 
-    /// Solves without refinement.
+    /// Solves without refinement, for a system without points beside flat vertices.
     void solve_roughly(std::span<const double> b, std::span<double> x, Index columns) const {
         system_.solve(b, x, columns);
     }
 
   private:
+    /// Returns the row of each local vertex, or kNoIndex.
+    std::vector<Index> assemble(const WorkingPatch& work, const GradientStencils& gradients,
+                                const KnownMask& known, const DeformOptions& options,
+                                const Context& context);
+
+    /// Adds `sign` times the position of their vertex to points that are unknown relative to it.
+    void add_vertices(std::span<double> x, double sign) const {
+        for (const auto& [point, vertex] : relative_) x[at(point)] += sign * x[at(vertex)];
+    }
+
     std::vector<Index> free_;
+    /// Rows of points beside flat vertices, of which the unknown is x_p - x_v, and of v: positions
+    /// within a plane and distances from it then have no entries in common in A.
+    std::vector<std::pair<Index, Index>> relative_;
     SymmetricMatrix matrix_;
     RowMatrix positions_;
     std::vector<Index> gradients_begin_{0}, gradients_column_;

@@ -181,3 +181,24 @@ TEST_CASE("flat: the thesis displaces, and then the sheet leaves its plane") {
     CHECK(stats_of(edit.deformer).displaced_vertices > 0);
     CHECK(stats_of(edit.deformer).extended_vertices == 0);
 }
+
+TEST_CASE("flat: its preparation has a quarter more entries than that of displaced vertices") {
+    Mesh box = make_box({Vec3(2.0, 4.0, 2.0), {12, 24, 12}});
+    for (const bool tilted : {false, true}) {
+        CAPTURE(tilted);
+        const Affine turn = rotation(Vec3(1.0, 2.0, 3.0).normalized(), 0.7, Vec3::Zero());
+        for (const Mesh& mesh : {make_grid({{2.0, 2.0}, {40, 40}}), box}) {
+            std::vector<std::size_t> entries;
+            for (const FlatVertices flat : {FlatVertices::displaced, FlatVertices::extended}) {
+                DeformOptions options;
+                options.flat = flat;
+                Scene scene = make_scene(mesh);
+                if (tilted) scene.mesh = moved(mesh, turn);
+                Edit edit = make_edit(scene, options);
+                edit.deformer.prepare();
+                entries.push_back(stats_of(edit.deformer).first_nonzeros);
+            }
+            CHECK(static_cast<double>(entries[1]) < 1.25 * static_cast<double>(entries[0]));
+        }
+    }
+}
