@@ -75,9 +75,9 @@ struct DeformOptions {
     /// How often, 0 to 2, the rotations are fitted to the result and it is solved for again: less
     /// distortion, for half a frame each. ARAP iterations, over-relaxed: two do the work of four or
     /// five; more thin twisted parts. Left alone are places that no rotation fits, as the surface
-    /// has caved in, and places that handles scale. Refined parts get thinner; a full frame that
-    /// would run through itself, and without does not, is taken back as far as that. Drafts are not
-    /// checked.
+    /// has caved in, and places that handles scale. Refined parts get thinner. A full frame
+    /// is taken back gradually as parts come near to one another; it runs through itself only if it
+    /// would without refinement. Drafts are not checked.
     int refine = 0;
     /// Rings of neighbours whose gradients are kept similar (the pairs SF of Eq 2.7): 1 or 2.
     int coherence = 1;

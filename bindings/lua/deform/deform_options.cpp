@@ -90,9 +90,10 @@ std::vector<Parameter> deform_parameters() {
         integer("refine",
                 "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
                 "less distortion for half a frame each. For bars and limbs that bend and twist. "
-                "A result that would fold, cross or stretch the surface more than without is taken "
-                "back as far as that, but a draft does not check. Beside handles that change their "
-                "size it fades to nothing. Compared in examples/deform/refine.png.")
+                "Less of it is kept the nearer parts of the surface come to one another and the "
+                "more edges stretch, and nothing crosses that would not without; a draft does not "
+                "check. Beside handles that change their size it fades to nothing. Compared in "
+                "examples/deform/refine.png.")
             .at_least(0)
             .optional(std::to_string(defaults.refine)),
         choice("loose", {"error", "stay", "follow"},

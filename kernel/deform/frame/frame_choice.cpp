@@ -1,45 +1,81 @@
-// A refinement is taken back as far as it harms the surface: no more faces may cross or fold than
-// without it, and no edge may be stretched further than the worst one there.
+// A refinement is taken back where it would harm the surface: softly as parts of it come near to
+// one another or edges stretch, and wholly before faces cross if none do without it.
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "kernel/deform/frame/frame_steps.h"
+#include "kernel/deform/rotation/winding.h"
 
 namespace lissom {
 namespace {
 
-// Stretch up to here does no harm.
+// Stretch up to here does no harm; above it, and above that without refinement, twice as much is
+// refused.
 constexpr double kHarmless = 1.5;
 
-// A refinement kept in part is known to this share of it.
-constexpr double kFinest = 1.0 / 32.0;
+// Closeness at which nothing of a refinement is kept. It leaves room for the surface between the
+// samples, and for the one without refinement to meet in its turn.
+constexpr double kTooClose = 0.25;
 
-// The shares that are tried, so that one near the last pose's is found if the harm is small, and
-// one above none as long as there is any.
-constexpr std::array kShares{1.0, 31.0 / 32.0, 15.0 / 16.0, 7.0 / 8.0,  3.0 / 4.0,
-                             0.5, 0.25,        1.0 / 8.0,   1.0 / 16.0, kFinest};
+// How often the kept share is halved between one that is harmless and one that is not.
+constexpr int kHalvings = 6;
 
-class RefinementLimit {
+// The share of a refinement that is kept. It follows from measures that are continuous in the pose,
+// so that a path of poses does not jump; the number of crossings only guards it.
+class RefinementShare {
   public:
-    RefinementLimit(const SecondInput& input, const MovingSurface& surface, const Deviation& plain,
-                    const Context& context)
-        : input_(input), surface_(surface), context_(context), plain_(shape_of(plain)) {
-        stretch_ = std::max(kHarmless, surface.stretch(plain_));
-        flips_ = surface.flips(plain_);
-    }
+    RefinementShare(const SecondInput& input, const MovingSurface& surface, const Deviation& plain,
+                    const Deviation& refined, const Context& context)
+        : input_(input),
+          surface_(surface),
+          context_(context),
+          plain_(plain),
+          refined_(refined),
+          plain_shape_(shape_of(plain)) {}
 
-    bool allows(const Deviation& result) {
-        const Mesh shape = shape_of(result);
-        if (surface_.stretch(shape) > stretch_ || surface_.flips(shape) > flips_) return false;
-        const Index crossings = surface_.crossings(shape, context_);
-        if (crossings == 0) return true;
-        if (!crossings_) crossings_ = surface_.crossings(plain_, context_);
-        return crossings <= *crossings_;
+    double find() {
+        const Mesh refined = shape_of(refined_);
+        const double share = room(refined) * firmness(refined);
+        if (!(share > 0.0) || harmless(share)) return share;
+        double kept = 0.0, refused = share;
+        for (int halving = 0; halving < kHalvings; ++halving) {
+            const double middle = 0.5 * (kept + refused);
+            (harmless(middle) ? kept : refused) = middle;
+        }
+        return kept;
     }
 
   private:
+    double room(const Mesh& refined) const {
+        return smooth_step((surface_.closeness(refined) - kTooClose) / (1.0 - kTooClose));
+    }
+
+    double firmness(const Mesh& refined) const {
+        const double limit = std::max(kHarmless, surface_.stretch(plain_shape_));
+        return 1.0 - smooth_step(surface_.stretch(refined) / limit - 1.0);
+    }
+
+    // Whether no faces cross, or some do without refinement.
+    bool harmless(double share) {
+        const Mesh shape = shape_of(between(share));
+        return surface_.crossings(shape, context_) == 0 || plain_crossings() > 0;
+    }
+
+    Index plain_crossings() {
+        if (!crossings_) crossings_ = surface_.crossings(plain_shape_, context_);
+        return *crossings_;
+    }
+
+    Deviation between(double share) const {
+        Deviation result(plain_.size());
+        for (std::size_t v = 0; v < plain_.size(); ++v) {
+            result[v] = plain_[v] + share * (refined_[v] - plain_[v]);
+        }
+        return result;
+    }
+
     Mesh shape_of(const Deviation& result) const {
         const FrameInput& motion = input_.motion;
         const Preparation& prepared = motion.prepared();
@@ -62,17 +98,11 @@ class RefinementLimit {
     const SecondInput& input_;
     const MovingSurface& surface_;
     const Context& context_;
-    Mesh plain_;
-    double stretch_ = kHarmless;
-    Index flips_ = 0;
+    const Deviation& plain_;
+    const Deviation& refined_;
+    Mesh plain_shape_;
     std::optional<Index> crossings_;
 };
-
-void between(const Deviation& first, const Deviation& last, double share, Deviation& result) {
-    for (std::size_t v = 0; v < first.size(); ++v) {
-        result[v] = first[v] + share * (last[v] - first[v]);
-    }
-}
 
 const MovingSurface& moving_surface(const SecondInput& input, FrameScratch::State& scratch,
                                     const Context& context) {
@@ -85,26 +115,15 @@ const MovingSurface& moving_surface(const SecondInput& input, FrameScratch::Stat
 
 }  // namespace
 
-// Takes the greatest fraction without self-intersection instead of all or nothing, so that a path
-// of poses does not jump when the refined surface begins to touch itself.
 void limit_refinement(const SecondInput& input, const Deviation& plain,
                       FrameScratch::State& scratch, const Context& context) {
     Deviation& result = scratch.deviation;
-    RefinementLimit limit(input, moving_surface(input, scratch, context), plain, context);
-    if (limit.allows(result)) return;
-    const Deviation refined = result;
-    const auto allowed = [&](double share) {
-        between(plain, refined, share, result);
-        return limit.allows(result);
-    };
-    const auto* const found = std::find_if(kShares.begin() + 1, kShares.end(), allowed);
-    double kept = found == kShares.end() ? 0.0 : *found;
-    double refused = *std::prev(found);
-    while (kept > 0.0 && refused - kept > kFinest) {
-        const double middle = 0.5 * (kept + refused);
-        (allowed(middle) ? kept : refused) = middle;
+    const MovingSurface& surface = moving_surface(input, scratch, context);
+    const double share = RefinementShare(input, surface, plain, result, context).find();
+    if (share == 1.0) return;
+    for (std::size_t v = 0; v < plain.size(); ++v) {
+        result[v] = plain[v] + share * (result[v] - plain[v]);
     }
-    between(plain, refined, kept, result);
 }
 
 }  // namespace lissom

@@ -160,9 +160,11 @@ double over_relaxation(double max_turn, bool last);
 void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,
                       std::vector<Vec4>& absolute, const Context& context, Rotations& rotations);
 
-/// Takes the refined deviation in `scratch` back towards `plain`, the one without refinement, by
-/// the least share after which no more faces cross or fold than in `plain`, and no edge is
-/// stretched further than one is there, or than half its length. Errors: cancelled; memory_limit.
+/// Takes the refined deviation in `scratch` back towards `plain`, the one without refinement: more
+/// and more as parts that lie apart at rest come near to one another and as edges stretch further
+/// than in `plain`, and so far that no faces cross if none do in `plain`. The result is a function
+/// of both deviations, and continuous in them as long as that last guard is not needed. Errors:
+/// cancelled; memory_limit.
 void limit_refinement(const SecondInput& input, const Deviation& plain,
                       FrameScratch::State& scratch, const Context& context);
 

@@ -4,8 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "kernel/mesh/measure/distortion.h"
-
 namespace lissom {
 namespace {
 
@@ -55,7 +53,8 @@ MovingSurface::MovingSurface(const Preparation& prepared, const Context& context
       moving_(moving_vertices(prepared)),
       faces_(faces_at(*prepared.rest->region().topology(), moving_)),
       rest_(mesh_at_rest(*prepared.rest)),
-      crossings_(pairs_of(rest_, context)) {}
+      crossings_(pairs_of(rest_, context)),
+      closeness_(rest_, moving_) {}
 
 Mesh MovingSurface::shape(std::span<const Vec3> positions) const {
     std::vector<Vec3> all(rest_.positions().begin(), rest_.positions().end());
@@ -73,10 +72,6 @@ double MovingSurface::stretch(const Mesh& shape) const {
         }
     }
     return most;
-}
-
-Index MovingSurface::flips(const Mesh& shape) const {
-    return count_of(flipped_faces(shape, rest_, faces_));
 }
 
 Index MovingSurface::crossings(const Mesh& shape, const Context& context) const {

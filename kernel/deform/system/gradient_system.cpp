@@ -278,7 +278,7 @@ class Assembler {
     std::vector<CoherenceRows> coherence_;
 };
 
-// Entries below this share of what their diagonal entries allow are rounding.
+// Entries below this share of the mean of their diagonal entries are rounding.
 constexpr double kRounding = 1e-13;
 
 // The stencils for unknowns y of which those of normal points are x_p - x_v.

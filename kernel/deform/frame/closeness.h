@@ -1,0 +1,36 @@
+/// How near parts of a surface come to one another that lie apart at rest; private to
+/// kernel/deform.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/core/index.h"
+#include "kernel/mesh/mesh.h"
+
+namespace lissom {
+
+/// Samples of a mesh at rest, of which those at `moving` vertices may move.
+class Closeness {
+  public:
+    /// `moving` is ascending. Samples are spread evenly, so that the time does not depend on the
+    /// number of vertices.
+    Closeness(const Mesh& rest, std::span<const Index> moving);
+
+    /// Returns the distance of the two samples of `shape` that have come nearest to one another, as
+    /// a share of half their distance at rest, or of the reach if they lay further apart: 1 if no
+    /// two have come so near, 0 if two meet. Samples that lie within the reach at rest do not
+    /// count. It is continuous in the positions.
+    double operator()(const Mesh& shape) const;
+
+  private:
+    double of_pair(std::size_t i, std::size_t j, const Mesh& shape) const;
+    std::vector<std::size_t> along(const Mesh& shape, int axis) const;
+
+    const Mesh& rest_;
+    double reach_ = 0.0;
+    std::vector<Index> samples_;
+    std::vector<char> moves_;
+};
+
+}  // namespace lissom
