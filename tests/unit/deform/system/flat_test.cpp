@@ -182,7 +182,8 @@ TEST_CASE("flat: the thesis displaces, and then the sheet leaves its plane") {
     CHECK(stats_of(edit.deformer).extended_vertices == 0);
 }
 
-TEST_CASE("flat: its preparation has a quarter more entries than that of displaced vertices") {
+TEST_CASE(
+    "flat: its preparation has at most a third more entries than that of displaced vertices") {
     Mesh box = make_box({Vec3(2.0, 4.0, 2.0), {12, 24, 12}});
     for (const bool tilted : {false, true}) {
         CAPTURE(tilted);
@@ -198,7 +199,7 @@ TEST_CASE("flat: its preparation has a quarter more entries than that of displac
                 edit.deformer.prepare();
                 entries.push_back(stats_of(edit.deformer).first_nonzeros);
             }
-            CHECK(static_cast<double>(entries[1]) < 1.25 * static_cast<double>(entries[0]));
+            CHECK(static_cast<double>(entries[1]) < 1.34 * static_cast<double>(entries[0]));
         }
     }
 }

