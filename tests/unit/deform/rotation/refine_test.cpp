@@ -1,5 +1,6 @@
 // What a refinement may not do: fold the surface, dig a moat beside a handle, or flare its rim.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -179,17 +180,17 @@ FollowedPath follow(const Scene& scene, const HandlePath& path, int frames) {
     options.refine = 2;
     Edit refined = make_edit(scene, options);
     FollowedPath result;
-    std::vector<Vec3> before[2];
-    std::vector<double> motions[2];
+    std::array<std::vector<Vec3>, 2> before;
+    std::array<std::vector<double>, 2> motions;
     for (int frame = 0; frame <= frames; ++frame) {
         const Affine pose = path(frame / static_cast<double>(frames));
-        const std::vector<Vec3> now[2] = {at_pose(plain, pose), at_pose(refined, pose)};
+        const std::array<std::vector<Vec3>, 2> now{at_pose(plain, pose), at_pose(refined, pose)};
         if (crossings_of(scene.mesh, now[1]) > 0 && crossings_of(scene.mesh, now[0]) == 0) {
             ++result.new_crossings;
         }
         const double limit = std::max(1.5, stretch_of(scene.mesh, now[0]));
         result.stretch = std::max(result.stretch, stretch_of(scene.mesh, now[1]) / limit);
-        for (int k = 0; k < 2; ++k) {
+        for (std::size_t k = 0; k < 2; ++k) {
             if (frame > 0) motions[k].push_back(greatest_distance(before[k], now[k]));
             before[k] = now[k];
         }
@@ -224,9 +225,9 @@ TEST_CASE(
         {"long bar", make_bar({1.0, 6.0, 5, 30})},
         {"torus", make_torus({1.0, 0.4, 30, 12})},
         {"wavy box", wavy_box()}};
-    for (const auto& [name, mesh] : shapes) {
-        CAPTURE(name);
-        const Scene scene = make_scene(mesh);
+    for (const auto& shape : shapes) {
+        CAPTURE(shape.first);
+        const Scene scene = make_scene(shape.second);
         const Vec3 along = scene.across.unitOrthogonal().cwiseAbs();
         check_path(scene, turning(scene.across, 0.0, 180.0), 60);
         check_path(scene, turning(along, 0.0, 180.0), 60);
