@@ -246,7 +246,7 @@ test("c: a copy that begins at the cursor; beside the head it says where to go",
     expect.near(length(copy:points()), length(curve:points()), 0.02 * length(curve:points()))
     expect.equal(h:steps(), 2)
     h.host:move{ x = 20, y = 20 }
-    expect.error(function() h.host:key{ key = "c" } end, "where the copy's root shall be")
+    expect.error(function() h.host:key{ key = "c" } end, "at the new root of the copy")
     expect.equal(#style:curves(), 2)
 end)
 
