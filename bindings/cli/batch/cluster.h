@@ -1,4 +1,4 @@
-/// A batch on a cluster: submits what is not done, and watches.
+/// A batch on a cluster: submits the open jobs, and watches.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace lissom::cli {
 Submission make_submission(const BatchPlan& plan, BatchState& state, const BatchOptions& options,
                            std::size_t most_tasks);
 
-/// Submits what is not done to Slurm and waits until it has ended, or watches the array that was
+/// Submits the open jobs to Slurm and waits until it has ended, or watches the array that was
 /// submitted before and has not ended. `more` are words for sbatch. If `options.stopped` says so it
 /// returns, and the array goes on. Errors: as `submit`.
 BatchProgress run_on_slurm(const BatchPlan& plan, BatchState& state, const BatchOptions& options,

@@ -78,7 +78,7 @@ class BatchState {
 /// file_write_failed, also if another process has it.
 std::unique_ptr<FileLock> lock_batch(const BatchPlan& plan, const BatchState& state, bool shares);
 
-/// Runs what is not done, with the lock of the folder. Errors: file_write_failed, also if the disk
+/// Runs the open jobs, with the lock of the folder. Errors: file_write_failed, also if the disk
 /// is full: jobs that have ended are kept.
 BatchProgress run_batch(const BatchPlan& plan, BatchState& state, const BatchOptions& options);
 

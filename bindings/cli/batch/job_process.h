@@ -23,7 +23,7 @@ struct JobNews {
     std::string message;
 };
 
-/// Returns a task or news as one line of JSON, and what a line holds. Throws on other lines.
+/// Returns a task or news as one line of JSON, and the news of a line. Throws on other lines.
 std::string task_line(const JobTask& task);
 std::string news_line(const JobNews& news);
 JobNews read_news(const std::string& line);

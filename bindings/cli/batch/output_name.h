@@ -19,9 +19,9 @@ class OutputName {
     std::vector<std::string> placeholders() const;
     /// Returns the folder above the first placeholder, or that of the file if there is none.
     std::filesystem::path base() const;
-    /// Returns the path with a value for each placeholder. In a value, "/" and what names no file
-    /// becomes "_", but for the placeholder "dir", which may name folders. Returns the path in its
-    /// normal form.
+    /// Returns the path with a value for each placeholder. In a value, "/" and characters that no
+    /// file's name has become "_", but for the placeholder "dir", which may name folders. Returns
+    /// the path in its normal form.
     std::filesystem::path fill(const std::function<std::string(const std::string&)>& value) const;
 
   private:

@@ -1,4 +1,4 @@
-/// What a batch has made, as files: summary.csv, summary.json, and index.html with pictures.
+/// The results of a batch as files: summary.csv, summary.json, and index.html with pictures.
 #pragma once
 
 #include <string>
