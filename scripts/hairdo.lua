@@ -283,8 +283,9 @@ function hairdo.camera(style, hair, side)
     return lissom.camera{ eye = eye, target = target, up = up, fov = fov }
 end
 
--- Local detail, files and pictures of grown hair. `rings` are meshes to draw with the head.
-function hairdo.finish(style, hair, params, rings)
+-- Local detail, files and pictures of grown hair. `rings` are meshes to draw with the head, `look` the option
+-- `hair` of lissom.render.
+function hairdo.finish(style, hair, params, rings, look)
     if params.detail then hairdo.detail(hair) end
     local literal = style:stats().fidelity == "thesis"
     local path = params.out .. "/" .. params.name .. (literal and "_thesis" or "")
@@ -298,7 +299,8 @@ function hairdo.finish(style, hair, params, rings)
     for _, side in ipairs{ "front", "left", "back", "three-quarter" } do
         lissom.render{
             meshes = meshes, color = colors, strands = hair, camera = hairdo.camera(style, hair, side),
-            size = { params.size, params.size }, background = "#c8ccd2", file = path .. "_" .. side .. ".png",
+            size = { params.size, params.size }, background = "#c8ccd2", hair = look,
+            file = path .. "_" .. side .. ".png",
         }
     end
 end

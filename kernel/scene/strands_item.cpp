@@ -18,6 +18,7 @@ struct StrandFrame {
     std::vector<Index> groups;
     std::vector<std::string> group_names;
     std::vector<std::uint32_t> ids;
+    StrandGuides guides;
     std::optional<StrandValues<Eigen::Vector3f>> colors;
     StrandValues<float> transparency;
     std::string comment;
@@ -55,6 +56,7 @@ bool equal(const StrandFrame& frame, const Strands& strands) {
            equal(frame.widths.profile, strands.widths().profile) &&
            equal(frame.roots, strands.roots()) && frame.groups == strands.groups() &&
            frame.group_names == strands.group_names() && frame.ids == strands.ids() &&
+           frame.guides == strands.guides() &&
            equal_colors(frame.colors, strands.colors()) &&
            equal(frame.transparency, strands.transparency()) && frame.comment == strands.comment();
 }
@@ -66,6 +68,7 @@ StrandFrame frame_of(const Strands& strands) {
                       strands.groups(),
                       strands.group_names(),
                       strands.ids(),
+                      strands.guides(),
                       std::nullopt,
                       strands.transparency(),
                       strands.comment()};
@@ -94,6 +97,7 @@ Strands StrandsContent::strands() const {
     strands.set_roots(frame.roots);
     strands.set_groups(frame.groups, frame.group_names);
     strands.set_ids(frame.ids);
+    strands.set_guides(frame.guides);
     if (frame.colors) strands.set_colors(*frame.colors);
     strands.set_transparency(frame.transparency);
     strands.set_comment(frame.comment);

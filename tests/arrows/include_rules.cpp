@@ -110,7 +110,7 @@ const std::vector<Names>& room_orders() {
          "kernel/merge/paste/region", "kernel/merge/paste/placement", "kernel/merge/paste/search",
          "kernel/merge/paste/part", "kernel/merge/paste/erase", "kernel/merge/paste"},
         {"kernel/hair/field", "kernel/hair/scalp", "kernel/hair/curve", "kernel/hair/strands",
-         "kernel/hair/growth", "kernel/hair"},
+         "kernel/hair/operators", "kernel/hair/growth", "kernel/hair"},
         {"kernel/sketch", "kernel/sketch/support"},
         {"kernel/io/stream", "kernel/io/record", "kernel/io/gltf/file", "kernel/io/gltf/mesh",
          "kernel/io/gltf", "kernel/io/obj", "kernel/io/off", "kernel/io/ply", "kernel/io/stl",

@@ -95,3 +95,60 @@ test("the world's faults and misuse", function()
     expect.error(function() before:strand(201) end, "201")
     expect.error(function() before:clump{ strenght = 1 } end, "strenght")
 end)
+
+test("guides stay with the strands, and files that hold ids hold them", function()
+    local hair = lawn(200, 12):guides{ count = 10 }
+    expect.equal(hair:root(150).guide < 10, true)
+    expect.near(hair:root(3).arc, hair:stats().least_length, 1e-3)
+
+           hair:save(path ".usda")
+    local back = lissom.load_strands(path ".usda")
+    for _, s in ipairs{ 1, 77, 200 } do expect.equal(back:root(s).guide, hair:root(s).guide) end
+    expect.equal(#select(2, hair:save(path ".hair")), 1)
+    expect.equal(lawn(20, 5):root(1).guide, nil)
+end)
+
+test("styling operators change strands in place and keep roots", function()
+    local chains = {
+        gather = { guides = 10 }, twist = { guides = 10 }, pinch = { guides = 10 },
+        curl = { guides = 10, radius = 0.003, wavelength = 0.02 }, wave = { guides = 10, start = 0 },
+            frizz = {},
+        straighten = {}, rotate = { axis = "x", angle = 20 }, roll = {}, puff = {},
+        displace = { offset = { 0.01, 0, 0 } }, set_length = { scale = 1.5 },
+        cut = { plane = { point = { 0, 0.05, 0 }, normal = { 0, 1, 0 } } },
+    }
+    for name, options in pairs(chains) do
+        local hair = before:copy()
+        expect.truthy(rawequal(hair[name](hair, options), hair), name)
+        expect.truthy(hair:hash() ~= before:hash(), name)
+        for s = 1, #hair, 17 do expect.near({ hair:strand(s):get(1) }, { before:strand(s):get(1) }, 0) end
+        local still = before:copy()
+        if name ~= "cut" then
+            options.factor = 0
+            expect.equal(still[name](still, options):hash(), before:hash(), name)
+        end
+    end
+end)
+
+test("masks are numbers, a function of the root, or a group; others stay", function()
+    local half = {}
+    for s = 1, 200 do half[s] = s <= 100 and 0 or 1 end
+    local by_list = before:copy():rotate{ axis = "x", angle = 30, mask = half }
+    local by_function = before:copy():rotate{ axis = "x", angle = 30, mask = function(s) return s > 100 end }
+    expect.equal(by_list:hash(), by_function:hash())
+    expect.equal(by_list:select{ first = 100 }:hash(), before:select{ first = 100 }:hash())
+    expect.failure("invalid_argument", by_list.rotate, by_list, { angle = 30, mask = { 1, 0 } })
+    expect.failure("out_of_range", by_list.rotate, by_list, { angle = 30, mask = "fringe" })
+    expect.error(function() before:copy():puff{ mask = function() error "no mask" end } end, "no mask")
+    expect.error(function() before:cut{} end, "give one of")
+end)
+
+test("cuts and culls", function()
+    local hair = before:copy():cut{ inside = function(_, y) return 0.04 - y end }
+    expect.truthy(hair:bounds().max[2] < 0.0401)
+    hair = before:copy():cut{ ellipsoid = { center = { 0, 0, 0 }, radii = { 1, 0.05, 1 } } }
+    expect.truthy(hair:bounds().max[2] < 0.0501)
+    expect.equal(#before:copy():cull{ mask = function(_, x) return x > 0.003 end }, 10)
+    local left = #before:copy():cull{ part = 0.5 }
+    expect.truthy(left > 70 and left < 130)
+end)

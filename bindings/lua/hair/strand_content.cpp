@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "bindings/lua/hair/hair_object.h"
+#include "bindings/lua/hair/strand_effect.h"
 #include "bindings/lua/hair/strands_methods.h"
 #include "bindings/lua/mesh/buffer.h"
 #include "kernel/hair/strands/strand_measures.h"
@@ -57,6 +58,10 @@ int strand_root(Call& call) {
         const double uv[2] = {roots.uvs[i].x(), roots.uvs[i].y()};
         call.set_field("uv", call.push_numbers(uv));
     }
+    if (!strands.guides().ids.empty() && strands.guides().ids[i] != kNoGuide) {
+        call.set_field("guide", call.push(static_cast<double>(strands.guides().ids[i])));
+        call.set_field("arc", call.push(static_cast<double>(strands.guides().arcs[i])));
+    }
     if (strands.group(s) != kNoIndex) {
         const std::size_t group = strands.group(s);
         call.set_field("group", call.push(std::string_view(strands.group_names()[group])));
@@ -105,15 +110,6 @@ int strands_hash(Call& call) {
     return call.push(std::string_view(text));
 }
 
-// Metres of a head, as those of its strands, to the signed distance in the same.
-std::function<double(const Vec3&)> distance_to_head(const Hairstyle& style) {
-    const Scalp& scalp = style.scalp();
-    const double metre = scalp.scale() * scalp.unit();
-    return [&style, &scalp, metre](const Vec3& point) {
-        return metre * style.surface_distance(scalp.to_metres(point / scalp.unit()));
-    };
-}
-
 int strand_stats(Call& call) {
     const double sharp = call.number("sharp_turn") * kDegree;
     const bool on_head = call.has("style"), has_depth = call.has("depth");
@@ -158,6 +154,14 @@ int strand_stats(Call& call) {
 }
 
 }  // namespace
+
+std::function<double(const Vec3&)> distance_to_head(const Hairstyle& style) {
+    const Scalp& scalp = style.scalp();
+    const double metre = scalp.scale() * scalp.unit();
+    return [&style, &scalp, metre](const Vec3& point) {
+        return metre * style.surface_distance(scalp.to_metres(point / scalp.unit()));
+    };
+}
 
 std::vector<Function> strand_content_methods() {
     return {

@@ -1,6 +1,6 @@
 // lissom.Strands: operators.
 #include "kernel/hair/strands/strand_operators.h"
-#include "bindings/lua/hair/strands_methods.h"
+#include "bindings/lua/hair/strand_effect.h"
 #include "kernel/hair/strands/strand_clump.h"
 #include "kernel/hair/strands/strand_noise.h"
 #include "kernel/hair/strands/strand_trim.h"
@@ -13,31 +13,39 @@ std::uint64_t seed(const Call& call) {
 }
 
 int clump_strands(Call& call) {
-    ClumpOptions options;
-    options.clumps = call.integer("clumps");
-    options.strength = call.number("strength");
-    options.variation = call.number("variation");
-    options.shape = call.number("shape");
-    options.radius = call.number("radius");
-    options.apart = call.number("apart");
-    options.tip_spread = call.number("tip_spread");
-    options.offset = call.number("offset");
-    options.within_groups = call.boolean("within_groups");
-    options.keep_length = call.boolean("keep_length");
-    options.seed = seed(call);
-    return change_strands(call, [&](Strands& s) { clump(s, options, call.context()); });
+    const std::span<const float> asked = ask_mask(call);
+    return change_strands(call, [&](Strands& strands) {
+        ClumpOptions options;
+        options.clumps = call.has("clumps") ? call.integer("clumps") : 0;
+        options.strength = call.number("strength");
+        options.variation = call.number("variation");
+        options.shape = call.number("shape");
+        options.radius = call.number("radius");
+        options.apart = call.number("apart");
+        options.tip_spread = call.number("tip_spread");
+        options.offset = call.number("offset");
+        options.within_groups = call.boolean("within_groups");
+        options.keep_length = call.boolean("keep_length");
+        options.seed = seed(call);
+        read_part(call, asked, options.effect);
+        clump(strands, options, call.context());
+    });
 }
 
 int noise_strands(Call& call) {
-    NoiseOptions options;
-    options.amplitude = call.number("amplitude");
-    options.across = call.number("across");
-    options.along = call.number("along");
-    options.shape = call.number("shape");
-    options.cumulative = call.boolean("cumulative");
-    options.keep_length = call.boolean("keep_length");
-    options.seed = seed(call);
-    return change_strands(call, [&](Strands& s) { noise(s, options, call.context()); });
+    const std::span<const float> asked = ask_mask(call);
+    return change_strands(call, [&](Strands& strands) {
+        NoiseOptions options;
+        options.amplitude = call.number("amplitude");
+        options.across = call.number("across");
+        options.along = call.number("along");
+        options.shape = call.number("shape");
+        options.cumulative = call.boolean("cumulative");
+        options.keep_length = call.boolean("keep_length");
+        options.seed = seed(call);
+        read_part(call, asked, options.effect);
+        noise(strands, options, call.context());
+    });
 }
 
 int taper_strands(Call& call) {
@@ -60,8 +68,14 @@ int trim_strands(Call& call) {
 }
 
 int smooth_strands(Call& call) {
-    const StrandSmoothOptions options{call.integer("iterations"), call.number("strength")};
-    return change_strands(call, [&](Strands& s) { smooth(s, options, call.context()); });
+    const std::span<const float> asked = ask_mask(call);
+    return change_strands(call, [&](Strands& strands) {
+        StrandSmoothOptions options;
+        options.iterations = call.integer("iterations");
+        options.strength = call.number("strength");
+        read_part(call, asked, options.effect);
+        smooth(strands, options, call.context());
+    });
 }
 
 Parameter shape_field(double value, const std::string& help) {
@@ -74,46 +88,45 @@ Parameter keep_length_field() {
     return boolean("keep_length", "Segments keep their lengths.").defaults(true);
 }
 
-const std::vector<ErrorCode> kOperatorErrors = {ErrorCode::invalid_argument, ErrorCode::not_finite,
-                                                ErrorCode::memory_limit, ErrorCode::cancelled};
-
 Function clump_method() {
     const ClumpOptions d;
     return {.name = "clump",
             .body = clump_strands,
             .summary = "Gathers strands around guides; roots stay.",
-            .options = {integer("clumps", "Number of guides: the strands of the lowest ids.")
-                            .defaults(d.clumps)
-                            .at_least(1),
-                        number("strength", "Part of the way to the guide that tips move.")
-                            .defaults(d.strength)
-                            .between(0, 1),
-                        number("variation",
-                               "The strength of a clump is up to this fraction higher or "
-                               "lower, at random.")
-                            .defaults(d.variation)
-                            .between(0, 1),
-                        shape_field(d.shape,
-                                    "The pull grows with this power of the place along the "
-                                    "strand."),
-                        meters("radius", "Strands rooted further from their guide stay.")
-                            .defaults(d.radius)
-                            .above(0)
-                            .or_infinite(),
-                        number("apart",
-                               "How much it counts for the choice of a guide that strands are "
-                               "combed apart, as at a parting.")
-                            .defaults(d.apart)
-                            .at_least(0),
-                        meters("tip_spread", "Random distance by which tips miss their guide.")
-                            .defaults(d.tip_spread)
-                            .at_least(0),
-                        meters("offset", "Random distance by which the tip of a whole clump moves.")
-                            .defaults(d.offset)
-                            .at_least(0),
-                        boolean("within_groups", "Guides are of the strand's own group.")
-                            .defaults(d.within_groups),
-                        keep_length_field(), seed_field()},
+            .options = with_fields(
+                {integer("clumps", "Number of guides: the strands of the lowest ids.")
+                     .at_least(1)
+                     .optional("the guides that strands have, else 900"),
+                 number("strength", "Part of the way to the guide that tips move.")
+                     .defaults(d.strength)
+                     .between(0, 1),
+                 number("variation",
+                        "The strength of a clump is up to this fraction higher or "
+                        "lower, at random.")
+                     .defaults(d.variation)
+                     .between(0, 1),
+                 shape_field(d.shape,
+                             "The pull grows with this power of the place along the "
+                             "strand."),
+                 meters("radius", "Strands rooted further from their guide stay.")
+                     .defaults(d.radius)
+                     .above(0)
+                     .or_infinite(),
+                 number("apart",
+                        "How much it counts for the choice of a guide that strands are "
+                        "combed apart, as at a parting.")
+                     .defaults(d.apart)
+                     .at_least(0),
+                 meters("tip_spread", "Random distance by which tips miss their guide.")
+                     .defaults(d.tip_spread)
+                     .at_least(0),
+                 meters("offset", "Random distance by which the tip of a whole clump moves.")
+                     .defaults(d.offset)
+                     .at_least(0),
+                 boolean("within_groups", "Guides are of the strand's own group.")
+                     .defaults(d.within_groups),
+                 keep_length_field(), seed_field()},
+                part_fields()),
             .results = kSelfStrands,
             .errors = kOperatorErrors,
             .example = kTwoStrands + "hair:clump{ clumps = 1, strength = 0.5 }"};
@@ -125,8 +138,10 @@ Function noise_method() {
         .name = "noise",
         .body = noise_strands,
         .summary = "Lets strands wander off their course, neighbours together; roots stay.",
-        .options =
-            {meters("amplitude", "Greatest distance, about, that a tip moves.")
+        .options = with_fields(
+            {meters("amplitude",
+                    "Greatest distance, about, that a tip moves. It moves less if that "
+                    "would turn a segment by more than 27 degrees; a warning says so.")
                  .defaults(d.amplitude)
                  .at_least(0),
              meters("across", "Distance of roots that wander apart.").defaults(d.across).above(0),
@@ -136,6 +151,7 @@ Function noise_method() {
                          "along the strand."),
              boolean("cumulative", "Deviations add up along the strand.").defaults(d.cumulative),
              keep_length_field(), seed_field()},
+            part_fields()),
         .results = kSelfStrands,
         .errors = kOperatorErrors,
         .example = kTwoStrands + "hair:noise{ amplitude = 0.003, seed = 7 }"};
@@ -194,15 +210,16 @@ std::vector<Function> strand_operator_methods() {
         {.name = "smooth",
          .body = smooth_strands,
          .summary = "Evens out kinks along each strand; roots and tips stay.",
-         .options = {integer("iterations", "Number of passes.")
-                         .defaults(smooth_defaults.iterations)
-                         .at_least(0),
-                     number("strength",
-                            "Fraction of the way to the middle of its neighbours that "
-                            "a point moves in a pass.")
-                         .defaults(smooth_defaults.strength)
-                         .between(0, 1)
-                         .above(0)},
+         .options = with_fields({integer("iterations", "Number of passes.")
+                                     .defaults(smooth_defaults.iterations)
+                                     .at_least(0),
+                                 number("strength",
+                                        "Fraction of the way to the middle of its neighbours that "
+                                        "a point moves in a pass.")
+                                     .defaults(smooth_defaults.strength)
+                                     .between(0, 1)
+                                     .above(0)},
+                                part_fields()),
          .results = kSelfStrands,
          .errors = kOperatorErrors,
          .example = kTwoStrands + "hair:smooth{ iterations = 5 }"}};

@@ -54,6 +54,9 @@ Type strands_type() {
     type.methods.push_back(strands_save_method());
     for (Function& method : strand_edit_methods()) type.methods.push_back(std::move(method));
     for (Function& method : strand_operator_methods()) type.methods.push_back(std::move(method));
+    for (Function& method : strand_lock_methods()) type.methods.push_back(std::move(method));
+    for (Function& method : strand_shape_methods()) type.methods.push_back(std::move(method));
+    for (Function& method : strand_braid_methods()) type.methods.push_back(std::move(method));
     return type;
 }
 
@@ -94,7 +97,9 @@ std::vector<Record> strand_records() {
               {"integer|nil", "face", "The face of the head that it lies on."},
               {"number[]|nil", "bary", "Weights of the first three corners of that face."},
               {"number[]|nil", "uv", "Texture coordinates there."},
-              {"string|nil", "group", "The name of its group."}}},
+              {"string|nil", "group", "The name of its group."},
+              {"integer|nil", "guide", "The id of the strand that it follows."},
+              {"number|nil", "arc", "The place on that guide of its tip, in metres."}}},
             {"lissom.StrandFinding",
              "A finding in strands that were saved.",
              {{"string", "kind", "strands_too_short, points_repeated, content_dropped, ..."},

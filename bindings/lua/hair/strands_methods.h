@@ -18,11 +18,19 @@ Function load_strands_function();
 std::vector<Function> strand_edit_methods();
 /// strand_operators.cpp: clump, noise, taper, trim, smooth.
 std::vector<Function> strand_operator_methods();
+/// strand_locks.cpp: guides, gather, twist, pinch, curl, wave, frizz.
+std::vector<Function> strand_lock_methods();
+/// strand_shapes.cpp: straighten, rotate, roll, puff, displace, set_length, cut, cull, push_out,
+/// shrinkwrap.
+std::vector<Function> strand_shape_methods();
 
 /// The strands of a method.
 inline const Strands& strands_of(const Call& call) {
     return call.self<StrandsObject>()->strands;
 }
+
+/// strand_braids.cpp: braid, bun.
+std::vector<Function> strand_braid_methods();
 
 /// Runs work(Strands&), which changes the strands of a method in place, and returns them.
 template <typename Work>

@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t kStrengthStream = 1, kOffsetStream = 2, kTipStream = 3;
 
 void require_clump(const ClumpOptions& options) {
-    require(options.clumps >= 1, "clump needs at least one guide");
+    require(options.clumps >= 0, "the number of clumps must not be negative");
     require(options.strength >= 0.0 && options.strength <= 1.0,
             "the strength of clump must be from 0 to 1");
     require(options.variation >= 0.0 && options.variation <= 1.0,
@@ -33,52 +33,25 @@ void require_clump(const ClumpOptions& options) {
 
 struct Guide {
     GuideCurve curve;
-    GuideKey key;
+    Vec3 root;
     /// The strength with its variation, and the target of its tip.
     double strength;
     Vec3 offset;
 };
 
-// The usable strands of the lowest ids, in the order of their ids.
-std::vector<Index> guide_strands(const Strands& strands, Index count) {
-    std::vector<Index> list;
-    for (Index s = 0; s < strands.size(); ++s) {
-        if (strands.point_count(s) > 1 && strands.strand(s).allFinite()) list.push_back(s);
-    }
-    const auto lower = [&](Index a, Index b) {
-        return std::pair(strands.id(a), a) < std::pair(strands.id(b), b);
-    };
-    const auto last = list.begin() + std::min(count, count_of(list));
-    std::partial_sort(list.begin(), last, list.end(), lower);
-    list.erase(last, list.end());
-    return list;
-}
-
-// The guides of one group.
-struct Family {
-    std::vector<Guide> guides;
-    GuideTree tree{{}};
-
-    void finish() {
-        std::vector<GuideKey> keys;
-        for (const Guide& guide : guides) keys.push_back(guide.key);
-        tree = GuideTree(std::move(keys));
-    }
-};
-
 class Clumps {
   public:
-    Clumps(const Strands& strands, const ClumpOptions& options)
-        : strands_(strands), options_(options) {
-        for (const Index s : guide_strands(strands, options.clumps)) {
-            families_[family_of(s)].guides.push_back(make_guide(s));
+    Clumps(const Strands& strands, const ClumpOptions& options, std::vector<Index> guide_of)
+        : strands_(strands), options_(options), guide_of_(std::move(guide_of)) {
+        for (const Index s : guide_of_) {
+            if (s != kNoIndex && !guides_.contains(s)) guides_.emplace(s, make_guide(s));
         }
-        for (auto& entry : families_) entry.second.finish();
     }
 
     void pull(Index s, const StrandView& old, StrandEdit& made) const {
-        const Guide* const guide = guide_of(s, old);
-        if (!guide) return;
+        const Index number = guide_of_[at(s)];
+        if (number == kNoIndex) return;
+        const Guide* const guide = &guides_.at(number);
         const double reach = guide->strength * falloff(old, *guide);
         if (reach <= 0.0) return;
         const Vec3 tip =
@@ -100,37 +73,39 @@ class Clumps {
     }
 
   private:
-    Index family_of(Index s) const { return options_.within_groups ? strands_.group(s) : kNoIndex; }
-
     Guide make_guide(Index s) const {
         const StrandView strand = strands_.strand(s);
         const std::uint32_t id = strands_.id(s);
         const double random = signed_random(mixed(options_.seed, id, kStrengthStream));
         const double strength = options_.strength * (1.0 + options_.variation * random);
-        return {GuideCurve(strand), guide_key(strand, options_.apart),
-                std::clamp(strength, 0.0, 1.0),
+        return {GuideCurve(strand), strand.col(0).cast<double>(), std::clamp(strength, 0.0, 1.0),
                 options_.offset * random_vector(options_.seed, id, kOffsetStream)};
-    }
-
-    const Guide* guide_of(Index s, const StrandView& strand) const {
-        const auto family = families_.find(family_of(s));
-        if (family == families_.end()) return nullptr;
-        const Index nearest = family->second.tree.nearest(guide_key(strand, options_.apart));
-        return nearest == kNoIndex ? nullptr : &family->second.guides[at(nearest)];
     }
 
     // 1 at the guide's root, 0 from the radius on, level at both.
     double falloff(const StrandView& strand, const Guide& guide) const {
         if (!std::isfinite(options_.radius)) return 1.0;
         const Vec3 root = strand.col(0).cast<double>();
-        const double d = std::min(1.0, (root - guide.key.head<3>()).norm() / options_.radius);
+        const double d = std::min(1.0, (root - guide.root).norm() / options_.radius);
         return 1.0 - d * d * (3.0 - 2.0 * d);
     }
 
     const Strands& strands_;
     const ClumpOptions& options_;
-    std::map<Index, Family> families_;
+    std::vector<Index> guide_of_;
+    std::map<Index, Guide> guides_;
 };
+
+std::vector<Index> clump_guides(const Strands& strands, const ClumpOptions& options,
+                                const Context& context) {
+    constexpr Index kUsualClumps = 900;
+    if (options.clumps == 0 && !strands.guides().ids.empty()) return present_guides(strands);
+    GuideOptions guides;
+    guides.count = options.clumps == 0 ? kUsualClumps : options.clumps;
+    guides.apart = options.apart;
+    guides.within_groups = options.within_groups;
+    return nearest_guides(strands, guides, context);
+}
 
 }  // namespace
 
@@ -139,9 +114,11 @@ void clump(Strands& strands, const ClumpOptions& options, const Context& context
     Progress progress(context, "clump strands");
     // Keys, guides and weights of strands.
     const MemoryCharge working = context.charge(2 * strands.memory_bytes(), "clumping strands");
-    const Clumps clumps(strands, options);
+    const Clumps clumps(strands, options, clump_guides(strands, options, context));
+    StrandOperatorOptions effect = options.effect;
+    effect.keep_length = options.keep_length;
     move_points(
-        strands,
+        strands, effect,
         [&](Index s, const StrandView& old, StrandEdit& made) { clumps.pull(s, old, made); },
         context);
 }

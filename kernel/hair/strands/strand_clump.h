@@ -5,6 +5,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
+#include "kernel/hair/strands/strand_pass.h"
 #include "kernel/hair/strands/strands.h"
 
 namespace lissom {
@@ -12,10 +13,11 @@ namespace lissom {
 /// Clusters of strands and their guides.
 struct ClumpOptions {
     /// Number of guides: the strands of the lowest ids. These are spread over the scalp, so any
-    /// part of the hair that has them gathers as the whole does. At least 1.
-    Index clumps = 2500;
+    /// part of the hair that has them gathers as the whole does. 0: the guides that the strands
+    /// have (Strands::guides), or 900.
+    Index clumps = 0;
     /// Part of the way to the guide that tips move; 0 to 1.
-    double strength = 0.3;
+    double strength = 0.7;
     /// The strength of each clump is up to this fraction higher or lower, at random; 0 to 1.
     double variation = 0.5;
     /// The pull grows with t^shape; positive.
@@ -35,6 +37,8 @@ struct ClumpOptions {
     /// Segments keep their lengths; without it, strands become shorter or longer as their guide is.
     bool keep_length = true;
     std::uint64_t seed = 1;
+    /// Its factor, mask and profile count, besides the options above.
+    StrandOperatorOptions effect;
 };
 
 /// Pulls each strand towards its guide G: with (a, b, c) the offset of the roots in the guide's

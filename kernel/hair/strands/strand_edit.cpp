@@ -63,6 +63,7 @@ void choose_data(const Strands& strands, std::span<const Index> list, Strands& r
                       chosen(strands.roots().uvs, list)});
     result.set_groups(chosen(strands.groups(), list), strands.group_names());
     result.set_ids(chosen(all_ids(strands), list));
+    result.set_guides({chosen(strands.guides().ids, list), chosen(strands.guides().arcs, list)});
     result.set_comment(strands.comment());
 }
 
@@ -135,6 +136,19 @@ std::vector<std::uint32_t> joined_ids(const Strands& a, const Strands& b) {
     return ids;
 }
 
+// Guides of both; those of `b` by the ids that its strands have now.
+void join_guides(const Strands& a, const Strands& b, Strands& result) {
+    std::unordered_map<std::uint32_t, std::uint32_t> renamed;
+    for (Index s = 0; s < b.size(); ++s) renamed.emplace(b.id(s), result.id(a.size() + s));
+    std::vector<std::uint32_t> ids = b.guides().ids;
+    for (std::uint32_t& id : ids) {
+        const auto found = renamed.find(id);
+        id = found == renamed.end() ? kNoGuide : found->second;
+    }
+    result.set_guides({joined(a.guides().ids, a.size(), ids, b.size(), kNoGuide),
+                       joined(a.guides().arcs, a.size(), b.guides().arcs, b.size(), 0.0f)});
+}
+
 void join_groups(const Strands& a, const Strands& b, Strands& result) {
     std::vector<std::string> names = a.group_names();
     std::unordered_map<std::string, Index> places;
@@ -183,6 +197,9 @@ void scale_widths(Strands& strands, double scale) {
     widths.common = widths.common * scale;
     for (float& width : widths.values) width = static_cast<float>(width * scale);
     strands.set_widths(std::move(widths));
+    StrandGuides guides = strands.guides();
+    for (float& arc : guides.arcs) arc = static_cast<float>(arc * scale);
+    strands.set_guides(std::move(guides));
 }
 
 void require_finite_edit(const Strands& strands, const std::vector<float>& points) {
@@ -261,6 +278,7 @@ void append(Strands& strands, const Strands& other) {
     join_colors(strands, other, result);
     join_groups(strands, other, result);
     result.set_ids(joined_ids(strands, other));
+    join_guides(strands, other, result);
     result.set_comment(strands.comment());
     strands = std::move(result);
 }

@@ -27,8 +27,9 @@ Strands prefix(const Strands& strands, Index count);
 
 /// Adds the strands of `other` after those of `strands`. Groups of the same name become one. Values
 /// missing in one of them are filled in: widths and transparencies those it had in common, colours
-/// black, faces kNoIndex, root uvs 0; ids that exist already, or that no list holds, become new
-/// ones above all others. Errors: invalid_argument if there would be more points than can be
+/// black, faces kNoIndex, root uvs 0, guides kNoGuide; ids that exist already, or that no list
+/// holds, become new ones above all others, and guides follow them; guides that are not among
+/// `other` become kNoGuide. Errors: invalid_argument if there would be more points than can be
 /// numbered.
 void append(Strands& strands, const Strands& other);
 

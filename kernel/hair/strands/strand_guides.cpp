@@ -2,10 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
+#include "kernel/core/error.h"
 #include "kernel/hair/strands/strand_measures.h"
 #include "kernel/hair/strands/strand_resample.h"
 
@@ -13,6 +17,7 @@ namespace lissom {
 namespace {
 
 constexpr int kAxes = 6;
+constexpr Index kGuideGrain = 256;
 
 Vec3 point_at(const StrandView& strand, const StrandPlace& place) {
     const Vec3 a = strand.col(place.below).cast<double>();
@@ -48,6 +53,53 @@ Mat3 frame_of(const Vec3& normal, const Vec3& tangent) {
     const Vec3 across = (normal - normal.dot(tangent) * tangent).normalized();
     frame << across, tangent.cross(across), tangent;
     return frame;
+}
+
+void require_guides(const GuideOptions& options) {
+    require(options.count >= 1, "there must be at least one guide");
+    require(options.apart >= 0.0 && std::isfinite(options.apart),
+            "'apart' of guides must be finite and not negative");
+    require(options.radius > 0.0, "the radius around guides must be positive");
+}
+
+// The usable strands of the lowest ids, in the order of their ids.
+std::vector<Index> guide_strands(const Strands& strands, Index count) {
+    std::vector<Index> list;
+    for (Index s = 0; s < strands.size(); ++s) {
+        if (strands.point_count(s) > 1 && strands.strand(s).allFinite()) list.push_back(s);
+    }
+    const auto lower = [&](Index a, Index b) {
+        return std::pair(strands.id(a), a) < std::pair(strands.id(b), b);
+    };
+    const auto last = list.begin() + std::min(count, count_of(list));
+    std::partial_sort(list.begin(), last, list.end(), lower);
+    list.erase(last, list.end());
+    return list;
+}
+
+Index family_of(const Strands& strands, Index s, const GuideOptions& options) {
+    return options.within_groups ? strands.group(s) : kNoIndex;
+}
+
+// The guides of one group.
+struct Family {
+    std::vector<Index> strands;
+    GuideTree tree{{}};
+};
+
+std::map<Index, Family> families_of(const Strands& strands, const GuideOptions& options) {
+    std::map<Index, Family> families;
+    for (const Index s : guide_strands(strands, options.count)) {
+        families[family_of(strands, s, options)].strands.push_back(s);
+    }
+    for (auto& entry : families) {
+        std::vector<GuideKey> keys;
+        for (const Index s : entry.second.strands) {
+            keys.push_back(guide_key(strands.strand(s), options.apart));
+        }
+        entry.second.tree = GuideTree(std::move(keys));
+    }
+    return families;
 }
 
 }  // namespace
@@ -101,6 +153,55 @@ Index GuideTree::nearest(const GuideKey& key) const {
     Best best{std::numeric_limits<double>::infinity(), kNoIndex};
     search(key, 0, count_of(order_), 0, best);
     return best.guide;
+}
+
+std::vector<Index> nearest_guides(const Strands& strands, const GuideOptions& options,
+                                  const Context& context) {
+    require_guides(options);
+    const std::map<Index, Family> families = families_of(strands, options);
+    std::vector<Index> guides(at(strands.size()), kNoIndex);
+    context.parallel_for(0, strands.size(), kGuideGrain, [&](Index begin, Index end) {
+        for (Index s = begin; s < end; ++s) {
+            const StrandView strand = strands.strand(s);
+            const auto found = families.find(family_of(strands, s, options));
+            if (!strand.allFinite() || found == families.end()) continue;
+            const Family& family = found->second;
+            const Index nearest = family.tree.nearest(guide_key(strand, options.apart));
+            const Index guide = family.strands[at(nearest)];
+            const auto distance = double((strands.root(guide) - strands.root(s)).norm());
+            if (distance <= options.radius) guides[at(s)] = guide;
+        }
+    });
+    return guides;
+}
+
+std::vector<Index> present_guides(const Strands& strands) {
+    std::vector<Index> guides(at(strands.size()), kNoIndex);
+    const std::vector<std::uint32_t>& ids = strands.guides().ids;
+    if (ids.empty()) return guides;
+    std::unordered_map<std::uint32_t, Index> numbers;
+    for (Index s = 0; s < strands.size(); ++s) {
+        if (ids[at(s)] == strands.id(s)) numbers.emplace(strands.id(s), s);
+    }
+    for (Index s = 0; s < strands.size(); ++s) {
+        const auto found = numbers.find(ids[at(s)]);
+        if (found != numbers.end()) guides[at(s)] = found->second;
+    }
+    return guides;
+}
+
+void assign_guides(Strands& strands, const GuideOptions& options, const Context& context) {
+    const std::vector<Index> numbers = nearest_guides(strands, options, context);
+    StrandGuides guides;
+    for (Index s = 0; s < strands.size(); ++s) {
+        const Index guide = numbers[at(s)];
+        guides.ids.push_back(guide == kNoIndex ? kNoGuide : strands.id(guide));
+        const double arc = guide == kNoIndex
+                               ? 0.0
+                               : std::min(length(strands.strand(s)), length(strands.strand(guide)));
+        guides.arcs.push_back(std::isfinite(arc) ? static_cast<float>(arc) : 0.0f);
+    }
+    strands.set_guides(std::move(guides));
 }
 
 GuideCurve::GuideCurve(const StrandView& strand) {

@@ -1,10 +1,12 @@
-/// Guides: the strands that others gather around, and the nearest of them; private to kernel/hair.
+/// Guides: the strands that others gather around, and the nearest of them.
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/hair/strands/strands.h"
 
@@ -39,6 +41,34 @@ class GuideTree {
     /// Numbers of keys; the middle of a range splits the rest of it along one axis after the other.
     std::vector<Index> order_;
 };
+
+/// Choice of guides.
+struct GuideOptions {
+    /// Number of guides: the strands of the lowest ids that are finite and have more than a root.
+    /// These are spread over the scalp, so any part of the hair that has them gathers as the whole
+    /// does. At least 1.
+    Index count = 400;
+    /// The nearest guide counts; its distance includes that of the combed middles of the strands,
+    /// times this: a strand follows one of its own side of a parting. 0 or more.
+    double apart = 0.5;
+    /// Strands rooted further than this from their guide follow none; positive.
+    double radius = std::numeric_limits<double>::infinity();
+    /// Strands follow guides of their own group only.
+    bool within_groups = true;
+};
+
+/// Returns the strand that each strand follows, itself for a guide; kNoIndex for none, as for
+/// strands that are not finite. Errors: invalid_argument for options out of range; cancelled.
+std::vector<Index> nearest_guides(const Strands& strands, const GuideOptions& options,
+                                  const Context& context = {});
+
+/// Returns the strand that each strand follows by Strands::guides; kNoIndex for none, or one that
+/// is not there.
+std::vector<Index> present_guides(const Strands& strands);
+
+/// Lets strands follow the nearest guides from now on: sets Strands::guides. The arcs are the
+/// lengths of the strands, at most that of their guide. Errors: as nearest_guides; memory_limit.
+void assign_guides(Strands& strands, const GuideOptions& options = {}, const Context& context = {});
 
 /// A strand with a frame at each of its points that turns about it as little as possible.
 class GuideCurve {

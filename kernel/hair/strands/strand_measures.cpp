@@ -225,6 +225,10 @@ std::uint64_t hash(const Strands& strands) {
     hasher.add_list(strands.groups());
     hasher.add_list(strands.group_names());
     hasher.add_list(strands.ids());
+    if (!strands.guides().ids.empty()) {
+        hasher.add_list(strands.guides().ids);
+        hasher.add_list(strands.guides().arcs);
+    }
     hasher.add(Index{strands.colors() ? 1 : 0});
     if (strands.colors()) hasher.add_values(*strands.colors());
     hasher.add_values(strands.transparency());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -77,7 +78,9 @@ class Deviations {
         at_root_ = sample(0.0);
     }
 
-    void add_to(StrandEdit& made) const {
+    // Adds them and returns the number of segments that turned as far as they may.
+    Index add_to(StrandEdit& made) const {
+        Index limited_segments = 0;
         Vec3 sum = Vec3::Zero(), deviation = Vec3::Zero();
         for (Index k = 1; k < strand_.cols(); ++k) {
             const std::size_t i = k;
@@ -86,9 +89,13 @@ class Deviations {
             sum = options_.cumulative ? Vec3(sum + (t_[i] - t_[i - 1]) * wanted) : wanted;
             const Vec3 along = direction_at(strand_, k);
             const Vec3 across = sum - along.dot(sum) * along;
-            deviation += limited(options_.amplitude * across - deviation, t_[i] - t_[i - 1]);
+            const Vec3 change = options_.amplitude * across - deviation;
+            const Vec3 allowed = limited(change, t_[i] - t_[i - 1]);
+            if (allowed != change) ++limited_segments;
+            deviation += allowed;
             made.col(k) += deviation.cast<float>();
         }
+        return limited_segments;
     }
 
   private:
@@ -141,11 +148,21 @@ Vec3 smooth_noise(const Vec3& place, std::uint64_t seed) {
 void noise(Strands& strands, const NoiseOptions& options, const Context& context) {
     require_noise(options);
     Progress progress(context, "noise of strands");
+    std::atomic<std::int64_t> limited{0}, segments{0};
     const auto move = [&](Index, const StrandView& old, StrandEdit& made) {
-        Deviations(old, options).add_to(made);
+        limited += Deviations(old, options).add_to(made);
+        segments += old.cols() - 1;
         if (options.keep_length) restore_lengths(old, made);
     };
-    move_points(strands, move, context);
+    StrandOperatorOptions effect = options.effect;
+    effect.keep_length = options.keep_length;
+    move_points(strands, effect, move, context);
+    if (2 * limited > segments) {
+        context.log(
+            LogLevel::warning,
+            "most segments turn as far as noise lets them, so a larger amplitude changes "
+            "little; give longer 'along' and 'across', or apply noise again with another seed");
+    }
 }
 
 }  // namespace lissom

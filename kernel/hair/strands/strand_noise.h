@@ -5,6 +5,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
+#include "kernel/hair/strands/strand_pass.h"
 #include "kernel/hair/strands/strands.h"
 
 namespace lissom {
@@ -15,7 +16,8 @@ Vec3 smooth_noise(const Vec3& place, std::uint64_t seed);
 
 struct NoiseOptions {
     /// Greatest distance in metres, about, that a tip moves; 0 or more. It moves less if it would
-    /// turn a segment by more than 27 degrees, or a shorter one than usual by less.
+    /// turn a segment by more than 27 degrees, or a shorter one than usual by less; a warning is
+    /// logged if that holds for most segments.
     double amplitude = 0.0016;
     /// Distance in metres of roots that wander apart; positive.
     double across = 0.02;
@@ -28,6 +30,8 @@ struct NoiseOptions {
     /// Segments keep their lengths; without it strands become a little longer.
     bool keep_length = true;
     std::uint64_t seed = 1;
+    /// Its factor, mask and profile count, besides the options above.
+    StrandOperatorOptions effect;
 };
 
 /// Moves points across their strand by smooth noise: at the root's place / across, shifted along

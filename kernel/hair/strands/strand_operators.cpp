@@ -10,7 +10,6 @@
 namespace lissom {
 namespace {
 
-constexpr Index kOperatorGrain = 64;
 // Steps of a profile: enough for any exponent to look smooth.
 constexpr std::size_t kProfileSamples = 33;
 
@@ -26,19 +25,6 @@ void smooth_once(double strength, std::vector<Vec3>& points) {
         points[k] += strength * (0.5 * (before + points[k + 1]) - here);
         before = here;
     }
-}
-
-void require_finite(const Strands& strands, const std::vector<float>& points) {
-    Elements bad{ElementKind::strand, 0, {}};
-    for (Index s = 0; s < strands.size(); ++s) {
-        const StrandView made(points.data() + 3 * at(strands.first_point(s)), 3,
-                              strands.point_count(s));
-        if (!made.allFinite() && strands.strand(s).allFinite()) bad.add(s);
-    }
-    if (bad.count == 0) return;
-    const std::string names = describe(bad);
-    throw Error(ErrorCode::not_finite, names + " would exceed the range of 32-bit numbers",
-                std::move(bad));
 }
 
 }  // namespace
@@ -73,26 +59,25 @@ void smooth(Strands& strands, const StrandSmoothOptions& options, const Context&
         }
         for (Index k = 0; k < old.cols(); ++k) made.col(k) = points[at(k)].cast<float>();
     };
-    move_points(strands, move, context);
+    move_points(strands, options.effect, move, context);
 }
 
 void move_points(
-    Strands& strands,
+    Strands& strands, const StrandOperatorOptions& effect,
     const std::function<void(Index strand, const StrandView& old, StrandEdit& made)>& move,
     const Context& context) {
-    const MemoryCharge charge = context.charge(strands.points().size_bytes(), "moving strands");
-    std::vector<float> points(strands.points().begin(), strands.points().end());
-    context.parallel_for(0, strands.size(), kOperatorGrain, [&](Index begin, Index end) {
-        for (Index s = begin; s < end; ++s) {
-            const StrandView old = strands.strand(s);
-            if (old.cols() < 2 || !old.allFinite()) continue;
-            StrandEdit made(points.data() + 3 * at(strands.first_point(s)), 3, old.cols());
-            move(s, old, made);
-            made.col(0) = old.col(0);
+    const auto change = [&](StrandWork& work) {
+        StrandEdit made = work.points();
+        const StrandView old = work.old_points();
+        move(work.strand(), old, made);
+        if (!work.is_partial()) return;
+        for (Index k = 1; k < old.cols(); ++k) {
+            const Vec3 from = work.old_point(k);
+            work.set_point(k, from + work.weight(k) * (work.point(k) - from));
         }
-    });
-    require_finite(strands, points);
-    std::copy(points.begin(), points.end(), strands.edit_points().begin());
+        if (effect.keep_length) restore_lengths(old, made);
+    };
+    change_strands(strands, effect, change, context);
 }
 
 void restore_lengths(const StrandView& old, StrandEdit& made) {

@@ -13,6 +13,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
+#include "kernel/hair/strands/strand_pass.h"
 #include "kernel/hair/strands/strands.h"
 
 namespace lissom {
@@ -39,18 +40,20 @@ struct StrandSmoothOptions {
     /// Fraction of the way to the middle of its neighbours that a point moves in a pass; above 0,
     /// at most 1.
     double strength = 0.5;
+    /// Its factor, mask and profile; segments keep their lengths if only a part is smoothed.
+    StrandOperatorOptions effect;
 };
 
 /// Evens out kinks along each strand; roots and tips stay. Errors: invalid_argument for options out
 /// of range; memory_limit, cancelled.
 void smooth(Strands& strands, const StrandSmoothOptions& options = {}, const Context& context = {});
 
-/// Moves the points of every strand that is finite and has more than its root: `move(strand, old,
-/// made)` is called on several threads and writes the columns of `made`, which begin as the old
-/// points. The root is put back. Nothing changes if it throws. Errors: not_finite naming strands
-/// that were finite and no longer are; memory_limit, cancelled.
+/// Moves the points of every strand that is finite, has a length, and that the mask of `effect`
+/// holds: `move(strand, old, made)` is called on several threads and writes the columns of `made`,
+/// which begin as the old points; the factor, mask and profile of `effect` let points go a part of
+/// the way. The root is put back. Errors: as change_strands.
 void move_points(
-    Strands& strands,
+    Strands& strands, const StrandOperatorOptions& effect,
     const std::function<void(Index strand, const StrandView& old, StrandEdit& made)>& move,
     const Context& context);
 

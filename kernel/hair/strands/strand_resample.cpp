@@ -102,6 +102,29 @@ void copy_data(const Strands& strands, const Move& move, Strands& result) {
     result.set_comment(strands.comment());
 }
 
+// Guide arcs up to the last place of each strand, if that is no longer its tip.
+StrandGuides shortened_guides(const Strands& strands, const std::vector<Run>& runs) {
+    StrandGuides guides = strands.guides();
+    if (guides.arcs.empty()) return guides;
+    std::vector<double> fractions;
+    Index s = 0;
+    for (const Run& run : runs) {
+        std::size_t end = 0;
+        for (const Index count : run.counts) {
+            end += at(count);
+            const StrandPlace& last = run.places[end - 1];
+            const Index points = strands.point_count(s);
+            if (last.below + 1 < points) {
+                arc_fractions(strands.strand(s), fractions);
+                const double a = fractions[at(last.below)], b = fractions[at(last.below) + 1];
+                guides.arcs[at(s)] *= static_cast<float>(a + last.u * (b - a));
+            }
+            ++s;
+        }
+    }
+    return guides;
+}
+
 float* numbers(std::vector<float>& values) {
     return values.data();
 }
@@ -160,6 +183,7 @@ Strands at_places(const Strands& strands, const Find& find, const Context& conte
                         numbers(values.values));
         },
         result);
+    result.set_guides(shortened_guides(strands, runs));
     return result;
 }
 

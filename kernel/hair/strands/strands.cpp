@@ -1,6 +1,7 @@
 #include "kernel/hair/strands/strands.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -57,6 +58,10 @@ std::size_t bytes_of(const StrandValues<Value>& values) {
 
 std::size_t bytes_of(const StrandRoots& roots) {
     return bytes_of(roots.faces) + bytes_of(roots.barycentrics) + bytes_of(roots.uvs);
+}
+
+std::size_t bytes_of(const StrandGuides& guides) {
+    return bytes_of(guides.ids) + bytes_of(guides.arcs);
 }
 
 }  // namespace
@@ -135,6 +140,16 @@ void Strands::set_ids(std::vector<std::uint32_t> ids) {
     ids_ = std::move(ids);
 }
 
+void Strands::set_guides(StrandGuides guides) {
+    if (!guides.ids.empty()) require_length(guides.ids.size(), size(), "guides");
+    require_length(guides.arcs.size(), count_of(guides.ids), "arcs of guides");
+    for (const float arc : guides.arcs) {
+        if (!(arc >= 0.0f) || !std::isfinite(arc)) refuse("arcs of guides must be 0 or more");
+    }
+    count(guides_, guides);
+    guides_ = std::move(guides);
+}
+
 void Strands::set_colors(StrandValues<Eigen::Vector3f> colors) {
     require_values(colors, *this, "colours");
     count(colors_, colors);
@@ -150,7 +165,8 @@ void Strands::set_transparency(StrandValues<float> transparency) {
 
 std::size_t Strands::memory_bytes() const {
     return bytes_of(points_) + bytes_of(offsets_) + bytes_of(widths_) + bytes_of(roots_) +
-           bytes_of(groups_) + bytes_of(ids_) + bytes_of(colors_) + bytes_of(transparency_);
+           bytes_of(groups_) + bytes_of(ids_) + bytes_of(guides_) + bytes_of(colors_) +
+           bytes_of(transparency_);
 }
 
 void require_strand(const Strands& strands, Index strand) {

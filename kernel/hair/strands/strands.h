@@ -65,6 +65,20 @@ struct StrandRoots {
     std::vector<Eigen::Vector2f> uvs;
 };
 
+/// Id of the guide of a strand that follows none.
+inline constexpr std::uint32_t kNoGuide = 0xffffffff;
+
+/// The guides that strands follow. Lists have one entry a strand, or none.
+struct StrandGuides {
+    /// Id of the strand that each follows, its own for a guide; kNoGuide for none.
+    std::vector<std::uint32_t> ids;
+    /// Place in metres along the guide that the tip of each strand follows: strands of one guide
+    /// have equal places at equal arcs, however curled or gathered they are.
+    std::vector<float> arcs;
+
+    bool operator==(const StrandGuides& other) const = default;
+};
+
 /// The points of one strand, a column each, without a copy.
 using StrandView = Eigen::Map<const Eigen::Matrix3Xf>;
 
@@ -124,6 +138,8 @@ class Strands {
     std::uint32_t id(Index strand) const {
         return ids_.empty() ? static_cast<std::uint32_t>(strand) : ids_[at(strand)];
     }
+    /// Returns the guides, whose lists are empty if strands follow none.
+    const StrandGuides& guides() const { return guides_; }
     /// Linear RGB; null if no colour is known.
     const StrandValues<Eigen::Vector3f>* colors() const { return has_colors_ ? &colors_ : nullptr; }
     /// 0 is opaque.
@@ -137,6 +153,7 @@ class Strands {
     void set_roots(StrandRoots roots);
     void set_groups(std::vector<Index> groups, std::vector<std::string> names);
     void set_ids(std::vector<std::uint32_t> ids);
+    void set_guides(StrandGuides guides);
     void set_colors(StrandValues<Eigen::Vector3f> colors);
     void set_transparency(StrandValues<float> transparency);
     void set_comment(std::string comment) { comment_ = std::move(comment); }
@@ -159,6 +176,7 @@ class Strands {
     std::vector<Index> groups_;
     std::vector<std::string> group_names_;
     std::vector<std::uint32_t> ids_;
+    StrandGuides guides_;
     StrandValues<Eigen::Vector3f> colors_{Eigen::Vector3f::Zero()};
     bool has_colors_ = false;
     StrandValues<float> transparency_{0.0f};

@@ -209,6 +209,7 @@ class Checker {
         drop(!s.groups().empty(), capacity_.groups, "groups");
         drop(!s.roots().faces.empty(), capacity_.origins, "root faces");
         drop(!original_.ids().empty(), capacity_.origins, "ids");
+        drop(!s.guides().ids.empty(), capacity_.origins, "guides");
         if (lost.empty()) return;
         add(StrandFindingKind::content_dropped, {},
             "the format has no place for: " + lost + "; they were left out");

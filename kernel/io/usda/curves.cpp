@@ -265,6 +265,8 @@ class LayerReader {
         if (name.is("primvars:group")) return read_texts(prim.group_names);
         if (name.is("primvars:group:indices")) return read_list(prim.groups);
         if (name.is("primvars:strandId")) return read_list(prim.ids);
+        if (name.is("primvars:guideId")) return read_list(prim.guides);
+        if (name.is("primvars:guideArc")) return read_list(prim.guide_arcs);
         if (name.is("primvars:rootFace")) return read_list(prim.faces);
         if (name.is("primvars:rootBarycentrics")) return read_list(prim.barycentrics);
         return false;

@@ -181,6 +181,22 @@ void set_roots(const CurvesPrim& prim, const CurveCounts& counts, Strands& stran
     strands.set_roots(std::move(roots));
 }
 
+void set_guides(const CurvesPrim& prim, const CurveCounts& counts, Strands& strands) {
+    StrandGuides guides;
+    guides.ids = whole_numbers<std::uint32_t>(prim, prim.guides, counts.strands, 0, "guideId");
+    const double scale = std::cbrt(std::abs(prim.transform.linear.determinant()));
+    for (const float arc : prim.guide_arcs) guides.arcs.push_back(static_cast<float>(arc * scale));
+    if (guides.arcs.size() != guides.ids.size()) {
+        refuse_prim(prim, "'guideId' and 'guideArc' do not fit each other");
+    }
+    for (const float arc : guides.arcs) {
+        if (!(arc >= 0.0f) || !std::isfinite(arc)) {
+            refuse_prim(prim, "a value of 'guideArc' is out of range");
+        }
+    }
+    strands.set_guides(std::move(guides));
+}
+
 // Groups whose names are written for each curve, or once for all.
 void set_flat_groups(const CurvesPrim& prim, const CurveCounts& counts, Strands& strands) {
     const std::vector<std::string>& written = prim.group_names;
@@ -280,6 +296,7 @@ Strands strands_of(CurvesPrim prim, const Context& context) {
     set_groups(prim, counts, strands);
     apply_transform(prim, strands);
     strands.set_ids(whole_numbers<std::uint32_t>(prim, prim.ids, counts.strands, 0, "strandId"));
+    set_guides(prim, counts, strands);
     strands.set_comment(std::move(prim.comment));
     return strands;
 }

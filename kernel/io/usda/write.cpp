@@ -32,6 +32,7 @@ class LayerWriter {
         write_colors();
         write_transparency();
         write_roots();
+        write_guides();
         write_groups();
         write_comment();
         text_ += "}\n";
@@ -160,6 +161,17 @@ class LayerWriter {
         list(
             "uint[] primvars:strandId", strands_.size(),
             [&](Index s) { append_number(text_, strands_.ids()[at(s)]); }, "uniform");
+    }
+
+    void write_guides() {
+        const StrandGuides& guides = strands_.guides();
+        if (guides.ids.empty()) return;
+        list(
+            "uint[] primvars:guideId", strands_.size(),
+            [&](Index s) { append_number(text_, guides.ids[at(s)]); }, "uniform");
+        list(
+            "float[] primvars:guideArc", strands_.size(),
+            [&](Index s) { append_number(text_, guides.arcs[at(s)]); }, "uniform");
     }
 
     void write_groups() {

@@ -121,6 +121,13 @@ void describe(Archive& a, StrandsRecord& strands) {
     a.list("groups", strands.groups);
     a.texts("group_names", strands.group_names);
     a.list("ids", strands.ids);
+    std::optional<StrandGuides> guides;
+    if (!strands.guides.ids.empty()) guides = strands.guides;
+    a.optional("guides", guides, [](Archive& b, StrandGuides& x) {
+        b.list("ids", x.ids);
+        b.list("arcs", x.arcs);
+    });
+    strands.guides = std::move(guides).value_or(StrandGuides());
     a.optional("colors", strands.colors, [](Archive& b, auto& x) { describe_values(b, x); });
     a.object("transparency", [&](Archive& b) { describe_values(b, strands.transparency); });
     a.text("comment", strands.comment);

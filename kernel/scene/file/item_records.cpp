@@ -204,6 +204,7 @@ StrandsRecord record_of(const Strands& strands) {
                          strands.groups(),
                          strands.group_names(),
                          strands.ids(),
+                         strands.guides(),
                          std::nullopt,
                          strands.transparency(),
                          strands.comment()};
@@ -217,6 +218,7 @@ Strands strands_of(StrandsRecord record, const Context& context) {
     strands.set_roots(std::move(record.roots));
     strands.set_groups(std::move(record.groups), std::move(record.group_names));
     strands.set_ids(std::move(record.ids));
+    strands.set_guides(std::move(record.guides));
     if (record.colors) strands.set_colors(*std::move(record.colors));
     strands.set_transparency(std::move(record.transparency));
     strands.set_comment(std::move(record.comment));

@@ -53,6 +53,7 @@ struct StrandsRecord {
     std::vector<Index> groups;
     std::vector<std::string> group_names;
     std::vector<std::uint32_t> ids;
+    StrandGuides guides;
     std::optional<StrandValues<Eigen::Vector3f>> colors;
     StrandValues<float> transparency{0.0f};
     std::string comment;

@@ -1,0 +1,155 @@
+// lissom.Strands: braids and buns.
+#include "bindings/lua/hair/strand_effect.h"
+#include "kernel/hair/operators/strand_braid.h"
+
+namespace lissom::lua {
+namespace {
+
+// Points of a head, in the unit of its mesh, become metres of its strands.
+double metres_of(const Call& call) {
+    return call.has("scalp") ? call.object<ScalpObject>("scalp")->scalp->unit() : 1.0;
+}
+
+int push_report(Call& call, bool done, const BraidReport& report) {
+    if (!done) return call.fail();
+    call.charge(call.self<StrandsObject>());
+    call.push_argument();
+    call.push(report.braided);
+    return 2;
+}
+
+void read_mask(const Call& call, std::span<const float> asked, StrandOperatorOptions& options) {
+    read_part(call, asked, options);
+    options.seed = static_cast<std::uint64_t>(call.integer("seed"));
+}
+
+int braid_strands(Call& call) {
+    const std::span<const float> asked = ask_mask(call);
+    BraidReport report;
+    const bool done = call.attempt([&] {
+        BraidOptions options;
+        read_mask(call, asked, options);
+        for (const Vec3& p : call.points("spine")) options.spine.push_back(metres_of(call) * p);
+        options.across = call.vector("across");
+        options.radius = call.number("radius");
+        if (call.has("reach")) options.reach = call.number("reach");
+        options.length = call.number("length");
+        options.tuft = call.number("tuft");
+        if (call.has("wavelength")) options.wavelength = call.number("wavelength");
+        options.taper = call.number("taper");
+        options.blend = call.number("blend");
+        options.loose = call.number("loose");
+        options.early = call.number("early");
+        options.step = call.number("step");
+        report = braid(call.self<StrandsObject>()->strands, options, call.context());
+    });
+    return push_report(call, done, report);
+}
+
+int bun_strands(Call& call) {
+    const std::span<const float> asked = ask_mask(call);
+    BraidReport report;
+    const bool done = call.attempt([&] {
+        BunOptions options;
+        read_mask(call, asked, options);
+        options.tie.center = metres_of(call) * call.vector("center");
+        options.tie.direction = call.vector("direction");
+        options.tie.reach = call.number("reach");
+        options.radius = call.number("radius");
+        options.tube = call.number("tube");
+        options.lift = call.number("lift");
+        options.turn = call.number("turn") * kDegree;
+        options.locks = call.integer("locks");
+        options.loose = call.number("loose");
+        options.points = call.integer("points");
+        report = bun(call.self<StrandsObject>()->strands, options, call.context());
+    });
+    return push_report(call, done, report);
+}
+
+const std::vector<Result> kBraidResults = {
+    {"lissom.Strands", "strands", "The strands themselves."},
+    {"integer", "count", "Number of strands that pass the tie."}};
+
+// A sheaf of five strands through a tie at the height 0.1.
+const std::string kSheaf = R"(local points, counts = {}, {}
+for s = 1, 5 do
+    for k = 0, 4 do points[#points + 1] = { 0.004 * s - 0.012, 0.05 * k, 0.002 * (s % 2) } end
+    counts[s] = 5
+end
+local hair = lissom.strands{ points = points, counts = counts }
+)";
+
+std::vector<Parameter> common_fields() {
+    return with_fields({object("scalp", "lissom.Scalp",
+                               "Points are in the unit of its head, as scalp:at gives them.")
+                            .optional("points are in metres of the strands"),
+                        integer("seed", "Another seed gives another braid.").defaults(1)},
+                       part_fields());
+}
+
+}  // namespace
+
+std::vector<Function> strand_braid_methods() {
+    const BraidOptions d;
+    const BunOptions b;
+    return {
+        {.name = "braid",
+         .body = braid_strands,
+         .summary = "Braids the strands that pass a tie at the beginning of a spine; others stay.",
+         .options = with_fields(
+             {points("spine", "The middle of the braid, from its tie on."),
+              vector("across", "Direction across the braid: its widest."),
+              meters("radius", "Of each of the three tubes.").defaults(d.radius).above(0),
+              meters("reach", "From the spine to where strands pass the tie.")
+                  .above(0)
+                  .optional("2.86 radii"),
+              meters("length", "From the tie to the lower tie.").defaults(d.length).above(0),
+              meters("tuft", "Below the lower tie.").defaults(d.tuft).at_least(0),
+              meters("wavelength", "Of one turn of a tube.").above(0).optional("7 radii"),
+              number("taper", "Part by which it is narrower at its end.")
+                  .defaults(d.taper)
+                  .between(0, 0.99),
+              meters("blend", "Over which hair comes into its tube.").defaults(d.blend).above(0),
+              number("loose", "Part of the strands that lie loosely.")
+                  .defaults(d.loose)
+                  .between(0, 1),
+              number("early", "Part of the strands that end early.")
+                  .defaults(d.early)
+                  .between(0, 1),
+              meters("step", "Between points.").defaults(d.step).above(0)},
+             common_fields()),
+         .results = kBraidResults,
+         .errors = kOperatorErrors,
+         .example =
+             kSheaf +
+             "local _, count = hair:braid{ spine = { { 0, 0.1, 0 }, { 0, 0.5, 0 } }, across = {\n"
+             "    1, 0, 0 }, length = 0.2 }\nassert(count == 5)"},
+        {.name = "bun",
+         .body = bun_strands,
+         .summary = "Winds the strands that pass a tie over a torus around it; others stay.",
+         .options = with_fields(
+             {vector("center", "Of the tie."), vector("direction", "In which hair passes it."),
+              meters("reach", "From the center to where strands pass the tie.")
+                  .defaults(b.tie.reach)
+                  .above(0),
+              meters("radius", "From the axis to the middle of the torus.")
+                  .defaults(b.radius)
+                  .above(0),
+              meters("tube", "Radius of its tube.").defaults(b.tube).above(0),
+              meters("lift", "Of its middle above the tie.").defaults(b.lift),
+              number("turn", "Of hair around the axis.").defaults(165.0).in("degrees"),
+              integer("locks", "Of the bun.").defaults(b.locks).at_least(1),
+              number("loose", "Part of the strands that lie loosely.")
+                  .defaults(b.loose)
+                  .between(0, 1),
+              integer("points", "Of each strand in the bun.").defaults(b.points).between(4, 10000)},
+             common_fields()),
+         .results = kBraidResults,
+         .errors = kOperatorErrors,
+         .example = kSheaf +
+                    "local _, count = hair:bun{ center = { 0, 0.1, 0 }, direction = { 0, 1, 0 } }\n"
+                    "assert(count == 5)"}};
+}
+
+}  // namespace lissom::lua

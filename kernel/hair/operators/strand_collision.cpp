@@ -1,0 +1,130 @@
+#include "kernel/hair/operators/strand_collision.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/core/error.h"
+
+namespace lissom {
+namespace {
+
+// Differences of the distance are taken over so many metres to each side.
+constexpr double kProbe = 0.001;
+constexpr int kRounds = 3, kSteps = 4, kWrapSteps = 8;
+// A point counts as outside from so much below its clearance on.
+constexpr double kSlack = 1e-5;
+
+// Unit gradient of the distance; zero if it has none.
+Vec3 outward_at(const BodyDistance& distance, const Vec3& p) {
+    Vec3 gradient;
+    for (Index i = 0; i < 3; ++i) {
+        const Vec3 step = kProbe * Vec3::Unit(i);
+        gradient[i] = distance(p + step) - distance(p - step);
+    }
+    const double size = gradient.norm();
+    return size > 0.0 && std::isfinite(size) ? Vec3(gradient / size) : Vec3::Zero();
+}
+
+class Pusher {
+  public:
+    Pusher(const PushOutOptions& options, StrandWork& work) : options_(options), work_(work) {}
+
+    // Whether any point had to move.
+    bool run() {
+        if (!push()) return false;
+        for (int round = 1; round < kRounds; ++round) {
+            if (options_.keep_length) work_.restore_lengths();
+            if (!push()) break;
+        }
+        push_segments();
+        return true;
+    }
+
+  private:
+    double floor_at(Index k) const {
+        const double ramp = options_.ramp > 0.0 ? std::min(1.0, work_.arc(k) / options_.ramp) : 1.0;
+        return options_.clearance * ramp * work_.weight(k);
+    }
+
+    bool surely_outside(const Vec3& p, double floor) const {
+        return options_.rough && options_.rough(p) - options_.rough_error > floor;
+    }
+
+    // Moves a place to its floor; false if it is there.
+    bool raise(Vec3& p, double floor) const {
+        bool moved = false;
+        for (int i = 0; i < kSteps; ++i) {
+            if (surely_outside(p, floor)) break;
+            const double missing = floor - options_.distance(p);
+            if (!(missing > kSlack)) break;
+            p += missing * outward_at(options_.distance, p);
+            moved = true;
+        }
+        return moved;
+    }
+
+    bool push() {
+        bool any = false;
+        for (Index k = 1; k < work_.count(); ++k) {
+            if (work_.weight(k) == 0.0) continue;
+            Vec3 p = work_.point(k);
+            if (!raise(p, floor_at(k))) continue;
+            work_.set_point(k, p);
+            any = true;
+        }
+        return push_segments() || any;
+    }
+
+    // Raises both ends of segments whose middle is in the body; roots stay.
+    bool push_segments() {
+        bool any = false;
+        for (Index k = 1; k < work_.count(); ++k) {
+            if (work_.weight(k) == 0.0) continue;
+            const Vec3 a = work_.point(k - 1), b = work_.point(k), middle = 0.5 * (a + b);
+            Vec3 raised = middle;
+            const double least = 0.5 * (k > 1 ? floor_at(k - 1) : 0.0);
+            if (k == 1 || !raise(raised, least)) continue;
+            work_.set_point(k - 1, a + (raised - middle));
+            work_.set_point(k, b + (raised - middle));
+            any = true;
+        }
+        return any;
+    }
+
+    const PushOutOptions& options_;
+    StrandWork& work_;
+};
+
+}  // namespace
+
+void push_out(Strands& strands, const PushOutOptions& options, const Context& context) {
+    require(static_cast<bool>(options.distance), "pushing strands out needs a distance");
+    require(options.clearance >= 0.0 && std::isfinite(options.clearance) && options.ramp >= 0.0 &&
+                std::isfinite(options.ramp),
+            "the clearance and its ramp must be finite and not negative");
+    Progress progress(context, "push strands out");
+    const auto change = [&](StrandWork& work) { Pusher(options, work).run(); };
+    change_strands(strands, options, change, context);
+}
+
+void shrinkwrap(Strands& strands, const ShrinkwrapOptions& options, const Context& context) {
+    require(static_cast<bool>(options.distance), "a shrinkwrap needs a distance");
+    require(options.lift >= 0.0 && std::isfinite(options.lift),
+            "the lift of a shrinkwrap must be finite and not negative");
+    Progress progress(context, "shrinkwrap strands");
+    const auto change = [&](StrandWork& work) {
+        for (Index k = 1; k < work.count(); ++k) {
+            Vec3 p = work.old_point(k);
+            for (int i = 0; i < kWrapSteps; ++i) {
+                const double away = options.distance(p) - options.lift;
+                if (!(std::abs(away) > kSlack)) break;
+                p -= away * outward_at(options.distance, p);
+            }
+            work.set_point(k, p);
+        }
+        work.blend();
+    };
+    change_strands(strands, options, change, context);
+}
+
+}  // namespace lissom

@@ -1,0 +1,239 @@
+#include "kernel/hair/strands/strand_pass.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "kernel/core/error.h"
+
+namespace lissom {
+namespace {
+
+constexpr Index kPassGrain = 128;
+
+bool is_part(double x) {
+    return x >= 0.0 && x <= 1.0;
+}
+
+bool all_finite(const float* values, std::size_t count) {
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < count; ++i) sum += values[i] * 0.0f;
+    return sum == 0.0f;
+}
+
+// One step of double reflection (Wang et al. 2008, Computation of rotation minimizing frames).
+Vec3 carried_normal(const Vec3& normal, const Vec3& step, const Vec3& tangent, const Vec3& next) {
+    const double c1 = step.squaredNorm();
+    if (c1 == 0.0) return normal;
+    const Vec3 reflected = normal - (2.0 / c1) * step.dot(normal) * step;
+    const Vec3 tangent_reflected = tangent - (2.0 / c1) * step.dot(tangent) * step;
+    const Vec3 turn = next - tangent_reflected;
+    const double c2 = turn.squaredNorm();
+    return c2 == 0.0 ? reflected : Vec3(reflected - (2.0 / c2) * turn.dot(reflected) * turn);
+}
+
+// The points as they were, kept strand by strand before each changes.
+class Backup {
+  public:
+    explicit Backup(Strands& strands)
+        : strands_(strands),
+          old_(new float[strands.points().size()]),
+          kept_(at(strands.size() / kPassGrain + 1)) {}
+
+    // Keeps the strands of a chunk and returns their old points.
+    const float* keep(Index begin, Index end) {
+        const auto [from, count] = range(begin, end);
+        if (count > 0) std::memcpy(&old_[from], &strands_.points()[from], count * sizeof(float));
+        kept_[at(begin / kPassGrain)] = 1;
+        return old_.get();
+    }
+
+    void restore() {
+        for (std::size_t i = 0; i < kept_.size(); ++i) {
+            if (!kept_[i]) continue;
+            const Index begin = index_of(i) * kPassGrain;
+            const auto [from, count] = range(begin, std::min(begin + kPassGrain, strands_.size()));
+            if (count == 0) continue;
+            std::memcpy(&strands_.edit_points()[from], &old_[from], count * sizeof(float));
+        }
+    }
+
+  private:
+    std::pair<std::size_t, std::size_t> range(Index begin, Index end) const {
+        const std::size_t from = 3 * at(strands_.offsets()[at(begin)]);
+        return {from, 3 * at(strands_.offsets()[at(end)]) - from};
+    }
+
+    Strands& strands_;
+    std::unique_ptr<float[]> old_;
+    std::vector<char> kept_;
+};
+
+void require_finite_strands(const std::vector<std::vector<Index>>& lists) {
+    Elements bad{ElementKind::strand, 0, {}};
+    for (const std::vector<Index>& list : lists) {
+        for (const Index s : list) bad.add(s);
+    }
+    if (bad.count == 0) return;
+    const std::string names = describe(bad);
+    throw Error(ErrorCode::not_finite, names + " would exceed the range of 32-bit numbers",
+                std::move(bad));
+}
+
+}  // namespace
+
+void require_operator(const Strands& strands, const StrandOperatorOptions& options) {
+    require(is_part(options.factor), "the factor of an operator must be from 0 to 1");
+    require(options.shape >= 0.0 && std::isfinite(options.shape),
+            "the shape of an operator must be 0 or more");
+    require(std::all_of(options.profile.begin(), options.profile.end(), is_part),
+            "the numbers of a profile must be from 0 to 1");
+    require(std::all_of(options.mask.begin(), options.mask.end(), is_part),
+            "the numbers of a mask must be from 0 to 1");
+    require(options.mask.empty() || count_of(options.mask) == strands.size(),
+            "the mask has " + std::to_string(options.mask.size()) + " numbers for " +
+                std::to_string(strands.size()) + " strands; give one for each strand");
+}
+
+double sine_of_turns(double x) {
+    // To a quarter of a turn about 0: adding 1.5 * 2^52 rounds.
+    constexpr double kRound = 6755399441055744.0;
+    x -= (x + kRound) - kRound;
+    const double half = x < 0.0 ? -0.5 : 0.5;
+    if (x > 0.25 || x < -0.25) x = half - x;
+    const double y = 2.0 * kPi * x, q = y * y;
+    return y * (1.0 + q * (-1.0 / 6 + q * (1.0 / 120 + q * (-1.0 / 5040 + q / 362880))));
+}
+
+bool StrandWork::take(Index strand, const float* old, float* made) {
+    strand_ = strand;
+    count_ = strands_.point_count(strand);
+    mask_ = options_.factor * (options_.mask.empty() ? 1.0 : options_.mask[at(strand)]);
+    old_ = old;
+    made_ = made;
+    if (count_ < 2 || mask_ == 0.0) return false;
+    arcs_.resize(at(count_));
+    double sum = arcs_[0] = 0.0;
+    Vec3 before = old_point(0);
+    for (Index k = 1; k < count_; ++k) {
+        const Vec3 here = old_point(k);
+        sum += (here - before).norm();
+        arcs_[at(k)] = sum;
+        before = here;
+    }
+    return sum > 0.0 && std::isfinite(sum);
+}
+
+double StrandWork::weight_at(double t) const {
+    if (options_.profile.empty()) {
+        if (options_.shape == 0.0) return mask_;
+        return mask_ * (options_.shape == 1.0 ? t : std::pow(t, options_.shape));
+    }
+    const std::size_t last = options_.profile.size() - 1;
+    const double place = std::clamp(t, 0.0, 1.0) * double(last);
+    const auto below = std::min(static_cast<std::size_t>(place), last);
+    const double u = place - double(below), a = options_.profile[below];
+    return mask_ * (a + u * (options_.profile[std::min(below + 1, last)] - a));
+}
+
+Vec3 StrandWork::old_at(double arc, Index& below) const {
+    while (below + 2 < count_ && arcs_[at(below + 1)] < arc) ++below;
+    const double from = arcs_[at(below)], size = arcs_[at(below + 1)] - from;
+    const double u = size > 0.0 ? std::clamp((arc - from) / size, 0.0, 1.0) : 0.0;
+    const Vec3 a = old_point(below);
+    return a + u * (old_point(below + 1) - a);
+}
+
+void StrandWork::make_frames(const Vec3& first) {
+    tangents_.resize(at(count_));
+    normals_.resize(at(count_));
+    Vec3 tangent = Vec3::UnitY();
+    for (Index k = 0; k < count_; ++k) {
+        const Vec3 along = old_point(std::min(k + 1, count_ - 1)) - old_point(std::max(k - 1, 0));
+        const double size = along.norm();
+        if (size > 0.0) tangent = along / size;
+        tangents_[at(k)] = tangent;
+    }
+    Vec3 normal = first;
+    for (Index k = 0; k < count_; ++k) {
+        const Vec3& now = tangents_[at(k)];
+        if (k > 0) {
+            normal =
+                carried_normal(normal, old_point(k) - old_point(k - 1), tangents_[at(k - 1)], now);
+        }
+        normal -= normal.dot(now) * now;
+        const double size = normal.norm();
+        normal = size > 1e-6 ? Vec3(normal / size) : Vec3(now.unitOrthogonal());
+        normals_[at(k)] = normal;
+    }
+}
+
+void StrandWork::blend() {
+    if (is_partial()) {
+        for (Index k = 1; k < count_; ++k) {
+            const Vec3 old = old_point(k);
+            set_point(k, old + weight(k) * (point(k) - old));
+        }
+    }
+    if (options_.keep_length) restore_lengths();
+}
+
+void StrandWork::scale_segments(const std::function<double(Index)>& length_of) {
+    Vec3 before = old_point(0), end = before;
+    for (Index k = 1; k < count_; ++k) {
+        const Vec3 here = point(k);
+        Vec3 direction = here - before;
+        double size = direction.norm();
+        if (!(size > 0.0)) {
+            direction = old_point(k) - old_point(k - 1);
+            size = direction.norm();
+        }
+        before = here;
+        if (size > 0.0) end += direction * (length_of(k) / size);
+        set_point(k, end);
+    }
+}
+
+void StrandWork::restore_lengths() {
+    scale_segments([&](Index k) { return arcs_[at(k)] - arcs_[at(k - 1)]; });
+}
+
+void StrandWork::space_evenly(double length) {
+    const double step = length / (count_ - 1);
+    scale_segments([&](Index) { return step; });
+}
+
+void change_strands(Strands& strands, const StrandOperatorOptions& options,
+                    const std::function<void(StrandWork& work)>& change, const Context& context) {
+    require_operator(strands, options);
+    if (options.factor == 0.0 || strands.empty()) return;
+    const MemoryCharge charge = context.charge(strands.points().size_bytes(), "changing strands");
+    Backup backup(strands);
+    std::vector<std::vector<Index>> bad(at(strands.size() / kPassGrain + 1));
+    float* const points = strands.edit_points().data();
+    try {
+        context.parallel_for(0, strands.size(), kPassGrain, [&](Index begin, Index end) {
+            const float* const old = backup.keep(begin, end);
+            StrandWork work(strands, options);
+            for (Index s = begin; s < end; ++s) {
+                const std::size_t first = 3 * at(strands.first_point(s));
+                if (!work.take(s, old + first, points + first)) continue;
+                change(work);
+                std::memcpy(points + first, old + first, 3 * sizeof(float));
+                if (!all_finite(points + first, 3 * at(work.count()))) {
+                    bad[at(begin / kPassGrain)].push_back(s);
+                }
+            }
+        });
+        require_finite_strands(bad);
+    } catch (...) {
+        backup.restore();
+        throw;
+    }
+}
+
+}  // namespace lissom

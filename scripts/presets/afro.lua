@@ -1,0 +1,37 @@
+--- An afro: tight coils that stand off the head, cut to a ball.
+--
+--     lissom run scripts/presets/afro.lua --size 0.12
+local lissom = require "lissom"
+local styling = require "styling"
+
+return styling.preset(..., {
+    name = "afro",
+    schema = {
+        height = { type = "number", default = 0.1, min = 0.02, max = 0.14, unit = "metres",
+            help = "of the hair above the scalp" },
+        coil = { type = "number", default = 0.0021, min = 0.0005, max = 0.006, unit = "metres",
+            help = "radius of a coil" },
+        frizz = { type = "number", default = 0.0025, min = 0, max = 0.01, unit = "metres",
+            help = "how far single hairs leave their coil" },
+        ragged = { type = "number", default = 0.004, min = 0, max = 0.03, unit = "metres",
+            help = "of the outline" },
+    },
+    make = function(head, v, o)
+        local scalp, h = o.scalp, v.height
+        local style = lissom.hairstyle(head, { scalp = scalp, resolution = 0.8 * o.resolution // 1,
+            volume = { min = { -0.1 - h, -0.2, -0.12 - h }, max = { 0.1 + h, 0.14 + h, 0.1 + h } } })
+        styling.radial(style, 1000 * h)
+        local hair = style:grow{ count = o.count, seed = v.seed, length = h, clearance = 0.001, layer = 0,
+            variation = 0.1 }
+        hair:resample{ step = 0.006 }:guides{ count = 6000 }
+        hair:curl{ radius = v.coil, wavelength = 4 * v.coil, ramp = 0.008, start = 0, hang = 0, phase = 0.5,
+            variation = 0.35, points_per_turn = 9, keep_length = false, seed = v.seed }
+        hair:frizz{ amplitude = v.frizz, wavelength = 0.02, shape = 0.6, keep_length = false }
+        hair:cut{ ellipsoid = { center = { 0, 0.02, -0.015 }, radii = { 0.05 + h, 0.065 + h, 0.068 + h } },
+            scalp = scalp, jitter = v.ragged }
+        hair:push_out{ head = style }
+        hair:set_widths{ width = 0.0002 }:taper{ tip = 0.4, start = 0.6 }
+        return style, hair, { color = "#2a1d16", clump_tone = 0.25, primary = 0.08, secondary = 0.3,
+            scalp_tint = 0.9, unit = scalp:unit() }
+    end,
+})

@@ -1,0 +1,160 @@
+--- What presets of hairstyles share: routes of streams in directions over the head, functions of the place on
+-- the head, and the frame of a preset that runs as a script too.
+--
+-- A route is a list of places in millimetres of an average head: { azimuth, elevation, lift } over the head;
+-- { "by", x, y, z } from the place before; { "at", x, y, z } from the middle of the head. x points to the
+-- head's left, y up, z to the front. The route of the other side is added, unless the route has `one = true`
+-- or lies in the middle.
+local hairdo = require "hairdo"
+local lissom = require "lissom"
+
+local styling = {}
+
+-- With two arguments in every Lua.
+local atan2 = rawget(math, "atan2") or math.atan
+
+--- 0 up to `low`, 1 from `high` on, level at both.
+function styling.smooth(low, high, x)
+    local t = math.min(math.max((x - low) / (high - low), 0), 1)
+    return t * t * (3 - 2 * t)
+end
+
+--- Azimuth and elevation in degrees of a point in metres of the scalp's frame.
+function styling.angles(p)
+    local r = math.sqrt(p[1] ^ 2 + p[2] ^ 2 + p[3] ^ 2)
+    return math.deg(atan2(p[1], p[3])), math.deg(math.asin(p[2] / r))
+end
+
+--- A function of vertices, for the lengths and the density of style:grow, of f(azimuth, elevation, place).
+function styling.by_angles(scalp, f)
+    return function(_, x, y, z)
+        local p = scalp:to_metres(x, y, z)
+        local azimuth, elevation = styling.angles(p)
+        return f(azimuth, elevation, p)
+    end
+end
+
+--- The points of a route, or with `side` -1 those of its mirror image.
+function styling.route(scalp, places, side)
+    local points, last = {}, nil
+    side = side or 1
+    for i, place in ipairs(places) do
+        if place[1] == "by" then
+            last = { last[1] + side * place[2] / 1000, last[2] + place[3] / 1000, last[3] + place[4] / 1000 }
+        elseif place[1] == "at" then
+            last = { side * place[2] / 1000, place[3] / 1000, place[4] / 1000 }
+        else
+            last = scalp:to_metres(scalp:at{ azimuth = side * place[1], elevation = place[2],
+                lift = (place[3] or 0) / 1000 })
+        end
+        points[i] = scalp:from_metres(last)
+    end
+    return points
+end
+
+local function in_the_middle(route)
+    for _, place in ipairs(route) do
+        local across = type(place[1]) == "string" and place[2] or place[1] % 180
+        if across ~= 0 then return false end
+    end
+    return true
+end
+
+--- Adds streams along routes; `stop` of a route is that of style:add_stream.
+function styling.streams(style, routes)
+    for _, route in ipairs(routes) do
+        for side = 1, (route.one or in_the_middle(route)) and 1 or -1, -2 do
+            style:add_stream{ points = styling.route(style:scalp(), route, side), stop = route.stop }
+        end
+    end
+end
+
+--- Adds short streams of hair that is combed from one direction to another: { azimuth, elevation, azimuth,
+-- elevation, lift at the end }.
+function styling.comb(style, list)
+    local routes = {}
+    for i, c in ipairs(list) do
+        routes[i] = { { c[1], c[2], 2 }, { (c[1] + c[3]) / 2, (c[2] + c[4]) / 2, 0.6 * c[5] },
+            { c[3], c[4], c[5] }, one = c.one }
+    end
+    styling.streams(style, routes)
+end
+
+--- Adds streams that stand off the head all around, `length` millimetres long; their ends are `rise` degrees
+-- higher than their roots.
+function styling.radial(style, length, rise)
+    local places = { { 0, 88 }, { 0, 60 }, { 60, 60 }, { 120, 60 }, { 180, 60 } }
+    for azimuth = 0, 180, 30 do places[#places + 1] = { azimuth, 35 } end
+    for azimuth = 60, 180, 30 do places[#places + 1] = { azimuth, 8 } end
+    for azimuth = 120, 180, 30 do places[#places + 1] = { azimuth, -22 } end
+    local routes = {}
+    for i, p in ipairs(places) do
+        local up = rise or 0
+        routes[i] = { { p[1], p[2], 2 }, { p[1], p[2] + up / 2, length / 2 }, { p[1], p[2] + up, length } }
+    end
+    styling.streams(style, routes)
+end
+
+--- A mask of the strands that hang over the face.
+function styling.over_face(scalp, hair)
+    local mask, points, unit, at = {}, hair:points(), scalp:unit(), 0
+    for s, count in ipairs(hair:point_counts()) do
+        mask[s] = 0
+        for i = at + 1, at + count do
+            local x, y, z = points:get(i)
+            local p = scalp:to_metres(x / unit, y / unit, z / unit)
+            local inside = p[3] > 0.02 and p[2] < 0.03 and p[2] > -0.12
+            if inside and math.abs(math.deg(atan2(p[1], p[3]))) < 46 then mask[s] = 1 end
+        end
+        at = at + count
+    end
+    return mask
+end
+
+--- Thin tips, and the waves of single hairs; `width` in metres.
+function styling.finish(hair, width, noise)
+    hair:noise{ amplitude = noise or 0.001, across = 0.02, along = 0.11 }
+    hair:noise{ amplitude = 0.0003, across = 0.0005, along = 0.03, seed = 2 }
+    return hair:set_widths{ width = width }:taper{ tip = 0.4, start = 0.6 }
+end
+
+-- Values of all parameters: those given, else the defaults. An unknown name is an error.
+local function complete(preset, values)
+    local all = {}
+    for name, one in pairs(preset.schema) do all[name] = one.default end
+    for name, value in pairs(values or {}) do
+        if all[name] == nil then
+            lissom.error{ message = "the " .. preset.name .. " has no parameter '" .. name .. "'", level = 4 }
+        end
+        all[name] = value
+    end
+    return all
+end
+
+--- Makes a preset of its `name`, the `schema` of its parameters as lissom.params takes them, and `make(head,
+-- values, options)`, which returns the style, its hair, how it looks (the option `hair` of lissom.render) and
+-- meshes to draw with it. `options` holds the scalp and the resolution for lissom.hairstyle and the
+-- `count` of strands. `preset.grow(head, values, options)` calls it. With `module`, the name that the file was required
+-- by, it is returned; run as a script, it makes hair and pictures.
+function styling.preset(module, preset)
+    preset.schema.seed = { type = "integer", default = 1, min = 1, help = "chance" }
+    function preset.grow(head, values, options)
+        local all = { count = 30000, resolution = 50000 }
+        for key, value in pairs(options or {}) do all[key] = value end
+        all.scalp = all.scalp or lissom.scalp(head)
+        return preset.make(head, complete(preset, values), all)
+    end
+    if module == "presets." .. preset.name then return preset end
+    local params = hairdo.params{ name = preset.name, count = 30000, more = preset.schema }
+    local values = {}
+    for name in pairs(preset.schema) do values[name] = params[name] end
+    local head = hairdo.head(params)
+    local style, hair, look, meshes = preset.grow(head, values,
+        { scalp = hairdo.scalp(head, params), resolution = params.resolution, count = params.count })
+    local files = {}
+    for _, key in ipairs{ "out", "name", "format", "pictures", "size" } do files[key] = params[key] end
+    hairdo.finish(style, hair, files, meshes, look)
+    return preset
+end
+
+return styling

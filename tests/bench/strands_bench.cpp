@@ -1,0 +1,125 @@
+// Operators on 100K strands of 32 points, each against reading and writing their bytes.
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "kernel/hair/operators/strand_bend.h"
+#include "kernel/hair/operators/strand_collision.h"
+#include "kernel/hair/operators/strand_curl.h"
+#include "kernel/hair/operators/strand_cut.h"
+#include "kernel/hair/operators/strand_frizz.h"
+#include "kernel/hair/operators/strand_gather.h"
+#include "kernel/hair/strands/strand_clump.h"
+#include "kernel/hair/strands/strand_guides.h"
+#include "kernel/hair/strands/strand_noise.h"
+#include "kernel/hair/strands/strand_operators.h"
+#include "kernel/hair/strands/strand_trim.h"
+#include "tests/bench/report.h"
+
+namespace lissom::bench {
+namespace {
+
+constexpr Index kStrands = 100000, kPoints = 32;
+
+// Bowed strands of 0.2 metres, rooted on a ball of 0.1 metres in no order of place.
+Strands hair_on_ball() {
+    std::vector<float> points;
+    std::vector<Index> offsets = {0};
+    for (Index s = 0; s < kStrands; ++s) {
+        const double up = std::fmod(0.618034 * s, 1.0), turn = std::fmod(0.754878 * s, 1.0);
+        const double side = std::sqrt(1.0 - up * up), angle = 2.0 * kPi * turn;
+        const Vec3 out(side * std::cos(angle), up, side * std::sin(angle));
+        for (Index k = 0; k < kPoints; ++k) {
+            const double a = 0.2 * k / (kPoints - 1);
+            const Vec3 p = (0.1 + 0.6 * a) * out - Vec3(0, 4.0 * a * a, 0);
+            for (const double x : p) points.push_back(static_cast<float>(x));
+        }
+        offsets.push_back(offsets.back() + kPoints);
+    }
+    return {std::move(points), std::move(offsets)};
+}
+
+struct Operator {
+    std::string name;
+    double target;
+    std::function<void(Strands&, const Context&)> run;
+};
+
+std::vector<Operator> operators() {
+    constexpr double kTarget = 6.0;
+    CurlOptions curls;
+    curls.points_per_turn = 0;
+    curls.wavelength = 0.1;
+    RotateOptions rotates;
+    rotates.angle = 0.3;
+    DisplaceOptions displaces;
+    displaces.offset = {0.01, 0, 0};
+    LengthOptions lengths;
+    lengths.scale = 1.1;
+    CutOptions cuts;
+    cuts.inside = inside_ellipsoid(Vec3::Zero(), {0.2, 0.2, 0.2});
+    StrandTrimOptions trims;
+    trims.factor = 0.8;
+    PushOutOptions pushes;
+    pushes.distance = [](const Vec3& p) { return p.norm() - 0.1; };
+    return {
+        {"gather", kTarget, [](Strands& s, const Context& c) { gather(s, {}, c); }},
+        {"twist", kTarget, [](Strands& s, const Context& c) { twist(s, {}, c); }},
+        {"pinch", kTarget, [](Strands& s, const Context& c) { pinch(s, {}, c); }},
+        {"curl", kTarget, [=](Strands& s, const Context& c) { curl(s, curls, c); }},
+        {"frizz", kTarget, [](Strands& s, const Context& c) { frizz(s, {}, c); }},
+        {"straighten", kTarget, [](Strands& s, const Context& c) { straighten(s, {}, c); }},
+        {"rotate", kTarget, [=](Strands& s, const Context& c) { rotate(s, rotates, c); }},
+        {"roll", kTarget, [](Strands& s, const Context& c) { roll(s, {}, c); }},
+        {"puff", kTarget, [](Strands& s, const Context& c) { puff(s, {}, c); }},
+        {"displace", kTarget, [=](Strands& s, const Context& c) { displace(s, displaces, c); }},
+        {"set_length", kTarget, [=](Strands& s, const Context& c) { set_length(s, lengths, c); }},
+        {"smooth", kTarget, [](Strands& s, const Context& c) { smooth(s, {}, c); }},
+        {"clump", kTarget, [](Strands& s, const Context& c) { clump(s, {}, c); }},
+        {"noise", kTarget, [](Strands& s, const Context& c) { noise(s, {}, c); }},
+        {"cut", kTarget, [=](Strands& s, const Context& c) { cut(s, cuts, c); }},
+        {"trim", kTarget, [=](Strands& s, const Context& c) { trim(s, trims, c); }},
+        {"push_out", -1.0, [=](Strands& s, const Context& c) { push_out(s, pushes, c); }},
+    };
+}
+
+void run(Report& report) {
+    ContextOptions options;
+    options.threads = 2;
+    const Context context(options);
+    Strands grown = hair_on_ball();
+    assign_guides(grown, {.count = 400}, context);
+    std::vector<float> copy(grown.points().size());
+    const auto read_and_write = [&] {
+        context.parallel_for(0, kStrands, 256, [&](Index begin, Index end) {
+            const std::size_t first = 3 * at(grown.first_point(begin));
+            const std::size_t last = 3 * at(grown.offsets()[at(end)]);
+            std::memcpy(&copy[first], &grown.points()[first], (last - first) * sizeof(float));
+        });
+    };
+    report.title("100K strands of 32 points");
+    for (const Operator& one : operators()) {
+        if (!report.wants(one.name)) continue;
+        const Quotient quotient = quotient_of(
+            5,
+            [&] {
+                Strands strands = grown;
+                return seconds([&] { one.run(strands, context); });
+            },
+            [&] { return seconds(read_and_write); });
+        report.add({one.name, 1e3 * quotient.above, "ms"});
+        report.add_ratio(one.name + " / reading and writing its points", "memory on two threads",
+                         quotient, one.target);
+    }
+}
+
+}  // namespace
+}  // namespace lissom::bench
+
+int main(int argc, char** argv) {
+    lissom::bench::Report report(argc, argv);
+    lissom::bench::run(report);
+    return 0;
+}
