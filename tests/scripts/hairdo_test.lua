@@ -19,3 +19,30 @@ test("a head whose unit nobody can guess gets it from the parameters, and nothin
     lissom.listen{}
     expect.truthy(#assert(lissom.load_strands(test.file("hair.usda"))) > 100)
 end)
+
+local presets = { "afro", "bob", "braid", "mohawk", "ringlets", "spiky" }
+
+test("every preset makes hair on a head that stays out of it, by parameters that it names", function()
+    local head = lissom.shapes.head{ vertices = 6000 }
+    for _, name in ipairs(presets) do
+        local preset = require("presets." .. name)
+        local style, hair, look = preset.grow(head, {}, { count = 400, resolution = 12000 })
+        local stats = hair:stats{ style = style, depth = 0.001 }
+        expect.truthy(#hair > 200, name)
+        expect.equal(stats.not_finite, 0, name)
+        expect.truthy(stats.penetrating <= 0.01 * #hair, name .. ": " .. stats.penetrating .. " inside")
+        expect.truthy(look.unit > 0, name)
+        expect.error(function() preset.grow(head, { bounce = 1 }) end, "no parameter 'bounce'")
+    end
+end)
+
+test("another seed gives another head of hair, the same seed the same", function()
+    local head = lissom.shapes.head{ vertices = 6000 }
+    local preset = require "presets.spiky"
+    local function hash(seed)
+        local _, hair = preset.grow(head, { seed = seed }, { count = 200, resolution = 6000 })
+        return hair:hash()
+    end
+    expect.equal(hash(2), hash(2))
+    expect.truthy(hash(2) ~= hash(3))
+end)

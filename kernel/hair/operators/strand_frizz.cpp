@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "kernel/core/error.h"
 #include "kernel/hair/strands/strand_random.h"
@@ -38,15 +39,16 @@ struct Waves {
         for (double& phase : phases) phase = random();
     }
 
-    Vec3 at_arc(double arc) const {
-        std::array<double, 6> sines;
-        for (std::size_t i = 0; i < 3; ++i) {
-            sines[i] = 0.5 * sine_of_turns(arc * frequencies[0] + phases[i]);
+    // Adds the wave along one axis at each arc.
+    void add(std::size_t axis, const std::vector<double>& arcs, std::vector<double>& sums) const {
+        const double short_phase = phases[axis], long_phase = phases[axis + 3];
+        const double short_frequency = frequencies[0], long_frequency = frequencies[1];
+        const double* const arc = arcs.data();
+        double* const sum = sums.data();
+        for (std::size_t k = 0; k < arcs.size(); ++k) {
+            sum[k] = 0.5 * sine_of_turns(arc[k] * short_frequency + short_phase) +
+                     sine_of_turns(arc[k] * long_frequency + long_phase);
         }
-        for (std::size_t i = 3; i < 6; ++i) {
-            sines[i] = sine_of_turns(arc * frequencies[1] + phases[i]);
-        }
-        return {sines[0] + sines[3], sines[1] + sines[4], sines[2] + sines[5]};
     }
 };
 
@@ -57,9 +59,15 @@ void frizz(Strands& strands, const FrizzOptions& options, const Context& context
     Progress progress(context, "frizz strands");
     const auto change = [&](StrandWork& work) {
         const Waves waves(options, work.id());
+        std::array<std::vector<double>, 3> moves;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            moves[axis].resize(at(work.count()));
+            waves.add(axis, work.arcs(), moves[axis]);
+        }
         for (Index k = 1; k < work.count(); ++k) {
             const double size = waves.amplitude * work.weight(k);
-            work.set_point(k, work.old_point(k) + size * waves.at_arc(work.arc(k)));
+            const Vec3 move(moves[0][at(k)], moves[1][at(k)], moves[2][at(k)]);
+            work.set_point(k, work.old_point(k) + size * move);
         }
         if (options.keep_length) work.restore_lengths();
     };

@@ -14,6 +14,8 @@ namespace lissom {
 namespace {
 
 constexpr Index kPassGrain = 128;
+// A segment that would have to grow by more has no direction.
+constexpr double kLongest = 1e12;
 
 bool is_part(double x) {
     return x >= 0.0 && x <= 1.0;
@@ -23,6 +25,26 @@ bool all_finite(const float* values, std::size_t count) {
     float sum = 0.0f;
     for (std::size_t i = 0; i < count; ++i) sum += values[i] * 0.0f;
     return sum == 0.0f;
+}
+
+// Lengths of segments, of each that before the point; 0 for the root.
+void segment_lengths(const float* points, Index count, std::vector<float>& lengths) {
+    lengths.resize(at(count));
+    lengths[0] = 0.0f;
+    const float* p = points;
+    for (Index k = 1; k < count; ++k, p += 3) {
+        const float x = p[3] - p[0], y = p[4] - p[1], z = p[5] - p[2];
+        lengths[at(k)] = x * x + y * y + z * z;
+    }
+    Eigen::Map<Eigen::ArrayXf> all(lengths.data(), count);
+    all = all.sqrt();
+    if (all_finite(lengths.data(), at(count))) return;
+    // Squares of lengths from 1e19 on exceed 32-bit numbers.
+    const Eigen::Map<const Eigen::Matrix3Xf> columns(points, 3, count);
+    for (Index k = 1; k < count; ++k) {
+        const Vec3 segment = columns.col(k).cast<double>() - columns.col(k - 1).cast<double>();
+        lengths[at(k)] = static_cast<float>(segment.norm());
+    }
 }
 
 // One step of double reflection (Wang et al. 2008, Computation of rotation minimizing frames).
@@ -99,16 +121,6 @@ void require_operator(const Strands& strands, const StrandOperatorOptions& optio
                 std::to_string(strands.size()) + " strands; give one for each strand");
 }
 
-double sine_of_turns(double x) {
-    // To a quarter of a turn about 0: adding 1.5 * 2^52 rounds.
-    constexpr double kRound = 6755399441055744.0;
-    x -= (x + kRound) - kRound;
-    const double half = x < 0.0 ? -0.5 : 0.5;
-    if (x > 0.25 || x < -0.25) x = half - x;
-    const double y = 2.0 * kPi * x, q = y * y;
-    return y * (1.0 + q * (-1.0 / 6 + q * (1.0 / 120 + q * (-1.0 / 5040 + q / 362880))));
-}
-
 bool StrandWork::take(Index strand, const float* old, float* made) {
     strand_ = strand;
     count_ = strands_.point_count(strand);
@@ -117,14 +129,10 @@ bool StrandWork::take(Index strand, const float* old, float* made) {
     made_ = made;
     if (count_ < 2 || mask_ == 0.0) return false;
     arcs_.resize(at(count_));
-    double sum = arcs_[0] = 0.0;
-    Vec3 before = old_point(0);
-    for (Index k = 1; k < count_; ++k) {
-        const Vec3 here = old_point(k);
-        sum += (here - before).norm();
-        arcs_[at(k)] = sum;
-        before = here;
-    }
+    segment_lengths(old_, count_, segments_);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < at(count_); ++k) arcs_[k] = sum += segments_[k];
+    part_of_length_ = 1.0 / sum;
     return sum > 0.0 && std::isfinite(sum);
 }
 
@@ -182,29 +190,34 @@ void StrandWork::blend() {
     if (options_.keep_length) restore_lengths();
 }
 
-void StrandWork::scale_segments(const std::function<double(Index)>& length_of) {
+// Sums the segments anew, each of the length that is given for it.
+void StrandWork::scale_segments(const float* lengths) {
+    segment_lengths(made_, count_, scales_);
+    Eigen::Map<Eigen::ArrayXf> scales(scales_.data(), count_);
+    scales = Eigen::Map<const Eigen::ArrayXf>(lengths, count_) / scales;
     Vec3 before = old_point(0), end = before;
     for (Index k = 1; k < count_; ++k) {
         const Vec3 here = point(k);
-        Vec3 direction = here - before;
-        double size = direction.norm();
-        if (!(size > 0.0)) {
-            direction = old_point(k) - old_point(k - 1);
-            size = direction.norm();
+        double scale = scales_[at(k)];
+        Vec3 segment = here - before;
+        // A segment without direction takes the old one.
+        if (!(scale < kLongest)) {
+            segment = old_point(k) - old_point(k - 1);
+            scale = segments_[at(k)] > 0.0f ? lengths[k] / segments_[at(k)] : 0.0f;
         }
         before = here;
-        if (size > 0.0) end += direction * (length_of(k) / size);
+        end += scale * segment;
         set_point(k, end);
     }
 }
 
 void StrandWork::restore_lengths() {
-    scale_segments([&](Index k) { return arcs_[at(k)] - arcs_[at(k - 1)]; });
+    scale_segments(segments_.data());
 }
 
 void StrandWork::space_evenly(double length) {
-    const double step = length / (count_ - 1);
-    scale_segments([&](Index) { return step; });
+    const std::vector<float> lengths(at(count_), static_cast<float>(length / (count_ - 1)));
+    scale_segments(lengths.data());
 }
 
 void change_strands(Strands& strands, const StrandOperatorOptions& options,

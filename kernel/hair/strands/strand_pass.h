@@ -54,7 +54,8 @@ class StrandWork {
     double length() const { return arcs_.back(); }
     /// Length as it was from the root to a point, and its part of the whole.
     double arc(Index k) const { return arcs_[at(k)]; }
-    double t(Index k) const { return arcs_[at(k)] / arcs_.back(); }
+    const std::vector<double>& arcs() const { return arcs_; }
+    double t(Index k) const { return arcs_[at(k)] * part_of_length_; }
     /// Part of the effect at a point or at a place along the strand, 0 to 1.
     double weight(Index k) const { return weight_at(t(k)); }
     double weight_at(double t) const;
@@ -94,15 +95,17 @@ class StrandWork {
     void space_evenly(double length);
 
   private:
-    void scale_segments(const std::function<double(Index)>& length_of);
+    void scale_segments(const float* lengths);
 
     const Strands& strands_;
     const StrandOperatorOptions& options_;
     Index strand_ = 0, count_ = 0;
-    double mask_ = 1.0;
+    double mask_ = 1.0, part_of_length_ = 0.0;
     const float* old_ = nullptr;
     float* made_ = nullptr;
     std::vector<double> arcs_;
+    /// Lengths of the segments before the points, as they were; and room for others.
+    std::vector<float> segments_, scales_;
     std::vector<Vec3> tangents_, normals_;
 };
 
@@ -113,8 +116,17 @@ class StrandWork {
 void change_strands(Strands& strands, const StrandOperatorOptions& options,
                     const std::function<void(StrandWork& work)>& change, const Context& context);
 
-/// Sine of 2 pi x, to 1e-6; the same on every machine.
-double sine_of_turns(double x);
+/// Sine of 2 pi x, to 1e-5; the same on every machine. Without branches, so that loops over it
+/// become vector instructions.
+inline double sine_of_turns(double x) {
+    // To half a turn about 0, as adding 1.5 * 2^52 rounds; then to a quarter.
+    constexpr double kRound = 6755399441055744.0;
+    x -= (x + kRound) - kRound;
+    const double folded = (x < 0.0 ? -0.5 : 0.5) - x;
+    x = x * x > 0.0625 ? folded : x;
+    const double y = 2.0 * kPi * x, q = y * y;
+    return y * (1.0 + q * (-1.0 / 6 + q * (1.0 / 120 + q * (-1.0 / 5040 + q / 362880))));
+}
 inline double cosine_of_turns(double x) {
     return sine_of_turns(x + 0.25);
 }
