@@ -1,4 +1,4 @@
---- What presets of hairstyles share: routes of streams in directions over the head, functions of the place on
+--- Common parts of presets of hairstyles: routes of streams in directions over the head, functions of the place on
 -- the head, and the frame of a preset that runs as a script too.
 --
 -- A route is a list of places in millimetres of an average head: { azimuth, elevation, lift } over the head;

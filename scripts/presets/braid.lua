@@ -52,8 +52,8 @@ return styling.preset(..., {
         hair:smooth{ iterations = 3 }
         hair:braid{ spine = spine, scalp = o.scalp, across = o.scalp:left(), radius = v.radius,
             reach = 2.2 * tie.radius, length = v.length, tuft = v.tuft, seed = v.seed }
-        hair:frizz{ amplitude = 0.0009, wavelength = 0.03 }:push_out{ head = style, clearance = 0.001 }
-        styling.finish(hair, 0.00024, 0.0008)
+        hair:frizz{ amplitude = 0.0009, wavelength = 0.03 }
+        styling.finish(hair, 0.00024, 0.0008):push_out{ head = style, clearance = 0.001 }
         return style, hair, { unit = o.scalp:unit() }, { hairdo.ring(o.scalp, tie) }
     end,
 })

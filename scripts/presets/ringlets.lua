@@ -44,7 +44,8 @@ return styling.preset(..., {
         hair:curl{ radius = v.radius, wavelength = v.wavelength, ramp = 0.1, phase = v.ribbon,
             keep_length = false, seed = v.seed }
         hair:cut{ hem = { { 0, -v.length } }, scalp = scalp, guide_jitter = 0.03 }
-        hair:push_out{ head = style, clearance = 0.003 }:frizz{ amplitude = 0.0004, wavelength = 0.02 }
-        return style, styling.finish(hair, 0.00024, 0.0008), { color = "#7a3c1c", unit = scalp:unit() }
+        hair:frizz{ amplitude = 0.0004, wavelength = 0.02 }
+        styling.finish(hair, 0.00024, 0.0008):push_out{ head = style, clearance = 0.003 }
+        return style, hair, { color = "#7a3c1c", unit = scalp:unit() }
     end,
 })

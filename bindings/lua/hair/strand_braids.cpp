@@ -100,13 +100,13 @@ std::vector<Function> strand_braid_methods() {
          .options = with_fields(
              {points("spine", "The middle of the braid, from its tie on."),
               vector("across", "Direction across the braid: its widest."),
-              meters("radius", "Of each of the three tubes.").defaults(d.radius).above(0),
-              meters("reach", "From the spine to where strands pass the tie.")
+              meters("radius", "Radius of each of the three tubes.").defaults(d.radius).above(0),
+              meters("reach", "Distance from the spine within which strands pass the tie.")
                   .above(0)
                   .optional("2.86 radii"),
               meters("length", "From the tie to the lower tie.").defaults(d.length).above(0),
               meters("tuft", "Below the lower tie.").defaults(d.tuft).at_least(0),
-              meters("wavelength", "Of one turn of a tube.").above(0).optional("7 radii"),
+              meters("wavelength", "Length of one turn of a tube.").above(0).optional("7 radii"),
               number("taper", "Part by which it is narrower at its end.")
                   .defaults(d.taper)
                   .between(0, 0.99),
@@ -129,21 +129,24 @@ std::vector<Function> strand_braid_methods() {
          .body = bun_strands,
          .summary = "Winds the strands that pass a tie over a torus around it; others stay.",
          .options = with_fields(
-             {vector("center", "Of the tie."), vector("direction", "In which hair passes it."),
-              meters("reach", "From the center to where strands pass the tie.")
+             {vector("center", "Center of the tie."),
+              vector("direction", "Direction in which hair passes it."),
+              meters("reach", "Distance from the center within which strands pass the tie.")
                   .defaults(b.tie.reach)
                   .above(0),
               meters("radius", "From the axis to the middle of the torus.")
                   .defaults(b.radius)
                   .above(0),
               meters("tube", "Radius of its tube.").defaults(b.tube).above(0),
-              meters("lift", "Of its middle above the tie.").defaults(b.lift),
-              number("turn", "Of hair around the axis.").defaults(165.0).in("degrees"),
-              integer("locks", "Of the bun.").defaults(b.locks).at_least(1),
+              meters("lift", "Height of its middle above the tie.").defaults(b.lift),
+              number("turn", "Turn of hair around the axis.").defaults(165.0).in("degrees"),
+              integer("locks", "Number of its locks.").defaults(b.locks).at_least(1),
               number("loose", "Part of the strands that lie loosely.")
                   .defaults(b.loose)
                   .between(0, 1),
-              integer("points", "Of each strand in the bun.").defaults(b.points).between(4, 10000)},
+              integer("points", "Number of points of each strand in the bun.")
+                  .defaults(b.points)
+                  .between(4, 10000)},
              common_fields()),
          .results = kBraidResults,
          .errors = kOperatorErrors,

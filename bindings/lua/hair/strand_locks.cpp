@@ -134,8 +134,10 @@ std::vector<Parameter> winding_fields(const CurlOptions& d) {
              .defaults(d.wavelength)
              .above(0),
          number("tip", "Radius at the tip as a part of `radius`.").defaults(d.tip).at_least(0),
-         meters("start", "From the root to where it begins.").defaults(d.start).at_least(0),
-         meters("ramp", "Over which it reaches its radius.").defaults(d.ramp).at_least(0),
+         meters("start", "Distance from the root at which it begins.")
+             .defaults(d.start)
+             .at_least(0),
+         meters("ramp", "Length over which it reaches its radius.").defaults(d.ramp).at_least(0),
          number("hang", "Turns are longer at the root and shorter at the tip by this part.")
              .defaults(d.hang)
              .between(0, 1.5),
@@ -187,35 +189,37 @@ Function guides_method() {
 
 Function gather_method() {
     const GatherOptions d;
-    return {
-        .name = "gather",
-        .body = gather_strands,
-        .summary =
-            "Gathers strands to locks around their guides, from the end of a ramp on; "
-            "roots stay.",
-        .options = lock_fields(
-            d,
-            {meters("ramp", "Over which strands come to their guide.").defaults(d.ramp).at_least(0),
-             meters("spread", "Random distance of strands from their guide, about.")
-                 .defaults(d.spread)
-                 .at_least(0)}),
-        .results = kSelfStrands,
-        .errors = kOperatorErrors,
-        .example = kTwoStrands + "hair:gather{ guides = 1, spread = 0.0005 }"};
+    return {.name = "gather",
+            .body = gather_strands,
+            .summary =
+                "Gathers strands to locks around their guides, from the end of a ramp on; "
+                "roots stay.",
+            .options = lock_fields(
+                d, {meters("ramp", "Length over which strands come to their guide.")
+                        .defaults(d.ramp)
+                        .at_least(0),
+                    meters("spread", "Random distance of strands from their guide, about.")
+                        .defaults(d.spread)
+                        .at_least(0)}),
+            .results = kSelfStrands,
+            .errors = kOperatorErrors,
+            .example = kTwoStrands + "hair:gather{ guides = 1, spread = 0.0005 }"};
 }
 
 Function twist_method() {
     const TwistOptions d;
-    return {.name = "twist",
-            .body = twist_strands,
-            .summary = "Turns strands about their guide, as hair twisted to a rope; guides stay.",
-            .options = lock_fields(
-                d, {meters("wavelength", "Of one turn; negative turns the other way.")
-                        .defaults(d.wavelength),
-                    meters("ramp", "Over which the turning begins.").defaults(d.ramp).at_least(0)}),
-            .results = kSelfStrands,
-            .errors = kOperatorErrors,
-            .example = kTwoStrands + "hair:twist{ guides = 1, wavelength = 0.1 }"};
+    return {
+        .name = "twist",
+        .body = twist_strands,
+        .summary = "Turns strands about their guide, as hair twisted to a rope; guides stay.",
+        .options = lock_fields(
+            d,
+            {meters("wavelength", "Length of one turn; negative turns the other way.")
+                 .defaults(d.wavelength),
+             meters("ramp", "Length over which the turning begins.").defaults(d.ramp).at_least(0)}),
+        .results = kSelfStrands,
+        .errors = kOperatorErrors,
+        .example = kTwoStrands + "hair:twist{ guides = 1, wavelength = 0.1 }"};
 }
 
 Function pinch_method() {

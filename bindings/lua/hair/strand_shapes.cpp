@@ -230,7 +230,7 @@ Function rotate_method() {
         .summary = "Turns strands about their roots; lengths stay.",
         .options = with_fields(
             {axis("axis", "Axis of the turn.").optional("the direction of each strand at its root"),
-             number("angle", "Of the turn.").defaults(0.0).in("degrees"),
+             number("angle", "Angle of the turn.").defaults(0.0).in("degrees"),
              number("variation", "Each strand turns up to this more or less, at random.")
                  .defaults(0.0)
                  .in("degrees")},
@@ -247,7 +247,7 @@ Function roll_method() {
         .body = roll_strands,
         .summary = "Rolls up the ends of strands, as on curlers; lengths stay.",
         .options = with_fields(
-            {meters("radius", "Of the roll.").defaults(d.radius).above(0),
+            {meters("radius", "Radius of the roll.").defaults(d.radius).above(0),
              number("start", "Where it begins: 0 at the root, 1 at the tip.")
                  .defaults(d.start)
                  .between(0, 0.999),
@@ -264,7 +264,8 @@ Function puff_method() {
             .body = puff_strands,
             .summary = "Lifts strands off the head.",
             .options = with_fields(
-                {meters("amount", "That strands rise; negative lets them sink.").defaults(d.amount),
+                {meters("amount", "Distance that strands rise; negative lets them sink.")
+                     .defaults(d.amount),
                  center_field()},
                 effect_fields(d)),
             .results = kSelfStrands,
@@ -292,8 +293,8 @@ Function set_length_method() {
             .body = set_strand_lengths,
             .summary = "Makes strands longer or shorter by scaling them about their roots.",
             .options = with_fields(
-                {meters("length", "Of each strand.").above(0).optional("as it is"),
-                 number("scale", "Times the length.").defaults(d.scale).above(0),
+                {meters("length", "Length of each strand.").above(0).optional("as it is"),
+                 number("scale", "Factor of the length.").defaults(d.scale).above(0),
                  number("variation", "Each is up to this part longer or shorter, at random.")
                      .defaults(d.variation)
                      .between(0, 0.99)},
@@ -375,14 +376,15 @@ Function push_out_method() {
         .summary =
             "Moves hair that lies in the head, the neck or the shoulders out of them; "
             "segments between points count too.",
-        .options = with_fields({head_field(),
-                                meters("clearance", "That hair stays off the surface.")
-                                    .defaults(d.clearance)
-                                    .at_least(0),
-                                meters("ramp", "From the root to where it stays off so far.")
-                                    .defaults(d.ramp)
-                                    .at_least(0)},
-                               effect_fields(d)),
+        .options = with_fields(
+            {head_field(),
+             meters("clearance", "Distance that hair stays off the surface.")
+                 .defaults(d.clearance)
+                 .at_least(0),
+             meters("ramp", "Length from the root over which it comes to stay off so far.")
+                 .defaults(d.ramp)
+                 .at_least(0)},
+            effect_fields(d)),
         .results = kSelfStrands,
         .errors = kOperatorErrors,
         .example = kStyle + "local hair = style:grow{ count = 20 }\nhair:push_out{ head = style }"};
@@ -395,7 +397,8 @@ Function shrinkwrap_method() {
         .body = shrinkwrap_strands,
         .summary = "Draws strands onto the head.",
         .options = with_fields(
-            {head_field(), meters("lift", "Above the surface.").defaults(d.lift).at_least(0)},
+            {head_field(),
+             meters("lift", "Distance above the surface.").defaults(d.lift).at_least(0)},
             effect_fields(d)),
         .results = kSelfStrands,
         .errors = kOperatorErrors,
