@@ -1,5 +1,5 @@
---- Common parts of presets of hairstyles: routes of streams in directions over the head, functions of the place on
--- the head, and the frame of a preset that runs as a script too.
+--- Common parts of presets of hairstyles: routes of streams in directions over the head, functions of the
+-- place on the head, and the frame of a preset that runs as a script too.
 --
 -- A route is a list of places in millimetres of an average head: { azimuth, elevation, lift } over the head;
 -- { "by", x, y, z } from the place before; { "at", x, y, z } from the middle of the head. x points to the
@@ -134,8 +134,8 @@ end
 --- Makes a preset of its `name`, the `schema` of its parameters as lissom.params takes them, and `make(head,
 -- values, options)`, which returns the style, its hair, how it looks (the option `hair` of lissom.render) and
 -- meshes to draw with it. `options` holds the scalp and the resolution for lissom.hairstyle and the
--- `count` of strands. `preset.grow(head, values, options)` calls it. With `module`, the name that the file was required
--- by, it is returned; run as a script, it makes hair and pictures.
+-- `count` of strands. `preset.grow(head, values, options)` calls it. With `module`, the name that the file
+-- was required by, it is returned; run as a script, it makes hair and pictures.
 function styling.preset(module, preset)
     preset.schema.seed = { type = "integer", default = 1, min = 1, help = "chance" }
     function preset.grow(head, values, options)

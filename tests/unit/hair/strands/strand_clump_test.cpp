@@ -232,7 +232,7 @@ TEST_CASE("clump refuses options out of range") {
         change(options);
         return error_of([&] { clump(strands, options); }).code() == ErrorCode::invalid_argument;
     };
-    CHECK(refused([](ClumpOptions& o) { o.clumps = 0; }));
+    CHECK(refused([](ClumpOptions& o) { o.clumps = -1; }));
     CHECK(refused([](ClumpOptions& o) { o.strength = 1.1; }));
     CHECK(refused([](ClumpOptions& o) { o.strength = -0.1; }));
     CHECK(refused([](ClumpOptions& o) { o.variation = 1.1; }));
@@ -242,4 +242,40 @@ TEST_CASE("clump refuses options out of range") {
     CHECK(refused([](ClumpOptions& o) { o.radius = 0.0; }));
     CHECK(refused([](ClumpOptions& o) { o.shape = -1.0; }));
     CHECK(refused([](ClumpOptions& o) { o.offset = std::nan(""); }));
+}
+
+TEST_CASE("clump is seen at its defaults: tips come nearer to their guide by a third and more") {
+    const Strands before = random_hair(3000);
+    Strands made = before;
+    clump(made);
+    GuideOptions options;
+    options.count = 900;
+    const std::vector<Index> guides = nearest_guides(before, options);
+    const auto apart = [&](const Strands& strands) {
+        double sum = 0.0;
+        for (Index s = 0; s < strands.size(); ++s) {
+            const StrandView strand = strands.strand(s);
+            const StrandView guide = strands.strand(guides[static_cast<std::size_t>(s)]);
+            sum += double((strand.col(strand.cols() - 1) - guide.col(guide.cols() - 1)).norm());
+        }
+        return sum;
+    };
+    CHECK(apart(made) < 0.67 * apart(before));
+}
+
+TEST_CASE("clump without a number of its own takes the guides that strands have") {
+    Strands strands = random_hair(200);
+    GuideOptions three;
+    three.count = 3;
+    assign_guides(strands, three);
+    ClumpOptions options = full_pull();
+    options.clumps = 0;
+    const Strands made = clumped(strands, options);
+    for (Index s = 0; s < 200; ++s) {
+        const std::uint32_t guide = strands.guides().ids[static_cast<std::size_t>(s)];
+        REQUIRE(guide < 3);
+        const StrandView a = made.strand(s), b = made.strand(static_cast<Index>(guide));
+        CHECK((a.col(a.cols() - 1) - b.col(b.cols() - 1)).norm() < 1e-5f);
+    }
+    CHECK(made.guides() == strands.guides());
 }

@@ -1,5 +1,9 @@
 #include "kernel/hair/strands/strand_noise.h"
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "kernel/hair/strands/strand_resample.h"
 #include "tests/unit/hair/strands/groomed.h"
 #include "tests/unit/hair/strands/strand_support.h"
@@ -129,4 +133,21 @@ TEST_CASE("noise refuses options out of range") {
     CHECK(refused([](NoiseOptions& o) { o.across = 0.0; }));
     CHECK(refused([](NoiseOptions& o) { o.along = std::nan(""); }));
     CHECK(refused([](NoiseOptions& o) { o.shape = 0.0; }));
+}
+
+TEST_CASE("noise warns if its amplitude is beyond the turns that it allows") {
+    std::vector<std::string> told;
+    ContextOptions host;
+    host.log = [&](LogLevel level, std::string_view message) {
+        if (level == LogLevel::warning) told.emplace_back(message);
+    };
+    const Context context(host);
+    Strands strands = random_hair(100);
+    noise(strands, {}, context);
+    CHECK(told.empty());
+    NoiseOptions options;
+    options.amplitude = 0.5;
+    noise(strands, options, context);
+    REQUIRE(told.size() == 1);
+    CHECK(told.front().find("amplitude") != std::string::npos);
 }
