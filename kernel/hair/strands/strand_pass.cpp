@@ -14,6 +14,8 @@ namespace lissom {
 namespace {
 
 constexpr Index kPassGrain = 128;
+// Steps of a profile that is a power of the place: enough for any exponent to look smooth.
+constexpr std::size_t kPowerSteps = 128;
 // A segment that would have to grow by more has no direction.
 constexpr double kLongest = 1e12;
 
@@ -121,6 +123,15 @@ void require_operator(const Strands& strands, const StrandOperatorOptions& optio
                 std::to_string(strands.size()) + " strands; give one for each strand");
 }
 
+StrandWork::StrandWork(const Strands& strands, const StrandOperatorOptions& options)
+    : strands_(strands), options_(options), profile_(options.profile) {
+    if (!profile_.empty() || options.shape == 0.0) return;
+    const std::size_t steps = options.shape == 1.0 ? 1 : kPowerSteps;
+    for (std::size_t i = 0; i <= steps; ++i) {
+        profile_.push_back(std::pow(double(i) / double(steps), options.shape));
+    }
+}
+
 bool StrandWork::take(Index strand, const float* old, float* made) {
     strand_ = strand;
     count_ = strands_.point_count(strand);
@@ -137,15 +148,12 @@ bool StrandWork::take(Index strand, const float* old, float* made) {
 }
 
 double StrandWork::weight_at(double t) const {
-    if (options_.profile.empty()) {
-        if (options_.shape == 0.0) return mask_;
-        return mask_ * (options_.shape == 1.0 ? t : std::pow(t, options_.shape));
-    }
-    const std::size_t last = options_.profile.size() - 1;
+    if (profile_.empty()) return mask_;
+    const std::size_t last = profile_.size() - 1;
     const double place = std::clamp(t, 0.0, 1.0) * double(last);
     const auto below = std::min(static_cast<std::size_t>(place), last);
-    const double u = place - double(below), a = options_.profile[below];
-    return mask_ * (a + u * (options_.profile[std::min(below + 1, last)] - a));
+    const double u = place - double(below), a = profile_[below];
+    return mask_ * (a + u * (profile_[std::min(below + 1, last)] - a));
 }
 
 Vec3 StrandWork::old_at(double arc, Index& below) const {

@@ -41,8 +41,7 @@ void require_operator(const Strands& strands, const StrandOperatorOptions& optio
 class StrandWork {
   public:
     /// `old` has `count` points, `made` begins as the same.
-    StrandWork(const Strands& strands, const StrandOperatorOptions& options)
-        : strands_(strands), options_(options) {}
+    StrandWork(const Strands& strands, const StrandOperatorOptions& options);
 
     /// Takes a strand; false if it stays as it is.
     bool take(Index strand, const float* old, float* made);
@@ -99,6 +98,8 @@ class StrandWork {
 
     const Strands& strands_;
     const StrandOperatorOptions& options_;
+    // The profile at equal steps; empty for 1 everywhere.
+    std::vector<double> profile_;
     Index strand_ = 0, count_ = 0;
     double mask_ = 1.0, part_of_length_ = 0.0;
     const float* old_ = nullptr;
