@@ -20,7 +20,7 @@ test("a head whose unit nobody can guess gets it from the parameters, and nothin
     expect.truthy(#assert(lissom.load_strands(test.file("hair.usda"))) > 100)
 end)
 
-local presets = { "afro", "bob", "braid", "mohawk", "ringlets", "spiky" }
+local presets = { "afro", "bob", "braid", "bun", "messy", "mohawk", "ringlets", "spiky", "waves" }
 
 test("every preset makes hair on a head that stays out of it, by parameters that it names", function()
     local head = lissom.shapes.head{ vertices = 6000 }
