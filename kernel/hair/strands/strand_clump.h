@@ -38,7 +38,7 @@ struct ClumpOptions {
     bool keep_length = true;
     std::uint64_t seed = 1;
     /// Its factor, mask and profile count, besides the options above.
-    StrandOperatorOptions effect;
+    StrandOperatorOptions effect = {};
 };
 
 /// Pulls each strand towards its guide G: with (a, b, c) the offset of the roots in the guide's

@@ -31,7 +31,7 @@ struct NoiseOptions {
     bool keep_length = true;
     std::uint64_t seed = 1;
     /// Its factor, mask and profile count, besides the options above.
-    StrandOperatorOptions effect;
+    StrandOperatorOptions effect = {};
 };
 
 /// Moves points across their strand by smooth noise: at the root's place / across, shifted along

@@ -41,7 +41,7 @@ struct StrandSmoothOptions {
     /// at most 1.
     double strength = 0.5;
     /// Its factor, mask and profile; segments keep their lengths if only a part is smoothed.
-    StrandOperatorOptions effect;
+    StrandOperatorOptions effect = {};
 };
 
 /// Evens out kinks along each strand; roots and tips stay. Errors: invalid_argument for options out
