@@ -109,6 +109,18 @@ void note_source(const SourceRest& rest, MergeReport& report) {
         std::max(band.source_volume, std::min(1.0, band.source_volume + rest.dome));
 }
 
+bool is_inside_out(const Mesh& mesh) {
+    return mesh.topology().is_closed() && volume(mesh) < 0.0;
+}
+
+// Of meshes that look to different sides the one that is inside out has to turn.
+void warn_of_sides(const Mesh& target, const Mesh& source, std::vector<std::string>& warnings) {
+    const bool target_inward = is_inside_out(target), source_inward = is_inside_out(source);
+    if (target_inward == source_inward) return;
+    warnings.push_back(std::string(target_inward ? "the target" : "the source") +
+                       " is inside out, so that the part grows inward; mesh:flip() turns it");
+}
+
 // `sewn` is that of the whole target.
 MergeReport merge_report(const Mesh& target, const Mesh& source, const SewnPart& pasted,
                          const Sewn& sewn, double crease, const PasteMergeOptions& options,
@@ -130,6 +142,7 @@ MergeReport merge_report(const Mesh& target, const Mesh& source, const SewnPart&
     report.warnings = absence_warnings(sides);
     report.deform = laid.trial.moved.stats;
     report.seam = sewn.report;
+    if (!options.draft) warn_of_sides(target, source, report.warnings);
     for (std::string& conflict : morph_conflicts(target, part.mesh)) {
         report.warnings.push_back(std::move(conflict));
     }

@@ -315,3 +315,24 @@ TEST_CASE("paste: meshes that are both inside out are judged as the same right s
     CHECK(inward.roughness == doctest::Approx(outward.roughness).epsilon(0.05));
     CHECK(inward.greatest_bend == doctest::Approx(outward.greatest_bend).epsilon(0.1));
 }
+
+TEST_CASE("paste: of a part and a target that look to different sides the inverted one is told") {
+    const auto warnings = [](bool turn_source, bool turn_target) {
+        Mesh horn = horned_ball(), target = egg();
+        if (turn_source) flip(horn);
+        if (turn_target) flip(target);
+        Paste paste = horn_on_egg(horn, target, {.at = {1, 1.2, 0.8}, .scale = 0.8});
+        std::string all;
+        for (const std::string& warning : paste.merge().merged.report.warnings) all += warning;
+        return all;
+    };
+    const auto says = [](const std::string& text, const char* word) {
+        return text.find(word) != std::string::npos;
+    };
+    CHECK_FALSE(says(warnings(false, false), "inside out"));
+    CHECK_FALSE(says(warnings(true, true), "inside out"));
+    const std::string target = warnings(false, true), source = warnings(true, false);
+    CHECK(says(target, "the target is inside out"));
+    CHECK(says(target, "flip"));
+    CHECK(says(source, "the source is inside out"));
+}
