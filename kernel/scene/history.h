@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/core/context.h"
 #include "kernel/scene/content_store.h"
 #include "kernel/scene/scene_state.h"
 

@@ -2,6 +2,7 @@
 /// kernel/deform.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

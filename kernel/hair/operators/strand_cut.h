@@ -1,6 +1,7 @@
 /// Cutting strands to shapes, and removing strands.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>

@@ -6,6 +6,7 @@
 /// of one point or without length stay as they are. An operator that throws has changed nothing.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>

@@ -2,9 +2,9 @@
 ///
 /// Widths are diameters. Root uvs are primvars:st, colours primvars:displayColor, transparency is
 /// primvars:displayOpacity; groups are the indexed primvar "group", ids, root faces and their
-/// weights the primvars "strandId", "guideId", "guideArc", "rootFace" and "rootBarycentrics", for which USD has no names
-/// of its own. Other data of strands - the profile of the widths, the comment - are in attributes
-/// of the namespace "lissom", so that they come back unchanged.
+/// weights the primvars "strandId", "guideId", "guideArc", "rootFace" and "rootBarycentrics", for
+/// which USD has no names of its own. Other data of strands - the profile of the widths, the
+/// comment - are in attributes of the namespace "lissom", so that they come back unchanged.
 #pragma once
 
 #include <optional>
