@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "kernel/core/memory_error.h"
 #include "kernel/io/stream/file.h"
 #include "kernel/io/stream/file_error.h"
+#include "kernel/io/stream/json_tree.h"
 #include "kernel/io/stream/read_error.h"
 #include "kernel/io/stream/text_writer.h"
 
@@ -16,7 +16,7 @@ namespace lissom {
 namespace {
 
 // Keeps the order of keys.
-using StyleJson = nlohmann::ordered_json;
+using StyleJson = OrderedJson;
 
 constexpr const char* kFormat = "lissom hairstyle";
 constexpr int kStyleVersion = 1;
@@ -26,8 +26,15 @@ constexpr const char *kDefaultName = "default", *kThesisName = "thesis";
     throw Error(ErrorCode::file_syntax, where + ": " + what);
 }
 
+// Without lists of initialisers, which nlohmann does not free if there is no memory for all.
+StyleJson json_of(std::initializer_list<double> numbers) {
+    StyleJson list = StyleJson::array();
+    for (const double number : numbers) list.push_back(number);
+    return list;
+}
+
 StyleJson json_of(const Vec3& p) {
-    return {p.x(), p.y(), p.z()};
+    return json_of({p.x(), p.y(), p.z()});
 }
 
 // ---- One description of each object serves for writing and reading.
@@ -56,7 +63,7 @@ class Writer {
         object_[key] = *(names.begin() + static_cast<int>(value));
     }
     void angles(const char* key, DividingOptions::Tilt& tilt) {
-        object_[key] = {tilt.start / kDegree, tilt.end / kDegree};
+        object_[key] = json_of({tilt.start / kDegree, tilt.end / kDegree});
     }
     void point(const char* key, Vec3& value) { object_[key] = json_of(value); }
     void points(const char* key, std::vector<Vec3>& list) {
@@ -395,7 +402,9 @@ StyleContent content_from(const StyleJson& json) {
 std::string text_of(const StyleContent& content) {
     // Described as mutable values.
     StyleContent copy = content;
-    StyleJson json = {{"format", kFormat}, {"version", kStyleVersion}};
+    StyleJson json = StyleJson::object();
+    json["format"] = kFormat;
+    json["version"] = kStyleVersion;
     Writer writer(json);
     describe(writer, copy);
     if (copy.options.volume) {
@@ -404,7 +413,8 @@ std::string text_of(const StyleContent& content) {
     }
     StyleJson& curves = json["curves"] = StyleJson::array();
     for (StyleCurve& curve : copy.curves) {
-        StyleJson one = {{"kind", kind_name(curve)}};
+        StyleJson one = StyleJson::object();
+        one["kind"] = kind_name(curve);
         const HairFidelity fidelity = fidelity_of(curve);
         if (fidelity != copy.options.fidelity) {
             one["fidelity"] = fidelity == HairFidelity::thesis ? kThesisName : kDefaultName;
@@ -414,7 +424,8 @@ std::string text_of(const StyleContent& content) {
         curves.push_back(std::move(one));
     }
     for (MaskStroke& mask : copy.masks) {
-        Writer writer_of_mask(json["masks"].emplace_back(StyleJson::object()));
+        StyleJson& masks = *json.emplace("masks", StyleJson::array()).first;
+        Writer writer_of_mask(masks.emplace_back(StyleJson::object()));
         describe(writer_of_mask, mask);
     }
     std::string text;

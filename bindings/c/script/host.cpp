@@ -309,7 +309,7 @@ std::uint64_t ScriptHost::handle_of(int index) {
     const auto handle = [&](Kind kind, std::shared_ptr<void> content) {
         if (const std::uint64_t known = known_handle(kind, content.get())) return known;
         keep(content.get(), found->object);
-        return context_.add(kind, std::move(content));
+        return add_handle(kind, std::move(content));
     };
     if (type == lua::MeshObject::kTypeName) {
         const auto object = std::static_pointer_cast<lua::MeshObject>(found->object);
@@ -334,7 +334,17 @@ std::uint64_t ScriptHost::handle_of(int index) {
     auto reference = std::make_shared<LuaReference>();
     reference->host = weak_from_this();
     reference->reference = reference_to(lua(), index);
-    return context_.add(Kind::object, std::move(reference));
+    return add_handle(Kind::object, std::move(reference));
+}
+
+std::uint64_t ScriptHost::add_handle(Kind kind, std::shared_ptr<void> content) {
+    new_handles_.push_back(0);
+    return new_handles_.back() = context_.add(kind, std::move(content));
+}
+
+void ScriptHost::drop_new_handles() noexcept {
+    for (const std::uint64_t id : new_handles_) context_.objects.release(id);
+    new_handles_.clear();
 }
 
 ScriptHost& scripts_of(lissom_context& context) {
@@ -357,7 +367,10 @@ int read_lua_error(lua_State* L) {
     error->is_object = lua::is_error_object(L, 2);
     if (error->is_object) lua::read_error(L, 2, error->failure);
     const bool has_text = error->is_object || lua_type(L, 2) == LUA_TSTRING;
-    error->text = has_text ? lua::push_error_text(L, 2) : "the error is no text";
+    const char* text = has_text ? lua::push_error_text(L, 2) : "the error is no text";
+    // Exceptions must not pass through Lua.
+    lua::Failure lost;
+    if (!lost.guard([&] { error->text = text; })) return luaL_error(L, "%s", lost.message);
     return 0;
 }
 

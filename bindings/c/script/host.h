@@ -57,6 +57,11 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     lua::Holder holder_of(std::uint64_t id);
     /// Returns a handle for the object of a userdata at `index`: its own if it has one.
     std::uint64_t handle_of(int index);
+    /// Releases the handles that were made since the last call of either of these: the host gets no
+    /// results.
+    void drop_new_handles() noexcept;
+    /// Keeps them.
+    void keep_new_handles() noexcept { new_handles_.clear(); }
 
     /// Finds the objects of values to be pushed. Errors: INVALID_HANDLE.
     void check_values(const List& values);
@@ -83,11 +88,13 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     std::shared_ptr<lua::MeshObject> mesh_of_region(const Region& region);
     std::shared_ptr<lua::MeshObject> mesh_of_object(const void* content);
     std::shared_ptr<void> object_of(Kind kind, const std::shared_ptr<void>& content);
+    std::uint64_t add_handle(Kind kind, std::shared_ptr<void> content);
     std::uint64_t known_handle(Kind kind, const void* content);
     void keep(const void* content, const std::shared_ptr<void>& object);
 
     lissom_context& context_;
     lua_State* L_ = nullptr;
+    std::vector<std::uint64_t> new_handles_;
     // Null if scripts are trusted.
     std::unique_ptr<lua::Sandbox> sandbox_;
     lua::Stoppable stoppable_;

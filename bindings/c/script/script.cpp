@@ -31,9 +31,20 @@ List list_of(const char* text) {
 }
 
 void give(lissom_context& context, const List& list, lissom_bytes* bytes) {
-    if (!bytes) return;
     context.bytes = json_of(list);
     *bytes = {context.bytes.data(), context.bytes.size()};
+}
+
+// Gives the values from `first` to the top of the stack. After an error no handle of them is left.
+void give_results(lissom_context& context, ScriptHost& host, int first, lissom_bytes* bytes) {
+    if (!bytes) return;
+    try {
+        give(context, host.values_from(first), bytes);
+    } catch (...) {
+        host.drop_new_handles();
+        throw;
+    }
+    host.keep_new_handles();
 }
 
 // ---- Scripts
@@ -82,11 +93,11 @@ void check_syntax(ScriptHost& host, const Script& script) {
 void run_script(ScriptHost& host, Script& script, const List& arguments, bool only_parameters) {
     lua_State* L = host.lua();
     lua::State& state = host.binding();
+    host.check_values(arguments);
     state.host.arguments = {script.name.substr(1), words_of(script)};
     state.parameters = nullptr;
     state.script_end = lua::ScriptEnd::none;
     state.only_help = only_parameters;
-    host.check_values(arguments);
     Running running{&host, &script, &arguments};
     lua_pushcfunction(L, run_protected);
     lua_pushlightuserdata(L, &running);
@@ -133,12 +144,15 @@ void set_parameter(Script& script, const std::string& name, const std::string& v
         throw Error(ErrorCode::invalid_argument,
                     "the script has no parameter '" + name + "'" + name_hint(name, names));
     }
+    std::optional<lua::ParameterValue> taken;
     try {
-        found->value = found->from_text(value);
+        taken = found->from_text(value);
     } catch (const lua::ParameterError& error) {
         throw Error(ErrorCode::invalid_argument, error.message);
     }
-    script.values[name] = value;
+    std::string text = value;
+    script.values[name] = std::move(text);
+    found->value = std::move(taken);
 }
 
 // ---- Limits
@@ -227,9 +241,9 @@ int call_protected(lua_State* L) {
     return lua_gettop(L) - 1;
 }
 
-List call_by_name(ScriptHost& host, const lua::Entry& entry, const List& arguments) {
+// Leaves the results on the stack.
+void call_by_name(ScriptHost& host, const lua::Entry& entry, const List& arguments) {
     lua_State* L = host.lua();
-    const StackGuard guard(L);
     host.check_values(arguments);
     Calling calling{&host, &entry, &arguments};
     lua_pushcfunction(L, call_protected);
@@ -237,7 +251,6 @@ List call_by_name(ScriptHost& host, const lua::Entry& entry, const List& argumen
     if (host.call(1, LUA_MULTRET) != LUA_OK) {
         throw_lua_error(L, LISSOM_INVALID_ARGUMENT);
     }
-    return host.values_from(guard.top() + 1);
 }
 
 Script& script_of(lissom_context& context, lissom_script script) {
@@ -317,7 +330,7 @@ lissom_status lissom_script_run(lissom_context* context, lissom_script script,
         const List values = list_of(arguments);
         Script& own = script_of(*context, script);
         run_script(host, own, values, false);
-        if (json) give(*context, host.values_from(guard.top() + 1), json);
+        give_results(*context, host, guard.top() + 1, json);
     });
 }
 
@@ -326,9 +339,9 @@ lissom_status lissom_call(lissom_context* context, const char* name, const char*
     return run(context, [&] {
         ScriptHost& host = scripts_of(*context);
         const std::string text = given_text(name, "name");
-        host.lua();
-        const lua::Entry& entry = entry_of(*host.binding().registry, text);
-        give(*context, call_by_name(host, entry, list_of(arguments)), json);
+        const StackGuard guard(host.lua());
+        call_by_name(host, entry_of(*host.binding().registry, text), list_of(arguments));
+        give_results(*context, host, guard.top() + 1, json);
     });
 }
 

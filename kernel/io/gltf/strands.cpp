@@ -77,7 +77,7 @@ Json make_document(const Strands& strands, GltfBinary& binary, const Context& co
     Progress progress(context, "write strands");
     Json document{{"asset", {{"version", "2.0"}, {"generator", "Lissom"}}}};
     if (strands.empty()) return document;
-    Json primitive{{"mode", TINYGLTF_MODE_LINE}};
+    Json primitive{{"mode", TINYGLTF_MODE_LINE}, {"attributes", Json::object()}};
     primitive["attributes"]["POSITION"] = add_positions(strands, binary);
     progress.update(0.3);
     if (strands.colors()) primitive["attributes"]["COLOR_0"] = add_colors(strands, binary);

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,10 +11,11 @@
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/io/stream/json_tree.h"
 
 namespace lissom {
 
-using SceneJson = nlohmann::ordered_json;
+using SceneJson = OrderedJson;
 
 enum class NumberType { float32, float64, int32, uint32, int64 };
 

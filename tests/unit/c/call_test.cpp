@@ -60,6 +60,19 @@ TEST_CASE("results that JSON cannot hold are refused, not changed") {
     }
 }
 
+TEST_CASE("results that are refused leave no handles") {
+    if (!lissom_has_scripts()) return;
+    const Host host;
+    lissom_bytes bytes{};
+    const std::string boxes =
+        "local shapes = require('lissom').shapes return shapes.box(), shapes.box(), ";
+    REQUIRE(run_text(host, boxes + "3", nullptr, &bytes) == LISSOM_OK);
+    const std::size_t before = lissom_object_count(host);
+    CHECK(run_text(host, boxes + "print", nullptr, &bytes) == LISSOM_INVALID_ARGUMENT);
+    // The script itself.
+    CHECK(lissom_object_count(host) == before + 1);
+}
+
 TEST_CASE("results keep their kinds, and names come in one order") {
     if (!lissom_has_scripts()) return;
     const Host host;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <new>
 
 #include "kernel/io/gltf/file/container.h"
 #include "kernel/io/gltf/file/extensions.h"
@@ -252,9 +253,13 @@ tinygltf::Model parse_model(const Json& json) {
     try {
         good = parser.LoadASCIIFromString(&model, &error, &warning, text.data(),
                                           static_cast<unsigned int>(text.size()), "");
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& exception) {
         error = exception.what();
     }
+    // The parser catches exceptions of JSON's reader and keeps their text alone.
+    if (error.find(std::bad_alloc().what()) != std::string::npos) throw std::bad_alloc();
     if (!good || !error.empty()) refuse(ErrorCode::file_syntax, one_line_of(error));
     remove_stand_in_view(model, without_view);
     return model;

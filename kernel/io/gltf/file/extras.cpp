@@ -161,10 +161,11 @@ void put_extras(Json& mesh, const MeshExtras& extras, std::size_t vertex_count,
     if (is_empty) return;
     Json ours{{"vertices", vertex_count}, {"faces", face_count}};
     for (const auto& [kind, labels] : extras.labels) {
-        ours["labels"][kind] = {{"names", labels.names}, {"runs", label_runs(labels.of_face)}};
+        (*ours.emplace("labels", Json::object()).first)[kind] = {
+            {"names", labels.names}, {"runs", label_runs(labels.of_face)}};
     }
     for (const auto& [name, vertices] : extras.regions) {
-        ours["regions"][name] = vertex_runs(vertices);
+        (*ours.emplace("regions", Json::object()).first)[name] = vertex_runs(vertices);
     }
     if (!extras.turns.empty()) ours["turns"] = label_runs(extras.turns);
     if (!extras.corners.empty()) ours["corners"] = extras.corners;

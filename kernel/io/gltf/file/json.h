@@ -3,14 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "kernel/io/stream/json_tree.h"
+
 namespace lissom {
 
-using Json = nlohmann::json;
+using Json = SortedJson;
 
 /// Returns the member `key` of `object`; null if there is none or `object` is something else.
 const Json* member(const Json& object, const char* key);

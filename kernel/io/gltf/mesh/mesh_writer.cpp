@@ -50,7 +50,10 @@ class MeshWriter::Object {
         const FanWriter fans = triangulated(primitive, pools);
         Json json = beside_surface(material.number);
         if (material.number >= 0) json["material"] = material.number;
-        if (fans.has_polygons()) json["extensions"]["FB_ngon_encoding"] = Json::object();
+        if (fans.has_polygons()) {
+            (*json.emplace("extensions", Json::object()).first)["FB_ngon_encoding"] =
+                Json::object();
+        }
         const std::vector<Index> used = used_vertices(fans.corners(), pool_.size());
         json["attributes"] = attributes_of(used, material.uv_count);
         if (Json targets = targets_of(json["attributes"]); !targets.empty()) {

@@ -1,0 +1,13 @@
+/// Memory that runs out when a test says so: replaces malloc for all of the program, C++ and C.
+#pragma once
+
+namespace lissom::test {
+
+/// Lets the allocation number `n` from now on fail, from 0, and those after it if `all`.
+void fail_at(long n, bool all);
+/// Lets all succeed again. Returns whether one has failed.
+bool stop_failing();
+/// Returns the number of blocks that were not freed.
+long live_blocks();
+
+}  // namespace lissom::test
