@@ -26,6 +26,9 @@ lissom_export(kernel lissom_kernel ${modules})
 if(TARGET lissom_lua)
     lissom_export(lua lissom_lua lissom_sandbox)
 endif()
+if(TARGET lissom_cholmod)
+    lissom_export(cholmod lissom_cholmod)
+endif()
 if(TARGET lissom_renderer)
     lissom_export(viewer lissom_renderer)
 endif()
@@ -61,9 +64,6 @@ if(LISSOM_LINKS_TBB)
 elseif(LISSOM_TBB)
     string(APPEND LISSOM_PC_LIBRARIES "-ldl")
 endif()
-if(LISSOM_GPL)
-    string(APPEND LISSOM_PC_LIBRARIES " -lcholmod -lsuitesparseconfig")
-endif()
 set(pc_files lissom-kernel)
 if(TARGET lissom_shared)
     list(APPEND pc_files lissom)
@@ -85,6 +85,12 @@ install(FILES ${PROJECT_BINARY_DIR}/lissom-config.cmake
         DESTINATION ${LISSOM_PACKAGE_DIR} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+# The licences of all that is compiled in, with each binary; packages have a folder of their own for them.
+if(NOT LISSOM_PACKAGES)
+    foreach(component library development program lua)
+        install(FILES ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${component})
+    endforeach()
+endif()
 
 # Where lua5.4 and luajit look below the prefix: LuaJIT keeps the version of the language it speaks.
 # Optional, as one who builds the program alone has neither.

@@ -21,6 +21,8 @@ macro(lissom_package component name section summary text)
     set(CPACK_DEBIAN_${upper}_DESCRIPTION "${summary}\n${text}")
     install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
             COMPONENT ${component} RENAME copyright)
+    install(FILES ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
+            COMPONENT ${component})
 endmacro()
 lissom_package(library liblissom libs "modeling kernel for shapes with fine detail (C library)"
                "Deforms detailed meshes with a few handles, merges parts of models, and grows hair.")
@@ -42,7 +44,7 @@ elseif(LISSOM_TBB)
         set(CPACK_DEBIAN_${component}_PACKAGE_DEPENDS "libtbb12")
     endforeach()
 endif()
-if(LISSOM_GPL)
+if(TARGET lissom_cholmod)
     string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libsuitesparse-dev")
 endif()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "pkg-config | pkgconf, liblua5.4-dev, libtbb12, libepoxy0")

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "bindings/c/script_host.h"
+#include "kernel/core/build_info.h"
 #include "kernel/core/version.h"
 
 namespace lissom::c {
@@ -503,6 +504,10 @@ lissom_status lissom_job_finish(lissom_context* context, lissom_job job, uint64_
 
 int32_t lissom_version(void) {
     return LISSOM_VERSION_NUMBER;
+}
+
+const char* lissom_licence(void) {
+    return build_info().licence;
 }
 
 const char* lissom_version_text(void) {

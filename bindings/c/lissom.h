@@ -163,6 +163,10 @@ LISSOM_API const char* lissom_status_explanation(lissom_status status);
 LISSOM_API int32_t lissom_version(void);
 /// Returns "0.2.0". [any thread]
 LISSOM_API const char* lissom_version_text(void);
+/// Returns the licence that a program with this library may be distributed under: "MIT", or
+/// "GPL-2.0-or-later" in a program that links the static library and takes in lissom::cholmod.
+/// [any thread]
+LISSOM_API const char* lissom_licence(void);
 /// Returns whether scripts and lissom_call are part of this library. [any thread]
 LISSOM_API bool lissom_has_scripts(void);
 

@@ -1,13 +1,19 @@
 #include "kernel/core/build_info.h"
 
+#include "kernel/core/gpl_module.h"
+
 namespace lissom {
+
+LISSOM_REPLACEABLE bool has_gpl_module() {
+    return false;
+}
 
 BuildInfo build_info() {
     BuildInfo info;
-#ifdef LISSOM_HAS_GPL
-    info.gpl = true;
-    info.licence = "GPL-2.0-or-later";
-#endif
+    if (has_gpl_module()) {
+        info.gpl = true;
+        info.licence = "GPL-2.0-or-later";
+    }
 #ifdef LISSOM_HAS_TBB
     info.tbb = true;
 #endif

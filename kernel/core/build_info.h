@@ -4,8 +4,8 @@
 namespace lissom {
 
 struct BuildInfo {
-    /// Whether CHOLMOD is linked (CMake: LISSOM_GPL), parts of which are under the GNU GPL. A
-    /// product that is not under the GPL is built without.
+    /// Whether the program has taken in lissom::cholmod, for which it links CHOLMOD, parts of which
+    /// are under the GNU GPL.
     bool gpl = false;
     /// Whether oneTBB runs parallel loops (CMake: LISSOM_TBB); without it they are serial unless
     /// a host runs them.

@@ -23,6 +23,8 @@ class DynamicTest(unittest.TestCase):
         libraries = ["libcholmod.so.3", "libamd.so.2", "libopenblas.so.0"]
         self.assertIn("under the GPL: libcholmod.so.3", findings("program", libraries, [], False)[0])
         self.assertEqual(findings("program", libraries, [], True), [])
+        self.assertIn("under the GPL: libcholmod.so.3", findings("library", libraries, ["lissom_call"], True)[0])
+        self.assertIn("under the GPL: libcholmod.so.3", findings("module", libraries, ["luaopen_lissom"], True)[0])
 
     def test_readline_is_never_allowed(self):
         self.assertIn("libreadline.so.8", findings("program", ["libreadline.so.8"], [], True)[0])

@@ -68,8 +68,8 @@ Library kernel_library() {
     library.constants = {
         {"version", LISSOM_VERSION, "Version of the library."},
         {"licence", build_info().licence,
-         "The licence that this build may be distributed under: \"MIT\", or \"GPL-2.0-or-later\" "
-         "if it links CHOLMOD, as builds without LISSOM_GPL=OFF do."}};
+         "The licence that the program may be distributed under: \"MIT\", or \"GPL-2.0-or-later\" "
+         "if it links CHOLMOD, as the lissom program of builds without LISSOM_GPL=OFF does."}};
     add(library.functions, mesh_file_functions());
     add(library.functions, mesh_functions());
     add(library.functions, shape_functions());

@@ -11,29 +11,33 @@
 
 namespace lissom {
 
-/// The sparse Cholesky factor of A0 + U W^2 U', equation (4.3), changed with the constraints by the
-/// updates and downdates of section 4.4.2; if very many change, it is computed anew because that is
-/// cheaper. The ordering is nested dissection of the grid. CHOLMOD factors in supernodes, which are
-/// then converted to the L D L' that it can change. In a build without GPL, every change of points
-/// or weights factors again, by SparseSystem. For use by one thread at a time.
+/// The sparse Cholesky factor of A0 + U W^2 U', equation (4.3). For use by one thread at a time.
 class GridCholesky {
   public:
-    explicit GridCholesky(const GridLaplacian& laplacian);
-    ~GridCholesky();
+    GridCholesky() = default;
+    virtual ~GridCholesky() = default;
+    GridCholesky(const GridCholesky&) = delete;
+    GridCholesky& operator=(const GridCholesky&) = delete;
 
     /// Brings the factor to these constraints, of which there is at least one. After an error the
     /// next update factors from nothing. Errors: not_positive_definite; memory_limit; cancelled,
     /// between the stages.
-    void update(const ConstraintRows& rows, const Context& context);
+    virtual void update(const ConstraintRows& rows, const Context& context) = 0;
     /// Solves for three fields `b`, component by component, with `refinements` further solves for
     /// the residual; x is not b.
-    void solve(const double* b, double* x, int refinements, const Context& context) const;
+    virtual void solve(const double* b, double* x, int refinements,
+                       const Context& context) const = 0;
 
-    const GridCholeskyStats& stats() const;
-
-  private:
-    struct State;
-    std::unique_ptr<State> state_;
+    virtual const GridCholeskyStats& stats() const = 0;
 };
+
+/// Makes a factor: by CHOLMOD in a program that takes in kernel/cholmod. Without it every change of
+/// points or weights factors again, by SparseSystem.
+std::unique_ptr<GridCholesky> make_grid_cholesky(const GridLaplacian& laplacian);
+
+/// Makes a factor that changes with the constraints by the updates and downdates of section 4.4.2,
+/// or null. The library kernel/cholmod has another definition, which takes the place of this one in
+/// programs that link it.
+std::unique_ptr<GridCholesky> make_updated_cholesky(const GridLaplacian& laplacian);
 
 }  // namespace lissom

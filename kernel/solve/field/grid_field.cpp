@@ -81,7 +81,7 @@ struct GridField::State {
             std::fill_n(stored.get(), field_entries(size), 0.0);
         }
         if (options.solver == GridSolver::cholesky) {
-            cholesky = std::make_unique<GridCholesky>(laplacian);
+            cholesky = make_grid_cholesky(laplacian);
             return;
         }
         const MemoryCharge working =

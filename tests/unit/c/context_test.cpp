@@ -10,6 +10,10 @@ extern "C" int lissom_calls_from_c(void);
 
 namespace lissom::test {
 
+TEST_CASE("a program without the GPL module is under the MIT licence") {
+    CHECK(std::string(lissom_licence()) == "MIT");
+}
+
 TEST_CASE("the header is C99") {
     CHECK(lissom_calls_from_c() == 4);
 }

@@ -2,7 +2,7 @@
 
 #include <cholmod.h>
 
-#include "kernel/solve/sparse/cholmod_view.h"
+#include "kernel/cholmod/cholmod_view.h"
 #include "tests/unit/support.h"
 
 namespace lissom::test {

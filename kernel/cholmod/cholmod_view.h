@@ -1,4 +1,4 @@
-/// Our matrices as CHOLMOD sees them; private to kernel/solve.
+/// Our matrices as CHOLMOD sees them; private to kernel/cholmod.
 #pragma once
 
 #include "kernel/solve/sparse/sparse_matrix.h"

@@ -1,4 +1,4 @@
-#include "kernel/solve/sparse/cholmod_view.h"
+#include "kernel/cholmod/cholmod_view.h"
 
 #include <cholmod.h>
 
