@@ -14,13 +14,10 @@ using namespace lissom;
 
 int main() try {
     Mesh cactus = make_cactus();
-    const Region& base = *cactus.find_region("base");
-    const Region& tip = *cactus.find_region("tip");
-
     // Everything may move but the base.
     Deformer deformer(cactus);
-    deformer.pin(base);
-    const HandleId top = deformer.add_handle(tip);
+    deformer.pin(cactus.region("base"));
+    const HandleId top = deformer.add_handle(cactus.region("tip"));
 
     // Each drag solves with factors that were made once.
     for (int step = 0; step < 3; ++step) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernel/core/nearest.h"
+
 namespace lissom {
 namespace {
 
@@ -120,6 +122,15 @@ void Mesh::set_region(std::string_view name, const Region& region) {
 const Region* Mesh::find_region(std::string_view name) const {
     const auto found = regions_.find(name);
     return found == regions_.end() ? nullptr : &found->second;
+}
+
+const Region& Mesh::region(std::string_view name) const {
+    if (const Region* found = find_region(name)) return *found;
+    std::vector<std::string_view> names;
+    for (const auto& entry : regions_) names.push_back(entry.first);
+    throw Error(ErrorCode::out_of_range,
+                "the mesh has no region '" + std::string(name) + "'" +
+                    (names.empty() ? ", nor any other" : name_hint(name, names)));
 }
 
 bool Mesh::remove_region(std::string_view name) {

@@ -68,6 +68,8 @@ class Mesh {
     void set_region(std::string_view name, const Region& region);
     /// Returns the region called `name`, or null.
     const Region* find_region(std::string_view name) const;
+    /// Returns the region called `name`. Errors: out_of_range, with the names that come near.
+    const Region& region(std::string_view name) const;
     bool remove_region(std::string_view name);
     const std::map<std::string, Region, std::less<>>& regions() const { return regions_; }
 

@@ -67,6 +67,7 @@ TEST_CASE("named regions belong to the mesh's topology") {
     REQUIRE(mesh.find_region("top"));
     CHECK(mesh.find_region("top")->contains(3));
     CHECK(!mesh.find_region("bottom"));
+    CHECK(&mesh.region("top") == mesh.find_region("top"));
     const Mesh other = test::tetrahedron();
     CHECK(test::error_of([&] {
               mesh.set_region("x", Region::all(other.shared_topology()));
@@ -76,6 +77,17 @@ TEST_CASE("named regions belong to the mesh's topology") {
           }).code() == ErrorCode::invalid_argument);
     CHECK(mesh.remove_region("top"));
     CHECK(!mesh.remove_region("top"));
+}
+
+TEST_CASE("a region that a mesh does not have is out of range, and near names are told") {
+    Mesh mesh = test::tetrahedron();
+    const Error none = test::error_of([&] { (void)mesh.region("tip"); });
+    CHECK(none.code() == ErrorCode::out_of_range);
+    CHECK(std::string(none.message()) == "the mesh has no region 'tip', nor any other");
+    mesh.set_region("top", Region(mesh.shared_topology(), {3}));
+    mesh.set_region("base", Region(mesh.shared_topology(), {0, 1, 2}));
+    CHECK(std::string(test::error_of([&] { (void)mesh.region("bsae"); }).message()) ==
+          "the mesh has no region 'bsae', did you mean 'base'?");
 }
 
 TEST_CASE("attributes are found by name and replaced by name") {
