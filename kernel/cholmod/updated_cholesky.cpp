@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "kernel/cholmod/cholmod_view.h"
+#include "kernel/core/build_info.h"
 #include "kernel/core/error.h"
-#include "kernel/core/gpl_module.h"
 #include "kernel/solve/field/grid_cholesky.h"
 #include "kernel/solve/field/grid_dissection.h"
 #include "kernel/solve/grid/cosine_transform.h"

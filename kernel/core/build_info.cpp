@@ -1,7 +1,5 @@
 #include "kernel/core/build_info.h"
 
-#include "kernel/core/gpl_module.h"
-
 namespace lissom {
 
 LISSOM_REPLACEABLE bool has_gpl_module() {

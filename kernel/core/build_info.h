@@ -1,6 +1,13 @@
 /// Libraries and licence of this build.
 #pragma once
 
+/// Marks a definition that a library may replace: a program that links the other one takes that.
+#ifdef __GNUC__
+#define LISSOM_REPLACEABLE __attribute__((weak))
+#else
+#define LISSOM_REPLACEABLE
+#endif
+
 namespace lissom {
 
 struct BuildInfo {
@@ -14,6 +21,9 @@ struct BuildInfo {
     /// or "GPL-2.0-or-later" with CHOLMOD.
     const char* licence = "MIT";
 };
+
+/// Returns whether this program has taken in lissom::cholmod, which replaces the definition.
+bool has_gpl_module();
 
 /// Returns the description of this build.
 BuildInfo build_info();

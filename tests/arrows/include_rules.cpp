@@ -222,7 +222,8 @@ std::vector<Include> includes_of(std::string_view source) {
 /// Headers of the kernel that are not installed, and so may show the libraries of their folder.
 bool is_private(std::string_view path) {
     return path.starts_with("kernel/io/gltf/") || path.starts_with("kernel/scene/file/") ||
-           path == "kernel/hair/growth/growth_lanes.h" || path == "kernel/mesh/half_edges.h";
+           path == "kernel/hair/growth/growth_lanes.h" || path == "kernel/io/stream/json_tree.h" ||
+           path == "kernel/mesh/half_edges.h";
 }
 
 /// The room of `order` that the file at `path` lies in; nothing where it lies in none.

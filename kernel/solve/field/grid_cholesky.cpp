@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel/core/gpl_module.h"
+#include "kernel/core/build_info.h"
 #include "kernel/solve/grid/cosine_transform.h"
 #include "kernel/solve/sparse/sparse_system.h"
 
