@@ -5,7 +5,7 @@
 ///
 /// --case: only cases whose name contains TEXT. --full: smaller regions of the armadillo,
 /// CGAL with 50 iterations on it, and the thesis's comparison methods. --pictures: saves every
-/// result as FOLDER/CASE__METHOD.ply; quality_pictures.lua renders them. Rotations beyond 180
+/// result as FOLDER/CASE__METHOD.ply; quality/pictures.lua renders them. Rotations beyond 180
 /// degrees are dragged there in steps, by all methods; all others are asked for at once, from the
 /// rest shape.
 
@@ -20,8 +20,8 @@
 #include "kernel/deform/deformer.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/thesis/comparison/methods.h"
-#include "tests/bench/quality_measure.h"
-#include "tests/bench/quality_scenes.h"
+#include "tests/bench/quality/measure.h"
+#include "tests/bench/quality/scenes.h"
 #include "tests/bench/report.h"
 #ifdef LISSOM_BENCH_CGAL
 #include "tests/bench/peers/cgal_deform.h"

@@ -211,7 +211,9 @@ class ConformalLanczos {
         for (Index i = 0; i < n; ++i) matrix(i, i) = diagonal_[i];
         for (Index i = 1; i < n; ++i) matrix(i, i - 1) = matrix(i - 1, i) = beside_[i - 1];
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solution(matrix);
-        weights_ = solution.eigenvectors().col(n - 1);
+        // Eigen frees a vector before it allocates a longer one: without memory it would be freed
+        // twice.
+        weights_ = Eigen::VectorXd(solution.eigenvectors().col(n - 1));
         return residual * std::abs(weights_[n - 1]) <= kResidual * solution.eigenvalues()[n - 1];
     }
 

@@ -1,7 +1,7 @@
 -- One picture for each case that `bench_quality --pictures=FOLDER` has saved, its methods side by side.
 --
 --     ./dev bench quality --pictures=out/quality
---     ./dev lissom run tests/bench/quality_pictures.lua --folder out/quality
+--     ./dev lissom run tests/bench/quality/pictures.lua --folder out/quality
 --
 -- Writes FOLDER/CASE.png and prints which methods it shows, from left to right.
 

@@ -1,4 +1,4 @@
-#include "tests/bench/quality_measure.h"
+#include "tests/bench/quality/measure.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

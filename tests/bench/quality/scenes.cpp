@@ -1,4 +1,4 @@
-#include "tests/bench/quality_scenes.h"
+#include "tests/bench/quality/scenes.h"
 
 #include <algorithm>
 #include <cmath>
