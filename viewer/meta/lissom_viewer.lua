@@ -70,7 +70,7 @@ local lissom = {}
 ---@field samples? integer Samples a pixel along edges of meshes: 1, 2, 4, ... as far as the driver has them. Default: 4.
 ---@field supersample? integer Pixels drawn along each side of one in the picture; 2 is for print. Default: 1.
 ---@field occlusion? number How much folds and contacts darken; 0 draws faster. Default: 1.
----@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"three-quarter" The side to look from, of the world and not of what is shown: with y upwards the camera stands at +z for front, -z for back, +x for right, -x for left. Of a head that faces +z, as is usual, left shows its own right side. three-quarter stands between front and right, and above. Default: three-quarter.
+---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"three-quarter" The side to look from, of the world and not of the object: with y upwards the camera stands at +z for front, -z for back, +x for right, -x for left. For a head that faces +z, as is usual, left shows its own right side. three-quarter stands between front and right, and above. Default: three-quarter.
 ---@field up? "y"|"z" The axis that points up in the view. Default: y.
 ---@field parallel? boolean Without perspective. Default: false.
 ---@field margin? number Share of the picture left free on every side. Default: 0.06.

@@ -24,7 +24,7 @@
 ---@field vertex integer The nearest vertex of its triangle.
 ---@field triangle integer[] Vertices of the triangle of the face that contains it.
 ---@field bary number[] Its barycentric coordinates in that triangle.
----@field normal lissom.Vector Unit normal of the triangle; zero where it has no area.
+---@field normal lissom.Vector Unit normal of the triangle; zero for a triangle without area.
 ---@field distance number Distance from the query point, or along the ray.
 
 ---How a surface differs from its rest, at every vertex.
@@ -42,7 +42,7 @@
 ---@field segment integer It lies between this point of the path and the next.
 ---@field distance number Distance from the query point.
 
----What was done to close a hole.
+---Result of closing a hole.
 ---@class lissom.FillReport
 ---@field loop_size integer Vertices around the hole.
 ---@field first_vertex integer The first new vertex.
@@ -53,7 +53,7 @@
 ---@field folded_edges integer Edges of the patch that turn by more than 150 degrees.
 ---@field limit_reached boolean Refinement ended at maximum_vertices.
 
----What an attribute is.
+---Description of an attribute.
 ---@class lissom.AttributeInfo
 ---@field name string Its name.
 ---@field domain string vertex, corner or face.
@@ -78,12 +78,12 @@
 
 ---One finding of a report.
 ---@class lissom.Finding
----@field kind string What was found: vertices_welded, edges_nonmanifold, ...
+---@field kind string Kind of the finding: vertices_welded, edges_nonmanifold, ...
 ---@field count integer Number of elements or items.
 ---@field summary string The same in a few words.
----@field message string|nil Details, where there are any.
----@field element string|nil What the ids number: vertex, edge, face or component.
----@field of string|nil file where the ids are those of the file, mesh where they are the mesh's.
+---@field message string|nil Details, if any.
+---@field element string|nil Element that the ids number: vertex, edge, face or component.
+---@field of string|nil file if the ids are those of the file, mesh if they are the mesh's.
 ---@field ids integer[]|nil The elements; edges are pairs of vertex ids.
 
 ---Findings as a list, and each under the name of its kind.
@@ -113,18 +113,18 @@
 ---The last result of a deformation beside its rest shape; tostring gives it in words.
 ---@class lissom.DeformReport
 ---@field stretch number The greatest factor by which an edge is longer or shorter than at rest; 1 is none.
----@field stretched integer[]|nil The vertices of that edge; nil where none changed.
+---@field stretched integer[]|nil The vertices of that edge; nil if none changed.
 ---@field flipped integer[] Faces that look against those around them, and did not at rest.
----@field crossings integer|nil Pairs of faces that run through one another, and did not at rest; where asked for.
+---@field crossings integer|nil Pairs of faces that intersect and did not at rest; if asked for.
 ---@field volume_change number|nil Volume over that at rest, less 1; nil without one.
----@field tears table[] Where handles nearly touch and tear the surface, the worst first: `vertices`, a pair that different handles hold, and `slip`, how far they part in lengths of the edges between.
+---@field tears table[] Places at which handles nearly touch and tear the surface, the worst first: `vertices`, a pair that different handles hold, and `slip`, how far they part in lengths of the edges between.
 ---@field warnings lissom.DeformWarning[] The harms that a user would see.
 
 ---A harm that a deformation did to the surface.
 ---@class lissom.DeformWarning
 ---@field kind string torn: handles that nearly touch go different ways; stretched: edges become more than 3 times as long or short as the handles ask for; folded: faces look against their neighbours; crossing: the surface runs through itself, if that was asked for; volume: it is a quarter smaller than the handles ask for, or three quarters larger.
 ---@field message string Its measure and a remedy.
----@field vertices integer[]|nil Where handles tear the surface: pairs, at most 50.
+---@field vertices integer[]|nil Tears between handles: pairs of vertices, at most 50.
 ---@field edges integer[]|nil Edges, as pairs of vertices, at most 50.
 ---@field faces integer[]|nil Faces, at most 100.
 
@@ -153,13 +153,13 @@
 ---@field vertices integer[] Vertices of the region; one row of each buffer.
 ---@field handles lissom.Handle[] The handles, in the order of `weights`.
 ---@field weights lissom.Buffer[] For each handle four numbers a vertex.
----@field fixed lissom.Buffer What no handle moves: three numbers a vertex.
+---@field fixed lissom.Buffer The part that no handle moves: three numbers a vertex.
 
 ---The declaration of a parameter.
 ---@class lissom.ParamSchema
 ---@field name string Its name.
 ---@field type string number, integer, boolean, string, choice, file or folder.
----@field default any Its default; nil where it must be given.
+---@field default any Its default; nil if it must be given.
 ---@field value any Its present value.
 ---@field min number? Smallest value.
 ---@field max number? Greatest value.
@@ -167,11 +167,11 @@
 ---@field choices string[]? The values of a choice.
 ---@field unit string Its unit, or an empty string.
 ---@field group string Heading that it stands under, or an empty string.
----@field help string What it does, or an empty string.
+---@field help string Its help text, or an empty string.
 
 ---Raised by everything that fails. tostring gives the message, and so does `..`; two are equal only if they are the same.
 ---@class lissom.Error
----@field message string What is wrong and what helps, a sentence.
+---@field message string The fault and a remedy, a sentence.
 ---@field code string Its [code](codes.md): "file_not_found", ...
 ---@field elements lissom.Elements? The elements concerned.
 ---@field file string? The file that was to be read or written.
@@ -182,12 +182,12 @@
 ---@class lissom.CutLines
 ---@field [integer] lissom.Path With the surface on its left; closed unless it ends at open boundaries.
 ---@field b lissom.Path[] The same lines on the rest: from the same points, the other way.
----@field others lissom.Path[]|nil Of a preview: lines in which the plane crosses too and which would not be cut.
----@field report lissom.CutReport What was found and done.
+---@field others lissom.Path[]|nil For a preview: other lines of the plane, which would not be cut.
+---@field report lissom.CutReport Measures and warnings.
 
----What a cut found and did.
+---Report of a cut.
 ---@class lissom.CutReport
----@field warnings lissom.CutWarning[] Why the result may not be what was wanted.
+---@field warnings lissom.CutWarning[] Reasons why the result may not be the intended one.
 ---@field touched_boundaries integer[] Open boundaries that lines end at: places in mesh:boundaries() of before.
 ---@field lines_left integer Lines in which the plane crosses too, not cut.
 ---@field whole_components integer Components that went to one part as a whole.
@@ -195,25 +195,25 @@
 ---@field slid_vertices integer[] Vertices of before that slid onto a line.
 ---@field divided_faces integer Faces that were divided.
 
----Why the result of a cut may not be what was wanted.
+---Reason why the result of a cut may not be the intended one.
 ---@class lissom.CutWarning
 ---@field kind string touches_boundary: a line ends at an open boundary; folded_line: a line seems to run over a fin or limb; lines_nearby: the plane crosses the mesh nearby too; keeps_most: a plane or path without a seed keeps more than 80 % of the area, perhaps the wrong part; several_outlines: a region was cut along more than one line; not_separating, of a preview: the cut would fail, its sides are connected.
----@field message string What was found and what to do about it.
----@field vertices integer[] Vertices of before where it was found, at most 100.
+---@field message string The finding and a remedy.
+---@field vertices integer[] Vertices at the place, of the mesh before, at most 100.
 
----What was done to smooth a boundary.
+---Report of smoothing a boundary.
 ---@class lissom.TrimReport
 ---@field before number Mean turn of the boundary before, in degrees.
 ---@field after number Mean turn of the new one.
----@field smoothing number The smoothing used: less than asked for where the boundary turns too sharply.
+---@field smoothing number The smoothing used: less than asked for if the boundary turns too sharply.
 ---@field removed_faces integer Faces that are gone.
 ---@field divided_faces integer Faces that were divided.
 
----What a map into the plane is like.
+---Quality of a map into the plane.
 ---@class lissom.ParameterizeReport
----@field method string What made it: lscm where arap turned faces over at once.
+---@field method string Method that made it: lscm if arap turned faces over at once.
 ---@field iterations integer Iterations of arap that are in it.
----@field energy number[] Of arap, before the first iteration and after each that was made: the mean squared distance of the map's derivative from a rotation.
+---@field energy number[] For arap, before the first iteration and after each that was made: the mean squared distance of the map's derivative from a rotation.
 ---@field flipped integer[] Faces that are turned over.
 ---@field degenerate integer[] Faces that have hardly an area on the mesh.
 ---@field least_scale number Least factor by which it changes a length, in lengths of the mesh.
@@ -237,7 +237,7 @@
 ---@field smallest_angle number The smallest angle of a triangle at a seam; 0 without any.
 ---@field low_angle number The 5th percentile of the triangles' smallest angles.
 
----What was done to sew.
+---Measures of sewing.
 ---@class lissom.SeamReport
 ---@field inserted_into_target integer Vertices of the source inserted into its faces.
 ---@field inserted_into_source integer The other way round.
@@ -250,17 +250,17 @@
 ---@field collar_removed integer Faces that collars took the place of.
 ---@field collar_added integer Triangles of the collars.
 ---@field before lissom.SeamQuality Before collars and smoothing.
----@field after lissom.SeamQuality As it is.
+---@field after lissom.SeamQuality The final quality.
 ---@field region lissom.Region The vertices of the seams and their neighbours: mesh:set_region shows them by name.
 
----What was found at one join; angles in degrees.
+---Report of one join; angles in degrees.
 ---@class lissom.JoinReport
 ---@field source_size integer Vertices of the source's boundary as it was joined.
 ---@field target_size integer Vertices of the target's.
 ---@field scale number How much the source grew there.
----@field placed string What decided how the source is turned: keys, as placed, directions or shape.
+---@field placed string Criterion of the source's rotation: keys, as placed, directions or shape.
 ---@field guessed boolean The shapes decided, or directions that contradict each other.
----@field certainty number|nil Where it was guessed: the probability, 0 to 1, that it is right; below .75 give a key.
+---@field certainty number|nil For a guess: the probability, 0 to 1, that it is right; below .75 give a key.
 ---@field any_turn boolean The parts are round: no turn is better than another.
 ---@field turn table How the source turns from how it lies: axis, a unit vector, and angle in degrees.
 ---@field key number[][]|nil A point of the source's boundary and the point of the target's that it meets: keys = { key } makes the same result. nil in the thesis's transition.
@@ -280,49 +280,51 @@
 ---@field rest_roughness number The same beside both boundaries before.
 ---@field bend number The RMS angle between planes fitted to the surface on either side of points of the seam, to strips a third of the radius wide.
 ---@field rest_bend number The same before on the side that bends more, from the strip at the boundary to the one behind it.
----@field greatest_bend number What a tenth of the angles in `bend` exceed.
----@field rest_greatest_bend number What a tenth of those in `rest_bend` exceed.
+---@field greatest_bend number Angle that a tenth of those in `bend` exceed.
+---@field rest_greatest_bend number Angle that a tenth of those in `rest_bend` exceed.
 ---@field folded number Length of the edges within one radius at which the surface folds back by more than 135 degrees, in radii of the seam.
 ---@field rest_folded number That of the edges of both sides before that turned by more than 105 degrees.
 ---@field flare number The RMS angle by which the rim of the source turns outward beside the seam more than at rest; 0 of a paste.
----@field source_volume number Volume between source and seam, over that of the source at rest at its scale: 1 where it was kept, negative where it turned inside out.
+---@field spike number Sharpness of the sharpest tip or pit within half a radius of the seam: the greatest sum of angles missing to full turns around the vertices within .15 radii, in degrees. The corner of a cube has 90, a needle 360.
+---@field rest_spike number The same of both sides before.
+---@field source_volume number Volume between source and seam, over that of the source at rest at its scale: 1 if it was kept, negative if it turned inside out.
 ---@field target_volume number The same of the target; 1 of a paste.
 ---@field radius number Radius of the seam.
 
 ---Why a merge is not good. tostring gives text and remedy.
 ---@class lissom.MergeReason
----@field fault string crossings, side, folds, roughness, volume, bend, flare, bite, seam, place or slivers; of a scatter "left out" as well.
+---@field fault string crossings, side, folds, roughness, volume, bend, flare, spike, bite, seam, place or slivers; of a scatter "left out" as well.
 ---@field join integer|nil The join that it is of; nil of all of them.
----@field value number What was measured: degrees for roughness, bend, flare, seam and slivers; radii of the seam for folds and bites; pairs of faces for crossings; the part that was kept for volume; the certainty for place.
+---@field value number Measured value: degrees for roughness, bend, flare, spike, seam and slivers; radii of the seam for folds and bites; pairs of faces for crossings; the part that was kept for volume; the certainty for place.
 ---@field limit number The limit that it passes.
----@field faces integer[]|nil Of crossings: the faces of the merged mesh concerned.
----@field text string What is wrong, in plain words.
----@field remedy string What may help.
+---@field faces integer[]|nil For crossings: the faces of the merged mesh concerned.
+---@field text string The fault, in plain words.
+---@field remedy string The remedy.
 
----What a paste took of the edges of its target that turn by more than 35 degrees: they stand out of the result, or lie below what is still the target's surface.
+---Loss of the target's edges that turn by more than 35 degrees, by a paste: parts of them stand out of the result, or lie below the surface still left of the target.
 ---@class lissom.TargetBite
 ---@field length number Their length, in radii of the seam.
 ---@field depth number How far they are from the result, at most, in these radii.
 
----What a merge found and did.
+---Report of a merge.
 ---@class lissom.MergeReport
----@field bite lissom.TargetBite What a paste took of the sharp edges of its target.
----@field ok boolean Whether the result is good: no faces run through one another that did not before, but for those that only touch; the surface around the seam does not fold back, is at most 1.4 times as rough as the parts were there (or turns by less than 8 degrees an edge), and bends by no more than 35 degrees from one side to the other and 60 along a tenth of it, or 1.3 times what it did before (and by the crease of a paste); the rim of the source of a merge turns outward by no more than 33 degrees more than before; a paste takes no sharp edge of its target along more than .3 of its radius or deeper than .15; each part keeps three fifths of its volume; the seam turns by no more than 30 degrees and 20 in the mean, or than the surfaces did beside the boundaries; no place is a toss; no triangle at the seam has less than 2 degrees, or than there were.
----@field verdict string The same in one line: what holds, or what does not.
----@field reasons lissom.MergeReason[] Each fault with what was measured, its limit and what may help; empty if ok. tostring(report) lists them.
+---@field bite lissom.TargetBite Loss of the sharp edges of its target, by a paste.
+---@field ok boolean Whether the result is good: no faces run through one another that did not before, but for those that only touch; the surface around the seam does not fold back, is at most 1.4 times as rough as the parts were there (or turns by less than 8 degrees an edge), and bends by no more than 35 degrees from one side to the other and 60 along a tenth of it, or 1.3 times the angle before (and by the crease of a paste); the rim of the source of a merge turns outward by no more than 33 degrees more than before; a paste takes no sharp edge of its target along more than .3 of its radius or deeper than .15; each part keeps three fifths of its volume; the seam turns by no more than 30 degrees and 20 in the mean, or than the surfaces did beside the boundaries; no place is a toss; no triangle at the seam has less than 2 degrees, or than there were.
+---@field verdict string The same in one line, with the reasons.
+---@field reasons lissom.MergeReason[] Each fault with its measure, its limit and a remedy; empty if ok. tostring(report) lists them.
 ---@field joins lissom.JoinReport[] One a join.
----@field warnings string[] What to look at, in plain words.
----@field loose_parts integer Parts of the source without a joined boundary: in the free configuration they move along with what is nearest.
----@field flipped table source and targets: what was inside out and has been turned over.
----@field seam lissom.SeamReport What was done to sew, and how well.
+---@field warnings string[] Points to look at, in plain words.
+---@field loose_parts integer Parts of the source without a joined boundary: in the free configuration they move along with the nearest joined part.
+---@field flipped table source and targets: whether they were inside out and have been turned over.
+---@field seam lissom.SeamReport Measures of sewing, and the quality of the seam.
 ---@field transition table[] For each seam source and target: width, vertices, and flipped and unmapped ones, of its bands; its field `region` has the vertices that they moved.
----@field transition_kept number|nil The part of the way that the bands of a transition went: 0 where it was left out, since it would have folded the surface.
+---@field transition_kept number|nil The part of the way that the bands of a transition went: 0 if it was left out, since it would have folded the surface.
 ---@field intersections integer[][] Pairs of faces that run through one another and come from faces that did not.
 ---@field known_intersections integer How many pairs of moved or made faces come from faces that did.
 ---@field seams lissom.Path[] The seams on the merged mesh.
 ---@field source lissom.Region The vertices of the merged mesh that are the source's.
 ---@field target lissom.Region Those that are the targets'.
----@field provenance lissom.Provenance|nil Where every element comes from; nil of the draft of a paste.
+---@field provenance lissom.Provenance|nil Provenance of every element; nil for the draft of a paste.
 ---@field free_vertices integer Vertices of the source that moved freely.
 ---@field displaced_vertices integer Degenerate vertices displaced.
 ---@field first_factor_seconds number Time to factor the first system.
@@ -333,13 +335,13 @@
 ---@field prepare_seconds number Time to check, trim and factor.
 ---@field solve_seconds number Time to deform and sew.
 
----What the search for a boundary found.
+---Result of the search for the boundary.
 ---@class lissom.PasteSearch
----@field energy number[] Of the first loop and after each iteration.
+---@field energy number[] Energy of the first loop and after each iteration.
 ---@field misfit number[] The mean difference of the loop's edges from their images, over their length.
----@field outline_energy number|nil Of the outline of the region, where all of it lies on the target's region.
+---@field outline_energy number|nil Measures of the outline of the region, if all of it lies on the target's region.
 ---@field outline_misfit number|nil The same of the misfit.
----@field smooth_energy number|nil Of the boundary free of edges, where one was found that costs no more than the loop.
+---@field smooth_energy number|nil Measures of the boundary free of edges, if one was found that costs no more than the loop.
 ---@field smooth_misfit number|nil The same of the misfit.
 ---@field stop string converged, iterations or cycle: why it ended.
 ---@field kept_outline boolean Nothing better than the outline was found.
@@ -347,12 +349,12 @@
 ---@field loop_size integer Vertices of the loop.
 ---@field closest_rounds integer Rounds of nearest points that were kept.
 
----What the map of a surface into the plane is like.
+---Quality of the map of a surface into the plane.
 ---@class lissom.PasteMapQuality
 ---@field method string arap, lscm or tutte.
 ---@field faces integer Faces that were laid out.
 ---@field flipped integer Faces that are turned over.
----@field flipped_fill integer Of those that close the hole of the feature.
+---@field flipped_fill integer Number of turned triangles in the hole of the feature.
 ---@field crossings integer Pairs of boundary edges that cross.
 ---@field least_scale number Least factor by which it changes a length.
 ---@field greatest_scale number The greatest.
@@ -363,63 +365,64 @@
 ---@field energy number Mean squared difference of the stretches from 1, after scaling.
 ---@field faces integer How many faces that is of.
 
----What of a target goes under a part.
+---Part of a target that is removed under a part.
 ---@class lissom.PasteClearing
 ---@field faces integer How many faces, of the target as it is split there.
 ---@field area number Their area.
 ---@field height number How far they stand out of the surface that takes their place, or are sunk in it, at most.
 
----What a draft of a paste found.
+---Report of a draft of a paste.
 ---@class lissom.PasteDraft
 ---@field scale number How much the part grew.
 ---@field smooth boolean The boundary runs through faces.
----@field kept_outline boolean It is the outline, where the surface is distorted less.
+---@field kept_outline boolean It is the outline, if the surface is distorted less there.
 ---@field near lissom.PasteDistortion Within three rings of the boundary.
 ---@field laid lissom.PasteDistortion The same once the part lies on the edge of its hole.
 
----What a paste found and did.
+---Report of a paste.
 ---@class lissom.PasteReport
----@field search lissom.PasteSearch Of the boundary.
+---@field search lissom.PasteSearch Search for the boundary.
 ---@field source_map lissom.PasteMapQuality The map of the ring.
 ---@field target_map lissom.PasteMapQuality The map of the target's region.
 ---@field angle number Angle of the placement, in degrees.
----@field angle_chosen boolean It was not given, and is what fits best of twelve.
+---@field angle_chosen boolean It was not given, and is the best of twelve.
 ---@field upright boolean Neither `toward` nor an angle was given, and the part's `up` points the same way on the target, as far as the surface allows.
 ---@field scale number How much the part grew.
 ---@field near lissom.PasteDistortion Within three rings of the boundary.
 ---@field laid lissom.PasteDistortion The same once the part lies on the target as it was opened.
 ---@field feature lissom.PasteDistortion In the feature.
 ---@field outline_near lissom.PasteDistortion|nil Near the outline of the region, were it the boundary.
----@field clearing lissom.PasteClearing|nil What was removed of the target under the part, if something was.
+---@field clearing lissom.PasteClearing|nil The part of the target removed under the part, if any.
 ---@field kept_outline boolean The outline was pasted along, since the surface there is distorted less.
 ---@field tight boolean The feature's own outline was pasted along, since more of the target's sharp edges stays there.
+---@field draped boolean The feature stands on sharp edges of the target: it kept its shape, and its foot was drawn down to the surface.
 ---@field smooth boolean The boundary runs through faces.
 ---@field draft boolean It is a draft: merged without that option its seam is better.
----@field euler_characteristic integer Of the result.
----@field expected_characteristic integer What those of the target and of the part make it.
+---@field euler_characteristic integer Euler characteristic of the result.
+---@field expected_characteristic integer The one expected from the target and the part.
 
----What mesh:erase did.
+---Report of mesh:erase.
 ---@class lissom.EraseReport
 ---@field loop lissom.Path The cut, on the mesh as it was.
----@field patch lissom.Region What was closed, with its rim, on the new mesh.
+---@field patch lissom.Region The patch, with its rim, on the new mesh.
 ---@field loop_size integer Vertices of the cut.
----@field loop_cost number What it costs; see `bend`.
+---@field loop_cost number Its cost; see `bend`.
 ---@field ring number Width around the region that was searched, in mesh units.
 ---@field removed_vertices integer Vertices that went.
 ---@field removed_faces integer Faces that went.
 ---@field added_faces integer Faces of the patch.
----@field continuity string What the patch continues: curvature or tangents.
+---@field continuity string Continuity of the patch: curvature or tangents.
 ---@field greatest_dihedral number The greatest angle between neighbouring faces of which one is in the patch.
 ---@field greatest_around number The same of the surface within three rings around the patch.
----@field density number How dense the patch is, over the surface around it: 1, or up to 4 where it would have been too coarse to bend from a steep rim.
+---@field density number Density of the patch, over that of the surface around it: 1, or up to 4 if it would have been too coarse to bend from a steep rim.
 ---@field ok boolean The patch turns by at most 30 degrees from face to face, or no more than the surface around it.
----@field verdict string The same in one line: what holds, or what does not.
+---@field verdict string The same in one line, with the reason.
 ---@field limit_reached boolean The patch has `maximum_vertices`.
 
 ---A place that was left out.
 ---@class lissom.RefusedPlace
 ---@field place integer Its number.
----@field code string As of a failure; see lissom explain.
+---@field code string Code of the failure; see lissom explain.
 ---@field message string Why.
 
 ---A place whose part was made smaller so that it crosses nothing.
@@ -430,14 +433,14 @@
 ---A place whose part was moved away from a sharp edge of the target.
 ---@class lissom.MovedPlace
 ---@field place integer Its number.
----@field at number[] {x, y, z}: where it is.
+---@field at number[] {x, y, z}: its position.
 
 ---A part of a scatter that stands though it is not good.
 ---@class lissom.FaultyPlace
 ---@field place integer The number of its place.
 ---@field reasons lissom.MergeReason[] Why, as of a merge.
 
----What lissom.scatter did. tostring gives the verdict and what may help.
+---Report of lissom.scatter. tostring gives the verdict and remedies.
 ---@class lissom.ScatterReport
 ---@field ok boolean All parts that stand are good, nothing crosses, and nine of ten places have a part.
 ---@field verdict string The same in one line, with the numbers of parts.
@@ -455,8 +458,8 @@
 ---A feature to paste.
 ---@class lissom.Part
 ---@field mesh lissom.Mesh Its surface and some of that around it.
----@field region lissom.Region What lies around it.
----@field feature lissom.Region|nil The feature, where that was given.
+---@field region lissom.Region The region around it.
+---@field feature lissom.Region|nil The feature, if it was given.
 ---@field up lissom.Vector The way that is up on it: y.
 ---@field front lissom.Vector The way that it looks: z.
 
@@ -464,7 +467,7 @@
 ---@class lissom.StyleConstraint
 ---@field point number[] {x, y, z}, in mesh units.
 ---@field vector number[] {x, y, z}: the field there, of length 1 at most.
----@field kind string What it stands for: "stream", along a stream curve; "stop", vanishing beyond its end; "parting", along the Gaussian beside a dividing curve, and "separation" above it; "section", "spine" and "gather" of a ponytail: near its cross sections, along the rest of its spine, into its tie; "scalp", of avoid_scalp.
+---@field kind string Its source: "stream", along a stream curve; "stop", vanishing beyond its end; "parting", along the Gaussian beside a dividing curve, and "separation" above it; "section", "spine" and "gather" of a ponytail: near its cross sections, along the rest of its spine, into its tie; "scalp", of avoid_scalp.
 ---@field curve integer? Place of the curve among style:curves(); nil for the scalp's.
 ---@field weight number How strictly it is kept.
 
@@ -480,11 +483,11 @@
 ---@class lissom.ScalpMask
 ---@field kind string "length" or "density".
 ---@field points number[][] Its way, in mesh units.
----@field value number What it painted.
----@field radius number Of the brush, in metres of an average head.
+---@field value number Painted value.
+---@field radius number Radius of the brush, in metres of an average head.
 ---@field softness number The share of the radius over which it fades.
 
----What a comb has done.
+---Changes made by a comb.
 ---@class lissom.CombReport
 ---@field bent lissom.Curve[] Streams that it has bent.
 ---@field added lissom.Curve? The stream that it has added.
@@ -494,7 +497,7 @@
 
 ---The tilts of a dividing curve.
 ---@class lissom.CurveTilt
----@field left lissom.SideTilt As seen along the curve from outside.
+---@field left lissom.SideTilt Tilt seen along the curve from outside.
 ---@field right lissom.SideTilt The other side.
 
 ---The tilt of one side of a dividing curve, in degrees.
@@ -507,7 +510,7 @@
 ---The ring around the beginning of a ponytail.
 ---@class lissom.HairTie
 ---@field center number[] In mesh units.
----@field direction number[] Of the spine there, away from the head; of length 1.
+---@field direction number[] Direction of the spine there, away from the head; of length 1.
 ---@field radius number In metres of an average head.
 
 ---Measures of strands.
@@ -536,11 +539,13 @@
 ---@field bary number[]|nil Weights of the first three corners of that face.
 ---@field uv number[]|nil Texture coordinates there.
 ---@field group string|nil The name of its group.
+---@field guide integer|nil The id of the strand that it follows.
+---@field arc number|nil The place on that guide of its tip, in metres.
 
----What was found in strands that were saved.
+---A finding in strands that were saved.
 ---@class lissom.StrandFinding
 ---@field kind string strands_too_short, points_repeated, content_dropped, ...
----@field message string What was found, and what was done about it.
+---@field message string The finding, and its treatment.
 ---@field count integer Number of strands concerned.
 ---@field strands integer[] The strands, the first hundred of them.
 
@@ -556,20 +561,20 @@
 ---A step of a scene's history.
 ---@class lissom.HistoryStep
 ---@field name string Its name.
----@field bytes integer What it added to the memory of the history.
+---@field bytes integer Memory that it added to the history.
 
 ---The steps of a scene's history, oldest first.
 ---@class lissom.History
 ---@field [integer] lissom.HistoryStep The steps in order.
 ---@field place integer How many of them can be undone; the others can be done again.
 ---@field bytes integer Memory of all steps, beside one copy of the present content.
----@field limit integer What `bytes` is kept below.
+---@field limit integer Limit of `bytes`.
 ---@field dropped integer How many steps were forgotten because of it.
 
----Something under a pixel. Of a point or a free line the fields of surfaces are nil.
+---Something under a pixel. For a point or a free line the fields of surfaces are nil.
 ---@class lissom.PickHit
 ---@field kind string point, polyline, vertex, boundary, edge or face.
----@field object string? Its name in the scene, where one was given.
+---@field object string? Its name in the scene, if one was given.
 ---@field mesh lissom.Mesh? The mesh of a surface.
 ---@field index integer Number of the point, vertex, face or strand; of the loop in mesh:boundaries(); of the curve in its hairstyle.
 ---@field position lissom.Vector The point in the world.
@@ -579,34 +584,34 @@
 ---@field bary number[]? Its barycentric coordinates in that triangle.
 ---@field vertex integer? The nearest vertex of that triangle.
 ---@field ends integer[]? The two vertices of an edge, or of a segment of a boundary.
----@field segment integer? Of a line or boundary: it lies between this point and the next.
+---@field segment integer? Segment of a line or boundary: it lies between this point and the next.
 ---@field along number? How far along the edge or segment, 0 to 1.
 ---@field depth number Along the view, in the unit of the world.
 ---@field pixels number From the pixel that was asked about; 0 for faces.
 
----What is selected of one surface.
+---Selection on one surface.
 ---@class lissom.Selected
----@field object string? Its name in the scene, where one was given.
+---@field object string? Its name in the scene, if one was given.
 ---@field mesh lissom.Mesh The mesh.
 ---@field region lissom.Region The selected vertices, or those of the selected faces.
----@field faces integer[] The selected faces; empty where vertices were asked for.
----@field unseen lissom.Region Vertices inside the shape that are not seen; empty where faces were asked for.
+---@field faces integer[] The selected faces; empty for a selection of vertices.
+---@field unseen lissom.Region Vertices inside the shape that are not seen; empty for a selection of faces.
 
 ---A line that a hand drew, at even steps.
 ---@class lissom.DrawnStroke
----@field points lissom.Vector[] In the world, one for each pixel; empty where it is on nothing. Over a scalp by the envelope they begin where the hair does: the pixels before that have none, or a point comes before the first.
+---@field points lissom.Vector[] In the world, one for each pixel; empty if it is on nothing. Over a scalp by the envelope they begin at the hair: the pixels before that have none, or a point comes before the first.
 ---@field pixels number[][] On the picture, {x, y}.
----@field corners integer[] Places in `pixels` of what is a corner.
----@field times number[] Of each pixel.
----@field pressures number[] Of each pixel.
+---@field corners integer[] Places of corners in `pixels`.
+---@field times number[] Time of each pixel.
+---@field pressures number[] Pressure of each pixel.
 ---@field click boolean Whether the pen only touched the picture.
 ---@field beside integer How many of the points lay beside the supporting surface that was drawn on; their depth is a guess.
 
----What a hint stroke means.
+---Reading of a hint stroke.
 ---@class lissom.HintReading
 ---@field operation string "cut", "concatenate" or "insert".
----@field sure boolean False where a stroke drawn a little otherwise means something else: show what it was taken for.
----@field others string[] What else it may mean, likelier first.
+---@field sure boolean False if a slightly different stroke has another meaning: show its reading.
+---@field others string[] Other readings, likelier first.
 ---@field pixels number Length of the curve on the picture, in logical pixels: below 120 hints are hard to tell, so ask to come nearer.
 
 ---A point of a supporting surface.
@@ -616,19 +621,19 @@
 ---@field along number Arc length along the curve, more than its length beyond it.
 ---@field across number The way from the curve.
 
----What a drag means. `matrix` is all of it, as handle:set_matrix takes it; mesh:transform takes its parts where the axes are the world's.
+---Motion of a drag. `matrix` is all of it, as handle:set_matrix takes it; mesh:transform takes its parts if the axes are the world's.
 ---@class lissom.GizmoMotion
 ---@field kind string move, rotate or scale.
 ---@field part string The part that is held.
----@field translation lissom.Vector? Of a move.
----@field axis lissom.Vector? Of a turn; unit length.
----@field angle number? Of a turn, in degrees; counts full turns.
----@field factors lissom.Vector? Of scaling, along the gizmo's axes.
----@field about lissom.Vector Where the gizmo stood: what turns and scaling are about.
+---@field translation lissom.Vector? Translation of a move.
+---@field axis lissom.Vector? Axis of a turn; unit length.
+---@field angle number? Angle of a turn, in degrees; counts full turns.
+---@field factors lissom.Vector? Factors of scaling, along the gizmo's axes.
+---@field about lissom.Vector Former position of the gizmo: the centre of turns and scaling.
 ---@field matrix number[][] All of it as the rows of a 4 x 4 matrix of the world.
----@field amounts number[] As set_amount takes it: a length, degrees or a factor, or two lengths in a plane.
+---@field amounts number[] The value for set_amount: a length, degrees or a factor, or two lengths in a plane.
 
----What to draw.
+---Shape to draw.
 ---@class lissom.GizmoShape
 ---@field lines lissom.GizmoLine[] Polylines.
 ---@field points lissom.GizmoPoint[] Disks.
@@ -636,7 +641,7 @@
 
 ---A polyline of a gizmo.
 ---@class lissom.GizmoLine
----@field part string What it belongs to.
+---@field part string The part that it belongs to.
 ---@field role string x, y, z or view.
 ---@field color number[] {red, green, blue} in sRGB, each 0 to 1.
 ---@field highlighted boolean Held or under the pixel.
@@ -646,7 +651,7 @@
 
 ---A disk of a gizmo.
 ---@class lissom.GizmoPoint
----@field part string What it belongs to.
+---@field part string The part that it belongs to.
 ---@field role string x, y, z or view.
 ---@field color number[] {red, green, blue} in sRGB, each 0 to 1.
 ---@field highlighted boolean Held or under the pixel.
@@ -658,25 +663,25 @@
 ---@field tool string|table? Name of the tool, "stream", "parting", "ponytail", ..., or a tool.
 ---@field points number[][]? Pixels {x, y} from press to release; a single one is a click.
 ---@field key string? A key in place of points, as "tab".
----@field camera lissom.Camera? What the head is seen by, in mesh units.
+---@field camera lissom.Camera? The camera that the head is seen by, in mesh units.
 ---@field params table? Values of the tool's parameters, by name.
----@field shift boolean? Held down during this stroke; false where it is not said.
+---@field shift boolean? Held down during this stroke; false by default.
 ---@field ctrl boolean? The same.
 ---@field alt boolean? The same.
 
----What a stroke of `hairstyle:sketch` has done.
+---Result of a stroke of `hairstyle:sketch`.
 ---@class lissom.Sketched
 ---@field tool string The tool that it was drawn with.
 ---@field added lissom.Curve[] New curves of the style.
 ---@field changed boolean Whether the style is another than before.
 
----Calls tools with what a hand does.
+---Calls tools with a hand's input.
 ---@class lissom.ToolHost
----@field scene lissom.Scene What the tools work on.
----@field camera lissom.Camera What it is seen by.
+---@field scene lissom.Scene The scene that the tools work on.
+---@field camera lissom.Camera The camera that it is seen by.
 ---@field size integer[] {width, height} of the picture in pixels.
 ---@field tool table? The present tool.
----@field use fun(self: any, tool: table?, word: string?): lissom.ToolHost Another tool, or none; `word` is what a recording calls it, where that is not its name.
+---@field use fun(self: any, tool: table?, word: string?): lissom.ToolHost Another tool, or none; `word` is its word in a recording, if that is not its name.
 ---@field look fun(self: any, camera: lissom.Camera, size: integer[]?): lissom.ToolHost Another camera and size of the picture.
 ---@field press fun(self: any, event: lissom.MouseEvent): lissom.ToolHost A button went down: a step of the scene begins.
 ---@field move fun(self: any, event: lissom.MouseEvent): lissom.ToolHost The cursor moved: a drag while a button is down.
@@ -686,19 +691,19 @@
 ---@field key fun(self: any, event: lissom.KeyEvent): lissom.ToolHost A key was pressed.
 ---@field type fun(self: any, text: string): lissom.ToolHost A key for each character.
 ---@field set fun(self: any, values: table): lissom.ToolHost Sets parameters of the tool.
----@field cancel fun(self: any): lissom.ToolHost Escape: takes the present gesture back; the tool forgets what it began.
+---@field cancel fun(self: any): lissom.ToolHost Escape: takes the present gesture back; the tool forgets its beginnings.
 ---@field undo fun(self: any): string? The scene's undo, which a running gesture only cancels; the name of the step.
 ---@field redo fun(self: any): string? The scene's redo.
 ---@field show fun(self: any, name: string, visible: boolean): lissom.ToolHost Shows or hides an object: a step of its own.
----@field draw fun(self: any): lissom.ToolMarks What the tool shows over the picture.
----@field prompt fun(self: any): string? What the person is asked, or the tool's help.
+---@field draw fun(self: any): lissom.ToolMarks Marks of the tool over the picture.
+---@field prompt fun(self: any): string? The question to the person, or the tool's help.
 ---@field record fun(self: any, open: string[]?): lissom.ToolHost Begins a recording, before a tool is used; `open` names the files of the scene.
 ---@field recording fun(self: any): string The text of the recording: a script that does all again.
 ---@field keep_journal fun(self: any, open: string[]?): lissom.ToolHost Begins a journal: the calls that the tools make; `open` as for record.
 ---@field journal_text fun(self: any): string The journal: a script of calls that makes the same scene, to be read and changed.
----@field recover fun(self: any): lissom.ToolHost Takes back what a tool left that was stopped from outside, for instance by a limit of instructions.
+---@field recover fun(self: any): lissom.ToolHost Takes back the changes of a tool that was stopped from outside, for instance by a limit of instructions.
 
----What a mouse did.
+---An event of a mouse.
 ---@class lissom.MouseEvent
 ---@field x number From the left edge of the picture.
 ---@field y number From the top of the picture.
@@ -708,7 +713,7 @@
 ---@field ctrl boolean? Likewise.
 ---@field alt boolean? Likewise.
 
----What the wheel did: part of the gesture while a button is down, else a step of its own.
+---Motion of the wheel: part of the gesture while a button is down, else a step of its own.
 ---@class lissom.WheelEvent
 ---@field x number From the left edge of the picture.
 ---@field y number From the top of the picture.
@@ -724,11 +729,11 @@
 ---@field ctrl boolean? Likewise.
 ---@field alt boolean? Likewise.
 
----What a tool is called with.
+---Argument of a tool's functions.
 ---@class lissom.ToolEvent
 ---@field x number? Pixels from the left edge of the picture.
 ---@field y number? Pixels from its top.
----@field start number[]? Where the button went down, {x, y}.
+---@field start number[]? Pixel at which the button went down, {x, y}.
 ---@field button string? left, right or middle.
 ---@field key string? The key, of key.
 ---@field lines number? How far the wheel turned, of wheel: upwards is above 0.
@@ -736,8 +741,8 @@
 ---@field shift boolean Whether this key is down.
 ---@field ctrl boolean Likewise.
 ---@field alt boolean Likewise.
----@field late boolean? A later place of the same drag is known already, of drag: a slow tool takes this one, and leaves out what is only seen until then.
----@field camera lissom.Camera What the scene is seen by.
+---@field late boolean? For drag, a later place of the same drag is known already: a slow tool takes this one, and leaves out marks that only show until then.
+---@field camera lissom.Camera The camera that the scene is seen by.
 ---@field scene lissom.Scene The scene.
 ---@field size integer[] {width, height} of the picture in pixels.
 ---@field up "y"|"z" The axis of the world that points up in views.
@@ -747,7 +752,7 @@
 ---@field select fun(self: any, options: table): lissom.Selected[] camera:select of the scene.
 ---@field look fun(self: any, camera: lissom.Camera) From now on the scene is seen by this camera; no step of the scene.
 
----What a tool shows, as the tables it was drawn with.
+---Marks of a tool, as the tables it was drawn with.
 ---@class lissom.ToolMarks
 ---@field points table[] Balls.
 ---@field lines table[] Lines in the world.
@@ -783,7 +788,7 @@ function Mesh:size() end
 ---@return number area # In the mesh's unit squared.
 function Mesh:area() end
 
----Enclosed volume, positive where the faces look outward. Open boundaries count as closed by cones to their mean points.
+---Enclosed volume, positive if the faces look outward. Open boundaries count as closed by cones to their mean points.
 ---@return number volume # In the mesh's unit cubed.
 function Mesh:volume() end
 
@@ -796,15 +801,15 @@ function Mesh:genus() end
 function Mesh:components() end
 
 ---Whether the mesh has no open boundary.
----@return boolean closed # False where there is a boundary.
+---@return boolean closed # False if there is a boundary.
 function Mesh:is_closed() end
 
 ---Whether every vertex has exactly one fan of faces. Faces are always manifold; vertices without faces make it false.
----@return boolean manifold # False where a vertex has no face.
+---@return boolean manifold # False if a vertex has no face.
 function Mesh:is_manifold() end
 
 ---Counts, and the ids of elements that may cause trouble.
----@return lissom.Check report # What was found.
+---@return lissom.Check report # The findings.
 function Mesh:check() end
 
 ---The pairs of faces that meet other than at a vertex or an edge that both have, in ascending order. Faces that touch or lie on one another count; vertices at one place count as one.
@@ -815,7 +820,7 @@ function Mesh:self_intersections() end
 ---@return string hash # 16 hexadecimal digits.
 function Mesh:hash() end
 
----Where a vertex is.
+---Position of a vertex.
 ---@param vertex integer Id of the vertex.
 ---@return number x
 ---@return number y
@@ -824,12 +829,12 @@ function Mesh:position(vertex) end
 
 ---Moves a vertex and returns the mesh.
 ---@param vertex integer Id of the vertex.
----@param position lissom.Vector Where it goes: three numbers or {x, y, z}.
+---@param position lissom.Vector Its position: three numbers or {x, y, z}.
 ---@return lissom.Mesh mesh # The mesh itself.
 ---@overload fun(self: lissom.Mesh, vertex: integer, x: number, y: number, z: number): lissom.Mesh
 function Mesh:set_position(vertex, position) end
 
----Unit normal of the surface at a vertex, from the faces around it; zero where they have no area.
+---Unit normal of the surface at a vertex, from the faces around it; zero if they have no area.
 ---@param vertex integer Id of the vertex.
 ---@return number x
 ---@return number y
@@ -850,7 +855,7 @@ function Mesh:faces() end
 ---@return integer[] vertices # Their ids.
 function Mesh:neighbors(vertex) end
 
----Adds the vertices and faces of another mesh after its own, unconnected, with all attributes, groups and regions. Where one of the two has no colors it becomes white, where it has no texture coordinates they become 0, 0; a warning in the log names them. Other attributes have no value there (NaN).
+---Adds the vertices and faces of another mesh after its own, unconnected, with all attributes, groups and regions. A part without colors becomes white, one without texture coordinates gets 0, 0; a warning in the log names them. Other attributes have no value there (NaN).
 ---@param other lissom.Mesh The mesh to add.
 ---@return lissom.Mesh mesh # The mesh itself.
 function Mesh:append(other) end
@@ -882,7 +887,7 @@ function Mesh:transform(options) end
 ---@class lissom.Mesh.SmoothOptions
 ---@field iterations? integer Number of steps. Default: 10.
 ---@field strength? number Fraction of the way to the mean of its neighbours that a vertex moves in a step. Default: 0.5.
----@field weights? "uniform"|"cotangent" Of the neighbours: uniform ones also even out the spacing, cotangents keep it. Default: "uniform".
+---@field weights? "uniform"|"cotangent" Weights of the neighbours: uniform ones also even out the spacing, cotangents keep it. Default: "uniform".
 ---@field boundary? "fixed"|"along" Vertices on open boundaries stay, or are smoothed along their loop. Default: "fixed".
 ---@field keep_volume? boolean Follows each step by one outwards (Taubin 1995). Default: false.
 ---@field region? lissom.Region Vertices that may move. Default: all.
@@ -898,7 +903,7 @@ function Mesh:copy() end
 
 ---@class lissom.Mesh.SubdivideOptions
 ---@field scheme? "midpoint"|"loop"|"catmull_clark" midpoint keeps the shape; the others smooth it. Default: "midpoint".
----@field region? lissom.Region Splits the faces of this region only. Triangles beside it are divided where their edges are, and polygons take the new vertices in, so that the mesh stays watertight. Default: all.
+---@field region? lissom.Region Splits the faces of this region only. Triangles beside it are divided at their common edges, and polygons take the new vertices in, so that the mesh stays watertight. Default: all.
 
 ---A finer mesh. Old vertices keep their ids.
 ---@param levels? integer How often each face is split. Default: 1.
@@ -926,17 +931,17 @@ function Mesh:remove(region) end
 function Mesh:nearest(point) end
 
 ---The first point of the surface that a ray hits, on either side.
----@param origin lissom.Vector Where the ray starts.
----@param direction lissom.Vector Where it goes; any length.
----@return lissom.SurfacePoint? hit # The point; nil where the ray misses.
+---@param origin lissom.Vector Start of the ray.
+---@param direction lissom.Vector Direction of the ray; any length.
+---@return lissom.SurfacePoint? hit # The point; nil if the ray misses.
 ---@overload fun(self: lissom.Mesh, origin_x: number, origin_y: number, origin_z: number, direction_x: number, direction_y: number, direction_z: number): lissom.SurfacePoint?
 function Mesh:pick(origin, direction) end
 
 ---@class lissom.Mesh.DistancesOptions
----@field from integer|lissom.Region|table Where distances start: a vertex, a region, a list of vertices, or a point {x, y, z}, of which the nearest on the surface counts, also as Mesh:nearest and Mesh:pick return it. Three whole numbers above 0 may be vertices or a point: write { vertices = {a, b, c} } or { point = {x, y, z} }.
+---@field from integer|lissom.Region|table Start of distances: a vertex, a region, a list of vertices, or a point {x, y, z}, of which the nearest on the surface counts, also a result of Mesh:nearest and Mesh:pick. Three whole numbers above 0 may be vertices or a point: write { vertices = {a, b, c} } or { point = {x, y, z} }.
 ---@field method? "heat"|"front"|"edges" Geodesic by the heat method, which prepares a mesh once and is fast from then on; geodesic by an advancing front, which needs no preparation; or along edges. Default: "heat".
 
----Distance of every vertex over the surface to the nearest of the given vertices, or to a point; infinite where there is no way.
+---Distance of every vertex over the surface to the nearest of the given vertices, or to a point; infinite for vertices without a path.
 ---@param options lissom.Mesh.DistancesOptions
 ---@return lissom.Buffer distances # One number a vertex.
 function Mesh:distances(options) end
@@ -958,10 +963,10 @@ function Mesh:distortion(rest) end
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.Mesh.SaveOptions
 ---@return lissom.Mesh mesh # The mesh itself.
----@return lissom.Vector? origin # With origin = "auto": the point of the mesh that is the origin of the file, zero where it stayed or glTF keeps it.
+---@return lissom.Vector? origin # With origin = "auto": the point of the mesh that is the origin of the file, zero if it stayed or glTF keeps it.
 function Mesh:save(path, options) end
 
----What was welded, split, dropped, flagged or left out when the mesh was loaded: a list of findings, each also under the name of its kind. Empty for a mesh that was made otherwise.
+---Elements that were welded, split, dropped, flagged or left out when the mesh was loaded: a list of findings, each also under the name of its kind. Empty for a mesh that was made otherwise.
 ---@return lissom.Report report # The findings.
 function Mesh:report() end
 
@@ -969,7 +974,7 @@ function Mesh:report() end
 ---@return lissom.Buffer positions # Three numbers a vertex.
 function Mesh:positions() end
 
----What attributes the mesh has.
+---The attributes of the mesh.
 ---@return lissom.AttributeInfo[] attributes # In the order they were added.
 function Mesh:attributes() end
 
@@ -980,7 +985,7 @@ function Mesh:attribute(name) end
 
 ---@class lissom.Mesh.Add_attributeOptions
 ---@field name string Its name. "uv", "normal" and "color" have a meaning in files.
----@field domain? "vertex"|"corner"|"face" What elements it is on. Default: "vertex".
+---@field domain? "vertex"|"corner"|"face" The elements that it is on. Default: "vertex".
 ---@field width? integer Numbers an element. Default: 1.
 ---@field type? "float32"|"float64"|"int8"|"uint8"|"int16"|"uint16"|"int32"|"uint32" Number type in files. Default: "float32".
 ---@field values? number|number[] The numbers. Default: 0.
@@ -992,7 +997,7 @@ function Mesh:add_attribute(options) end
 
 ---Removes an attribute.
 ---@param name string Name of the attribute.
----@return boolean removed # False where there was none.
+---@return boolean removed # False if there was none.
 function Mesh:remove_attribute(name) end
 
 ---@class lissom.Mesh.RegionOptions.Sphere
@@ -1000,19 +1005,19 @@ function Mesh:remove_attribute(name) end
 ---@field radius number Its radius. In mesh units.
 
 ---@class lissom.Mesh.RegionOptions.Box
----@field min? lissom.Vector Smallest coordinates; nil or math.huge where a side is open. Default: no limit.
----@field max? lissom.Vector Greatest coordinates; nil or math.huge where a side is open. Default: no limit.
+---@field min? lissom.Vector Smallest coordinates; nil or math.huge for an open side. Default: no limit.
+---@field max? lissom.Vector Greatest coordinates; nil or math.huge for an open side. Default: no limit.
 
 ---@class lissom.Mesh.RegionOptions.Fraction
----@field min? lissom.Vector Smallest fractions; nil or math.huge where a side is open. Default: no limit.
----@field max? lissom.Vector Greatest fractions; nil or math.huge where a side is open. Default: no limit.
+---@field min? lissom.Vector Smallest fractions; nil or math.huge for an open side. Default: no limit.
+---@field max? lissom.Vector Greatest fractions; nil or math.huge for an open side. Default: no limit.
 
 ---@class lissom.Mesh.RegionOptions.Plane
 ---@field point lissom.Vector A point of the plane.
 ---@field normal lissom.Vector Points to the side that is selected.
 
 ---@class lissom.Mesh.RegionOptions.Geodesic
----@field from integer|lissom.Region|table Where distances start: a vertex, a region, a list of vertices, or a point {x, y, z}, of which the nearest on the surface counts, also as Mesh:nearest and Mesh:pick return it. Three whole numbers above 0 may be vertices or a point: write { vertices = {a, b, c} } or { point = {x, y, z} }.
+---@field from integer|lissom.Region|table Start of distances: a vertex, a region, a list of vertices, or a point {x, y, z}, of which the nearest on the surface counts, also a result of Mesh:nearest and Mesh:pick. Three whole numbers above 0 may be vertices or a point: write { vertices = {a, b, c} } or { point = {x, y, z} }.
 ---@field radius number Distance over the surface. In mesh units.
 
 ---@class lissom.Mesh.RegionOptions
@@ -1025,7 +1030,7 @@ function Mesh:remove_attribute(name) end
 ---@field group? string Vertices of the faces of a group.
 ---@field material? string Vertices of the faces of a material.
 ---@field component? integer Vertices of a connected component, numbered by smallest vertex.
----@field attribute? table {name, min, max}: vertices where the first number of an attribute lies in the range.
+---@field attribute? table {name, min, max}: vertices whose first number of an attribute lies in the range.
 ---@field where? fun(vertex: integer, x: number, y: number, z: number): boolean Vertices for which the function returns true.
 ---@field all? boolean true: all vertices.
 
@@ -1036,7 +1041,7 @@ function Mesh:remove_attribute(name) end
 ---@overload fun(self: lissom.Mesh, options: lissom.Mesh.RegionOptions): lissom.Region
 function Mesh:region(name, options) end
 
----Keeps a region under a name, in place of one before, and returns the mesh. Named regions are saved where the format can.
+---Keeps a region under a name, in place of one before, and returns the mesh. Named regions are saved in formats that can hold them.
 ---@param name string Its name.
 ---@param region lissom.Region A region of this mesh.
 ---@return lissom.Mesh mesh # The mesh itself.
@@ -1044,14 +1049,14 @@ function Mesh:set_region(name, region) end
 
 ---Forgets a named region.
 ---@param name string Its name.
----@return boolean removed # False where there was none.
+---@return boolean removed # False if there was none.
 function Mesh:remove_region(name) end
 
----The names of the groups of faces that the mesh has: what region{ group = } takes.
+---The names of the mesh's groups of faces, for region{ group = }.
 ---@return string[] names # In the order of the file.
 function Mesh:groups() end
 
----The names of its materials: what region{ material = } takes.
+---The names of its materials, for region{ material = }.
 ---@return string[] names # In the order of the file.
 function Mesh:materials() end
 
@@ -1064,7 +1069,7 @@ function Mesh:regions() end
 function Mesh:boundaries() end
 
 ---@class lissom.Mesh.PathOptions
----@field points lissom.Vector[]|integer[] What to visit.
+---@field points lissom.Vector[]|integer[] Points to visit.
 ---@field closed? boolean Returns to the first. Default: false.
 
 ---The shortest line along edges that visits the given vertices in order.
@@ -1077,17 +1082,17 @@ function Mesh:path(options) end
 ---@field subdivide? boolean Makes the patch as dense as the mesh around it. Default: true.
 ---@field density? number How dense, over the mesh around it; more than 1 lets a patch bend whose rim has few vertices. Default: 1.
 ---@field fair? boolean Bends the patch to continue the surface smoothly. Default: true.
----@field continuity? "tangents"|"curvature" What of the surface a faired patch continues. With curvature a large patch in a round surface is round. Default: "tangents".
+---@field continuity? "tangents"|"curvature" Order of continuity of a faired patch with the surface. With curvature a large patch in a round surface is round. Default: "tangents".
 ---@field maximum_vertices? integer Vertices that `subdivide` may insert. Default: 200000.
 
 ---Closes an open boundary by a patch of triangles that continues the surface, in place. Old ids stay.
 ---@param boundary lissom.Path An open boundary of this mesh.
 ---@param options? lissom.Mesh.FillOptions
 ---@return lissom.Mesh mesh # The mesh itself.
----@return lissom.FillReport report # What was added.
+---@return lissom.FillReport report # The added elements.
 function Mesh:fill(boundary, options) end
 
----Joins two open boundaries by a strip of triangles between their vertices, in place: two parts become one, holes on both sides of a part a tunnel. Boundaries are matched by arc length where they lie closest. All ids stay; a triangle has the groups and attributes of the face at its boundary edge.
+---Joins two open boundaries by a strip of triangles between their vertices, in place: two parts become one, holes on both sides of a part a tunnel. Boundaries are matched by arc length at their closest points. All ids stay; a triangle has the groups and attributes of the face at its boundary edge.
 ---@param a lissom.Path An open boundary of this mesh.
 ---@param b lissom.Path Another one.
 ---@return lissom.Mesh mesh # The mesh itself.
@@ -1099,16 +1104,16 @@ function Mesh:bridge(a, b) end
 ---@field point lissom.Vector A point of the plane; the line nearest to it is cut.
 ---@field normal lissom.Vector Towards the part to keep.
 ---@field seed? lissom.Vector A point on or near the part to keep, instead of the normal's side.
----@field near? lissom.Vector What the line is nearest to, instead of the point.
+---@field near? lissom.Vector Point that selects the nearest line, instead of the plane's point.
 ---@field loops? "nearest"|"all" The line nearest to the point, or all lines of the plane. Default: "nearest".
 
 ---@class lissom.Mesh.CutOptions
----@field plane? lissom.Mesh.CutOptions.Plane Cuts by a plane; where it crosses the mesh elsewhere, that stays whole.
+---@field plane? lissom.Mesh.CutOptions.Plane Cuts by a plane; other crossings of the plane with the mesh stay whole.
 ---@field path? lissom.Vector[]|lissom.Path Cuts along a smooth line near a closed path; the part on its left is kept.
 ---@field region? lissom.Region Cuts along all outlines of a region, which is kept.
 ---@field seed? lissom.Vector A point on or near the part to keep, for a plane or path.
 ---@field smoothing? number The line along a path or outline is smoothed over two edges around, but no more than this fraction of its length. Default: 0.04.
----@field slide? number A vertex slides onto the line where that crosses one of its edges within this fraction of the edge, so that no slivers appear. Default: 0.25.
+---@field slide? number A vertex slides onto the line if that crosses one of its edges within this fraction of the edge, so that no slivers appear. Default: 0.25.
 ---@field preview? boolean Cuts nothing and returns the lines alone: those that would be cut, as free paths with the kept part on their left, and in their fields `others`, lines in which the plane crosses too, and `report`. Default: false.
 
 ---Cuts the mesh in two along a smooth line through its faces: by exactly one of plane, path and region. Attributes are interpolated; vertices and faces off the line stay as they are. The mesh itself is not changed.
@@ -1121,55 +1126,55 @@ function Mesh:cut(options) end
 ---@class lissom.Mesh.EraseOptions
 ---@field ring? number How far around the region the mesh may be cut, in radii of the region's outline. 0: along the outline itself. Default: 0.5.
 ---@field bend? number How much a cut through bent surface costs: an edge costs its length times 1 + bend R k, with the outline's radius R and k the sum of both principal curvatures, without signs. 0: the shortest loop. Default: 1.
----@field continuity? "tangents"|"curvature" What of the surface around it the patch continues: curvature where that is even around the cut, else tangents. Default: "curvature".
+---@field continuity? "tangents"|"curvature" Continuity of the patch with the surface around it: curvature if that is even around the cut, else tangents. Default: "curvature".
 ---@field maximum_vertices? integer Vertices that the patch may have. Default: 200000.
 
----A new mesh without what a region marks: it is cut along the least-cost loop around the region, which runs where the surface is even, and closed by a patch that continues the surface, so that a feature disappears. The feature may have handles and open boundaries. Everything outside the loop keeps its values to the bit; labels, colours and texture coordinates are continued over the patch.
----@param region lissom.Region What is to go, marked casually.
+---A new mesh without the marked feature: it is cut along the least-cost loop around the region, which runs over even surface, and closed by a patch that continues the surface. The feature may have handles and open boundaries. Everything outside the loop keeps its values to the bit; labels, colours and texture coordinates are continued over the patch.
+---@param region lissom.Region The feature to remove, marked casually.
 ---@param options? lissom.Mesh.EraseOptions
 ---@return lissom.Mesh mesh # The mesh without the feature.
----@return lissom.EraseReport report # What was done.
+---@return lissom.EraseReport report # Measures of the result.
 function Mesh:erase(region, options) end
 
 ---@class lissom.Mesh.CloneOptions
 ---@field from lissom.Region Part of the surface around the feature.
 ---@field to lissom.Vector The middle of the feature comes to lie on the point of the mesh that is nearest to this.
----@field feature? lissom.Region|"auto" As in lissom.paste. Default: auto.
+---@field feature? lissom.Region|"auto" See lissom.paste. Default: auto.
 ---@field toward? "x"|"y"|"z"|lissom.Vector The way on the target that `up` of the source is to point, as far as both lie in the surfaces. Default: the same as `up`.
 ---@field up? "x"|"y"|"z"|lissom.Vector The direction of the source that belongs to it. Default: y.
----@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: 0, or what fits best of twelve where `up` does not lie in the surfaces and `toward` is not given.
+---@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: 0, or the best of twelve if `up` does not lie in the surfaces and `toward` is not given.
 ---@field scale? number Size of the part on the target over its size on the source. Default: 1.
 ---@field offset? number[] {x, y}: moves the part in the plane of the target's map, in lengths of the target; the way of placing of thesis 3.4.1. Default: {0, 0}.
----@field clear? boolean|lissom.Region Removes the target's features under the part first, as mesh:erase does: what lies under the part's boundary and nothing beyond it, or a region of the target with a ring around it. paste:clearing() tells what before. Default: false.
----@field ring? number Share of the region that is searched where no feature is given. Default: 0.5.
+---@field clear? boolean|lissom.Region Removes the target's features under the part first, as mesh:erase does: those under the part's boundary and nothing beyond it, or a region of the target with a ring around it. paste:clearing() shows them before. Default: false.
+---@field ring? number Share of the region that is searched if no feature is given. Default: 0.5.
 ---@field normals? number Weight of the normals in the energy of a boundary. Default: 0.
 ---@field smooth? integer Umbrella steps at the seam, at most, as in lissom.merge. Default: 3.
----@field collar? boolean Makes faces anew beside the seam where one side is coarser. Default: true.
+---@field collar? boolean Makes faces anew beside the seam if one side is coarser. Default: true.
 ---@field intersections? boolean Looks for faces that run through one another and did not before. Default: true.
----@field size? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or what the placement says. Default: "boundary".
----@field compare? boolean Tries what may distort the surface near the boundary less, and takes it where it does: ARAP iterations of the part; the outline of the region; and, once `optimize` was called and by nearest points, a boundary that slides over the target to where the part draws it. Default: true.
+---@field size? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or the placement's scale. Default: "boundary".
+---@field compare? boolean Tries variants that may distort the surface near the boundary less, and takes the best: ARAP iterations of the part; the outline of the region; and, once `optimize` was called and by nearest points, a boundary that slides over the target towards the relaxed position of the part. Default: true.
 
 ---A new mesh that has a feature of this one twice: it is pasted onto another place of the same mesh, along the loop around it that fits best (lissom.paste with itself as target).
 ---@param options lissom.Mesh.CloneOptions
 ---@return lissom.Mesh mesh # The mesh with both.
----@return lissom.MergeReport report # As of lissom.merge; its field `paste` is a lissom.PasteReport.
+---@return lissom.MergeReport report # The report of lissom.merge; its field `paste` is a lissom.PasteReport.
 function Mesh:clone(options) end
 
 ---@class lissom.Mesh.ParameterizeOptions
 ---@field region? lissom.Region Its faces are laid out: one part without handles, with at least one boundary. Default: the whole mesh.
----@field method? "lscm"|"arap"|"tutte" Keeps angles (lscm); angles and lengths, as far as no face is turned over (arap, from lscm); or covers a disk, where nothing ever turns over (tutte). Default: "arap".
----@field attribute? string Where the coordinates go: "uv", "uv2", or a name of your own. Default: "uv".
+---@field method? "lscm"|"arap"|"tutte" lscm keeps angles; arap, from lscm, angles and lengths, as far as no face is turned over; tutte covers a disk and never turns a face over. Default: "arap".
+---@field attribute? string Attribute for the coordinates: "uv", "uv2", or a name of your own. Default: "uv".
 ---@field placement? "unit_square"|"as_is" Fitted into the square from 0 to 1, or in lengths of the mesh around the origin. Default: "unit_square".
 ---@field iterations? integer Iterations of arap at most. Default: 20.
 ---@field close_holes? boolean Closes every boundary but the longest by triangles that are part of the map and not of the result, so that the boundaries do not cross. Default: true.
 
----Lays the surface, or a region of it, out in the plane, and keeps where each corner lies as texture coordinates. Other corners keep theirs.
+---Lays the surface, or a region of it, out in the plane, and keeps the place of each corner as texture coordinates. Other corners keep theirs.
 ---@param options? lissom.Mesh.ParameterizeOptions
 ---@return lissom.Mesh mesh # The mesh itself.
----@return lissom.ParameterizeReport report # What the map is like.
+---@return lissom.ParameterizeReport report # Quality of the map.
 function Mesh:parameterize(options) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Mesh:close() end
 
 ---A set of vertices of one version of a mesh's topology. After a change of the topology it is an error to use it.
@@ -1209,7 +1214,7 @@ function Region:shrink(rings) end
 ---@class lissom.Region.ConnectedOptions
 ---@field at integer|lissom.Vector A vertex of the region, or a point, of which the region's nearest vertex counts.
 
----The part of this region that is connected with a point: what edges between the region's vertices join.
+---The part of this region that is connected with a point, by edges between the region's vertices.
 ---@param options lissom.Region.ConnectedOptions
 ---@return lissom.Region region # A new region.
 function Region:connected(options) end
@@ -1221,7 +1226,7 @@ function Region:smooth(iterations) end
 
 ---Whether a vertex is in the region.
 ---@param vertex integer Id of the vertex.
----@return boolean inside # True where it is.
+---@return boolean inside # True if it is.
 function Region:contains(vertex) end
 
 ---Mean of the positions of the region's vertices.
@@ -1248,7 +1253,7 @@ function Region:boundaries() end
 ---@return lissom.Mesh mesh # The mesh.
 function Region:mesh() end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Region:close() end
 
 ---A line through vertices of one version of a mesh's topology, open or closed. A boundary is a closed path around a hole, with the surface on its left. The preview of a cut returns lines through points of their own, without vertices.
@@ -1306,19 +1311,19 @@ function Path:mesh() end
 ---@class lissom.Path.TrimOptions
 ---@field smoothing? number How smooth: standard deviation of the Gaussian that smooths the loop, as a fraction of its length. Default: 0.04.
 ---@field margin? number Distance of the new boundary from the innermost vertex of the old one, in edge lengths. Default: 0.15.
----@field slide? number A vertex slides onto the line where that crosses one of its edges within this fraction of the edge, so that no slivers appear. Default: 0.25.
+---@field slide? number A vertex slides onto the line if that crosses one of its edges within this fraction of the edge, so that no slivers appear. Default: 0.25.
 
 ---Makes a jagged open boundary smooth, in place: cuts a thin strip of the mesh off along a smooth line just inside. Paths and regions of before are then of an older topology.
 ---@param options? lissom.Path.TrimOptions
 ---@return lissom.Path boundary # The new boundary of the mesh.
----@return lissom.TrimReport report # What was done.
+---@return lissom.TrimReport report # Measures of the cut.
 function Path:trim(options) end
 
 ---Mean angle by which the line turns at its points: small for a smooth one, 30 degrees and more for one along the edges of triangles.
 ---@return number angle # In degrees.
 function Path:mean_turn() end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Path:close() end
 
 ---Numbers of the kernel, read and written in place. It keeps its mesh alive and refuses to work once the mesh has another topology.
@@ -1337,12 +1342,12 @@ function Buffer:count() end
 
 ---The numbers of a row, as several results.
 ---@param row integer Number of the row: the id of its vertex, corner or face.
----@return number ... # As many as the buffer is wide.
+---@return number ... # Numbers of the row, as many as the buffer is wide.
 function Buffer:get(row) end
 
 ---Writes a row and returns the buffer.
 ---@param row integer Number of the row: the id of its vertex, corner or face.
----@param values number[] As many numbers as the buffer is wide.
+---@param values number[] Numbers, as many as the buffer is wide.
 ---@return lissom.Buffer buffer # The buffer.
 function Buffer:set(row, values) end
 
@@ -1352,10 +1357,10 @@ function Buffer:pointer() end
 
 ---@class lissom.Buffer.Write_floatsOptions
 ---@field offset? integer Bytes from the address to the first row. Default: 0.
----@field stride? integer Bytes from one row to the next, where something else stands between them; without it they follow each other.
+---@field stride? integer Bytes from one row to the next, if other data stands between them; without it they follow each other.
 
 ---Writes all numbers into memory of the host as floats of 32 bits, row after row, as graphics cards take them: of a mapped buffer, or LÖVE's `data:getPointer()` and `data:getSize()`. Nothing is written after an error.
----@param address lightuserdata Where the first row goes.
+---@param address lightuserdata Address of the first row.
 ---@param size number Bytes that may be written from there on.
 ---@param options? lissom.Buffer.Write_floatsOptions
 ---@return lissom.Buffer buffer # The buffer.
@@ -1369,7 +1374,7 @@ function Buffer:changed() end
 ---@return number[] numbers # A copy of the numbers.
 function Buffer:table() end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Buffer:close() end
 
 ---Deforms a region of a mesh by handles. Its rest shape is the mesh as it was when the deformation was made; its factors are kept, so that moving a handle costs no factorisation.
@@ -1386,15 +1391,15 @@ local Deformer = {}
 ---@field gradient? boolean Holds their orientation and scale. Default: true.
 ---@field weight? number Draws instead of holding exactly: 1 is a compromise with the shape of the surface, 1e6 nearly exact. Depends on neither scale nor resolution. Default: held exactly.
 ---@field falloff? number Within this geodesic distance the surface follows softly, less and less. In mesh units. Default: 0.
----@field mirror? lissom.Deformer.Add_handleOptions.Mirror Adds a second handle, the mirror image, and moves it along: see mirrored. It lies where the surface is nearest to the reflected one, so that both sides may have different vertices: see mirror_residual. Default: none.
+---@field mirror? lissom.Deformer.Add_handleOptions.Mirror Adds a second handle, the mirror image, and moves it along: see mirrored. It lies on the surface nearest to the reflected one, so that both sides may have different vertices: see mirror_residual. Default: none.
 
----Makes a handle of some vertices of the region, of a path, or of points of faces and edges. Points go exactly where the handle takes them: the points of the deformed faces with the same weights do.
----@param where lissom.Region|lissom.Path|table What it holds.
+---Makes a handle of some vertices of the region, of a path, or of points of faces and edges. Points follow the handle exactly: the points of the deformed faces with the same weights do.
+---@param where lissom.Region|lissom.Path|table The part that it holds.
 ---@param options? lissom.Deformer.Add_handleOptions
----@return lissom.Handle handle # Where it is; move it and solve.
+---@return lissom.Handle handle # The handle; move it and solve.
 function Deformer:add_handle(where, options) end
 
----Holds a region where it is: a handle with the identity as transform. Returns the deformer.
+---Holds a region in place: a handle with the identity as transform. Returns the deformer.
 ---@param region lissom.Region The vertices that stay.
 ---@return lissom.Deformer deformer # The deformer itself.
 function Deformer:pin(region) end
@@ -1402,11 +1407,11 @@ function Deformer:pin(region) end
 ---@class lissom.Deformer.ConstrainOptions
 ---@field vertex? integer A vertex.
 ---@field edge? integer[] The two vertices of an edge.
----@field at? number Where on the edge: 0 is its first vertex, 1 its second. Default: 0.5.
+---@field at? number Place on the edge: 0 is its first vertex, 1 its second. Default: 0.5.
 ---@field face? integer A face.
 ---@field bary? number[] Weights of the face's corners, which sum to 1.
 ---@field triangle? integer[] Three vertices of the face that bary weighs instead, as nearest and pick give.
----@field position? lissom.Vector Where it goes. Default: free.
+---@field position? lissom.Vector Its position. Default: free.
 ---@field gradient? number[][] Rows of its 3 x 3 deformation gradient. Default: free.
 ---@field weight? number Draws instead of holding exactly: 1 is a compromise with the shape of the surface, 1e6 nearly exact. Depends on neither scale nor resolution. Default: held exactly.
 
@@ -1440,7 +1445,7 @@ function Deformer:preview() end
 ---@class lissom.Deformer.SolveOptions
 ---@field draft? boolean For the frames of a drag: about five digits in half the time. Solve once more when the drag ends. Default: false.
 
----Solves both systems and writes the result into the mesh. Handles that are where they began give the rest shape, to the bit. What else has moved the region's vertices is overwritten; where the mesh around the region was moved, so that the result would tear, it is an error.
+---Solves both systems and writes the result into the mesh. Handles in their initial place give the rest shape, to the bit. Other changes of the region's vertices are overwritten; if the mesh around the region was moved, so that the result would tear, it is an error.
 ---@param options? lissom.Deformer.SolveOptions
 ---@return lissom.Mesh mesh # The mesh.
 function Deformer:solve(options) end
@@ -1449,11 +1454,11 @@ function Deformer:solve(options) end
 ---@return lissom.Deformer deformer # The deformer itself.
 function Deformer:reset() end
 
----The deformed mesh with the vertices that the deformation worked on where the border of what is held is coarse beside the region: behind the mesh's own, on faces that become triangles. Without such vertices it is a copy.
+---The deformed mesh with the vertices that the deformation inserted along coarse borders of handles: behind the mesh's own, on faces that become triangles. Without such vertices it is a copy.
 ---@return lissom.Mesh fine # A new mesh.
 function Deformer:subdivided_mesh() end
 
----Takes the last result as the new rest shape. Handles keep their vertices and hold where they are now, with the identity as transform; constraints hold where their points are now. Factors are rebuilt at the next solve, and reset returns to this shape.
+---Takes the last result as the new rest shape. Handles keep their vertices and their present places, with the identity as transform; constraints keep the present places of their points. Factors are rebuilt at the next solve, and reset returns to this shape.
 ---@return lissom.Deformer deformer # The deformer itself.
 function Deformer:rebase() end
 
@@ -1469,14 +1474,14 @@ function Deformer:stats() end
 ---@return lissom.DeformReport report # Measures, and warnings with remedies.
 function Deformer:report(options) end
 
----The first system's solution as a linear function of the handles: what an engine needs to follow a drag by itself.
+---The first system's solution as a linear function of the handles: data for an engine that follows a drag by itself.
 ---@return lissom.HandleBasis basis # Weights of every vertex for every handle.
 function Deformer:basis() end
 
 ---@class lissom.Deformer.Save_basisOptions
 ---@field names? string[] Names of the handles, in the order of deformer:handles(): a program finds them by these. Default: that of the mesh's region with the same vertices.
 
----Writes the basis to a file for a program without a solver: 4 floats a vertex and handle, relative to the middle of the region. bindings/engine/lissom_basis.h, one C header, describes the file and gives what preview gives.
+---Writes the basis to a file for a program without a solver: 4 floats a vertex and handle, relative to the middle of the region. bindings/engine/lissom_basis.h, one C header, describes the file and computes the result of preview.
 ---@param path string The file.
 ---@param options? lissom.Deformer.Save_basisOptions
 ---@return lissom.Deformer deformer # The deformer itself.
@@ -1492,12 +1497,12 @@ function Deformer:save_basis(path, options) end
 ---@field normals? boolean Gives a mesh without normals those of its surface, so that light follows the motion. Default: true.
 ---@field name? string Name of the animation. Default: "deformation".
 
----Makes an animation of a sequence of poses: a new mesh with a morph target for each different shape, which mesh:save writes as .glb or .gltf and any viewer of such files plays. For each frame the handles stand where they stand now, the function moves them, and the deformation is solved. Handles, mesh and last result are afterwards as they were, also where the function fails.
+---Makes an animation of a sequence of poses: a new mesh with a morph target for each different shape, which mesh:save writes as .glb or .gltf and any viewer of such files plays. For each frame the handles start from their present place, the function moves them, and the deformation is solved. Handles, mesh and last result are restored afterwards, even if the function fails.
 ---@param options lissom.Deformer.BakeOptions
 ---@return lissom.Mesh mesh # The rest shape with its targets and the animation.
 function Deformer:bake(options) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Deformer:close() end
 
 ---Vertices of a deformation that follow one transform.
@@ -1511,7 +1516,7 @@ local Handle = {}
 function Handle:translate(offset) end
 
 ---@class lissom.Handle.RotateOptions
----@field about? lissom.Vector A point on the axis. Default: the handle's center where it is now.
+---@field about? lissom.Vector A point on the axis. Default: the handle's present center.
 ---@field axis? "x"|"y"|"z"|lissom.Vector Axis of the rotation.
 ---@field angle? number Angle, counter-clockwise seen against the axis. In degrees.
 
@@ -1524,7 +1529,7 @@ function Handle:translate(offset) end
 function Handle:rotate(axis, angle, options) end
 
 ---@class lissom.Handle.ScaleOptions
----@field about? lissom.Vector The point that stays. Default: the handle's center where it is now.
+---@field about? lissom.Vector The point that stays. Default: the handle's present center.
 
 ---Scales the handle on.
 ---@param factor number|lissom.Vector Factor for all axes, or one for each.
@@ -1549,11 +1554,11 @@ function Handle:scale(factor, options) end
 function Handle:set(options) end
 
 ---Sets the whole transform as a matrix. A matrix does not say how often the handle has turned round: the field `turn` that Handle:matrix gives does; without it, the turn nearest to the present one is taken.
----@param matrix number[][] Rows of a 4 x 4 matrix; takes rest positions to where they go.
+---@param matrix number[][] Rows of a 4 x 4 matrix; maps rest positions to their new places.
 ---@return lissom.Handle handle # The handle itself.
 function Handle:set_matrix(matrix) end
 
----The handle goes back to where it began.
+---The handle goes back to its initial place.
 ---@return lissom.Handle handle # The handle itself.
 function Handle:reset() end
 
@@ -1561,7 +1566,7 @@ function Handle:reset() end
 ---@return number[][] matrix # Rows of a 4 x 4 matrix; its field `turn` is the rotation as {x, y, z}, axis times angle in degrees, counting full turns.
 function Handle:matrix() end
 
----The handle's center where it is now.
+---The handle's present center.
 ---@return lissom.Vector center # {x, y, z}.
 function Handle:center() end
 
@@ -1573,8 +1578,8 @@ function Handle:region() end
 ---@return lissom.Handle? image # The other handle.
 function Handle:mirrored() end
 
----Measures how well both sides of the rest shape match where the handle has a mirror image: the distances of the reflected vertices from the surface, in sizes of what is deformed.
----@return table residual # {max=, mean=, warning=}; the warning, with what helps, only if the greatest is more than the mirror's tolerance.
+---Measures how well both sides of the rest shape match if the handle has a mirror image: the distances of the reflected vertices from the surface, in sizes of the deformed part.
+---@return table residual # {max=, mean=, warning=}; the warning, with a remedy, only if the greatest is more than the mirror's tolerance.
 function Handle:mirror_residual() end
 
 ---Gives the handle other vertices. Its transform stays, and the mesh keeps the old result until the next solve.
@@ -1585,10 +1590,10 @@ function Handle:set_region(region) end
 ---Takes the handle out of the deformation; it cannot be used any more.
 function Handle:remove() end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Handle:close() end
 
----A merge that is solved again, without factoring again, after its keys have moved: what a tool keeps while the user drags a key.
+---A merge that is solved again, without factoring again, after its keys have moved: for a tool while the user drags a key.
 ---@class lissom.Merger
 local Merger = {}
 
@@ -1598,23 +1603,23 @@ local Merger = {}
 ---@return lissom.Merger merger # The same merger.
 function Merger:set_keys(join, keys) end
 
----Merges, and returns a new mesh and what was done.
+---Merges, and returns a new mesh and a report.
 ---@return lissom.Mesh mesh # The merged mesh.
----@return lissom.MergeReport report # What was found and done.
+---@return lissom.MergeReport report # Measures and results.
 function Merger:solve() end
 
----Returns what was found before anything is solved, such as a thin outline that is to meet a round one; the report has it as well.
+---Returns findings of the preparation, such as a thin outline that is to meet a round one; the report has them as well.
 ---@return string[] warnings # In plain words.
 function Merger:warnings() end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Merger:close() end
 
----Where the elements of a merged mesh come from: elements of the source and of the targets as they were given.
+---Provenance of the elements of a merged mesh: elements of the source and of the targets as they were given.
 ---@class lissom.Provenance
 local Provenance = {}
 
----What a vertex is the weighted mean of, before it was moved: one vertex, or several where it was made on an edge; on a seam those of both sides.
+---The sources of a vertex, with weights, before it was moved: one vertex, or several for one made on an edge; on a seam those of both sides.
 ---@param vertex integer A vertex of the merged mesh.
 ---@return lissom.Origin[] origins # With weights that sum to 1.
 function Provenance:vertex(vertex) end
@@ -1624,7 +1629,7 @@ function Provenance:vertex(vertex) end
 ---@return lissom.Origin[] origins # With weights that sum to 1.
 function Provenance:face(face) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Provenance:close() end
 
 ---A feature of one mesh that is being put onto another: it can be moved, its boundary sought, and pasted, as often as one likes.
@@ -1636,33 +1641,33 @@ local Paste = {}
 
 ---Seeks the loop around the feature whose shape on the target differs least from its shape on the source, by turns with the similarity between both (thesis 3.4.3).
 ---@param options? lissom.Paste.OptimizeOptions
----@return lissom.Path loop # The boundary on the source: points of its surface, or vertices where it runs along edges.
----@return lissom.PasteSearch report # What was found.
+---@return lissom.Path loop # The boundary on the source: points of its surface, or vertices if it runs along edges.
+---@return lissom.PasteSearch report # Result of the search.
 function Paste:optimize(options) end
 
 ---@class lissom.Paste.MergeOptions
 ---@field smooth? integer Umbrella steps at the seam, at most, as in lissom.merge. Default: 3.
----@field collar? boolean Makes faces anew beside the seam where one side is coarser. Default: true.
+---@field collar? boolean Makes faces anew beside the seam if one side is coarser. Default: true.
 ---@field intersections? boolean Looks for faces that run through one another and did not before. Default: true.
----@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or what the placement says. Default: "boundary".
----@field compare? boolean Tries what may distort the surface near the boundary less, and takes it where it does: ARAP iterations of the part; the outline of the region; and, once `optimize` was called and by nearest points, a boundary that slides over the target to where the part draws it. Default: true.
+---@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or the placement's scale. Default: "boundary".
+---@field compare? boolean Tries variants that may distort the surface near the boundary less, and takes the best: ARAP iterations of the part; the outline of the region; and, once `optimize` was called and by nearest points, a boundary that slides over the target towards the relaxed position of the part. Default: true.
 ---@field draft? boolean For a part that is being dragged: the same place and boundary, but the part is not refined, nor does its boundary slide, the seam is sewn and no more, whatever `smooth`, `collar` and `intersections` say, and the report has no provenance. Default: false.
 
 ---Opens the target along the loop's image and pastes the part inside the loop, deformed to fit, as a new mesh. Without `optimize` the loop is the outline of the region.
 ---@param options? lissom.Paste.MergeOptions
 ---@return lissom.Mesh mesh # The target with the feature.
----@return lissom.MergeReport report # As of lissom.merge; its field `paste` is a lissom.PasteReport.
+---@return lissom.MergeReport report # The report of lissom.merge; its field `paste` is a lissom.PasteReport.
 function Paste:merge(options) end
 
 ---@class lissom.Paste.DraftOptions
----@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or what the placement says. Default: "boundary".
----@field compare? boolean Takes the outline of the region where the surface is distorted less near that than near the boundary that was found. Default: true.
+---@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or the placement's scale. Default: "boundary".
+---@field compare? boolean Takes the outline of the region if the surface is distorted less near that than near the boundary that was found. Default: true.
 
----The part as `merge` with `draft` has it, but alone and not sewn to the target: for a part that is shown many times a second while it is dragged. What that costs does not grow with the target.
+---The part as `merge` with `draft` has it, but alone and not sewn to the target: for a part that is shown many times a second while it is dragged. The cost does not grow with the target.
 ---@param options? lissom.Paste.DraftOptions
 ---@return lissom.Mesh mesh # The part inside the boundary, deformed onto the edge of its hole.
 ---@return lissom.Path boundary # Its boundary there.
----@return lissom.PasteDraft report # What was done.
+---@return lissom.PasteDraft report # Measures of the draft.
 function Paste:draft(options) end
 
 ---@class lissom.Paste.MoveOptions
@@ -1674,29 +1679,29 @@ function Paste:draft(options) end
 ---@field offset? number[] {x, y}: moves the part in the plane of the target's map, in lengths of the target; the way of placing of thesis 3.4.1. Default: as it was.
 ---@field search? boolean false keeps the loop while a part is dragged, unless the outline fits better. Default: true.
 
----Places the feature anew, and seeks its boundary again from the one it had where `optimize` was called. What is left out stays. Where the feature does not fit there, the last good placement stays.
+---Places the feature anew, and seeks its boundary again from the former one if `optimize` was called. Options that are left out stay. If the feature does not fit there, the last good placement stays.
 ---@param options? lissom.Paste.MoveOptions
 ---@return lissom.Paste paste # The same paste.
 function Paste:move(options) end
 
----What the search for the boundary found last.
+---The result of the last search for the boundary.
 ---@return lissom.PasteSearch report # Before `optimize`, of the loop that is used without.
 function Paste:search() end
 
----The loop that `merge` pastes along, and where it lies on the target.
+---The loop that `merge` pastes along, and its image on the target.
 ---@return lissom.Path loop # On the source, as by `optimize`.
 ---@return lissom.Path image # Points of the target's surface.
 function Paste:loop() end
 
----What `clear` removes of the target under the part, on the target as it was given: to draw it, or to ask before `merge`.
+---The part of the target that `clear` removes under the part, on the target as it was given: to draw it, or to ask before `merge`.
 ---@return lissom.Region region # The vertices of the faces that go; nil if nothing goes.
 ---@return lissom.PasteClearing report # How much that is.
 function Paste:clearing() end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Paste:close() end
 
----Where hair grows on a head, and the frame in which styles fit any head. It is that of the head's shape when it was made.
+---The hairy part of a head, and the frame in which styles fit any head. It is that of the head's shape when it was made.
 ---@class lissom.Scalp
 local Scalp = {}
 
@@ -1720,7 +1725,7 @@ function Scalp:at(options) end
 ---@return number[] normal # {x, y, z}, outward, of length 1.
 function Scalp:normal_at(options) end
 
----Where hair grows.
+---The hairy region.
 ---@return lissom.Region region # Vertices of the head.
 function Scalp:region() end
 
@@ -1729,15 +1734,15 @@ function Scalp:region() end
 function Scalp:head() end
 
 ---Whether the region was guessed from an average hairline.
----@return boolean guessed # False where a region was given or named.
+---@return boolean guessed # False if a region was given or named.
 function Scalp:guessed() end
 
----How sure it is where the head is and which way it looks. Making a scalp whose confidence is below 0.5 gives a warning: look at `up` and `front`, or give them, and the region.
----@return number confidence # Near 1 for a whole bald head, near 0 for masks, halves of heads, and what is none.
+---Certainty of the head's place and direction of view. Making a scalp whose confidence is below 0.5 gives a warning: look at `up` and `front`, or give them, and the region.
+---@return number confidence # Near 1 for a whole bald head, near 0 for masks, halves of heads, and other shapes.
 function Scalp:confidence() end
 
----What makes the confidence less than it could be.
----@return string doubt # Empty where nothing does.
+---Reason for a low confidence.
+---@return string doubt # Empty if there is none.
 function Scalp:doubt() end
 
 ---The center of the frame, about the middle between the ears.
@@ -1760,7 +1765,7 @@ function Scalp:left() end
 ---@return number unit # Metres in one unit of the mesh.
 function Scalp:unit() end
 
----Whether the unit was given, or a usual one makes this the width of a head. Where neither is so, `unit` is that of an average head, and making the scalp gives a warning.
+---Whether the unit was given, or a usual one makes this the width of a head. Otherwise `unit` is that of an average head, and making the scalp gives a warning.
 ---@return boolean known # False for models of some other size.
 function Scalp:knows_unit() end
 
@@ -1780,7 +1785,7 @@ function Scalp:from_metres(point) end
 ---@overload fun(self: lissom.Scalp, x: number, y: number, z: number): number[]
 function Scalp:to_metres(point) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Scalp:close() end
 
 ---Style curves on a head, and the hair that follows them. It is made for the shape that the head had then. Lengths among its options are in metres of an average head, so that a style fits any head; points are in mesh units.
@@ -1811,7 +1816,7 @@ function Hairstyle:normal_at(options) end
 ---@return lissom.Curve[] curves # A list.
 function Hairstyle:curves() end
 
----What the curves that are enabled and avoid_scalp give the field: one vector a grid point that is constrained. `lissom.render{ style = }` draws them.
+---Constraints of the field from the enabled curves and avoid_scalp: one vector a constrained grid point. `lissom.render{ style = }` draws them.
 ---@return lissom.StyleConstraint[] constraints # A list.
 function Hairstyle:constraints() end
 
@@ -1878,9 +1883,9 @@ function Hairstyle:add_dividing(points, options) end
 
 ---@class lissom.Hairstyle.Add_ponytailOptions
 ---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
----@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
+---@field radius? number Radius of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
 ---@field section? lissom.Vector[] A closed curve around the spine, seen from anywhere: the tie stands there, and is as wide as it is across the spine.
----@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, where both are, whichever way they run.
+---@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them along their common part, in either direction.
 ---@field share? number Without profiles: how much of the spine has cross sections. Default: 0.7.
 ---@field fullness? number Without profiles: the tail swells to 1 + fullness radii. Default: 1.
 ---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
@@ -1891,7 +1896,7 @@ function Hairstyle:add_dividing(points, options) end
 ---@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4; as in the thesis 0.
 ---@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2; as in the thesis 0.
 ---@field tightness? number Magnitude of the vectors that do so. Default: 0.6.
----@field tail_length? number Of the hair behind the tie. In metres. Default: as long as the spine; as in the thesis as long as hair without a tie.
+---@field tail_length? number Length of the hair behind the tie. In metres. Default: as long as the spine; as in the thesis as long as hair without a tie.
 ---@field ragged? number Share of that by which tips differ. Default: 0.45; as in the thesis 0.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
@@ -1920,23 +1925,23 @@ function Hairstyle:field(point) end
 ---@field magnitude? number Length of the vectors that do so: small, so that they change little elsewhere. Default: 0.3.
 ---@field band? number Grid points nearer to the head than this, on either side. In metres. Default: a grid step.
 
----Turns the field along the head wherever it points into it (section 4.6 of the thesis), also where hair only passes, as on the neck. For the end of a design: it stays as it is until it is done again. Hair that grows with `avoid` stays outside anyway.
+---Turns the field along the head at points at which it points into the head (section 4.6 of the thesis), also on the neck, past which hair only flows. For the end of a design: it stays as it is until it is done again. Hair that grows with `avoid` stays outside anyway.
 ---@param options? lissom.Hairstyle.Avoid_scalpOptions
 ---@return lissom.Hairstyle style # The hairstyle itself.
 function Hairstyle:avoid_scalp(options) end
 
----Takes back what avoid_scalp did.
+---Undoes avoid_scalp.
 ---@return lissom.Hairstyle style # The hairstyle itself.
 function Hairstyle:forget_scalp() end
 
 ---@class lissom.Hairstyle.GrowOptions.Cut
 ---@field point lissom.Vector A point of the plane. In mesh units.
----@field normal? lissom.Vector Points to where no hair is left. Default: down.
+---@field normal? lissom.Vector Direction without hair. Default: down.
 ---@field ragged? number Strands meet the plane moved by this at most. In metres. Default: 0.006.
 
 ---@class lissom.Hairstyle.GrowOptions
 ---@field seed? integer Another seed gives other roots and other chance. Default: 1.
----@field length? number|(fun(vertex: integer, x: number, y: number, z: number): number) Of a strand, at most twice the diagonal of the volume. By function(vertex, x, y, z) in metres, for instance for a fringe that is shorter than the rest: it is asked for each vertex of the head with its number and its place in mesh units. In metres. Default: 0.25; as in the thesis as the field carries it.
+---@field length? number|(fun(vertex: integer, x: number, y: number, z: number): number) Length of a strand, at most twice the diagonal of the volume. By function(vertex, x, y, z) in metres, for instance for a fringe that is shorter than the rest: it is asked for each vertex of the head with its number and its place in mesh units. In metres. Default: 0.25; as in the thesis as the field carries it.
 ---@field variation? number Share by which strands are longer or shorter at most. Default: 0.1; as in the thesis 0.
 ---@field roots? "poisson"|"angles"|"steps" Evenly spread; a root at a random place of each cell of polar angles; or in equal steps of the angles with little randomness, as in the thesis: of steps the first n of more are spread alike, but not the same. Default: "poisson"; as in the thesis "steps".
 ---@field density? number[]|string|(fun(vertex: integer, x: number, y: number, z: number): number) Relative density of hair. For the vertices of the head: a list, the name of an attribute, or function(vertex, x, y, z), asked with the vertex's number and its place in mesh units. Default: 1 everywhere.
@@ -1948,7 +1953,7 @@ function Hairstyle:forget_scalp() end
 ---@field ramp? number Length over which strands rise to their height. For `avoid`. In metres. Default: 0.03.
 ---@field lift? number Share of the normal of the head in the first segment. Default: 0.15; as in the thesis 0.
 ---@field segment? number Length of a segment, in steps of the grid. Default: 0.5.
----@field least_speed? number A strand ends where the field is shorter than this. Default: 0.05.
+---@field least_speed? number A strand ends if the field is shorter than this. Default: 0.05.
 ---@field greatest_turn? number A strand ends before a segment that turns by more than this, as about a sink of the field; 180 lets strands turn as they like. In degrees. Default: 88; as in the thesis 180.
 ---@field most_segments? integer A strand has no more segments. Default: 400.
 ---@field into? lissom.Strands Strands whose place the new ones take. After an error they are as they were, or empty if growth had begun. Default: new strands.
@@ -1964,67 +1969,67 @@ function Hairstyle:grow(count, options) end
 ---@class lissom.Hairstyle.MaskOptions
 ---@field kind "length"|"density" Factors of the length of hair, or the relative density of its roots.
 ---@field points lissom.Vector[] The way of the brush over the head; one point is a dab. In mesh units.
----@field value? number What the brush paints: to 4 for the length, to 1 for the density; 1 takes away what was there. Default: 0.5.
----@field radius? number Of the brush. In metres. Default: 0.02.
+---@field value? number Painted value: to 4 for the length, to 1 for the density; 1 erases. Default: 0.5.
+---@field radius? number Radius of the brush. In metres. Default: 0.02.
 ---@field softness? number The share of the radius over which the brush fades. Default: 0.5.
 
----Paints on the scalp with a round brush where hair is shorter, longer or thinner. A style keeps its strokes, in metres of an average head, and hair grows by them besides `lengths` and `density` of `grow`.
+---Paints on the scalp with a round brush to make hair shorter, longer or thinner. A style keeps its strokes, in metres of an average head, and hair grows by them besides `lengths` and `density` of `grow`.
 ---@param options lissom.Hairstyle.MaskOptions
 ---@return lissom.Hairstyle style # The hairstyle itself.
 function Hairstyle:mask(options) end
 
----What was painted on the scalp, in its order.
----@return lissom.ScalpMask[] masks # As given to `mask`.
+---The masks painted on the scalp, in their order.
+---@return lissom.ScalpMask[] masks # Same as given to `mask`.
 function Hairstyle:masks() end
 
 ---@class lissom.Hairstyle.Clear_masksOptions
 ---@field kind? "length"|"density" Factors of the length of hair, or the relative density of its roots. Default: both.
 
----Takes away what was painted on the scalp.
+---Erases the masks of the scalp.
 ---@param options? lissom.Hairstyle.Clear_masksOptions
 ---@return lissom.Hairstyle style # The hairstyle itself.
 function Hairstyle:clear_masks(options) end
 
 ---@class lissom.Hairstyle.CombOptions
 ---@field points lissom.Vector[] The stroke, in the hair: `camera:stroke{ on = strands }` puts it there. In mesh units.
----@field by? "least"|"bend"|"add" What changes least; bent streams alone; or an added one. Default: "least".
----@field reach? number Streams are bent where they are nearer to the stroke: wholly up to half of it, less and less beyond. In metres. Default: 0.04.
----@field tolerance? number Hair follows the stroke where it runs within this angle of it, root of the mean square. In degrees. Default: 15.
+---@field by? "least"|"bend"|"add" least: the smallest change; bent streams alone; or an added one. Default: "least".
+---@field reach? number Streams nearer to the stroke than this are bent: wholly up to half of it, less and less beyond. In metres. Default: 0.04.
+---@field tolerance? number Hair follows the stroke if it runs within this angle of it, root of the mean square. In degrees. Default: 15.
 
----Makes hair flow along a stroke, which runs as hair grows. Where hair follows it already nothing changes; otherwise streams beside it are bent, or one is added along it, whichever explains the stroke and changes the rest of the hair least.
+---Makes hair flow along a stroke, which runs as hair grows. Hair that follows it already does not change; otherwise streams beside it are bent, or one is added along it, whichever explains the stroke and changes the rest of the hair least.
 ---@param options lissom.Hairstyle.CombOptions
----@return lissom.CombReport report # What was done.
+---@return lissom.CombReport report # The changes made.
 function Hairstyle:comb(options) end
 
 ---@class lissom.Hairstyle.SketchOptions
----@field camera? lissom.Camera Of the first stroke, in mesh units. Default: the strokes say it.
+---@field camera? lissom.Camera Camera of the first stroke, in mesh units. Default: the strokes say it.
 ---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@field strands? integer How many strands the tools grow, to be returned. Default: 0.
 
----Draws on the style as a hand does with the tools of the window: each stroke is a drag of a tool, and means what it means there. All strokes are done, or, where a tool refuses one, none: the error says which and why.
----@param strokes table A list of lissom.SketchStroke. What a stroke leaves out, but for its points or its key, is as for the one before.
+---Draws on the style by the tools of the window: each stroke is a drag of a tool, with its meaning there. All strokes are done, or, if a tool refuses one, none: the error names the stroke and the reason.
+---@param strokes table A list of lissom.SketchStroke. Fields that a stroke leaves out, but for its points or its key, are those of the one before.
 ---@param options? lissom.Hairstyle.SketchOptions
 ---@return lissom.Sketched[] done # One for each stroke.
----@return lissom.Strands? hair # What has grown.
+---@return lissom.Strands? hair # The grown hair.
 function Hairstyle:sketch(strokes, options) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Hairstyle:close() end
 
 ---A style curve: says how hair flows near it. It lives in its hairstyle.
 ---@class lissom.Curve
 local Curve = {}
 
----What kind of curve it is.
+---The kind of the curve.
 ---@return string kind # "stream", "dividing" or "ponytail".
 function Curve:kind() end
 
 ---Its name.
----@return string name # Empty where it has none.
+---@return string name # Empty if it has none.
 function Curve:name() end
 
 ---Whether it has an effect.
----@return boolean enabled # True where it has.
+---@return boolean enabled # True if it has.
 function Curve:enabled() end
 
 ---The points that it was drawn with, of a ponytail those of the spine.
@@ -2045,8 +2050,8 @@ function Curve:hairstyle() end
 function Curve:set_points(points) end
 
 ---@class lissom.Curve.SetOptions
----@field points? lissom.Vector[] Of a stream or dividing curve.
----@field spine? lissom.Vector[] Of a ponytail.
+---@field points? lissom.Vector[] Points of a stream or dividing curve.
+---@field spine? lissom.Vector[] Spine of a ponytail.
 ---@field stop? boolean|number Keeps hair from growing on beyond the end of the curve, by vectors that vanish over a length. Default: true, 0.04 metres.
 ---@field clearance? number The curve is moved out to this height. In metres. Default: 0.004; as in the thesis 0.
 ---@field tilt? number[] {at its first point, at its last}: by how much hair on both sides is turned towards the curve's end, in degrees. Default: {0, 0}.
@@ -2061,9 +2066,9 @@ function Curve:set_points(points) end
 ---@field wall_height? number How high. In metres. Default: 2.6 grid steps.
 ---@field ramp? number Nearer to the line, vectors away from it fade; 0 as in the thesis. In metres. Default: 0.87 grid steps; as in the thesis 0.
 ---@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024; as in the thesis 0.
----@field radius? number Of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
+---@field radius? number Radius of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
 ---@field section? lissom.Vector[] A closed curve around the spine, seen from anywhere: the tie stands there, and is as wide as it is across the spine.
----@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them, where both are, whichever way they run.
+---@field profiles? table {a, b}: two lists of points along the spine on either side of the tail; its cross sections reach between them along their common part, in either direction.
 ---@field share? number Without profiles: how much of the spine has cross sections. Default: 0.7.
 ---@field fullness? number Without profiles: the tail swells to 1 + fullness radii. Default: 1.
 ---@field inner? number Hair is drawn into the tie from this many radii on (R1 of the thesis). Default: 1.3.
@@ -2074,7 +2079,7 @@ function Curve:set_points(points) end
 ---@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4; as in the thesis 0.
 ---@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2; as in the thesis 0.
 ---@field tightness? number Magnitude of the vectors that do so. Default: 0.6.
----@field tail_length? number Of the hair behind the tie. In metres. Default: as long as the spine; as in the thesis as long as hair without a tie.
+---@field tail_length? number Length of the hair behind the tie. In metres. Default: as long as the spine; as in the thesis as long as hair without a tie.
 ---@field ragged? number Share of that by which tips differ. Default: 0.45; as in the thesis 0.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
@@ -2090,7 +2095,7 @@ function Curve:set(options) end
 ---@return lissom.Curve curve # The curve itself.
 function Curve:enable(on) end
 
----Gives it another place in the order: where curves say different things of a point, the later one counts, but dividing curves before all others.
+---Gives it another place in the order: the later of several curves counts at a point, but dividing curves before all others.
 ---@param place integer Its place among the curves of the style.
 ---@return lissom.Curve curve # The curve itself.
 function Curve:reorder(place) end
@@ -2099,19 +2104,19 @@ function Curve:reorder(place) end
 function Curve:remove() end
 
 ---@class lissom.Curve.Hint_operationOptions
----@field near? number What is nearer than this to the curve is at it: about 20 pixels of the picture that the stroke was drawn in. In metres. Default: 0.007.
+---@field near? number Distance from the curve that counts as on it: about 20 pixels of the picture that the stroke was drawn in. In metres. Default: 0.007.
 
----What a hint stroke means, by where it starts and ends and by its general direction. Call the method of that name with it.
+---The meaning of a hint stroke, by its ends and by its general direction. Call the method of that name with it.
 ---@param hint lissom.Vector[] A polyline that begins, ends or passes near the curve. In mesh units.
 ---@param options? lissom.Curve.Hint_operationOptions
 ---@return string operation # "cut", "concatenate" or "insert".
----@return boolean sure # False where a stroke drawn a little otherwise means something else.
+---@return boolean sure # False if a slightly different stroke has another meaning.
 function Curve:hint_operation(hint, options) end
 
 ---@class lissom.Curve.CutOptions
 ---@field reach? number A hint that is farther from the curve has nothing to do with it. In metres. Default: 0.03.
 
----Ends the curve where a hint stroke crosses it.
+---Ends the curve at the crossing of a hint stroke.
 ---@param hint lissom.Vector[] A polyline that passes near the curve. In mesh units.
 ---@param options? lissom.Curve.CutOptions
 ---@return lissom.Curve curve # The curve itself.
@@ -2138,12 +2143,12 @@ function Curve:concatenate(hint, options) end
 function Curve:insert(hint, options) end
 
 ---By how much hair on both sides of a dividing curve is turned towards the curve's end, as the options say or as the hints do.
----@return lissom.CurveTilt tilt # Of both sides.
+---@return lissom.CurveTilt tilt # Tilt of both sides.
 function Curve:tilt() end
 
 ---A stroke beside a dividing curve that says which way hair flows away from it. The curve keeps its hints, and all hints on a side tell its tilt together; one alone means an even tilt. To set the tilt by numbers takes them out.
 ---@param hint lissom.Vector[] A polyline away from the curve, at most 0.03 metres of an average head beside it. In mesh units.
----@return lissom.CurveTilt tilt # What the curve has now.
+---@return lissom.CurveTilt tilt # The present tilt of the curve.
 function Curve:add_hint(hint) end
 
 ---The hints of a dividing curve.
@@ -2154,20 +2159,20 @@ function Curve:hints() end
 ---@return lissom.Curve curve # The curve itself.
 function Curve:remove_hints() end
 
----Its options as they act, by the names and in the units of `set`: also those that were not given, and those that follow from what was drawn.
+---Its effective options, by the names and in the units of `set`: also defaults, and those that follow from the drawn points.
 ---@return table options # A table of its own.
 function Curve:options() end
 
----Where a ponytail is tied.
+---The point at which a ponytail is tied.
 ---@return lissom.HairTie tie # Its first cross section.
 function Curve:tie() end
 
 ---The curve that was drawn around the spine of a ponytail.
----@return number[][] points # In mesh units; none where there is none.
+---@return number[][] points # In mesh units; none if there are none.
 function Curve:section() end
 
 ---The curves that were drawn along a ponytail, as `set` takes them.
----@return number[][][] profiles # Two lists of points in mesh units, each empty where there is none.
+---@return number[][][] profiles # Two lists of points in mesh units, each empty if there is none.
 function Curve:profiles() end
 
 ---@class lissom.Curve.SupportOptions
@@ -2187,15 +2192,15 @@ function Curve:support(options) end
 ---@field scale? number Pixels of the picture to a logical one, on dense screens. Default: 1.
 ---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 
----What a hint stroke means, as it is seen on the picture: near is what is within 20 pixels. Draw it on the curve's supporting surface, and call the method of that name with it.
+---The meaning of a hint stroke, seen on the picture: within 20 pixels is near. Draw it on the curve's supporting surface, and call the method of that name with it.
 ---@param options lissom.Curve.Read_hintOptions
----@return lissom.HintReading reading # What it is taken for.
+---@return lissom.HintReading reading # Its reading.
 function Curve:read_hint(options) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Curve:close() end
 
----Hair: polylines from root to tip, in metres. Strands count from 1. Operators never move roots, and what they do to a strand does not depend on how many there are.
+---Hair: polylines from root to tip, in metres. Strands count from 1. Operators never move roots, and their effect on a strand does not depend on the number of strands.
 ---@class lissom.Strands
 ---@operator len: integer
 local Strands = {}
@@ -2205,7 +2210,7 @@ local Strands = {}
 ---@return lissom.Buffer points # The points.
 function Strands:strand(strand) end
 
----Where a strand is rooted, and what else is known of it.
+---Root of a strand, and its other properties.
 ---@param strand integer Its number.
 ---@return lissom.StrandRoot root # Fields that are not known are absent.
 function Strands:root(strand) end
@@ -2219,7 +2224,7 @@ function Strands:points() end
 function Strands:point_counts() end
 
 ---The names of the groups.
----@return string[] names # In their order; empty where there are none.
+---@return string[] names # In their order; empty if there are none.
 function Strands:groups() end
 
 ---The axis-aligned box around all points.
@@ -2237,11 +2242,11 @@ function Strands:hash() end
 
 ---Counts, lengths and turns, and how many strands are damaged.
 ---@param options? lissom.Strands.StatsOptions
----@return lissom.StrandStats stats # What was measured.
+---@return lissom.StrandStats stats # The measures.
 function Strands:stats(options) end
 
 ---@class lissom.Strands.SaveOptions.Camera
----@field eye lissom.Vector Where it stands, in units of the head.
+---@field eye lissom.Vector Its position, in units of the head.
 ---@field target lissom.Vector The middle of the picture.
 ---@field up? "x"|"y"|"z"|lissom.Vector Which way is up. Default: "y".
 ---@field fov? number Vertical opening angle. In degrees. Default: 30.
@@ -2249,16 +2254,16 @@ function Strands:stats(options) end
 ---@class lissom.Strands.SaveOptions
 ---@field up? "y"|"z" The up axis that the file shall have. Default: y.
 ---@field unit? number Length of the file's unit in metres: points and widths are divided by it. In metres. Default: 1.
----@field mend? boolean false makes what would be changed or left out an error that names the strands. Default: true.
+---@field mend? boolean false makes a change or an omission an error that names the strands. Default: true.
 ---@field head? lissom.Mesh For .rib: the head that the picture shows. Default: none.
----@field camera? lissom.Strands.SaveOptions.Camera For .rib: what the picture shows. Default: hair and head whole, from the front, a little aside.
+---@field camera? lissom.Strands.SaveOptions.Camera For .rib: the camera of the picture. Default: hair and head whole, from the front, a little aside.
 ---@field archive? boolean For .rib: the curves alone, for other RIB files to read; else a scene with camera, lights and shaders, of which a RenderMan renderer makes the picture. Default: false.
 
----Writes the strands to a .hair, .data, .usda, .rib, .glb, .gltf or .obj file, whole or not at all. They are checked before, and changed where they would break in other programs; the strands themselves stay as they are.
+---Writes the strands to a .hair, .data, .usda, .rib, .glb, .gltf or .obj file, whole or not at all. They are checked before, and changed if they would break in other programs; the strands themselves stay as they are.
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.Strands.SaveOptions
 ---@return lissom.Strands strands # The strands themselves.
----@return lissom.StrandFinding[] report # What was found, changed or left out.
+---@return lissom.StrandFinding[] report # Findings, changes and omissions.
 function Strands:save(path, options) end
 
 ---@class lissom.Strands.SelectOptions.Near
@@ -2317,7 +2322,7 @@ function Strands:resample(options) end
 ---@field widths? number[] Diameters in metres, one a strand or one a point.
 ---@field profile? number[] Factors at equal steps from the root to the tip, linear between; empty for none.
 
----Sets how thick strands are; what is not given stays. Pictures and files have the widths, times the profile.
+---Sets the thickness of strands; options that are not given stay. Pictures and files have the widths, times the profile.
 ---@param options? lissom.Strands.Set_widthsOptions
 ---@return lissom.Strands strands # The strands themselves.
 function Strands:set_widths(options) end
@@ -2332,8 +2337,8 @@ function Strands:set_widths(options) end
 function Strands:set_colors(options) end
 
 ---@class lissom.Strands.ClumpOptions
----@field clumps? integer Number of guides: the strands of the lowest ids. Default: 2500.
----@field strength? number Part of the way to the guide that tips move. Default: 0.3.
+---@field clumps? integer Number of guides: the strands of the lowest ids. Default: the guides that strands have, else 900.
+---@field strength? number Part of the way to the guide that tips move. Default: 0.7.
 ---@field variation? number The strength of a clump is up to this fraction higher or lower, at random. Default: 0.5.
 ---@field shape? number The pull grows with this power of the place along the strand. Default: 1.
 ---@field radius? number Strands rooted further from their guide stay. In metres. Default: 0.03.
@@ -2343,6 +2348,8 @@ function Strands:set_colors(options) end
 ---@field within_groups? boolean Guides are of the strand's own group. Default: true.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
 
 ---Gathers strands around guides; roots stay.
 ---@param options? lissom.Strands.ClumpOptions
@@ -2350,13 +2357,15 @@ function Strands:set_colors(options) end
 function Strands:clump(options) end
 
 ---@class lissom.Strands.NoiseOptions
----@field amplitude? number Greatest distance, about, that a tip moves. In metres. Default: 0.0016.
+---@field amplitude? number Greatest distance, about, that a tip moves. It moves less if that would turn a segment by more than 27 degrees; a warning says so. In metres. Default: 0.0016.
 ---@field across? number Distance of roots that wander apart. In metres. Default: 0.02.
 ---@field along? number Length along a strand of one deviation. In metres. Default: 0.11.
 ---@field shape? number The amplitude grows with this power of the place along the strand. Default: 1.
 ---@field cumulative? boolean Deviations add up along the strand. Default: false.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
 
 ---Lets strands wander off their course, neighbours together; roots stay.
 ---@param options? lissom.Strands.NoiseOptions
@@ -2364,8 +2373,8 @@ function Strands:clump(options) end
 function Strands:noise(options) end
 
 ---@class lissom.Strands.TaperOptions
----@field tip? number Width of the tip as a fraction of what it was. Default: 0.2.
----@field start? number Where the taper begins: 0 is the root, 1 the tip. Default: 0.
+---@field tip? number Width of the tip as a fraction of its former width. Default: 0.2.
+---@field start? number Start of the taper: 0 is the root, 1 the tip. Default: 0.
 ---@field shape? number 1 is a cone, 2 stays wide for longer. Default: 1.
 
 ---Makes strands thinner towards their tips.
@@ -2381,12 +2390,12 @@ function Strands:taper(options) end
 ---@field length? number Longest length that is left. In metres. Default: no limit.
 ---@field factor? number Part of its length that each strand keeps. Default: 1.
 ---@field variation? number Each strand keeps up to this fraction less, at random. Default: 0.
----@field plane? lissom.Strands.TrimOptions.Plane What lies beyond a plane is cut off.
+---@field plane? lissom.Strands.TrimOptions.Plane The part beyond a plane is cut off.
 ---@field jitter? number Each strand meets the plane moved by at most this. In metres. Default: 0.
 ---@field least? number No strand becomes shorter. In metres. Default: 0.001.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
----Cuts strands off at the tip, where the first of the options says so.
+---Cuts strands off at the tip, by the first of the options that applies.
 ---@param options? lissom.Strands.TrimOptions
 ---@return lissom.Strands strands # The strands themselves.
 function Strands:trim(options) end
@@ -2394,23 +2403,343 @@ function Strands:trim(options) end
 ---@class lissom.Strands.SmoothOptions
 ---@field iterations? integer Number of passes. Default: 3.
 ---@field strength? number Fraction of the way to the middle of its neighbours that a point moves in a pass. Default: 0.5.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
 
 ---Evens out kinks along each strand; roots and tips stay.
 ---@param options? lissom.Strands.SmoothOptions
 ---@return lissom.Strands strands # The strands themselves.
 function Strands:smooth(options) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---@class lissom.Strands.GuidesOptions
+---@field count? integer Number of guides: the strands of the lowest ids. Default: 400.
+---@field apart? number How much it counts for the choice of a guide that strands are combed apart, as at a parting. Default: 0.5.
+---@field radius? number Strands rooted further from a guide follow none. In metres. Default: inf.
+---@field within_groups? boolean Guides are of the strand's own group. Default: true.
+
+---Lets each strand follow the nearest of some guides from now on; operators, copies and files keep them, and strands:root tells them.
+---@param options? lissom.Strands.GuidesOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:guides(options) end
+
+---@class lissom.Strands.GatherOptions
+---@field ramp? number Length over which strands come to their guide. In metres. Default: 0.02.
+---@field spread? number Random distance of strands from their guide, about. In metres. Default: 0.001.
+---@field guides? integer Assigns so many guides, which stay with the strands: those of the lowest ids. Default: the guides that strands have, else 400.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field keep_length? boolean Segments keep their lengths. Default: false.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Gathers strands to locks around their guides, from the end of a ramp on; roots stay.
+---@param options? lissom.Strands.GatherOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:gather(options) end
+
+---@class lissom.Strands.TwistOptions
+---@field wavelength? number Length of one turn; negative turns the other way. In metres. Default: 0.05.
+---@field ramp? number Length over which the turning begins. In metres. Default: 0.02.
+---@field guides? integer Assigns so many guides, which stay with the strands: those of the lowest ids. Default: the guides that strands have, else 400.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field keep_length? boolean Segments keep their lengths. Default: false.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Turns strands about their guide, as hair twisted to a rope; guides stay.
+---@param options? lissom.Strands.TwistOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:twist(options) end
+
+---@class lissom.Strands.PinchOptions
+---@field place? number 0 at the root, 1 at the tip. Default: 0.5.
+---@field width? number Part of the length over which the pull falls off. Default: 0.15.
+---@field guides? integer Assigns so many guides, which stay with the strands: those of the lowest ids. Default: the guides that strands have, else 400.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field keep_length? boolean Segments keep their lengths. Default: false.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Pulls strands to their guide at one place along them, as a tie does.
+---@param options? lissom.Strands.PinchOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:pinch(options) end
+
+---@class lissom.Strands.CurlOptions
+---@field radius? number From the course of the strand to the curl. In metres. Default: 0.0095.
+---@field wavelength? number Length along the course of one turn. In metres. Default: 0.03.
+---@field tip? number Radius at the tip as a part of `radius`. Default: 1.
+---@field start? number Distance from the root at which it begins. In metres. Default: 0.02.
+---@field ramp? number Length over which it reaches its radius. In metres. Default: 0.1.
+---@field hang? number Turns are longer at the root and shorter at the tip by this part. Default: 0.5.
+---@field variation? number Radius and wavelength of a guide are up to this part more or less. Default: 0.2.
+---@field phase? number Part of a turn by which strands of a guide differ: .06 is a wire, .2 a ribbon, .5 a coil, 1 fuzz. Default: 0.22.
+---@field depth? number 1 is a helix, 0 a wave in a surface. Default: 1.
+---@field together? boolean Neighbouring guides begin their turns alike. Default: false.
+---@field hand? "random"|"left"|"right"|"mirrored" Sense of the turns: mirrored is right for roots with x above 0, and left for others. Default: "random".
+---@field points_per_turn? integer Strands with fewer points get more; 0 keeps them. Default: 12.
+---@field guides? integer Assigns so many guides, which stay with the strands: those of the lowest ids. Default: the guides that strands have, else 400.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Winds strands around their course, those of a guide together; with keep_length hair becomes shorter on the head.
+---@param options? lissom.Strands.CurlOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:curl(options) end
+
+---@class lissom.Strands.WaveOptions
+---@field radius? number From the course of the strand to the curl. In metres. Default: 0.009.
+---@field wavelength? number Length along the course of one turn. In metres. Default: 0.095.
+---@field tip? number Radius at the tip as a part of `radius`. Default: 1.3.
+---@field start? number Distance from the root at which it begins. In metres. Default: 0.07.
+---@field ramp? number Length over which it reaches its radius. In metres. Default: 0.09.
+---@field hang? number Turns are longer at the root and shorter at the tip by this part. Default: 0.
+---@field variation? number Radius and wavelength of a guide are up to this part more or less. Default: 0.2.
+---@field phase? number Part of a turn by which strands of a guide differ: .06 is a wire, .2 a ribbon, .5 a coil, 1 fuzz. Default: 0.05.
+---@field depth? number 1 is a helix, 0 a wave in a surface. Default: 0.6.
+---@field together? boolean Neighbouring guides begin their turns alike. Default: true.
+---@field hand? "random"|"left"|"right"|"mirrored" Sense of the turns: mirrored is right for roots with x above 0, and left for others. Default: "mirrored".
+---@field points_per_turn? integer Strands with fewer points get more; 0 keeps them. Default: 12.
+---@field guides? integer Assigns so many guides, which stay with the strands: those of the lowest ids. Default: the guides that strands have, else 400.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Curls with the defaults of waves: wide, flat, and alike for neighbours.
+---@param options? lissom.Strands.WaveOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:wave(options) end
+
+---@class lissom.Strands.FrizzOptions
+---@field amplitude? number Distance, about, that tips move. In metres. Default: 0.0009.
+---@field wavelength? number Length along the strand of one bend. In metres. Default: 0.03.
+---@field flyaways? number Part of the strands that move more. Default: 0.03.
+---@field flyaway? number How many times as far those move. Default: 4.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.7.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Lets single hairs leave their lock, each on its own.
+---@param options? lissom.Strands.FrizzOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:frizz(options) end
+
+---@class lissom.Strands.StraightenOptions
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Stretches strands out towards the line from their root to their tip.
+---@param options? lissom.Strands.StraightenOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:straighten(options) end
+
+---@class lissom.Strands.RotateOptions
+---@field axis? "x"|"y"|"z"|lissom.Vector Axis of the turn. Default: the direction of each strand at its root.
+---@field angle? number Angle of the turn. In degrees. Default: 0.
+---@field variation? number Each strand turns up to this more or less, at random. In degrees. Default: 0.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Turns strands about their roots; lengths stay.
+---@param options? lissom.Strands.RotateOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:rotate(options) end
+
+---@class lissom.Strands.RollOptions
+---@field radius? number Radius of the roll. In metres. Default: 0.015.
+---@field start? number Where it begins: 0 at the root, 1 at the tip. Default: 0.5.
+---@field outward? boolean Rolls away from the head. Default: false.
+---@field center? lissom.Vector Inside of the head, in metres of the strands. Default: the middle of all roots.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Rolls up the ends of strands, as on curlers; lengths stay.
+---@param options? lissom.Strands.RollOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:roll(options) end
+
+---@class lissom.Strands.PuffOptions
+---@field amount? number Distance that strands rise; negative lets them sink. In metres. Default: 0.01.
+---@field center? lissom.Vector Inside of the head, in metres of the strands. Default: the middle of all roots.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: from 0 to 1.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Lifts strands off the head.
+---@param options? lissom.Strands.PuffOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:puff(options) end
+
+---@class lissom.Strands.DisplaceOptions
+---@field offset? lissom.Vector That all tips move, in metres. Default: none.
+---@field offsets? lissom.Vector[] Besides, one vector for each strand. Default: none.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 1.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Moves strands by vectors, tips the most; roots stay.
+---@param options? lissom.Strands.DisplaceOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:displace(options) end
+
+---@class lissom.Strands.Set_lengthOptions
+---@field length? number Length of each strand. In metres. Default: as it is.
+---@field scale? number Factor of the length. Default: 1.
+---@field variation? number Each is up to this part longer or shorter, at random. Default: 0.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Makes strands longer or shorter by scaling them about their roots.
+---@param options? lissom.Strands.Set_lengthOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:set_length(options) end
+
+---@class lissom.Strands.CutOptions.Plane
+---@field point lissom.Vector A point of the plane.
+---@field normal lissom.Vector Points to the side that is cut off.
+
+---@class lissom.Strands.CutOptions.Ellipsoid
+---@field center lissom.Vector Its center.
+---@field radii lissom.Vector Along the axes.
+
+---@class lissom.Strands.CutOptions
+---@field plane? lissom.Strands.CutOptions.Plane Hair beyond a plane is cut off.
+---@field ellipsoid? lissom.Strands.CutOptions.Ellipsoid Hair outside of an ellipsoid is cut off.
+---@field hem? number[][] A hem around the head: {azimuth in degrees, height in metres}, linear between; hair below is cut off. Without negative azimuths both sides are alike.
+---@field inside? fun(x: number, y: number, z: number, strand: integer): number|boolean Asked with each point; below 0, or false, is cut off.
+---@field scalp? lissom.Scalp The shape is in metres of this scalp's frame: x to the left of the head, y up, z to the front. Default: in metres and along the axes of the strands.
+---@field jitter? number Each strand meets the shape moved by up to this, at random. In metres. Default: 0.
+---@field guide_jitter? number The same for each guide with its strands. In metres. Default: 0.
+---@field least? number No strand becomes shorter. In metres. Default: 0.001.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+
+---Cuts strands off where they first leave a shape.
+---@param options? lissom.Strands.CutOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:cut(options) end
+
+---@class lissom.Strands.CullOptions
+---@field part? number Part of the strands that goes. Default: all of the mask.
+---@field locks? boolean All strands of a guide go if one goes. Default: false.
+---@field seed? integer Another seed removes others. Default: 1.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+
+---Removes strands: a part of them at random, or those of a mask.
+---@param options? lissom.Strands.CullOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:cull(options) end
+
+---@class lissom.Strands.Push_outOptions
+---@field head lissom.Hairstyle A style on the head that they grew on.
+---@field clearance? number Distance that hair stays off the surface. In metres. Default: 0.0005.
+---@field ramp? number Length from the root over which it comes to stay off so far. In metres. Default: 0.01.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Moves hair that lies in the head, the neck or the shoulders out of them; segments between points count too.
+---@param options lissom.Strands.Push_outOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:push_out(options) end
+
+---@class lissom.Strands.ShrinkwrapOptions
+---@field head lissom.Hairstyle A style on the head that they grew on.
+---@field lift? number Distance above the surface. In metres. Default: 0.003.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Draws strands onto the head.
+---@param options lissom.Strands.ShrinkwrapOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:shrinkwrap(options) end
+
+---@class lissom.Strands.BraidOptions
+---@field spine lissom.Vector[] The middle of the braid, from its tie on.
+---@field across lissom.Vector Direction across the braid: its widest.
+---@field radius? number Radius of each of the three tubes. In metres. Default: 0.0125.
+---@field reach? number Distance from the spine within which strands pass the tie. In metres. Default: 2.86 radii.
+---@field length? number From the tie to the lower tie. In metres. Default: 0.25.
+---@field tuft? number Below the lower tie. In metres. Default: 0.04.
+---@field wavelength? number Length of one turn of a tube. In metres. Default: 7 radii.
+---@field taper? number Part by which it is narrower at its end. Default: 0.35.
+---@field blend? number Over which hair comes into its tube. In metres. Default: 0.03.
+---@field loose? number Part of the strands that lie loosely. Default: 0.03.
+---@field early? number Part of the strands that end early. Default: 0.05.
+---@field step? number Between points. In metres. Default: 0.0025.
+---@field scalp? lissom.Scalp Points are in the unit of its head, as scalp:at gives them. Default: points are in metres of the strands.
+---@field seed? integer Another seed gives another braid. Default: 1.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+
+---Braids the strands that pass a tie at the beginning of a spine; others stay.
+---@param options lissom.Strands.BraidOptions
+---@return lissom.Strands strands # The strands themselves.
+---@return integer count # Number of strands that pass the tie.
+function Strands:braid(options) end
+
+---@class lissom.Strands.BunOptions
+---@field center lissom.Vector Center of the tie.
+---@field direction lissom.Vector Direction in which hair passes it.
+---@field reach? number Distance from the center within which strands pass the tie. In metres. Default: 0.035.
+---@field radius? number From the axis to the middle of the torus. In metres. Default: 0.0175.
+---@field tube? number Radius of its tube. In metres. Default: 0.0195.
+---@field lift? number Height of its middle above the tie. In metres. Default: 0.005.
+---@field turn? number Turn of hair around the axis. In degrees. Default: 165.
+---@field locks? integer Number of its locks. Default: 9.
+---@field loose? number Part of the strands that lie loosely. Default: 0.02.
+---@field points? integer Number of points of each strand in the bun. Default: 60.
+---@field scalp? lissom.Scalp Points are in the unit of its head, as scalp:at gives them. Default: points are in metres of the strands.
+---@field seed? integer Another seed gives another braid. Default: 1.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+
+---Winds the strands that pass a tie over a torus around it; others stay.
+---@param options lissom.Strands.BunOptions
+---@return lissom.Strands strands # The strands themselves.
+---@return integer count # Number of strands that pass the tie.
+function Strands:bun(options) end
+
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Strands:close() end
 
----Named objects in an order, with a history of what was done to them.
+---Named objects in an order, with a history of their changes.
 ---@class lissom.Scene
 ---@operator len: integer
 local Scene = {}
 
 ---@class lissom.Scene.AddOptions.Style
 ---@field color? string|lissom.Vector Colour of the object, instead of that of its kind.
----@field vertex_colors? boolean Draws the attribute "color" where a mesh has it.
+---@field vertex_colors? boolean Draws the attribute "color" of a mesh, if any.
 ---@field shading? "smooth"|"flat" Smooth normals, or one a face.
 ---@field crease? number Edges sharper than this angle stay sharp. In degrees.
 ---@field wire? boolean Draws the polygons' edges.
@@ -2423,13 +2752,13 @@ local Scene = {}
 ---@field level? number Part of the strands that is drawn.
 
 ---@class lissom.Scene.AddOptions
----@field transform? number[][] Where it stands in the scene: rows of a 4 x 4 matrix. The object's own coordinates stay.
+---@field transform? number[][] Its place in the scene: rows of a 4 x 4 matrix. The object's own coordinates stay.
 ---@field visible? boolean Whether it is drawn.
----@field style? lissom.Scene.AddOptions.Style How it is drawn; what is left out stays.
+---@field style? lissom.Scene.AddOptions.Style Its style; options that are left out stay.
 
----Adds an object under a name, behind all others. The scene holds the object itself, not a copy: who changes it changes what the scene shows.
+---Adds an object under a name, behind all others. The scene holds the object itself, not a copy: changes of the object show in the scene.
 ---@param name string A name that no object of the scene has.
----@param object lissom.Mesh|lissom.Deformer|lissom.Strands|lissom.Hairstyle|lissom.Polyline What is added.
+---@param object lissom.Mesh|lissom.Deformer|lissom.Strands|lissom.Hairstyle|lissom.Polyline The object to add.
 ---@param options? lissom.Scene.AddOptions
 ---@return any object # The object.
 function Scene:add(name, object, options) end
@@ -2467,7 +2796,7 @@ function Scene:move(name, place) end
 
 ---@class lissom.Scene.SetOptions.Style
 ---@field color? string|lissom.Vector Colour of the object, instead of that of its kind.
----@field vertex_colors? boolean Draws the attribute "color" where a mesh has it.
+---@field vertex_colors? boolean Draws the attribute "color" of a mesh, if any.
 ---@field shading? "smooth"|"flat" Smooth normals, or one a face.
 ---@field crease? number Edges sharper than this angle stay sharp. In degrees.
 ---@field wire? boolean Draws the polygons' edges.
@@ -2480,24 +2809,24 @@ function Scene:move(name, place) end
 ---@field level? number Part of the strands that is drawn.
 
 ---@class lissom.Scene.SetOptions
----@field transform? number[][] Where it stands in the scene: rows of a 4 x 4 matrix. The object's own coordinates stay.
+---@field transform? number[][] Its place in the scene: rows of a 4 x 4 matrix. The object's own coordinates stay.
 ---@field visible? boolean Whether it is drawn.
----@field style? lissom.Scene.SetOptions.Style How it is drawn; what is left out stays.
+---@field style? lissom.Scene.SetOptions.Style Its style; options that are left out stay.
 
----Changes where an object stands and how it is drawn; what is left out stays.
+---Changes an object's place and style; options that are left out stay.
 ---@param name string The name of the object.
 ---@param options? lissom.Scene.SetOptions
 ---@return lissom.Scene scene # The scene itself.
 function Scene:set(name, options) end
 
 ---Runs a function whose changes of the scene and its objects are one step, which undo takes back. After an error in it the scene and its objects are as they were, and the error goes on. A step inside a step becomes part of that. The function cannot yield; in a coroutine use begin and commit.
----@param name string What undo calls it.
----@param action fun(): any What is done.
----@return any ... # What the function returns.
+---@param name string Its name for undo.
+---@param action fun(): any The function to run.
+---@return any ... # The results of the function.
 function Scene:step(name, action) end
 
 ---Opens a step, for instance when a drag begins; commit or rollback ends it.
----@param name string What undo calls it.
+---@param name string Its name for undo.
 ---@return lissom.Scene scene # The scene itself.
 function Scene:begin(name) end
 
@@ -2505,7 +2834,7 @@ function Scene:begin(name) end
 ---@return boolean changed # Whether anything changed.
 function Scene:commit() end
 
----Ends the step opened last and takes back what was done since.
+---Ends the step opened last and takes back its changes.
 ---@return lissom.Scene scene # The scene itself.
 function Scene:rollback() end
 
@@ -2513,15 +2842,15 @@ function Scene:rollback() end
 ---@return integer depth # 0 outside steps.
 function Scene:depth() end
 
----Takes back the last step: the contents go back into the objects themselves. What was changed outside a step is a step called "edited".
----@return string|nil name # The name of the step; nil where there is none.
+---Takes back the last step: the contents go back into the objects themselves. Changes outside a step are a step called "edited".
+---@return string|nil name # The name of the step; nil if there is none.
 function Scene:undo() end
 
 ---Does the step again that was undone last. A new step forgets those that were undone.
----@return string|nil name # The name of the step; nil where there is none.
+---@return string|nil name # The name of the step; nil if there is none.
 function Scene:redo() end
 
----The steps, and what they hold.
+---The steps, and their memory.
 ---@return lissom.History history # A table of its own.
 function Scene:history() end
 
@@ -2534,28 +2863,28 @@ function Scene:clear_history() end
 function Scene:hash() end
 
 ---@class lissom.Scene.SaveOptions
----@field form? "automatic"|"file"|"folder" What to write, whatever the path looks like. Default: automatic.
----@field history? boolean Keeps the steps too: in a folder as its file history.tar, in which steps share what they have in common. Default: false.
+---@field form? "automatic"|"file"|"folder" Kind of file to write, whichever the path looks like. Default: automatic.
+---@field history? boolean Keeps the steps too: in a folder as its file history.tar, in which steps share their common content. Default: false.
 
----Writes the scene, whole or not at all: objects with their looks, regions, handles, curves and parameters, to the bit. A file is an uncompressed tar archive. A folder is for looking at and for version control: scene.json describes the scene, meshes and strands are OBJ files under the names of the objects, lists of numbers are text, and only what has changed is written; other files in it stay.
+---Writes the scene, whole or not at all: objects with their looks, regions, handles, curves and parameters, to the bit. A file is an uncompressed tar archive. A folder is for looking at and for version control: scene.json describes the scene, meshes and strands are OBJ files under the names of the objects, lists of numbers are text, and only changed files are written; other files in it stay.
 ---@param path string A file, usually with the extension .lissom, or a folder: one that is there, ends with "/", or has no extension and is new.
 ---@param options? lissom.Scene.SaveOptions
 ---@return lissom.Scene scene # The scene itself.
----@return string[] left_out # What had no place in the file, a sentence each: materials and skeletons of meshes.
+---@return string[] left_out # Content without a place in the file, a sentence each: materials and skeletons of meshes.
 function Scene:save(path, options) end
 
 ---Keeps values of a tool or script with the scene: they are saved with it. They are no part of its history nor of its hash. A lissom.tool_host does this with the parameters of its tools.
----@param owner string Whose they are: the name of the tool or script.
----@param values table|lissom.Params What is kept in place of what was.
+---@param owner string Their owner: the name of the tool or script.
+---@param values table|lissom.Params The new values, in place of the former ones.
 ---@return lissom.Scene scene # The scene itself.
 function Scene:set_parameters(owner, values) end
 
 ---The values that are kept for a tool or script.
----@param owner string Whose they are: the name of the tool or script.
----@return table|nil values # By name; nil where there are none.
+---@param owner string Their owner: the name of the tool or script.
+---@return table|nil values # By name; nil if there are none.
 function Scene:parameters(owner) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Scene:close() end
 
 ---A curve through points in space: a drawn stroke, a guide.
@@ -2589,21 +2918,21 @@ function Polyline:set_points(points) end
 function Polyline:transform(options) end
 
 ---Whether its last point is joined to the first.
----@return boolean closed # As it was made.
+---@return boolean closed # Whether it was made closed.
 function Polyline:is_closed() end
 
 ---Its length.
 ---@return number length # In the unit of its points.
 function Polyline:length() end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Polyline:close() end
 
 ---How a world is seen in a picture. It does not change. Pixels count from the top left corner of the picture.
 ---@class lissom.Camera
 local Camera = {}
 
----Where the camera stands.
+---Position of the camera.
 ---@return number[] vector # {x, y, z}.
 function Camera:eye() end
 
@@ -2631,7 +2960,7 @@ function Camera:fov() end
 ---@return number? height # nil for a camera with perspective.
 function Camera:ortho() end
 
----Where a point is seen: pixels from the top left, and its depth along the view. With perspective, x and y are NaN for a point that is not in front of the camera.
+---Image of a point: pixels from the top left, and its depth along the view. With perspective, x and y are NaN for a point that is not in front of the camera.
 ---@param point lissom.Vector The point.
 ---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@return number x # Pixels to the right.
@@ -2651,8 +2980,8 @@ function Camera:unproject(pixel, size) end
 ---@param x number Pixels from the left.
 ---@param y number Pixels from the top.
 ---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
----@return number[] origin # Where the ray starts.
----@return number[] direction # Where it goes; unit length.
+---@return number[] origin # Start of the ray.
+---@return number[] direction # Direction of the ray; unit length.
 function Camera:ray(x, y, size) end
 
 ---Turns it about its target, as a drag by so many pixels does: across the height of the picture by half a turn; up and down no further than along its up.
@@ -2662,7 +2991,7 @@ function Camera:ray(x, y, size) end
 ---@return lissom.Camera camera # Another camera.
 function Camera:orbit(right, down, size) end
 
----Moves it beside itself: what is as far away as its target follows the drag.
+---Moves it beside itself: points as far away as its target follow the drag.
 ---@param right number Pixels to the right.
 ---@param down number Pixels down.
 ---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
@@ -2670,9 +2999,9 @@ function Camera:orbit(right, down, size) end
 function Camera:pan(right, down, size) end
 
 ---@class lissom.Camera.ZoomOptions
----@field extent? number How large what is looked at is: its distance stays between 1e-6 and 1e6 times that. Default: 1.
+---@field extent? number Size of the object: its distance stays between 1e-6 and 1e6 times that. Default: 1.
 
----Comes nearer to what is seen at a pixel, which stays there.
+---Comes nearer to the point seen at a pixel, which stays there.
 ---@param x number Pixels from the left.
 ---@param y number Pixels from the top.
 ---@param factor number 2: half the distance, 0.5: twice the distance.
@@ -2685,7 +3014,7 @@ function Camera:zoom(x, y, factor, size, options) end
 ---@field margin? number Share of the picture left free on every side. Default: 0.06.
 
 ---Looks in the same direction at the box around points, as near as the margin allows.
----@param points lissom.Vector[] What to show.
+---@param points lissom.Vector[] The points to show.
 ---@param size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@param options? lissom.Camera.FrameOptions
 ---@return lissom.Camera camera # Another camera.
@@ -2697,36 +3026,36 @@ function Camera:frame(points, size, options) end
 function Camera:parallel(parallel) end
 
 ---@class lissom.Camera.PickOptions
----@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, the curves of hairstyles, and for polylines the strands of hair.
----@field mesh? lissom.Mesh A mesh that stands where its positions say.
+---@field scene? lissom.Scene Its visible objects, in their places: meshes, deformations, free curves, the curves of hairstyles, and for polylines the strands of hair.
+---@field mesh? lissom.Mesh A mesh in its own coordinates.
 ---@field meshes? lissom.Mesh[] Several such meshes.
 ---@field x number Pixels from the left edge of the picture.
 ---@field y number Pixels from its top.
 ---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@field points? lissom.Vector[] Points of the world, such as the middles of handles.
 ---@field points_on_top? boolean They are drawn over everything, and no surface hides them. Default: true.
----@field kinds? "point"|"polyline"|"vertex"|"boundary"|"edge"|"face"|string[] What to look for, in this order of preference whatever the order given: point, polyline, vertex, boundary, edge, face. Default: "face".
+---@field kinds? "point"|"polyline"|"vertex"|"boundary"|"edge"|"face"|string[] Kinds to look for, in this order of preference regardless of the order given: point, polyline, vertex, boundary, edge, face. Default: "face".
 ---@field radius? number How far from the pixel all but faces may be seen. In pixels. Default: 8.
----@field through? boolean Also what surfaces hide. Default: false.
+---@field through? boolean Includes elements hidden by surfaces. Default: false.
 ---@field back_faces? boolean Faces that are seen from behind count; if not, they neither are picked nor hide anything. Default: true.
 
----What lies under a pixel: of the kinds looked for the first that has anything within the radius, and of that the nearest in pixels that no surface hides.
+---Picks under a pixel: of the kinds looked for the first that has anything within the radius, and of that the nearest in pixels that no surface hides.
 ---@param options lissom.Camera.PickOptions
----@return lissom.PickHit? hit # nil where there is nothing.
+---@return lissom.PickHit? hit # nil if there is nothing.
 function Camera:pick(options) end
 
 ---@class lissom.Camera.Pick_allOptions
----@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, the curves of hairstyles, and for polylines the strands of hair.
----@field mesh? lissom.Mesh A mesh that stands where its positions say.
+---@field scene? lissom.Scene Its visible objects, in their places: meshes, deformations, free curves, the curves of hairstyles, and for polylines the strands of hair.
+---@field mesh? lissom.Mesh A mesh in its own coordinates.
 ---@field meshes? lissom.Mesh[] Several such meshes.
 ---@field x number Pixels from the left edge of the picture.
 ---@field y number Pixels from its top.
 ---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@field points? lissom.Vector[] Points of the world, such as the middles of handles.
 ---@field points_on_top? boolean They are drawn over everything, and no surface hides them. Default: true.
----@field kinds? "point"|"polyline"|"vertex"|"boundary"|"edge"|"face"|string[] What to look for, in this order of preference whatever the order given: point, polyline, vertex, boundary, edge, face. Default: "face".
+---@field kinds? "point"|"polyline"|"vertex"|"boundary"|"edge"|"face"|string[] Kinds to look for, in this order of preference regardless of the order given: point, polyline, vertex, boundary, edge, face. Default: "face".
 ---@field radius? number How far from the pixel all but faces may be seen. In pixels. Default: 8.
----@field through? boolean Also what surfaces hide. Default: false.
+---@field through? boolean Includes elements hidden by surfaces. Default: false.
 ---@field back_faces? boolean Faces that are seen from behind count; if not, they neither are picked nor hide anything. Default: true.
 ---@field most? integer At most so many. Default: 1000.
 
@@ -2736,23 +3065,23 @@ function Camera:pick(options) end
 function Camera:pick_all(options) end
 
 ---@class lissom.Camera.SelectOptions.Brush
----@field stroke number[][] Where its middle was; one point is a dab.
----@field radius? number Of the disk. In pixels. Default: 20.
+---@field stroke number[][] Positions of its middle; one point is a dab.
+---@field radius? number Radius of the disk. In pixels. Default: 20.
 
 ---@class lissom.Camera.SelectOptions
----@field scene? lissom.Scene Its visible objects, where they stand: meshes, deformations, free curves, the curves of hairstyles, and for polylines the strands of hair.
----@field mesh? lissom.Mesh A mesh that stands where its positions say.
+---@field scene? lissom.Scene Its visible objects, in their places: meshes, deformations, free curves, the curves of hairstyles, and for polylines the strands of hair.
+---@field mesh? lissom.Mesh A mesh in its own coordinates.
 ---@field meshes? lissom.Mesh[] Several such meshes.
 ---@field rectangle? number[][] Two opposite corners, {{x, y}, {x, y}}.
----@field lasso? number[][] An outline, which is closed: what it goes around at least once.
+---@field lasso? number[][] An outline, which is closed: selects elements that it goes around at least once.
 ---@field brush? lissom.Camera.SelectOptions.Brush A disk that is moved along a stroke.
 ---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@field what? "vertices"|"faces" Vertices that are seen inside; or faces of which the centroid of a triangle is, and under a brush also those that it touches. Default: "vertices".
----@field through? boolean Also what surfaces hide. Default: false.
+---@field through? boolean Includes elements hidden by surfaces. Default: false.
 ---@field back_faces? boolean Faces that are seen from behind count; if not, neither they nor their vertices are selected, and they hide nothing. Default: true.
----@field known? lissom.Region[] Vertices that were found before, or found unseen by the same camera, which are left out: a long stroke then costs only what is new under it.
+---@field known? lissom.Region[] Vertices that were found before, or found unseen by the same camera, which are left out: the cost of a long stroke then depends only on the new vertices under it.
 
----What is seen in a rectangle, inside a lasso or under a brush. Pixels may lie outside the picture.
+---Selects the visible elements in a rectangle, inside a lasso or under a brush. Pixels may lie outside the picture.
 ---@param options? lissom.Camera.SelectOptions
 ---@return lissom.Selected[] selected # One for each surface, in order.
 function Camera:select(options) end
@@ -2762,14 +3091,14 @@ function Camera:select(options) end
 ---@field normal lissom.Vector Its normal; any length.
 
 ---@class lissom.Camera.StrokeOptions
----@field points number[][] Where the pen was.
+---@field points number[][] Positions of the pen.
 ---@field times? number[] Seconds, one for each point; they tell a click.
 ---@field pressures? number[] 0 to 1, one for each point.
----@field on? lissom.Scalp|lissom.Strands|lissom.Mesh|lissom.Support|lissom.Curve What is drawn on. Default: only on the picture.
+---@field on? lissom.Scalp|lissom.Strands|lissom.Mesh|lissom.Support|lissom.Curve The surface drawn on. Default: only on the picture.
 ---@field plane? lissom.Camera.StrokeOptions.Plane The plane that is drawn on.
 ---@field depth? "envelope"|"last" On a scalp: in front of all of the head, changing gently; or as deep as the scalp, and beyond it as deep as it was left (section 4.5). Default: "envelope".
 ---@field lift? number How far in front of the surface; of a scalp in metres of an average head. Default: 0.02 on a scalp by the envelope, else 0.
----@field smoothing? number As a multiple of what suits a mouse; 0 keeps every wiggle. Default: 1.
+---@field smoothing? number Multiple of the smoothing that suits a mouse; 0 keeps every wiggle. Default: 1.
 ---@field spacing? number Between two points of the result. In pixels. Default: 4.
 ---@field scale? number Pixels of the picture to a logical one, on dense screens. Default: 1.
 ---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
@@ -2779,10 +3108,10 @@ function Camera:select(options) end
 ---@return lissom.DrawnStroke stroke # The line.
 function Camera:stroke(options) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Camera:close() end
 
----Axes, planes and rings around a point, by which a hand moves, turns and scales. It draws nothing and moves nothing: it says what to draw, what is under a pixel, and what a drag means.
+---Axes, planes and rings around a point, by which a hand moves, turns and scales. It draws nothing and moves nothing: it returns the shape to draw, the part under a pixel, and the motion of a drag.
 ---@class lissom.Gizmo
 local Gizmo = {}
 
@@ -2790,7 +3119,7 @@ local Gizmo = {}
 ---@field reach? number How near is near enough. In pixels. Default: 7.
 
 ---The part under a pixel. Axes that are seen end-on and planes from the side are not offered.
----@param camera lissom.Camera What it is seen by.
+---@param camera lissom.Camera The camera that it is seen by.
 ---@param size integer|integer[] {width, height} of the picture in pixels; one number for a square.
 ---@param x number Pixels from the left.
 ---@param y number Pixels from the top.
@@ -2798,9 +3127,9 @@ local Gizmo = {}
 ---@return string? part # "move-x", "move-yz", "rotate-view", "scale-all", ...; nil for none.
 function Gizmo:hit(camera, size, x, y, options) end
 
----Begins a drag: a part is held where the pixel is. The camera is that of the whole drag.
+---Begins a drag: holds a part at the pixel. The camera is that of the whole drag.
 ---@param part "move-x"|"move-y"|"move-z"|"move-yz"|"move-zx"|"move-xy"|"move-view"|"rotate-x"|"rotate-y"|"rotate-z"|"rotate-view"|"scale-x"|"scale-y"|"scale-z"|"scale-all" The part, as hit names it.
----@param camera lissom.Camera What it is seen by.
+---@param camera lissom.Camera The camera that it is seen by.
 ---@param size integer|integer[] {width, height} of the picture in pixels; one number for a square.
 ---@param x number Pixels from the left.
 ---@param y number Pixels from the top.
@@ -2811,32 +3140,32 @@ function Gizmo:begin(part, camera, size, x, y) end
 ---@field snap? boolean Whole steps only, counted from begin. Default: false.
 ---@field precise? boolean A tenth as far, from here on. Default: false.
 
----The pixel has moved. The part stays under it, but where it would run away: end-on, from the side, near the horizon it lags behind. A pixel that is back undoes all but full turns.
+---The pixel has moved. The part stays under it, but lags behind in degenerate views: end-on, from the side, near the horizon. A pixel that is back undoes all but full turns.
 ---@param x number Pixels from the left.
 ---@param y number Pixels from the top.
 ---@param options? lissom.Gizmo.DragOptions
----@return lissom.GizmoMotion motion # What has been done since begin.
+---@return lissom.GizmoMotion motion # The motion since begin.
 function Gizmo:drag(x, y, options) end
 
 ---A typed number in place of the pixel, not snapped: a length along the axis, degrees, a factor; in a plane two lengths along its axes.
 ---@param first number The number.
 ---@param second? number The second, in a plane. Default: 0.
----@return lissom.GizmoMotion motion # What has been done since begin.
+---@return lissom.GizmoMotion motion # The motion since begin.
 function Gizmo:set_amount(first, second) end
 
----What has been done since begin; nil where no part is held.
----@return lissom.GizmoMotion? motion # As drag returned it.
+---The motion since begin; nil if no part is held.
+---@return lissom.GizmoMotion? motion # Same as drag returned.
 function Gizmo:motion() end
 
 ---The part that is held.
----@return string? part # nil where none is.
+---@return string? part # nil if none is.
 function Gizmo:part() end
 
----Ends the drag. The gizmo stays where it was moved to.
----@return lissom.GizmoMotion motion # What has been done since begin.
+---Ends the drag. The gizmo keeps its moved place.
+---@return lissom.GizmoMotion motion # The motion since begin.
 function Gizmo:finish() end
 
----Ends the drag, if there is one. The gizmo is where it was before.
+---Ends the drag, if there is one. The gizmo goes back to its former place.
 ---@return lissom.Gizmo gizmo # The gizmo itself.
 function Gizmo:cancel() end
 
@@ -2847,23 +3176,23 @@ function Gizmo:cancel() end
 
 ---@class lissom.Gizmo.SetOptions
 ---@field origin? lissom.Vector The point that it stands at, and that turns and scaling are about. Default: {0, 0, 0}.
----@field mode? "move"|"rotate"|"scale"|"all" What its parts do. Default: all.
----@field axes? "world"|"local"|"view" Along what its axes point: the world's, those of `local_axes`, or to the right, upwards and to the viewer. Default: world.
+---@field mode? "move"|"rotate"|"scale"|"all" Mode of its parts. Default: all.
+---@field axes? "world"|"local"|"view" Directions of its axes: the world's, those of `local_axes`, or to the right, upwards and to the viewer. Default: world.
 ---@field local_axes? number[][] Rows of a rotation; its columns are the object's axes.
 ---@field size? number Length of an axis, the same at every distance. In pixels. Default: 90.
 ---@field steps? lissom.Gizmo.SetOptions.Steps The steps of snapping.
 
----Changes options; what is left out stays.
+---Changes options; those that are left out stay.
 ---@param options? lissom.Gizmo.SetOptions
 ---@return lissom.Gizmo gizmo # The gizmo itself.
 function Gizmo:set(options) end
 
----Where it stands; during a drag where that has moved it to.
+---Its position; during a drag the moved one.
 ---@return number[] point # {x, y, z}.
 function Gizmo:origin() end
 
 ---Its three axes in a view, of unit length.
----@param camera lissom.Camera What it is seen by.
+---@param camera lissom.Camera The camera that it is seen by.
 ---@return number[] x # The first.
 ---@return number[] y # The second.
 ---@return number[] z # The third.
@@ -2873,14 +3202,14 @@ function Gizmo:axes(camera) end
 ---@field x? number The pixel, from the left.
 ---@field y? number The pixel, from the top.
 
----What to draw; the part that is held, or else under a pixel, is highlighted.
----@param camera lissom.Camera What it is seen by.
+---Shape to draw; the part that is held, or else under a pixel, is highlighted.
+---@param camera lissom.Camera The camera that it is seen by.
 ---@param size integer|integer[] {width, height} of the picture in pixels; one number for a square.
 ---@param options? lissom.Gizmo.ShapeOptions
----@return lissom.GizmoShape shape # Empty where it lies behind the camera.
+---@return lissom.GizmoShape shape # Empty if it lies behind the camera.
 function Gizmo:shape(camera, size, options) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Gizmo:close() end
 
 ---A surface through a curve, on which strokes about the curve are drawn; see lissom.Curve:support.
@@ -2891,8 +3220,8 @@ local Support = {}
 ---@return string mode # "ruled" or "strip".
 function Support:mode() end
 
----How much of the curve is seen end-on from the viewpoint, where a surface says little of it. Warn above a third, and take another viewpoint.
----@return number share # Of its length, 0 to 1.
+---Fraction of the curve that is seen end-on from the viewpoint, at which a surface says little of it. Warn above a third, and take another viewpoint.
+---@return number share # Fraction of its length, 0 to 1.
 function Support:end_on() end
 
 ---How squarely a camera sees the surface. Strokes need 0.3.
@@ -2909,23 +3238,23 @@ function Support:edges() end
 ---@return lissom.Mesh mesh # A new mesh.
 function Support:mesh() end
 
----Where a ray meets it first.
+---First intersection with a ray.
 ---@param origin lissom.Vector Start of the ray.
 ---@param direction lissom.Vector Its direction; any length.
----@return lissom.SupportPoint? hit # nil where it does not.
+---@return lissom.SupportPoint? hit # nil if there is none.
 ---@overload fun(self: lissom.Support, origin_x: number, origin_y: number, origin_z: number, direction_x: number, direction_y: number, direction_z: number): lissom.SupportPoint?
 function Support:pick(origin, direction) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Support:close() end
 
 ---A tool draws on it, over the picture. Each method returns the view.
 ---@class lissom.ToolView
----@field camera lissom.Camera What the scene is seen by.
+---@field camera lissom.Camera The camera that the scene is seen by.
 ---@field scene lissom.Scene The scene.
 ---@field size integer[] {width, height} of the picture in pixels.
 ---@field up "y"|"z" The axis of the world that points up in views.
----@field cursor number[]? Where the cursor is, if it is known.
+---@field cursor number[]? Position of the cursor, if it is known.
 local ToolView = {}
 
 ---@class lissom.ToolView.PointsOptions
@@ -3039,7 +3368,7 @@ function ToolView:mesh(options) end
 ---@return lissom.ToolView view # The view itself.
 function ToolView:gizmo(gizmo, chosen) end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function ToolView:close() end
 
 ---Values of a script's parameters: `params.length`. Values that are set are checked as those of the command line.
@@ -3052,13 +3381,13 @@ local Params = {}
 ---@return lissom.ParamSchema[] schema # One table for each parameter.
 function Params:schema() end
 
----Frees what the object holds. It may be called again; any other use is an error then.
+---Frees the contents of the object. It may be called again; any other use is an error then.
 function Params:close() end
 
 ---Modeling by few handles: meshes, regions, paths, deformation, merging, hair and scenes.
 ---@class lissom
 ---@field version string Version of the library.
----@field licence string The licence that this build may be distributed under: "MIT", or "GPL-2.0-or-later" where it links CHOLMOD, as builds without LISSOM_GPL=OFF do.
+---@field licence string The licence that the program may be distributed under: "MIT", or "GPL-2.0-or-later" if it links CHOLMOD, as the lissom program of builds without LISSOM_GPL=OFF does.
 local lissom = {}
 
 lissom.shapes = {}
@@ -3069,19 +3398,19 @@ lissom.pick = {}
 
 ---@class lissom.LoadOptions
 ---@field weld? "seams"|"all"|boolean Which vertices at the same place become one. "seams": those that join open edges at the same place and of opposite direction, so that surfaces that only touch, as closed lips do, stay apart; "all": all of them; false: none. Default: "all" for .stl, "seams" for others.
----@field unused? "drop"|"keep" What becomes of vertices that no face uses. "keep" leaves them in their order, for programs that match vertices by number; with weld = false all vertices of a sound file keep their numbers. Default: "drop".
+---@field unused? "drop"|"keep" Treatment of vertices that no face uses. "keep" leaves them in their order, for programs that match vertices by number; with weld = false all vertices of a sound file keep their numbers. Default: "drop".
 ---@field repair? boolean false makes each defect that would be mended, and each face without area, an error that names the elements. Default: true.
 ---@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: as it is.
 ---@field unit? number Length of the file's unit in the unit of the mesh: positions are multiplied by it. In mesh units. Default: 1.
 
----Reads a mesh from an .obj, .ply, .off, .stl, .gltf or .glb file, with its groups, materials, texture coordinates, normals, colours, skins and morph targets. It is checked and repaired: mesh:report() says what was done.
+---Reads a mesh from an .obj, .ply, .off, .stl, .gltf or .glb file, with its groups, materials, texture coordinates, normals, colours, skins and morph targets. It is checked and repaired: mesh:report() lists the changes.
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.LoadOptions
 ---@return lissom.Mesh mesh # The mesh.
 function lissom.load(path, options) end
 
 ---@class lissom.MeshOptions
----@field positions lissom.Vector[]|lissom.Buffer Where the vertices are.
+---@field positions lissom.Vector[]|lissom.Buffer Positions of the vertices.
 ---@field faces integer[][] For each face the ids of its vertices, counter-clockwise seen from outside.
 ---@field weld? "seams"|"all"|boolean Which vertices at the same place become one. "seams": those that join open edges at the same place and of opposite direction, so that surfaces that only touch, as closed lips do, stay apart; "all": all of them; false: none. Default: false.
 ---@field repair? boolean Whether defects are mended, as lissom.load does. Default: false.
@@ -3129,7 +3458,7 @@ function lissom.shapes.sphere(options) end
 ---@field caps? boolean Closes the ends. Default: true.
 ---@field cap_rings? integer Rings of each cap. Default: 4.
 
----A cylinder along y around the origin. Regions: bottom, top, and caps where there are any.
+---A cylinder along y around the origin. Regions: bottom, top, and caps if there are any.
 ---@param options? lissom.CylinderOptions
 ---@return lissom.Mesh mesh # A new mesh that faces outward.
 function lissom.shapes.cylinder(options) end
@@ -3144,8 +3473,8 @@ function lissom.shapes.cylinder(options) end
 function lissom.shapes.grid(options) end
 
 ---@class lissom.TorusOptions
----@field radius? number Of the circle in the tube's middle. In mesh units. Default: 1.
----@field tube_radius? number Of the tube; the smaller one. In mesh units. Default: 0.35.
+---@field radius? number Radius of the circle in the tube's middle. In mesh units. Default: 1.
+---@field tube_radius? number Radius of the tube; the smaller one. In mesh units. Default: 0.35.
 ---@field segments? integer Quads around the axis. Default: 48.
 ---@field tube_segments? integer Quads around the tube. Default: 24.
 
@@ -3188,46 +3517,46 @@ function lissom.shapes.head(options) end
 ---@field about? lissom.Vector The point that scale and rotation keep. Default: the center of the region.
 
 ---@class lissom.DeformOptions
----@field region? lissom.Region What may move. Outside nothing does. Default: all.
----@field method? "implicit"|"naive"|"rotation_estimate"|"similarity"|"geodesic"|"harmonic"|"frames" implicit is this kernel's own method. The others are for comparison: Laplacian coordinates as they are; turned by rotations estimated from that (Lipman 2004); by similarities implicit in the positions (Sorkine 2004); handle rotations propagated by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-invariant coordinates (Lipman 2005). Of the other options they take `weights` only, and geodesic not even that; they have no basis, and preview is as solve. Default: "implicit".
+---@field region? lissom.Region The part that may move. Outside nothing does. Default: all.
+---@field method? "implicit"|"naive"|"rotation_estimate"|"similarity"|"geodesic"|"harmonic"|"frames" implicit is this kernel's own method. The others are for comparison: Laplacian coordinates as they are; turned by rotations estimated from that (Lipman 2004); by similarities implicit in the positions (Sorkine 2004); handle rotations propagated by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-invariant coordinates (Lipman 2005). Of the other options they take `weights` only, and geodesic not even that; they have no basis, and preview equals solve. Default: "implicit".
 ---@field local_size? "keep"|"scale" Whether details keep their size or scale with the surface around them. Default: "keep".
----@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian where the surface has to be as smooth as can be and may stretch, poisson where it may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend"; as in the thesis "laplacian".
+---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian for the smoothest surface, which may stretch, poisson for one that may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend"; as in the thesis "laplacian".
 ---@field coherence? integer Rings of neighbours that turn alike. Default: 1; as in the thesis 2.
 ---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
----@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Where it would fold, cross or stretch the surface more than without, it is taken back as far as that, but a draft does not look. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
----@field loose? "error"|"stay"|"follow" What becomes of separate parts that no handle holds, as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece; in a basis as an affine one. Default: "error".
----@field free_rings? integer Rings of vertices that handles give up where they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
----@field subdivide_borders? boolean Works on a surface that is subdivided where the border of what is held is coarse beside the region; the mesh keeps its faces. Default: true.
+---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Less of it is kept the nearer parts of the surface come to one another and the more edges stretch, and nothing crosses that would not without; a draft does not check. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
+---@field loose? "error"|"stay"|"follow" Treatment of separate parts that no handle holds, such as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece; in a basis as an affine one. Default: "error".
+---@field free_rings? integer Rings of vertices that handles release if they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
+---@field subdivide_borders? boolean Works on a surface that is subdivided along borders of handles that are coarse beside the region; the mesh keeps its faces. Default: true.
 ---@field flat? "extended"|"displaced" How a vertex whose surroundings are flat knows how it turns: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
 ---@field displacement? number How far degenerate vertices are displaced, and how far beside flat ones their unknown lies. In mean lengths of their edges. Default: 0.2.
 ---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate and is displaced. Below about 100 that is nearly every vertex. Default: 20000; as in the thesis 200000.
----@field transition? number Within this geodesic distance of the region's outline the deformation fades into what stays. In mesh units. Default: 0.
----@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "default".
----@field pin? lissom.Region|lissom.Region[] The region, or the regions, that stay where they are. Default: none.
+---@field transition? number Width of the zone along the region's outline, in geodesic distance, over which the deformation fades into the fixed part. In mesh units. Default: 0.
+---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis unless another option gives them; the page thesis.md of the reference names all of it. Default: "default".
+---@field pin? lissom.Region|lissom.Region[] The region, or the regions, that stay in place. Default: none.
 ---@field handles? lissom.DeformOptions.Handles[] Regions that are moved as wholes: scaled, then rotated, then translated. Default: required.
 
----Deforms a mesh once: regions that are pinned stay, those of the handles go where their transforms take them, and the surface between follows. Returns the mesh. `lissom.deformer` keeps its factors, for handles that move again.
+---Deforms a mesh once: pinned regions stay, those of the handles take their transforms, and the surface between follows. Returns the mesh. `lissom.deformer` keeps its factors, for handles that move again.
 ---@param mesh lissom.Mesh The mesh; it is changed.
 ---@param options? lissom.DeformOptions
 ---@return lissom.Mesh mesh # The mesh itself.
 function lissom.deform(mesh, options) end
 
 ---@class lissom.DeformerOptions
----@field region? lissom.Region What may move. Outside nothing does. Default: all.
----@field method? "implicit"|"naive"|"rotation_estimate"|"similarity"|"geodesic"|"harmonic"|"frames" implicit is this kernel's own method. The others are for comparison: Laplacian coordinates as they are; turned by rotations estimated from that (Lipman 2004); by similarities implicit in the positions (Sorkine 2004); handle rotations propagated by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-invariant coordinates (Lipman 2005). Of the other options they take `weights` only, and geodesic not even that; they have no basis, and preview is as solve. Default: "implicit".
+---@field region? lissom.Region The part that may move. Outside nothing does. Default: all.
+---@field method? "implicit"|"naive"|"rotation_estimate"|"similarity"|"geodesic"|"harmonic"|"frames" implicit is this kernel's own method. The others are for comparison: Laplacian coordinates as they are; turned by rotations estimated from that (Lipman 2004); by similarities implicit in the positions (Sorkine 2004); handle rotations propagated by geodesic distance (Yu 2004) or by harmonic fields (Zayer 2005); rotation-invariant coordinates (Lipman 2005). Of the other options they take `weights` only, and geodesic not even that; they have no basis, and preview equals solve. Default: "implicit".
 ---@field local_size? "keep"|"scale" Whether details keep their size or scale with the surface around them. Default: "keep".
----@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian where the surface has to be as smooth as can be and may stretch, poisson where it may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend"; as in the thesis "laplacian".
+---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian for the smoothest surface, which may stretch, poisson for one that may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend"; as in the thesis "laplacian".
 ---@field coherence? integer Rings of neighbours that turn alike. Default: 1; as in the thesis 2.
 ---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
----@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Where it would fold, cross or stretch the surface more than without, it is taken back as far as that, but a draft does not look. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
----@field loose? "error"|"stay"|"follow" What becomes of separate parts that no handle holds, as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece; in a basis as an affine one. Default: "error".
----@field free_rings? integer Rings of vertices that handles give up where they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
----@field subdivide_borders? boolean Works on a surface that is subdivided where the border of what is held is coarse beside the region; the mesh keeps its faces. Default: true.
+---@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Less of it is kept the nearer parts of the surface come to one another and the more edges stretch, and nothing crosses that would not without; a draft does not check. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
+---@field loose? "error"|"stay"|"follow" Treatment of separate parts that no handle holds, such as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece; in a basis as an affine one. Default: "error".
+---@field free_rings? integer Rings of vertices that handles release if they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
+---@field subdivide_borders? boolean Works on a surface that is subdivided along borders of handles that are coarse beside the region; the mesh keeps its faces. Default: true.
 ---@field flat? "extended"|"displaced" How a vertex whose surroundings are flat knows how it turns: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
 ---@field displacement? number How far degenerate vertices are displaced, and how far beside flat ones their unknown lies. In mean lengths of their edges. Default: 0.2.
 ---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate and is displaced. Below about 100 that is nearly every vertex. Default: 20000; as in the thesis 200000.
----@field transition? number Within this geodesic distance of the region's outline the deformation fades into what stays. In mesh units. Default: 0.
----@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "default".
+---@field transition? number Width of the zone along the region's outline, in geodesic distance, over which the deformation fades into the fixed part. In mesh units. Default: 0.
+---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis unless another option gives them; the page thesis.md of the reference names all of it. Default: "default".
 
 ---Makes a deformer of a mesh, or of a region of it: give it handles, move them, solve. `lissom.deform` deforms once.
 ---@param mesh lissom.Mesh The mesh, in its rest shape.
@@ -3245,31 +3574,32 @@ function lissom.deformer(mesh, options) end
 ---@field place? "as placed"|"shape" How joins without keys and directions are turned about the axis of the boundary. as placed: least from how the source lies beside the target, so that a part that was laid roughly, or both as they were modelled, come right; the result is the same if both are moved together, or if the source is moved without a turn and scaled. shape: as the shapes of both parts suggest, the same wherever the source lies; the report says how certain that is. A part that must be turned over by more than 150 degrees is placed by shape as well. Default: "as placed".
 ---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
 ---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
----@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: where a face looks.
+---@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: the view of a face.
 ---@field target_front? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
----@field configuration? "free"|"fixed" free: the source comes from wherever it lies, turned and scaled as fits (thesis 3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2). Default: "free".
+---@field configuration? "free"|"fixed" free: the source comes from any place, turned and scaled to fit (thesis 3.3.1). fixed: it stays in place and bends near the boundaries (3.3.2). Default: "free".
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
----@field features? "common"|"fitted" How those of the free configuration find the similarity they move by. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with what fits: less distortion around them, by 5 to 44 % on four merges of real models, in up to twice the time. Default: "fitted"; as in the thesis "common".
----@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
+---@field features? "common"|"fitted" How those of the free configuration find the similarity they move by. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with the fitted similarity: less distortion around them, by 5 to 44 % on four merges of real models, in up to twice the time. Default: "fitted"; as in the thesis "common".
+---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it if `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn"; as in the thesis "keep".
 ---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform"; as in the thesis "band".
 ---@field smooth? integer Umbrella steps at the seam, at most: the first that would fold it is the last. With 0 and without a collar no vertex of the target moves. Default: 3.
----@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true; as in the thesis false.
----@field transition? lissom.MergeOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
+---@field collar? boolean Makes the faces of a side anew if its edges are more than 1.5 times as long as the seam's, from small to large; sharp edges keep their shape. Default: true; as in the thesis false.
+---@field transition? lissom.MergeOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. If the surface has no room for a width, the band is narrower and a warning says so. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true; as in the thesis false.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
----@field subdivide? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
+---@field subdivide? boolean Faces of the source at a boundary are split once if its edges are more than 1.5 times as long as those they meet. Edges more than 3 times as long as edges inside the source are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: true.
----@field fidelity? "default"|"thesis" thesis: section 3.3 to the letter, for comparison, where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "default".
+---@field mend? boolean If the verdict finds fault with the surface around the seams, and neither `seam` nor `transition` is given, sews again with the seam fair and then with a transition, and keeps the result with fewest faults; a warning says so. Takes the time of sewing up to three times. Not without smoothing or collar. Default: true.
+---@field fidelity? "default"|"thesis" thesis: section 3.3 to the letter, for comparison, unless another option differs; the page thesis.md of the reference names all of it. Default: "default".
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
 
----Joins a source to one or several targets along open boundaries, into a new mesh. The source is deformed so that its boundaries meet those of the targets, wherever it lies and whatever its size; the targets stay. Vertices and faces of the targets come first, in their order, then those of the source; attributes, labels and regions of all are kept. Where one side has no colors it is white, where it has no texture coordinates they are 0, 0, and a warning says so. If source and target are one mesh, two of its boundaries are joined by a bridge of triangles, and nothing moves: options that say how a source is deformed are refused.
+---Joins a source to one or several targets along open boundaries, into a new mesh. The source is deformed so that its boundaries meet those of the targets, wherever it lies and whatever its size; the targets stay. Vertices and faces of the targets come first, in their order, then those of the source; attributes, labels and regions of all are kept. A side without colors becomes white, one without texture coordinates gets 0, 0, and a warning says so. If source and target are one mesh, two of its boundaries are joined by a bridge of triangles, and nothing moves: options that say how a source is deformed are refused.
 ---@param source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@param target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
 ---@param options? lissom.MergeOptions
 ---@return lissom.Mesh mesh # The merged mesh.
----@return lissom.MergeReport report # What was found and done.
+---@return lissom.MergeReport report # Measures and results.
 ---@overload fun(options: lissom.MergeOptions): lissom.Mesh
 function lissom.merge(source, target, options) end
 
@@ -3283,26 +3613,27 @@ function lissom.merge(source, target, options) end
 ---@field place? "as placed"|"shape" How joins without keys and directions are turned about the axis of the boundary. as placed: least from how the source lies beside the target, so that a part that was laid roughly, or both as they were modelled, come right; the result is the same if both are moved together, or if the source is moved without a turn and scaled. shape: as the shapes of both parts suggest, the same wherever the source lies; the report says how certain that is. A part that must be turned over by more than 150 degrees is placed by shape as well. Default: "as placed".
 ---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
 ---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
----@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: where a face looks.
+---@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: the view of a face.
 ---@field target_front? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
----@field configuration? "free"|"fixed" free: the source comes from wherever it lies, turned and scaled as fits (thesis 3.3.1). fixed: it stays where it is and bends near the boundaries (3.3.2). Default: "free".
+---@field configuration? "free"|"fixed" free: the source comes from any place, turned and scaled to fit (thesis 3.3.1). fixed: it stays in place and bends near the boundaries (3.3.2). Default: "free".
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
----@field features? "common"|"fitted" How those of the free configuration find the similarity they move by. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with what fits: less distortion around them, by 5 to 44 % on four merges of real models, in up to twice the time. Default: "fitted"; as in the thesis "common".
----@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it where `fixed` is given, else three radii of the boundary.
+---@field features? "common"|"fitted" How those of the free configuration find the similarity they move by. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with the fitted similarity: less distortion around them, by 5 to 44 % on four merges of real models, in up to twice the time. Default: "fitted"; as in the thesis "common".
+---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it if `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn"; as in the thesis "keep".
 ---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform"; as in the thesis "band".
 ---@field smooth? integer Umbrella steps at the seam, at most: the first that would fold it is the last. With 0 and without a collar no vertex of the target moves. Default: 3.
----@field collar? boolean Where the edges of one side are more than 1.5 times as long as the seam's, its faces there are made anew, from small to large; sharp edges keep their shape. Default: true; as in the thesis false.
----@field transition? lissom.MergerOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. Where the surface has no room for a width, the band is narrower and a warning says so. Default: none.
+---@field collar? boolean Makes the faces of a side anew if its edges are more than 1.5 times as long as the seam's, from small to large; sharp edges keep their shape. Default: true; as in the thesis false.
+---@field transition? lissom.MergerOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. If the surface has no room for a width, the band is narrower and a warning says so. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true; as in the thesis false.
 ---@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
----@field subdivide? boolean Faces of the source at a boundary are split once where its edges are more than 1.5 times as long as those they meet. Where they are more than 3 times as long as edges inside the source, they are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
+---@field subdivide? boolean Faces of the source at a boundary are split once if its edges are more than 1.5 times as long as those they meet. Edges more than 3 times as long as edges inside the source are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: false.
----@field fidelity? "default"|"thesis" thesis: section 3.3 to the letter, for comparison, where no other option says otherwise; the page thesis.md of the reference names all of it. Default: "default".
+---@field mend? boolean If the verdict finds fault with the surface around the seams, and neither `seam` nor `transition` is given, sews again with the seam fair and then with a transition, and keeps the result with fewest faults; a warning says so. Takes the time of sewing up to three times. Not without smoothing or collar. Default: false.
+---@field fidelity? "default"|"thesis" thesis: section 3.3 to the letter, for comparison, unless another option differs; the page thesis.md of the reference names all of it. Default: "default".
 ---@field source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@field target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
 
----As lissom.merge, but returns an object that keeps what was prepared, so that a moved key costs a fraction of the first merge.
+---Like lissom.merge, but returns an object that keeps its preparation, so that a moved key costs a fraction of the first merge.
 ---@param source? lissom.Mesh The mesh that is deformed. Default: the mesh of the joins' sources.
 ---@param target? lissom.Mesh|lissom.Mesh[] The mesh, or the meshes, that stay. Default: the meshes of the joins' targets.
 ---@param options? lissom.MergerOptions
@@ -3314,7 +3645,7 @@ function lissom.merger(source, target, options) end
 ---@field at lissom.Vector The middle of the feature comes to lie on the point of the target that is nearest to this.
 ---@field toward? "x"|"y"|"z"|lissom.Vector The way on the target that `up` of the source is to point, as far as both lie in the surfaces. Default: the same as `up`.
 ---@field up? "x"|"y"|"z"|lissom.Vector The direction of the source that belongs to it. Default: y.
----@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: 0, or what fits best of twelve where `up` does not lie in the surfaces and `toward` is not given.
+---@field angle? number Turns the part about the surface's normal, counter-clockwise seen from outside, from `toward`. In degrees. Default: 0, or the best of twelve if `up` does not lie in the surfaces and `toward` is not given.
 ---@field scale? number Size of the part on the target over its size on the source. Default: 1.
 ---@field offset? number[] {x, y}: moves the part in the plane of the target's map, in lengths of the target; the way of placing of thesis 3.4.1. Default: {0, 0}.
 
@@ -3322,14 +3653,14 @@ function lissom.merger(source, target, options) end
 ---@field source lissom.Mesh The mesh that has the feature; it stays as it is.
 ---@field target lissom.Mesh The mesh that it is pasted onto; it stays as it is.
 ---@field region lissom.Region Part of the source around the feature, marked casually: the boundary is sought between its outline and the feature.
----@field feature? lissom.Region|"auto" Part of the source that keeps out of the search; of any genus, and of several parts. auto: what lies farther from the region's outline than the share `ring` of the way to its middle, or of the outline's radius where that is less; with the open boundaries and the handles inside the region. Default: auto.
+---@field feature? lissom.Region|"auto" Part of the source that keeps out of the search; of any genus, and of several parts. auto: the part farther from the region's outline than the share `ring` of the way to its middle, or of the outline's radius if that is less; with the open boundaries and the handles inside the region. Default: auto.
 ---@field onto? lissom.Region Part of the target that the feature may go to: without holes and handles, and larger than the region of the source will be. Default: a disk around the placement.
----@field placement lissom.PasteOptions.Placement Where the feature goes.
----@field clear? boolean|lissom.Region Removes the target's features under the part first, as mesh:erase does: what lies under the part's boundary and nothing beyond it, or a region of the target with a ring around it. paste:clearing() tells what before. Default: false.
----@field ring? number Share of the region that is searched where no feature is given. Default: 0.5.
----@field correspondence? "map"|"closest" map: vertices lie where the plane maps of both surfaces put them. closest: `optimize` then draws them, in rounds, to the nearest point of the target, where that distorts the surface near the boundary less. Default: "closest".
+---@field placement lissom.PasteOptions.Placement Place of the feature.
+---@field clear? boolean|lissom.Region Removes the target's features under the part first, as mesh:erase does: those under the part's boundary and nothing beyond it, or a region of the target with a ring around it. paste:clearing() shows them before. Default: false.
+---@field ring? number Share of the region that is searched if no feature is given. Default: 0.5.
+---@field correspondence? "map"|"closest" map: vertices lie at their images under the plane maps of both surfaces. closest: `optimize` then draws them, in rounds, to the nearest point of the target, if that distorts the surface near the boundary less. Default: "closest".
 ---@field loop? "smooth"|"mesh" smooth: the boundary runs through faces, near the best loop of edges, so that the seam has no teeth. mesh: it is that loop. Default: "smooth".
----@field normals? number Weight of the normals in the energy of a boundary; .1 to .3 help where the feature overhangs. Default: 0.
+---@field normals? number Weight of the normals in the energy of a boundary; .1 to .3 help features that overhang. Default: 0.
 ---@field crease? number About the greatest angle at which part and target may meet, instead of the part's boundary turning until its surface goes on in the target's: the more it turns, the more the part is distorted beside it. 0: no crease, as with fidelity = "thesis". In degrees. Default: 30.
 ---@field fidelity? "lissom"|"thesis" thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, a boundary along edges, and its deformation, for comparison. Default: "lissom".
 
@@ -3342,30 +3673,30 @@ function lissom.paste(options) end
 ---@field source lissom.Mesh The mesh that has the feature; it stays as it is.
 ---@field target lissom.Mesh The mesh that it is pasted onto; it stays as it is.
 ---@field region lissom.Region Part of the source around the feature.
----@field feature? lissom.Region|"auto" As in lissom.paste. Default: auto.
----@field at lissom.Vector[] Places: the middle of the feature comes to lie on the nearest point of the target. Those before others come first where two meet.
----@field toward? lissom.Vector[] As of a placement of lissom.paste: one for all or one a place. Default: the same as `up`.
+---@field feature? lissom.Region|"auto" See lissom.paste. Default: auto.
+---@field at lissom.Vector[] Places: the middle of the feature comes to lie on the nearest point of the target. The first of two that meet counts.
+---@field toward? lissom.Vector[] See the placement of lissom.paste: one for all or one a place. Default: the same as `up`.
 ---@field up? "x"|"y"|"z"|lissom.Vector The direction of the source that belongs to it. Default: y.
----@field angles? number[] As of a placement: one for all or one a place. In degrees. Default: 0, or what fits best of twelve where `up` does not lie in the surfaces and `toward` is not given.
----@field scales? number[] As of a placement: one for all or one a place. Default: 1.
----@field iterations? integer Of the search for each boundary; 0 takes the outline of the region. Default: 4.
----@field ring? number Share of the region that is searched where no feature is given. Default: 0.5.
+---@field angles? number[] See the placement of lissom.paste: one for all or one a place. In degrees. Default: 0, or the best of twelve if `up` does not lie in the surfaces and `toward` is not given.
+---@field scales? number[] See the placement of lissom.paste: one for all or one a place. Default: 1.
+---@field iterations? integer Iterations of the search for each boundary; 0 takes the outline of the region. Default: 4.
+---@field ring? number Share of the region that is searched if no feature is given. Default: 0.5.
 ---@field normals? number Weight of the normals in the energy of a boundary. Default: 0.
 ---@field smooth? integer Umbrella steps at a seam, at most. Default: 3.
----@field collar? boolean Makes faces anew beside a seam where one side is coarser. Default: true.
----@field size? "boundary"|"lock" Size of a part: that of its boundary on the target, or what `scales` says. Default: "boundary".
----@field crossings? "shrink"|"leave out"|"keep" What becomes of a part that would run through itself, the target or a part before it, bite into a sharp edge of the target or fold. shrink: one that bites moves away from the edge; it is made smaller, by a fifth at a time and by a half at most, and left out if that does not help. keep: it stays, and the report tells it. Default: "shrink".
+---@field collar? boolean Makes faces anew beside a seam if one side is coarser. Default: true.
+---@field size? "boundary"|"lock" Size of a part: that of its boundary on the target, or its `scales`. Default: "boundary".
+---@field crossings? "shrink"|"leave out"|"keep" Treatment of a part that would run through itself, the target or a part before it, bite into a sharp edge of the target or fold. shrink: one that bites moves away from the edge; it is made smaller, by a fifth at a time and by a half at most, and left out if that does not help. keep: it stays, and the report tells it. Default: "shrink".
 
 ---Pastes one feature many times: scales, spikes, leaves. Each paste sees a small disk of the target alone, and all that do not touch are put into the mesh together, so that hundreds are quick. A place on another part, or without room, is refused and told; scripts/recipes/scatter.lua finds places.
 ---@param options lissom.ScatterOptions
 ---@return lissom.Mesh mesh # The target with all parts.
----@return lissom.ScatterReport report # What was refused, and where parts are.
+---@return lissom.ScatterReport report # Refused places, and the places of parts.
 function lissom.scatter(options) end
 
 ---@class lissom.SaveOptions
 ---@field mesh lissom.Mesh The mesh that has the feature.
 ---@field region lissom.Region Part of the mesh around the feature.
----@field feature? lissom.Region The feature, a part of the region. Default: what lies deep in the region.
+---@field feature? lissom.Region The feature, a part of the region. Default: the core of the region.
 ---@field up? "x"|"y"|"z"|lissom.Vector The way that is up on the part: along y in the file. Default: y.
 ---@field front? "x"|"y"|"z"|lissom.Vector The way that it looks, at an angle to `up`: along z in the file. Default: z.
 
@@ -3377,11 +3708,11 @@ function lissom.part.save(path, options) end
 
 ---Reads a feature that part.save has kept, or any .glb or .gltf file with a region called "region".
 ---@param path string The file.
----@return lissom.Part part # What lissom.paste and lissom.scatter need.
+---@return lissom.Part part # The part for lissom.paste and lissom.scatter.
 function lissom.part.load(path) end
 
 ---@class lissom.ScalpOptions
----@field region? lissom.Region Where hair grows. Default: the region "scalp", or what is above an average hairline.
+---@field region? lissom.Region The hairy part. Default: the region "scalp", or the part above an average hairline.
 ---@field up? "x"|"y"|"z"|lissom.Vector Which way is up. Default: guessed.
 ---@field front? "x"|"y"|"z"|lissom.Vector Which way the head looks. Default: guessed.
 ---@field unit? number How long a unit of the mesh is. In metres. Default: m, cm, mm, dm or inch, if one makes this the width of a head; else that of an average head.
@@ -3394,7 +3725,7 @@ function lissom.part.load(path) end
 function lissom.scalp(head, options) end
 
 ---@class lissom.Load_styleOptions
----@field scalp? lissom.Scalp Where hair grows. Default: guessed.
+---@field scalp? lissom.Scalp The scalp. Default: guessed.
 
 ---Reads a style that `save` wrote.
 ---@param path string The JSON file.
@@ -3408,13 +3739,13 @@ function lissom.load_style(path, head, options) end
 ---@field max lissom.Vector The opposite corner.
 
 ---@class lissom.HairstyleOptions
----@field scalp? lissom.Scalp Where hair grows. Default: guessed.
+---@field scalp? lissom.Scalp The scalp. Default: guessed.
 ---@field resolution? integer Grid points of the field. 25,000 do for smooth styles, 50,000 for ponytails. Default: 50000.
 ---@field volume? lissom.HairstyleOptions.Volume A box in metres of an average head, around the center of its frame: x to its left, y up, z to the front. Hair ends at its faces. Default: around the head, down to the chest.
----@field solver? "dual"|"cholesky" dual is fast; cholesky is the thesis's way, a reference: it updates its factor, or makes it again where the build is without CHOLMOD. Default: "dual".
+---@field solver? "dual"|"cholesky" dual is fast; cholesky is the thesis's way, a reference: it updates its factor, or makes it again in a build without CHOLMOD. Default: "dual".
 ---@field boundary? "zero_flux"|"thesis" How the field behaves at the box. Default: "zero_flux"; as in the thesis "thesis".
 ---@field tension? number Keeps the field from growing far from the curves. Default: 0.03; as in the thesis 0.
----@field fidelity? "default"|"thesis" thesis: chapter 4 to the letter, for comparison. It changes what holds where no option says otherwise, also for the curves and for `grow`; the page thesis.md of the reference names all of it. Default: "default".
+---@field fidelity? "default"|"thesis" thesis: chapter 4 to the letter, for comparison. It changes the defaults, also for the curves and for `grow`; the page thesis.md of the reference names all of it. Default: "default".
 
 ---Starts a hairstyle without curves on a head.
 ---@param head lissom.Mesh The head; its shape is copied.
@@ -3423,8 +3754,8 @@ function lissom.load_style(path, head, options) end
 function lissom.hairstyle(head, options) end
 
 ---@class lissom.Load_strandsOptions
----@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: what the file says, else y.
----@field unit? number Length of the file's unit in metres. In metres. Default: what the file says, else 1.
+---@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: the file's own, else y.
+---@field unit? number Length of the file's unit in metres. In metres. Default: the file's own, else 1.
 
 ---Reads hair from a .hair, .data (HairSalon) or .usda (BasisCurves) file.
 ---@param path string The file; its extension names the format.
@@ -3442,16 +3773,16 @@ function lissom.load_strands(path, options) end
 function lissom.strands(options) end
 
 ---@class lissom.Load_sceneOptions
----@field history? number Memory that its history may take beside one copy of the present content; the oldest steps are forgotten where it would be more. 0: it has none. In bytes. Default: 536870912.
+---@field history? number Memory that its history may take beside one copy of the present content; the oldest steps are forgotten beyond it. 0: it has none. In bytes. Default: 536870912.
 
----Reads a scene that scene:save has written, with its parameters, and with its history where that was saved. What was edited in a folder by hand is read as it is then, without the history.
+---Reads a scene that scene:save has written, with its parameters, and with its history if that was saved. A folder that was edited by hand is read as it is then, without the history.
 ---@param path string The file or the folder.
 ---@param options? lissom.Load_sceneOptions
 ---@return lissom.Scene scene # A scene with the same hash.
 function lissom.load_scene(path, options) end
 
 ---@class lissom.SceneOptions
----@field history? number Memory that its history may take beside one copy of the present content; the oldest steps are forgotten where it would be more. 0: it has none. In bytes. Default: 536870912.
+---@field history? number Memory that its history may take beside one copy of the present content; the oldest steps are forgotten beyond it. 0: it has none. In bytes. Default: 536870912.
 
 ---Makes an empty scene.
 ---@param options? lissom.SceneOptions
@@ -3459,7 +3790,7 @@ function lissom.load_scene(path, options) end
 function lissom.scene(options) end
 
 ---@class lissom.PolylineOptions
----@field points lissom.Vector[] What it runs through, in order.
+---@field points lissom.Vector[] Its points, in order.
 ---@field closed? boolean Joins the last point to the first. Default: false.
 
 ---Makes a free curve.
@@ -3468,7 +3799,7 @@ function lissom.scene(options) end
 function lissom.polyline(options) end
 
 ---@class lissom.CameraOptions
----@field eye lissom.Vector Where it stands.
+---@field eye lissom.Vector Its position.
 ---@field target? lissom.Vector The point in the middle of the picture. Default: {0, 0, 0}.
 ---@field up? "x"|"y"|"z"|lissom.Vector The direction that is up in the picture. Default: "y".
 ---@field fov? number Vertical opening angle. In degrees. Default: 30.
@@ -3480,7 +3811,7 @@ function lissom.polyline(options) end
 function lissom.camera(options) end
 
 ---@class lissom.FrameOptions
----@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"three-quarter" The side to look from, of the world and not of what is shown: with y upwards the camera stands at +z for front, -z for back, +x for right, -x for left. Of a head that faces +z, as is usual, left shows its own right side. three-quarter stands between front and right, and above. Default: three-quarter.
+---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"three-quarter" The side to look from, of the world and not of the object: with y upwards the camera stands at +z for front, -z for back, +x for right, -x for left. For a head that faces +z, as is usual, left shows its own right side. three-quarter stands between front and right, and above. Default: three-quarter.
 ---@field up? "y"|"z" The axis that points up in the view. Default: y.
 ---@field parallel? boolean Without perspective. Default: false.
 ---@field margin? number Share of the picture left free on every side. Default: 0.06.
@@ -3488,7 +3819,7 @@ function lissom.camera(options) end
 ---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 
 ---The camera of a standard view that shows all of a mesh, as large as the margin allows. Use it for several pictures that are to be compared.
----@param mesh lissom.Mesh What to show.
+---@param mesh lissom.Mesh The mesh to show.
 ---@param options? lissom.FrameOptions
 ---@return lissom.Camera camera # The camera.
 function lissom.frame(mesh, options) end
@@ -3500,8 +3831,8 @@ function lissom.frame(mesh, options) end
 
 ---@class lissom.GizmoOptions
 ---@field origin? lissom.Vector The point that it stands at, and that turns and scaling are about. Default: {0, 0, 0}.
----@field mode? "move"|"rotate"|"scale"|"all" What its parts do. Default: all.
----@field axes? "world"|"local"|"view" Along what its axes point: the world's, those of `local_axes`, or to the right, upwards and to the viewer. Default: world.
+---@field mode? "move"|"rotate"|"scale"|"all" Mode of its parts. Default: all.
+---@field axes? "world"|"local"|"view" Directions of its axes: the world's, those of `local_axes`, or to the right, upwards and to the viewer. Default: world.
 ---@field local_axes? number[][] Rows of a rotation; its columns are the object's axes.
 ---@field size? number Length of an axis, the same at every distance. In pixels. Default: 90.
 ---@field steps? lissom.GizmoOptions.Steps The steps of snapping.
@@ -3511,24 +3842,24 @@ function lissom.frame(mesh, options) end
 ---@return lissom.Gizmo gizmo # The gizmo.
 function lissom.gizmo(options) end
 
----Makes a tool: functions that are called with what a hand does. press, drag and release, or run, a coroutine that asks by lissom.pick, of which clicks are the answers unless press returns true; move, wheel, key, changed (of a parameter), draw, activate, deactivate, cancel. All take the tool itself and a lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the scene, any other call is one of its own; after an error the scene is as before. drag is called with every place that the hand came to. The table's other keys are the tool's own.
+---Makes a tool: functions that are called with a hand's input. press, drag and release, or run, a coroutine that asks by lissom.pick, of which clicks are the answers unless press returns true; move, wheel, key, changed (of a parameter), draw, activate, deactivate, cancel. All take the tool itself and a lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of the scene, any other call is one of its own; after an error the scene is as before. drag is called with every place that the hand came to. The table's other keys are the tool's own.
 ---@param tool table name, help, params (as for lissom.params) and functions.
 ---@return table tool # The same table; `tool.params` are the values now.
 function lissom.tool(tool) end
 
 ---Reads a tool from its file, each time a new one.
 ---@param name string A file that ends with .lua, or the name of one that ships: "select", "deform", ... (tools/NAME.lua on package.path).
----@return table tool # What the file returns.
+---@return table tool # The result of the file.
 function lissom.load_tool(name) end
 
 ---@class lissom.Tool_hostOptions
----@field scene lissom.Scene What the tools work on.
----@field camera lissom.Camera What it is seen by.
+---@field scene lissom.Scene The scene that the tools work on.
+---@field camera lissom.Camera The camera that it is seen by.
 ---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
 ---@field up? "y"|"z" The axis of the world that points up in views. Default: "y".
 ---@field tool? table The first tool. Default: none.
 
----Runs tools without a window: what a hand would do is called. Errors of a tool go on once the scene is as before.
+---Runs tools without a window: calls them with a hand's input. Errors of a tool go on once the scene is as before.
 ---@param options lissom.Tool_hostOptions
 ---@return lissom.ToolHost host # Call its methods.
 function lissom.tool_host(options) end
@@ -3537,83 +3868,83 @@ function lissom.tool_host(options) end
 ---@field scene? lissom.Scene The scene to work on; else the files that the recording names are opened.
 ---@field tools? table Tools by which those of the same names are replaced: a list. Default: none.
 
----Does again what was recorded, and compares the hash of the scene before it, after each step and at the end. A recording is a script that calls this; the files that it names are looked for from its own folder.
----@param recording string|table What was recorded.
+---Repeats a recording, and compares the hash of the scene before it, after each step and at the end. A recording is a script that calls this; the files that it names are looked for from its own folder.
+---@param recording string|table The recorded events.
 ---@param options? lissom.ReplayOptions
 ---@return lissom.Scene scene # The scene as it is then.
 function lissom.replay(recording, options) end
 
 ---@class lissom.PointOptions
----@field prompt string What the person is asked, in a line.
+---@field prompt string The question to the person, in a line.
 ---@field optional? boolean The Enter key answers too, with nil. Default: false.
 ---@field object? string Only on the object of the scene with this name. Default: any.
 
 ---Asks for a point of a surface and waits for a click there, inside the run function of a tool.
 ---@param options lissom.PointOptions
----@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+---@return lissom.PickHit? hit # The clicked element; for a boundary it has the Boundary too, `boundary`.
 function lissom.pick.point(options) end
 
 ---@class lissom.VertexOptions
----@field prompt string What the person is asked, in a line.
+---@field prompt string The question to the person, in a line.
 ---@field optional? boolean The Enter key answers too, with nil. Default: false.
 ---@field object? string Only on the object of the scene with this name. Default: any.
 
 ---Asks for a vertex and waits for a click there, inside the run function of a tool.
 ---@param options lissom.VertexOptions
----@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+---@return lissom.PickHit? hit # The clicked element; for a boundary it has the Boundary too, `boundary`.
 function lissom.pick.vertex(options) end
 
 ---@class lissom.FaceOptions
----@field prompt string What the person is asked, in a line.
+---@field prompt string The question to the person, in a line.
 ---@field optional? boolean The Enter key answers too, with nil. Default: false.
 ---@field object? string Only on the object of the scene with this name. Default: any.
 
 ---Asks for a face and waits for a click there, inside the run function of a tool.
 ---@param options lissom.FaceOptions
----@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+---@return lissom.PickHit? hit # The clicked element; for a boundary it has the Boundary too, `boundary`.
 function lissom.pick.face(options) end
 
 ---@class lissom.EdgeOptions
----@field prompt string What the person is asked, in a line.
+---@field prompt string The question to the person, in a line.
 ---@field optional? boolean The Enter key answers too, with nil. Default: false.
 ---@field object? string Only on the object of the scene with this name. Default: any.
 
 ---Asks for an edge and waits for a click there, inside the run function of a tool.
 ---@param options lissom.EdgeOptions
----@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+---@return lissom.PickHit? hit # The clicked element; for a boundary it has the Boundary too, `boundary`.
 function lissom.pick.edge(options) end
 
 ---@class lissom.BoundaryOptions
----@field prompt string What the person is asked, in a line.
+---@field prompt string The question to the person, in a line.
 ---@field optional? boolean The Enter key answers too, with nil. Default: false.
 ---@field object? string Only on the object of the scene with this name. Default: any.
 
 ---Asks for an open boundary and waits for a click there, inside the run function of a tool.
 ---@param options lissom.BoundaryOptions
----@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+---@return lissom.PickHit? hit # The clicked element; for a boundary it has the Boundary too, `boundary`.
 function lissom.pick.boundary(options) end
 
 ---@class lissom.ObjectOptions
----@field prompt string What the person is asked, in a line.
+---@field prompt string The question to the person, in a line.
 ---@field optional? boolean The Enter key answers too, with nil. Default: false.
 ---@field object? string Only on the object of the scene with this name. Default: any.
 
 ---Asks for an object and waits for a click there, inside the run function of a tool.
 ---@param options lissom.ObjectOptions
----@return lissom.PickHit? hit # What was clicked; of a boundary it has the Boundary too, `boundary`.
+---@return lissom.PickHit? hit # The clicked element; for a boundary it has the Boundary too, `boundary`.
 function lissom.pick.object(options) end
 
 ---@class lissom.NumberOptions
----@field prompt string What the person is asked, in a line.
----@field default? number What Enter alone means. Default: none.
+---@field prompt string The question to the person, in a line.
+---@field default? number The value of Enter alone. Default: none.
 
 ---Asks for a number, which is typed and ended by Enter.
 ---@param options lissom.NumberOptions
----@return number number # What was typed.
+---@return number number # The typed number.
 function lissom.pick.number(options) end
 
 ---@class lissom.ConfirmOptions
----@field prompt string What the person is asked, in a line.
+---@field prompt string The question to the person, in a line.
 
 ---Waits for the Enter key.
 ---@param options lissom.ConfirmOptions
@@ -3621,49 +3952,49 @@ function lissom.pick.number(options) end
 function lissom.pick.confirm(options) end
 
 ---@class lissom.ParamsOptions.Declarations
----@field type "number"|"integer"|"boolean"|"string"|"choice"|"file"|"folder" What its values are. A folder is one to write to: it is made, where it is missing, when the parameters are declared or it is set.
----@field default? boolean|number|string Its value where none is given; without one it must be given. Default: required.
+---@field type "number"|"integer"|"boolean"|"string"|"choice"|"file"|"folder" Type of its values. A folder is one to write to: it is made, if it is missing, when the parameters are declared or it is set.
+---@field default? boolean|number|string Its default; without one it must be given. Default: required.
 ---@field min? number Smallest value of a number or integer. Default: no limit.
 ---@field max? number Greatest value. Default: no limit.
 ---@field step? number Step of a slider. Default: any.
 ---@field choices? string[] The values of a choice.
 ---@field unit? string Shown after the value. Default: none.
 ---@field group? string Heading that it stands under. Default: none.
----@field help? string A line that says what it does. Default: none.
+---@field help? string Its help text, one line. Default: none.
 
 ---@class lissom.ParamsOptions
----@field command_line? boolean They are the script's. If not, they have their defaults, and may be declared as often as wanted: what tools do. Default: true.
+---@field command_line? boolean They are the script's. If not, they have their defaults, and may be declared any number of times: for tools. Default: true.
 ---@field words? boolean The command line may have words that are no flags; else `lissom run` refuses them, unless the script reads `arg` or `...`. Default: false.
 
 ---Declares the parameters of the script, once, and returns their values. Under `lissom run` they come from flags (--name value), and --help lists them.
----@param declarations table<string, lissom.ParamsOptions.Declarations> For each name what the parameter is.
+---@param declarations table<string, lissom.ParamsOptions.Declarations> Description of the parameter by its name.
 ---@param options? lissom.ParamsOptions
 ---@return lissom.Params params # Their values.
 ---@return string[] rest # The words of the command line that are no flags.
 function lissom.params(declarations, options) end
 
 ---@class lissom.ListenOptions
----@field progress? fun(label: string, fraction: number): boolean? Called during an operation with what is done and the fraction done, 0 to 1. Where it returns false the operation is cancelled. Default: none.
+---@field progress? fun(label: string, fraction: number): boolean? Called during an operation with the name of the step and the fraction done, 0 to 1. If it returns false the operation is cancelled. Default: none.
 ---@field log? fun(level: string, message: string) Called after an operation with each of its messages; the level is debug, info or warning. Default: none.
 
 ---Sets the functions that hear of long operations, in place of those before. They cannot call lissom themselves.
 ---@param options? lissom.ListenOptions
 function lissom.listen(options) end
 
----Calls a function; returns what it returns, or nil and its error.
+---Calls a function; returns its results, or nil and its error.
 ---@param f function The function; its arguments follow.
 ---@param ... any Its arguments.
----@return any result # What the function returns; nil if it fails.
+---@return any result # The results of the function; nil if it fails.
 ---@return lissom.Error? error # The error; an error that is not of lissom is handed on as it is.
 function lissom.try(f, ...) end
 
 ---@class lissom.ErrorOptions
----@field message string What is wrong and what helps, a sentence.
+---@field message string The fault and a remedy, a sentence.
 ---@field code? "cancelled"|"invalid_argument"|"out_of_range"|"file_not_found"|"file_is_directory"|"file_empty"|"file_unreadable"|"file_write_failed"|"file_syntax"|"file_truncated"|"file_too_large"|"unknown_format"|"unsafe_path"|"not_finite"|"mesh_empty"|"face_index"|"face_too_small"|"repeated_vertex"|"duplicate_face"|"nonmanifold_edge"|"nonmanifold_vertex"|"inconsistent_orientation"|"unreferenced_vertex"|"zero_area"|"region_empty"|"topology_mismatch"|"handle_outside_region"|"handle_overlap"|"handle_removed"|"singular_transform"|"unconstrained"|"not_a_boundary"|"not_a_disk"|"boundary_conflict"|"key_conflict"|"skin_mismatch"|"not_positive_definite"|"memory_limit"|"unsupported"|"no_display"|"internal" Its code. Default: "invalid_argument".
 ---@field elements? table A lissom.Elements: the elements concerned. Default: none.
 ---@field file? string The input file concerned. Default: none.
 ---@field line? integer The line of that file. Default: none.
----@field level? integer Whose line is the error's place: 1 for this call, 2 for the call of the function that it is in. Default: 1.
+---@field level? integer Level of the line that is the error's place: 1 for this call, 2 for the call of the function that it is in. Default: 1.
 
 ---Raises an error object, as every function of lissom that fails.
 ---@param options lissom.ErrorOptions
