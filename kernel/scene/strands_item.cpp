@@ -56,8 +56,7 @@ bool equal(const StrandFrame& frame, const Strands& strands) {
            equal(frame.widths.profile, strands.widths().profile) &&
            equal(frame.roots, strands.roots()) && frame.groups == strands.groups() &&
            frame.group_names == strands.group_names() && frame.ids == strands.ids() &&
-           frame.guides == strands.guides() &&
-           equal_colors(frame.colors, strands.colors()) &&
+           frame.guides == strands.guides() && equal_colors(frame.colors, strands.colors()) &&
            equal(frame.transparency, strands.transparency()) && frame.comment == strands.comment();
 }
 
