@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kernel/core/nearest.h"
+#include "kernel/mesh/region_bytes.h"
 
 namespace lissom {
 namespace {
@@ -142,7 +143,9 @@ bool Mesh::remove_region(std::string_view name) {
 
 std::size_t Mesh::memory_bytes() const {
     std::size_t bytes = topology_->memory_bytes() + positions_.size() * sizeof(Vec3);
-    for (const auto& [name, region] : regions_) bytes += region.vertices().size() * sizeof(Index);
+    for (const auto& [name, region] : regions_) {
+        bytes += kRegionBytes + region.vertices().size() * sizeof(Index);
+    }
     return bytes + attributes_.memory_bytes();
 }
 

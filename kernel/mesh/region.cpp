@@ -6,14 +6,12 @@
 #include <utility>
 
 #include "kernel/mesh/half_edges.h"
+#include "kernel/mesh/region_bytes.h"
 
 namespace lissom {
 namespace {
 
 using OpenMesh::HalfedgeHandle;
-
-// The object, and its entry among the named ones of a mesh.
-constexpr std::size_t kEntryBytes = 160;
 
 void require_common_topology(const Region& a, const Region& b) {
     if (a.topology() == b.topology()) return;
@@ -97,7 +95,7 @@ Region::Region(std::shared_ptr<const Topology> topology, std::vector<Index> vert
         std::sort(vertices_.begin(), vertices_.end());
     }
     vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-    hold_.resize(kEntryBytes + vertices_.size() * sizeof(Index));
+    hold_.resize(kRegionBytes + vertices_.size() * sizeof(Index));
 }
 
 Region Region::all(std::shared_ptr<const Topology> topology) {

@@ -58,7 +58,7 @@ std::vector<Operator> operators() {
     displaces.offset = {0.01, 0, 0};
     LengthOptions lengths;
     lengths.scale = 1.1;
-    CutOptions cuts;
+    StrandCutOptions cuts;
     cuts.inside = inside_ellipsoid(Vec3::Zero(), {0.2, 0.2, 0.2});
     StrandTrimOptions trims;
     trims.factor = 0.8;

@@ -151,13 +151,13 @@ test("places are spread evenly, and the first ones stay when there are more", fu
     expect.truthy(most < 1.3 * spacing)
 end)
 
-test("sharp edges of a box stay under scattered parts, and the report says what was moved", function()
+test("sharp edges of a box go on beside scattered parts, which stand on them", function()
     local box = lissom.shapes.box{ size = { 2, 2, 2 } }
     local part = parts.make("spike", { segments = 14 })
     local mesh, report = scatter.make(part, box, { count = 40, size = 0.2 })
     expect_whole(mesh)
     expect.equal(report.placed + #report.refused, 40)
-    expect.truthy(report.placed >= 30 and #report.moved > 0)
+    expect.truthy(report.placed >= 30)
     for _, one in ipairs(report.moved) do expect.truthy(one.place >= 1 and #one.at == 3) end
     -- Corners and points of the edges between them are still there, or inside a part that stands on them.
     local gone = 0
@@ -177,26 +177,22 @@ test("sharp edges of a box stay under scattered parts, and the report says what 
     expect.truthy(gone <= 4)
 end)
 
-test("a part that bites into sharp edges is told, and one that leaves them is good", function()
+test("parts on sharp edges and corners of a box are good and bite nothing", function()
     local box = lissom.shapes.box{ size = { 2, 2, 2 } }
     local function pasted(name, at)
         local part = parts.make(name)
-        local paste = assert(lissom.paste{ source = part.mesh, region = part.region, feature = part.feature,
-            target = box, placement = { at = at, up = part.up, scale = 0.3 } })
+        local paste = lissom.paste{ source = part.mesh, region = part.region, feature = part.feature,
+            target = box, placement = { at = at, up = part.up, scale = 0.3 } }
         paste:optimize()
         local _, report = paste:merge()
         return report
     end
-    local bad = pasted("nose", { 1, 1, 1 })
-    expect.falsy(bad.ok)
-    expect.truthy(bad.bite.length > 0.3)
-    local found
-    for _, reason in ipairs(bad.reasons) do found = found or reason.fault == "bite" and reason end
-    expect.truthy(found and found.value > found.limit and #found.remedy > 10)
-    for _, at in ipairs{ { 1, 0, 0 }, { 1, 1, 0 } } do
-        local good = pasted("horn", at)
-        expect.truthy(good.ok)
-        expect.truthy(good.bite.length < 0.3)
+    local cases = { { "nose", { 1, 1, 1 } }, { "nose", { 1, 1, 0 } }, { "horn", { 1, 0, 0 } },
+        { "horn", { 1, 1, 0 } } }
+    for _, one in ipairs(cases) do
+        local report = pasted(one[1], one[2])
+        expect.truthy(report.ok)
+        expect.truthy(report.bite.length < 0.3)
     end
 end)
 

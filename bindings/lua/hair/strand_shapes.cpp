@@ -140,7 +140,7 @@ int cut_strands(Call& call) {
     if (shapes != 1) call.reject("inside", "give one of 'plane', 'ellipsoid', 'hem' and 'inside'");
     const std::span<const float> inside = ask_about_points(call), asked = ask_mask(call);
     return change_strands(call, [&](Strands& strands) {
-        CutOptions options;
+        StrandCutOptions options;
         read_part(call, asked, options);
         options.seed = static_cast<std::uint64_t>(call.integer("seed"));
         options.inside = cut_shape(call, inside);
@@ -307,7 +307,7 @@ Function set_length_method() {
 }
 
 Function cut_method() {
-    const CutOptions d;
+    const StrandCutOptions d;
     Parameter hem = pixels("hem",
                            "A hem around the head: {azimuth in degrees, height in metres}, linear "
                            "between; hair below is cut off. Without negative azimuths both "

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kCutStream = 51, kGuideCutStream = 52, kCullStream = 53;
 
-void require_cut(const Strands& strands, const CutOptions& options) {
+void require_cut(const Strands& strands, const StrandCutOptions& options) {
     require_operator(strands, options);
     require(static_cast<bool>(options.inside), "a cut needs a shape");
     require(options.frame.is_finite(), "the frame of a cut must be finite");
@@ -29,7 +29,7 @@ void require_cut(const Strands& strands, const CutOptions& options) {
             "the least length of a cut must be positive and finite");
 }
 
-double shift_of(const Strands& strands, Index s, const CutOptions& options) {
+double shift_of(const Strands& strands, Index s, const StrandCutOptions& options) {
     std::uint32_t guide = strands.id(s);
     const std::vector<std::uint32_t>& guides = strands.guides().ids;
     if (!guides.empty() && guides[at(s)] != kNoGuide) guide = guides[at(s)];
@@ -38,7 +38,7 @@ double shift_of(const Strands& strands, Index s, const CutOptions& options) {
 }
 
 // The part of a strand before it first leaves the shape; 1 if it does not.
-double part_inside(const Strands& strands, Index s, const CutOptions& options,
+double part_inside(const Strands& strands, Index s, const StrandCutOptions& options,
                    const std::vector<double>& fractions) {
     const StrandView strand = strands.strand(s);
     const double shift = shift_of(strands, s, options);
@@ -57,7 +57,7 @@ double part_inside(const Strands& strands, Index s, const CutOptions& options,
 }
 
 // The part of a strand that stays.
-double part_left(const Strands& strands, Index s, const CutOptions& options,
+double part_left(const Strands& strands, Index s, const StrandCutOptions& options,
                  const std::vector<double>& fractions) {
     const double whole = length(strands.strand(s));
     if (!(whole > 0.0) || !std::isfinite(whole)) return 1.0;
@@ -109,7 +109,7 @@ CutShape above_hem(std::vector<HemPlace> places) {
     };
 }
 
-void cut(Strands& strands, const CutOptions& options, const Context& context) {
+void cut(Strands& strands, const StrandCutOptions& options, const Context& context) {
     require_cut(strands, options);
     if (options.factor == 0.0) return;
     Progress progress(context, "cut strands");

@@ -31,7 +31,7 @@ struct HemPlace {
 /// is negative, the hem of the other side is the same. Errors: invalid_argument without places.
 CutShape above_hem(std::vector<HemPlace> places);
 
-struct CutOptions : StrandOperatorOptions {
+struct StrandCutOptions : StrandOperatorOptions {
     /// Strands are cut where they first leave it.
     CutShape inside;
     /// Maps the points of strands to those that `inside` is asked for; its scale maps metres.
@@ -47,7 +47,7 @@ struct CutOptions : StrandOperatorOptions {
 /// and the mask are the part of the rest that is cut off. Strands with nothing to cut stay to the
 /// bit. Errors: invalid_argument for options out of range or without a shape; memory_limit,
 /// cancelled.
-void cut(Strands& strands, const CutOptions& options, const Context& context = {});
+void cut(Strands& strands, const StrandCutOptions& options, const Context& context = {});
 
 /// Removes the strands that are marked, and with `locks` all strands of their guides too. Errors:
 /// invalid_argument if there is not one mark a strand.

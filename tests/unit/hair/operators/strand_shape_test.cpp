@@ -130,7 +130,7 @@ TEST_CASE("lengths are set, scaled and varied, shapes stay, and arcs of guides f
 }
 
 TEST_CASE("cuts follow a plane, an ellipsoid, a hem and any function") {
-    CutOptions options;
+    StrandCutOptions options;
     options.inside = inside_plane({0, 0.12, 0}, {0, 3, 0});
     Strands strands = upright();
     cut(strands, options);
@@ -167,7 +167,7 @@ TEST_CASE("jitter moves cuts strand by strand, that of guides lock by lock") {
     }
     Strands strands = strands_of(lists);
     assign_guides(strands, {.count = 4});
-    CutOptions options;
+    StrandCutOptions options;
     options.inside = inside_plane({0, 0.1, 0}, {0, 1, 0});
     options.guide_jitter = 0.02;
     Strands made = strands;
@@ -269,7 +269,7 @@ TEST_CASE("operators of shapes refuse options out of range") {
     CHECK(refused(
         LengthOptions(), [](auto& o) { o.variation = 1.0; }, set_length));
     CHECK(refused(
-        CutOptions(), [](auto&) {}, cut));
+        StrandCutOptions(), [](auto&) {}, cut));
     CHECK(refused(
         PushOutOptions(), [](auto&) {}, push_out));
     CHECK(refused(
