@@ -248,9 +248,9 @@ std::vector<Function> cut_methods_of_mesh() {
 local tip, foot, loops = cactus:cut{ plane = { point = { 0, 1.7, 0 }, normal = { 0, 1, 0.2 } } }
 assert(#loops == 1 and loops[1]:is_boundary() and #loops[1] == #loops.b[1])
 assert(tip:bounds().min[2] > foot:bounds().min[2])
--- The lines of a cut, without cutting. local lines = cactus:cut{ plane = { point = { 0, 1.7, 0 },
-normal = { 0, 1, 0 } }, preview = true } print(#lines .. " cut, " .. #lines.others .. " left, keeps
-" .. lines.report.kept_fraction))"}};
+-- The lines of a cut, without cutting:
+local lines = cactus:cut{ plane = { point = { 0, 1.7, 0 }, normal = { 0, 1, 0 } }, preview = true }
+print(#lines .. " cut, " .. #lines.others .. " left, keeps " .. lines.report.kept_fraction))"}};
 }
 
 std::vector<Function> trim_methods_of_path() {

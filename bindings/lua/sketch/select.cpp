@@ -148,9 +148,10 @@ Function select_method_of_camera() {
             .example = R"(local box = lissom.shapes.box()
 local camera = lissom.camera{ eye = { 0, 0, 5 } }
 local found = camera:select{ mesh = box, rectangle = { { 0, 0 }, { 1280, 480 } } }
-assert(#found[1].region == 2) -- the upper front edge; the edge behind it is hidden
-assert(#found[1].unseen == 2) local all = { mesh = box, rectangle = { { 0, 0 }, { 1280, 960 } },
-known = { found[1].region } } assert(#camera:select(all)[1].region == 2) -- the lower front edge)"};
+assert(#found[1].region == 2)               -- the upper front edge; the edge behind it is hidden
+assert(#found[1].unseen == 2)
+local all = { mesh = box, rectangle = { { 0, 0 }, { 1280, 960 } }, known = { found[1].region } }
+assert(#camera:select(all)[1].region == 2)  -- the lower front edge)"};
 }
 
 }  // namespace lissom::lua
