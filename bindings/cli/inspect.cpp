@@ -16,7 +16,7 @@
 #include "kernel/io/mesh_file.h"
 #include "kernel/io/strand_file.h"
 #include "kernel/io/stream/read_error.h"
-#include "kernel/mesh/label_adder.h"
+#include "kernel/mesh/edit/label_adder.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/path.h"
 

@@ -41,9 +41,9 @@ return styling.preset(..., {
         styling.comb(sides, { { 0, 75, 0, 52, 11 }, { 25, 62, 20, 40, 10 }, { 45, 50, 46, 30, 6 },
             { 80, 36, 84, 12, 4 }, { 82, 12, 86, -8, 3 }, { 180, 48, 180, 18, 5 }, { 140, 45, 140, 12, 5 },
             { 180, 4, 180, -28, 3 }, { 130, 0, 132, -28, 3 } })
-        local hair = sides:grow{ count = 0.6 * o.count // 1, seed = v.seed, length = v.sides, layer = 0.001,
-            clearance = 0.0012, lift = 1, variation = 0.15, segment = 0.1, density = beside(half - 0.003,
-                half) }
+        local hair = sides:grow{ count = math.floor(0.6 * o.count), seed = v.seed, length = v.sides,
+            layer = 0.001, clearance = 0.0012, lift = 1, variation = 0.15, segment = 0.1,
+            density = beside(half - 0.003, half) }
         hair:resample{ count = 5 }:set_widths{ width = 0.00024 }:set_colors{ color = { 0.04, 0.028, 0.02 } }
         local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution,
             volume = { min = { -0.12, -0.2, -0.24 }, max = { 0.12, 0.28, 0.22 } } })
@@ -53,7 +53,7 @@ return styling.preset(..., {
                 elevation))
         end)
         local inside = beside(half, half + 0.003)
-        local top = style:grow{ count = 0.5 * o.count // 1, seed = v.seed, length = lengths, layer = 0,
+        local top = style:grow{ count = math.floor(0.5 * o.count), seed = v.seed, length = lengths, layer = 0,
             clearance = 0.001, lift = 0.5, variation = 0.08,
             density = function(...) return 1 - inside(...) end }
         top:resample{ count = 16 }

@@ -31,7 +31,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = 1.2 * o.resolution // 1,
+        local style = lissom.hairstyle(head, { scalp = scalp, resolution = math.floor(1.2 * o.resolution),
             volume = { min = { -0.15, -0.42, -0.19 }, max = { 0.15, 0.16, 0.16 } } })
         style:add_dividing{ points = styling.route(scalp, parting), tilt = { 15, 0 } }
         styling.streams(style, routes)

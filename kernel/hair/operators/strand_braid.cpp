@@ -25,7 +25,7 @@ double even_random(std::uint64_t seed, std::uint64_t id, std::uint64_t stream) {
 }
 
 // A strand that passes a tie after its point `last`, u and v metres from the center.
-struct Crossing {
+struct TieCrossing {
     Index strand, last;
     double u, v;
 };
@@ -41,9 +41,9 @@ TieFrame frame_of_tie(const Vec3& center, const Vec3& along, const Vec3& across,
     return {center, u, n.cross(u), n, reach};
 }
 
-std::vector<Crossing> crossings_of(const Strands& strands, const TieFrame& tie,
-                                   const std::vector<float>& mask) {
-    std::vector<Crossing> list;
+std::vector<TieCrossing> crossings_of(const Strands& strands, const TieFrame& tie,
+                                      const std::vector<float>& mask) {
+    std::vector<TieCrossing> list;
     for (Index s = 0; s < strands.size(); ++s) {
         if (!mask.empty() && mask[at(s)] < 0.5f) continue;
         const StrandView strand = strands.strand(s);
@@ -63,7 +63,7 @@ std::vector<Crossing> crossings_of(const Strands& strands, const TieFrame& tie,
 }
 
 // Strands that end at the point `last` of their crossing and go on with tail(i, points).
-void carry_on(Strands& strands, const std::vector<Crossing>& crossings,
+void carry_on(Strands& strands, const std::vector<TieCrossing>& crossings,
               const std::function<void(std::size_t, std::vector<Vec3>&)>& tail,
               const Context& context) {
     std::vector<std::vector<Vec3>> tails(crossings.size());
@@ -194,7 +194,7 @@ void require_braid(const Strands& strands, const BraidOptions& options) {
 }
 
 // Sorts crossings into tubes by their place across: the outer ones and the one between.
-std::vector<int> tubes_of(const std::vector<Crossing>& crossings) {
+std::vector<int> tubes_of(const std::vector<TieCrossing>& crossings) {
     std::vector<std::size_t> order(crossings.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -214,7 +214,7 @@ class Braider {
           length_(length),
           wavelength_(options.wavelength > 0.0 ? options.wavelength : 7.0 * options.radius) {}
 
-    void run(std::uint32_t id, const Crossing& crossing, int tube,
+    void run(std::uint32_t id, const TieCrossing& crossing, int tube,
              std::vector<Vec3>& points) const {
         const std::uint64_t seed = options_.seed;
         double rho = std::sqrt(even_random(seed, id, kPlaceStream));
@@ -246,7 +246,7 @@ class Braider {
         return {1.25 * size * sine_of_turns(turns), 0.8 * size * sine_of_turns(2.0 * turns)};
     }
 
-    Vec3 place(double a, const Crossing& crossing, int tube, double rho, double turn) const {
+    Vec3 place(double a, const TieCrossing& crossing, int tube, double rho, double turn) const {
         const auto [x, z] = center(tube, a);
         const double slope = (center(tube, a + 0.001).first - x) / 0.001;
         const double tilt = std::sqrt(1.0 + slope * slope);
@@ -281,7 +281,7 @@ BraidReport braid(Strands& strands, const BraidOptions& options, const Context& 
     require(options.across.cross(spine.direction()).norm() > 1e-6 * options.across.norm(),
             "the direction across a braid must not run along its spine");
     const double reach = options.reach > 0.0 ? options.reach : 2.2 * 1.3 * options.radius;
-    const std::vector<Crossing> crossings =
+    const std::vector<TieCrossing> crossings =
         crossings_of(strands, frame_of_tie(spine.start(), spine.direction(), options.across, reach),
                      options.mask);
     require_enough(crossings.size());
@@ -310,10 +310,10 @@ BraidReport bun(Strands& strands, const BunOptions& options, const Context& cont
     Progress progress(context, "wind a bun");
     const TieFrame tie =
         frame_of_tie(options.tie.center, along, along.unitOrthogonal(), options.tie.reach);
-    const std::vector<Crossing> crossings = crossings_of(strands, tie, options.mask);
+    const std::vector<TieCrossing> crossings = crossings_of(strands, tie, options.mask);
     require_enough(crossings.size());
     const auto tail = [&](std::size_t i, std::vector<Vec3>& points) {
-        const Crossing& crossing = crossings[i];
+        const TieCrossing& crossing = crossings[i];
         const std::uint32_t id = strands.id(crossing.strand);
         const auto random = [&](std::uint64_t stream) {
             return even_random(options.seed, id, stream);

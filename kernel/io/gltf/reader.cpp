@@ -17,7 +17,7 @@
 #include "kernel/io/gltf/nodes.h"
 #include "kernel/io/record/skipped_content.h"
 #include "kernel/io/stream/read_error.h"
-#include "kernel/mesh/label_adder.h"
+#include "kernel/mesh/edit/label_adder.h"
 
 namespace lissom {
 namespace {

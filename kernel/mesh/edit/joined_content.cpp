@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "kernel/core/geometry.h"
-#include "kernel/mesh/label_adder.h"
+#include "kernel/mesh/edit/label_adder.h"
 
 namespace lissom {
 namespace {

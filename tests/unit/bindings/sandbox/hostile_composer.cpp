@@ -72,7 +72,8 @@ constexpr std::string_view kWays[] = {
     "local _ = ('abc'):gsub('.', function() @ end)",
     "for _ in ('abc'):gmatch('.') do @ end",
     "load(function() @ end)",
-    "local g = load([==[ @ ]==]) if g then g() end",
+    // The level of the brackets is that of the depth, so that such texts may hold others.
+    "local g = load([^[ @ ]^]) if g then g() end",
     "table.concat(setmetatable({}, { __index = function() @ return 'x' end }), '', 1, 10)",
     "table.move(setmetatable({}, { __index = function() @ end }), 1, 10, 1, {})",
     "local m = {} setmetatable({}, m) m.__gc = function() @ end collectgarbage()",
@@ -91,6 +92,9 @@ class Composer {
         const bool ends = depth <= 0 || below(4) == 0;
         if (ends) return "if n < 1000 then " + std::string(one_of(kActs)) + " end";
         std::string text(one_of(kWays));
+        for (std::size_t at; (at = text.find('^')) != std::string::npos;) {
+            text.replace(at, 1, static_cast<std::size_t>(depth), '=');
+        }
         for (std::size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at)) {
             const std::string inner = body(depth - 1);
             text.replace(at, 1, inner);

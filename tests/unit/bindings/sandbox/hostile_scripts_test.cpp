@@ -36,7 +36,7 @@ int run(Sandbox& sandbox, const std::string& text) {
     lua_State* L = sandbox.lua();
     lua_settop(L, 0);
     const int loaded = luaL_loadbufferx(L, text.data(), text.size(), "=script", "t");
-    CHECK(loaded == LUA_OK);
+    CHECK_MESSAGE(loaded == LUA_OK, text);
     return loaded == LUA_OK ? sandbox.call(0, 1) : loaded;
 }
 

@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-#include "kernel/mesh/label_adder.h"
+#include "kernel/mesh/edit/label_adder.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
