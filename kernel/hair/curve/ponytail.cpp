@@ -65,7 +65,7 @@ void require_ponytail(const PonytailOptions& o) {
     require_curve_weight(o.weight);
 }
 
-double smooth_step(double from, double to, double x) {
+double smooth_ramp(double from, double to, double x) {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
@@ -142,7 +142,7 @@ double half_extent(const std::vector<Vec3>& polyline, const Vec3& along) {
 double section_radius(const std::vector<Vec3>& polyline, const DrawnSection& section,
                       const Vec3& spine_direction) {
     const Vec3 across = section.normal.cross(spine_direction);
-    const double aside = smooth_step(kSeenAlong, kSeenAside, across.norm());
+    const double aside = smooth_ramp(kSeenAlong, kSeenAside, across.norm());
     if (!(aside > 0.0)) return section.mean_distance;
     const double extent = half_extent(polyline, across.normalized());
     return section.mean_distance + aside * (extent - section.mean_distance);
@@ -273,8 +273,8 @@ struct Outline {
     double radius_at(double at) const {
         if (!profiles.empty()) return radius * drawn(at) / drawn(first);
         const double t = length > first ? (at - first) / (length - first) : 0.0;
-        return radius * (1.0 + fullness * smooth_step(0.0, kSwollen, t)) *
-               (1.0 - (1.0 - kNarrowed) * smooth_step(kNarrowing, 1.0, t));
+        return radius * (1.0 + fullness * smooth_ramp(0.0, kSwollen, t)) *
+               (1.0 - (1.0 - kNarrowed) * smooth_ramp(kNarrowing, 1.0, t));
     }
 };
 

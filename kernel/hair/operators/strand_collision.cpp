@@ -12,7 +12,7 @@ namespace {
 constexpr double kProbe = 0.001;
 constexpr int kRounds = 3, kSteps = 4, kWrapSteps = 8;
 // A point counts as outside from so much below its clearance on.
-constexpr double kSlack = 1e-5;
+constexpr double kPushSlack = 1e-5;
 
 // Unit gradient of the distance; zero if it has none.
 Vec3 outward_at(const BodyDistance& distance, const Vec3& p) {
@@ -56,7 +56,7 @@ class Pusher {
         for (int i = 0; i < kSteps; ++i) {
             if (surely_outside(p, floor)) break;
             const double missing = floor - options_.distance(p);
-            if (!(missing > kSlack)) break;
+            if (!(missing > kPushSlack)) break;
             p += missing * outward_at(options_.distance, p);
             moved = true;
         }
@@ -117,7 +117,7 @@ void shrinkwrap(Strands& strands, const ShrinkwrapOptions& options, const Contex
             Vec3 p = work.old_point(k);
             for (int i = 0; i < kWrapSteps; ++i) {
                 const double away = options.distance(p) - options.lift;
-                if (!(std::abs(away) > kSlack)) break;
+                if (!(std::abs(away) > kPushSlack)) break;
                 p -= away * outward_at(options.distance, p);
             }
             work.set_point(k, p);
