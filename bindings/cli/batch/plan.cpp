@@ -22,7 +22,7 @@ using lua::ScriptParameter;
 
 constexpr std::size_t kMostJobs = 1000000;
 
-[[noreturn]] void refuse(const std::string& message) {
+[[noreturn]] void refuse_plan(const std::string& message) {
     throw Error(ErrorCode::invalid_argument, message);
 }
 
@@ -41,8 +41,8 @@ const ScriptParameter* find(const ParameterSet& parameters, const std::string& n
 const ScriptParameter& require(const ParameterSet& parameters, const std::string& name,
                                const std::string& place) {
     if (const ScriptParameter* found = find(parameters, name)) return *found;
-    refuse(place + ": the script has no parameter '" + name + "'" +
-           name_hint(name, parameters.names()));
+    refuse_plan(place + ": the script has no parameter '" + name + "'" +
+                name_hint(name, parameters.names()));
 }
 
 // "NAME=REST" where NAME is a parameter, else all of it as the rest.
@@ -62,7 +62,7 @@ std::string canonical_text(const ScriptParameter& p, const std::string& text,
         if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
         return std::get<std::string>(value);
     } catch (const lua::ParameterError& error) {
-        refuse(place + ": " + error.message);
+        refuse_plan(place + ": " + error.message);
     }
 }
 
@@ -85,13 +85,13 @@ const ScriptParameter& out_parameter(const ParameterSet& parameters, const Scrip
     const ScriptParameter* p = given ? given : find(parameters, "out");
     if (!p) p = find(parameters, "output");
     if (!p) {
-        refuse(
+        refuse_plan(
             "--out: the script has no parameter 'out'; name the one that takes the output: "
             "--out NAME=TEMPLATE");
     }
     const bool takes_paths = p->type == ParameterType::file || p->type == ParameterType::folder ||
                              p->type == ParameterType::string;
-    if (!takes_paths) refuse("--out: parameter '" + p->name + "' takes no path");
+    if (!takes_paths) refuse_plan("--out: parameter '" + p->name + "' takes no path");
     return *p;
 }
 
@@ -106,9 +106,10 @@ const ScriptParameter& input_parameter(const ParameterSet& parameters, const Scr
     }
     if (files.size() == 1) return *files[0];
     if (required.size() == 1) return *required[0];
-    if (files.empty()) refuse("--over " + pattern + ": the script has no parameter of type file");
-    refuse("--over " + pattern + ": the script has several parameters of type file (" +
-           listed_names(files) + "); name one: --over " + files[0]->name + "=" + pattern);
+    if (files.empty())
+        refuse_plan("--over " + pattern + ": the script has no parameter of type file");
+    refuse_plan("--over " + pattern + ": the script has several parameters of type file (" +
+                listed_names(files) + "); name one: --over " + files[0]->name + "=" + pattern);
 }
 
 bool is_table(const std::string& word) {
@@ -150,8 +151,8 @@ struct Axes {
 void require_given_once(const Axes& axes, const ScriptParameter& out) {
     std::set<std::string> given;
     const auto give = [&](const std::string& name) {
-        if (!given.insert(name).second) refuse("'" + name + "' is given twice");
-        if (name == out.name) refuse("'" + name + "' is given by --out");
+        if (!given.insert(name).second) refuse_plan("'" + name + "' is given twice");
+        if (name == out.name) refuse_plan("'" + name + "' is given by --out");
     };
     for (const auto& [name, value] : axes.fixed) give(name);
     for (const Axis& axis : axes.list) {
@@ -172,10 +173,10 @@ Axes read_axes(const ParameterSet& parameters, const ScriptParameter& out,
     }
     for (const std::string& word : words.set) {
         const std::size_t equals = word.find('=');
-        if (equals == std::string::npos) refuse("--set " + word + ": write NAME=VALUE");
+        if (equals == std::string::npos) refuse_plan("--set " + word + ": write NAME=VALUE");
         const ScriptParameter& p = require(parameters, word.substr(0, equals), "--set " + word);
         if (!axes.fixed.emplace(p.name, word.substr(equals + 1)).second) {
-            refuse("parameter '" + p.name + "' is given twice");
+            refuse_plan("parameter '" + p.name + "' is given twice");
         }
     }
     require_given_once(axes, out);
@@ -193,15 +194,15 @@ void require_known_names(const ParameterSet& parameters, const Axes& axes,
     known.emplace_back("n");
     for (const std::string& name : used) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        refuse("--out: there is no value for {" + name + "}" + name_hint(name, known));
+        refuse_plan("--out: there is no value for {" + name + "}" + name_hint(name, known));
     }
     for (const Axis& axis : axes.list) {
         for (std::size_t i = 0; i < axis.given; ++i) {
             const std::string& name = axis.names[i];
             if (find(parameters, name)) continue;
             if (std::find(used.begin(), used.end(), name) != used.end()) continue;
-            refuse("column '" + name + "' of the table is no parameter of the script" +
-                   name_hint(name, parameters.names()));
+            refuse_plan("column '" + name + "' of the table is no parameter of the script" +
+                        name_hint(name, parameters.names()));
         }
     }
 }
@@ -210,7 +211,7 @@ std::size_t job_count(const Axes& axes) {
     std::size_t count = 1;
     for (const Axis& axis : axes.list) {
         count *= axis.rows.size();
-        if (count > kMostJobs) refuse("the batch has more than a million jobs");
+        if (count > kMostJobs) refuse_plan("the batch has more than a million jobs");
     }
     return count;
 }
@@ -265,8 +266,8 @@ class JobMaker {
         if (&p == &out_) return;
         if (!values.contains(p.name)) {
             if (!p.default_value) {
-                refuse("parameter '" + p.name + "' has no default: give it by --over, --sweep or " +
-                       "--set");
+                refuse_plan("parameter '" + p.name +
+                            "' has no default: give it by --over, --sweep or " + "--set");
             }
             return;
         }
@@ -298,8 +299,8 @@ class JobMaker {
 void require_inside(const fs::path& folder, const BatchJob& job) {
     const fs::path inside = job.output.lexically_relative(folder);
     if (!inside.empty() && *inside.begin() != ".." && inside != ".") return;
-    refuse("job " + std::to_string(job.number) + " would write " + job.output.string() +
-           ", outside of " + folder.string());
+    refuse_plan("job " + std::to_string(job.number) + " would write " + job.output.string() +
+                ", outside of " + folder.string());
 }
 
 std::string argument_text(const BatchJob& job) {
@@ -318,11 +319,12 @@ void require_own_outputs(const BatchPlan& plan) {
     for (const BatchJob& job : plan.jobs) {
         const auto [other, is_new] = jobs.emplace(job.output.string(), &job);
         if (!is_new) {
-            refuse(argument_text(*other->second) + " and " + argument_text(job) + " both write " +
-                   job.output.string() + ": --out needs a placeholder that tells them apart");
+            refuse_plan(argument_text(*other->second) + " and " + argument_text(job) +
+                        " both write " + job.output.string() +
+                        ": --out needs a placeholder that tells them apart");
         }
         if (inputs.contains(fs::absolute(job.output).lexically_normal())) {
-            refuse(argument_text(job) + " would write over the input " + job.output.string());
+            refuse_plan(argument_text(job) + " would write over the input " + job.output.string());
         }
     }
 }
@@ -332,9 +334,10 @@ void require_own_outputs(const BatchPlan& plan) {
 lua::ParameterSet script_parameters(Program& program, const std::string& path) {
     Script script(program, {path, {"--help"}});
     const ScriptResult result = script.run_file(path);
-    if (result.status != kSuccess) refuse(result.message);
+    if (result.status != kSuccess) refuse_plan(result.message);
     if (!script.state().parameters) {
-        refuse(path + " declares no parameters: a batch gives values to those of lissom.params");
+        refuse_plan(path +
+                    " declares no parameters: a batch gives values to those of lissom.params");
     }
     return *script.state().parameters;
 }

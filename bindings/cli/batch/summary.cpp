@@ -52,7 +52,7 @@ Json job_json(const BatchPlan& plan, const BatchJob& job, const JobRecord* recor
     return json;
 }
 
-std::string quoted(const std::string& text) {
+std::string table_text(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string value = "\"";
     for (const char c : text) value += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -61,7 +61,7 @@ std::string quoted(const std::string& text) {
 
 std::string cell(const Json& value) {
     if (value.is_null()) return "";
-    return value.is_string() ? quoted(value.get<std::string>()) : value.dump();
+    return value.is_string() ? table_text(value.get<std::string>()) : value.dump();
 }
 
 std::vector<std::string> parameter_names(const Json& summary) {
@@ -72,7 +72,7 @@ std::vector<std::string> parameter_names(const Json& summary) {
     return {names.begin(), names.end()};
 }
 
-std::string counts_text(const Json& summary) {
+std::string job_counts_text(const Json& summary) {
     std::string text = std::to_string(summary.at("jobs").size()) + " jobs";
     for (const char* outcome : {"done", "failed", "waiting"}) {
         const std::size_t count = summary.at(outcome);
@@ -112,7 +112,7 @@ std::string summary_table(const Json& summary) {
                                         "log",         "output"};
     const std::vector<std::string> parameters = parameter_names(summary);
     std::string text = "number";
-    for (const std::string& name : parameters) text += "," + quoted(name);
+    for (const std::string& name : parameters) text += "," + table_text(name);
     for (const char* name : kColumns) text += std::string(",") + name;
     text += "\n";
     for (const Json& job : summary.at("jobs")) {
@@ -128,7 +128,7 @@ std::string summary_table(const Json& summary) {
 
 std::string summary_page(const Json& summary) {
     const Json data = {{"title", fs::path(summary.at("script").get<std::string>()).filename()},
-                       {"counts", counts_text(summary)},
+                       {"counts", job_counts_text(summary)},
                        {"parameters", parameter_names(summary)},
                        {"jobs", summary.at("jobs")}};
     std::string text = page_template();

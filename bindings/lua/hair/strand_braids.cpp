@@ -80,7 +80,7 @@ end
 local hair = lissom.strands{ points = points, counts = counts }
 )";
 
-std::vector<Parameter> common_fields() {
+std::vector<Parameter> braid_fields() {
     return with_fields({object("scalp", "lissom.Scalp",
                                "Points are in the unit of its head, as scalp:at gives them.")
                             .optional("points are in metres of the strands"),
@@ -118,7 +118,7 @@ std::vector<Function> strand_braid_methods() {
                   .defaults(d.early)
                   .between(0, 1),
               meters("step", "Between points.").defaults(d.step).above(0)},
-             common_fields()),
+             braid_fields()),
          .results = kBraidResults,
          .errors = kOperatorErrors,
          .example =
@@ -147,7 +147,7 @@ std::vector<Function> strand_braid_methods() {
               integer("points", "Number of points of each strand in the bun.")
                   .defaults(b.points)
                   .between(4, 10000)},
-             common_fields()),
+             braid_fields()),
          .results = kBraidResults,
          .errors = kOperatorErrors,
          .example = kSheaf +

@@ -61,7 +61,7 @@ void push_turn(const Call& call, const Vec3& turn) {
     call.set_field("angle", call.push(kDegrees * angle));
 }
 
-void push_place(const Call& call, const JoinReport& join) {
+void push_join_place(const Call& call, const JoinReport& join) {
     call.set_field("placed", call.push(kPlacings[static_cast<int>(join.placed)]));
     call.set_field("guessed", call.push(join.guessed));
     if (join.guessed) call.set_field("certainty", call.push(join.certainty));
@@ -146,7 +146,7 @@ int report_text(lua_State* L) {
 
 void push_join(const Call& call, const JoinReport& join) {
     lua_createtable(call.lua(), 0, 18);
-    push_place(call, join);
+    push_join_place(call, join);
     call.set_field("source_size", call.push(join.source_size));
     call.set_field("target_size", call.push(join.target_size));
     call.set_field("scale", call.push(join.scale));

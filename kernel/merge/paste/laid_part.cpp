@@ -74,7 +74,7 @@ constexpr double kEdgeLine = 0.5, kEdgesUnder = 0.3, kDeepestFoot = 1.5;
 // A point of an edge is looked at every so many radii.
 constexpr double kEdgeStep = 0.1;
 // How often a part turns toward the steepest side until its boundary is seen, and how far.
-constexpr int kTurns = 5;
+constexpr int kLayTurns = 5;
 constexpr double kMoreTurn = 0.3;
 
 std::vector<ImagePoint> inner_images(const PartTrials& trials) {
@@ -172,7 +172,7 @@ bool look_along_axis(const PasteMap& map, PartTrial& trial) {
 std::optional<PartTrial> seen_along_axis(const PasteMap& map, PartTrial trial) {
     const std::vector<RingPoint> rim = trial.rim;
     Vec3 axis = mean_normal(rim);
-    for (int turn = 0; turn < kTurns; ++turn, axis = turned_to_steepest(axis, rim)) {
+    for (int turn = 0; turn < kLayTurns; ++turn, axis = turned_to_steepest(axis, rim)) {
         if (!(axis.norm() > 0.0)) return std::nullopt;
         PartTrial next = trial;
         turn_to(axis, next);
