@@ -218,5 +218,5 @@ bool has_gpl_module() {
 // The link options of this library ask for it, so that these definitions are taken.
 extern "C" {
 extern const char lissom_gpl_module;
-const char lissom_gpl_module = 0;
+const char lissom_gpl_module = 0;  // NOLINT(readability-identifier-naming): a name of C.
 }

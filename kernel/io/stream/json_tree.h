@@ -20,9 +20,10 @@ struct JsonAllocator : std::allocator<T> {
     JsonAllocator() = default;
     template <typename Other>
     JsonAllocator(const JsonAllocator<Other>&) noexcept {}
+    // The names are those that the standard library asks for.
     template <typename Other>
-    struct rebind {
-        using other = JsonAllocator<Other>;
+    struct rebind {                          // NOLINT(readability-identifier-naming)
+        using other = JsonAllocator<Other>;  // NOLINT(readability-identifier-naming)
     };
 };
 

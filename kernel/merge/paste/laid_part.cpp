@@ -169,7 +169,7 @@ bool look_along_axis(const PasteMap& map, PartTrial& trial) {
 }
 
 // The part with its boundary where its axis meets the target, turned until all of that is seen.
-std::optional<PartTrial> seen_along_axis(const PasteMap& map, PartTrial trial) {
+std::optional<PartTrial> seen_along_axis(const PasteMap& map, const PartTrial& trial) {
     const std::vector<RingPoint> rim = trial.rim;
     Vec3 axis = mean_normal(rim);
     for (int turn = 0; turn < kLayTurns; ++turn, axis = turned_to_steepest(axis, rim)) {
