@@ -188,7 +188,7 @@ std::optional<PartTrial> draped_trial(const PartTrials& trials, const Context& c
     PartTrials plain = trials;
     plain.refines = plain.settles = false;
     PartTrial trial = tight_trial(plain, context);
-    std::optional<PartTrial> looking = seen_along_axis(trials.surface.map(), std::move(trial));
+    std::optional<PartTrial> looking = seen_along_axis(trials.surface.map(), trial);
     if (!looking) return std::nullopt;
     trial = std::move(*looking);
     trial.draped = true;
