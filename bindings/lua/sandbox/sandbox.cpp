@@ -292,7 +292,9 @@ Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
     parts.stop.follow(state().context);
 }
 
+// Lua needs memory to call the finalizers of objects, which give back what they hold.
 Sandbox::~Sandbox() {
+    const MemoryOverdraft overdraft(parts_->account);
     lua_close(parts_->L);
 }
 

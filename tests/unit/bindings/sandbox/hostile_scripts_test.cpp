@@ -139,7 +139,7 @@ void check_composed(std::uint32_t seed) {
 TEST_CASE("sandbox: composed scripts end within their limits") {
     const std::chrono::duration<double> time(number_from("LISSOM_HOSTILE_SECONDS", 3.0));
     const auto first = static_cast<std::uint32_t>(number_from("LISSOM_HOSTILE_SEED", 1.0));
-    const auto most = static_cast<std::uint32_t>(number_from("LISSOM_HOSTILE_COUNT", 400.0));
+    const auto most = static_cast<std::uint32_t>(number_from("LISSOM_HOSTILE_COUNT", 150.0));
     const auto start = Clock::now();
     std::atomic<int> count = 0;
     on_threads([&](std::uint32_t i) {
