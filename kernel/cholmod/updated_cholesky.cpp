@@ -216,7 +216,9 @@ bool has_gpl_module() {
 }  // namespace lissom
 
 // The link options of this library ask for it, so that these definitions are taken.
+// NOLINTBEGIN(readability-identifier-naming): a name of C.
 extern "C" {
 extern const char lissom_gpl_module;
-const char lissom_gpl_module = 0;  // NOLINT(readability-identifier-naming): a name of C.
+const char lissom_gpl_module = 0;
 }
+// NOLINTEND(readability-identifier-naming)

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/cholmod/cholmod_view.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "kernel/solve/sparse/adjacency.h"
-#include "kernel/cholmod/cholmod_view.h"
 #include "kernel/solve/sparse/elimination_tree.h"
 #include "kernel/solve/sparse/minimum_degree.h"
 #include "kernel/solve/sparse/sparse_system.h"
