@@ -11,6 +11,23 @@
 
 namespace lissom::test {
 
+/// Copies a mesh of the kernel through the interface: the context has the kernel's space.
+inline lissom_mesh add_mesh(lissom_context* context, const Mesh& mesh) {
+    std::vector<Index> corners, sizes;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const auto face = mesh.topology().face(f);
+        corners.insert(corners.end(), face.begin(), face.end());
+        sizes.push_back(count_of(face));
+    }
+    const lissom_input p{mesh.positions().data(), mesh.positions().size(), sizeof(Vec3),
+                         LISSOM_FLOAT64};
+    const lissom_input c{corners.data(), corners.size(), 0, LISSOM_INT32};
+    const lissom_input s{sizes.data(), sizes.size(), 0, LISSOM_INT32};
+    lissom_mesh handle{};
+    REQUIRE(lissom_mesh_create(context, &p, &c, &s, &handle) == LISSOM_OK);
+    return handle;
+}
+
 class Host {
   public:
     explicit Host(const lissom_context_options& options = lissom_default_context_options()) {
@@ -24,22 +41,8 @@ class Host {
 
     std::string message() const { return lissom_last_error(context_)->message; }
 
-    /// A copy of a mesh of the kernel, through the interface: the context has the kernel's space.
-    lissom_mesh add(const Mesh& mesh) const {
-        std::vector<Index> corners, sizes;
-        for (Index f = 0; f < mesh.face_count(); ++f) {
-            const auto face = mesh.topology().face(f);
-            corners.insert(corners.end(), face.begin(), face.end());
-            sizes.push_back(count_of(face));
-        }
-        const lissom_input p{mesh.positions().data(), mesh.positions().size(), sizeof(Vec3),
-                             LISSOM_FLOAT64};
-        const lissom_input c{corners.data(), corners.size(), 0, LISSOM_INT32};
-        const lissom_input s{sizes.data(), sizes.size(), 0, LISSOM_INT32};
-        lissom_mesh handle{};
-        REQUIRE(lissom_mesh_create(context_, &p, &c, &s, &handle) == LISSOM_OK);
-        return handle;
-    }
+    /// A copy of a mesh of the kernel, see `add_mesh`.
+    lissom_mesh add(const Mesh& mesh) const { return add_mesh(context_, mesh); }
 
     std::vector<Vec3> positions(lissom_mesh mesh) const {
         std::vector<Vec3> points(at(lissom_mesh_vertex_count(context_, mesh)));

@@ -4,25 +4,10 @@
 
 #include "kernel/mesh/shapes/head.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/c/host.h"
 
 namespace lissom::test {
 namespace {
-
-lissom_mesh add_mesh(lissom_context* context, const Mesh& mesh) {
-    std::vector<Index> corners, sizes;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        const auto face = mesh.topology().face(f);
-        corners.insert(corners.end(), face.begin(), face.end());
-        sizes.push_back(count_of(face));
-    }
-    const lissom_input p{mesh.positions().data(), mesh.positions().size(), sizeof(Vec3),
-                         LISSOM_FLOAT64};
-    const lissom_input c{corners.data(), corners.size(), 0, LISSOM_INT32};
-    const lissom_input s{sizes.data(), sizes.size(), 0, LISSOM_INT32};
-    lissom_mesh handle{};
-    REQUIRE(lissom_mesh_create(context, &p, &c, &s, &handle) == LISSOM_OK);
-    return handle;
-}
 
 lissom_region add_region(lissom_context* context, lissom_mesh mesh,
                          const std::vector<Index>& vertices) {
