@@ -67,10 +67,10 @@ Mesh with_attributes(Mesh mesh) {
 }
 
 struct Inputs {
-    Mesh bar = with_attributes(make_bar({.across = 24, .along = 400}));
-    Mesh sphere = make_sphere({.segments = 80, .kind = SphereKind::triangles});
-    Mesh lower = open_tube(200, 200),
-         upper = moved(open_tube(200, 200), translation(Vec3(0.1, 2.5, 0.0)));
+    Mesh bar = with_attributes(make_bar({.across = 16, .along = 150}));
+    Mesh sphere = make_sphere({.segments = 40, .kind = SphereKind::triangles});
+    Mesh lower = open_tube(100, 100),
+         upper = moved(open_tube(100, 100), translation(Vec3(0.1, 2.5, 0.0)));
     Mesh head = make_head({.vertices = 4000});
     std::string obj = encode_mesh(bar, "obj"), ply = encode_mesh(bar, "ply"),
                 glb = encode_mesh(bar, "glb"), stl = encode_mesh(sphere, "stl"),
@@ -92,7 +92,7 @@ struct Inputs {
         };
         style.add({StreamCurve{{over(20, 50), over(70, 25), over(85, -15)}}});
         HairOptions hair_options = style.default_hair();
-        hair_options.roots.count = 20000;
+        hair_options.roots.count = 15000;
         hair_options.growth.length = 0.2;
         return style.grow(hair_options, context);
     }
@@ -204,23 +204,23 @@ std::vector<Operation> all_operations() {
         {"save ply", encode(in.bar, "ply")},
         {"save glb", encode(in.bar, "glb")},
         {"save stl", encode(in.bar, "stl")},
-        {"bar", [](const Context& c) { return made(make_bar({.across = 24, .along = 400}, c)); }},
+        {"bar", [](const Context& c) { return made(make_bar({.across = 16, .along = 150}, c)); }},
         {"sphere of triangles",
          [](const Context& c) {
-             return made(make_sphere({.segments = 80, .kind = SphereKind::triangles}, c));
+             return made(make_sphere({.segments = 40, .kind = SphereKind::triangles}, c));
          }},
         {"grid",
          [](const Context& c) {
-             return made(make_grid({.segments = {200, 200}}, c));
+             return made(make_grid({.segments = {100, 100}}, c));
          }},
         {"torus",
          [](const Context& c) {
-             return made(make_torus({.segments = 200, .tube_segments = 200}, c));
+             return made(make_torus({.segments = 100, .tube_segments = 100}, c));
          }},
         {"cylinder",
-         [](const Context& c) { return made(make_cylinder({.segments = 200, .rings = 200}, c)); }},
-        {"cactus", [](const Context& c) { return made(make_cactus({.vertices = 40000}, c)); }},
-        {"head", [](const Context& c) { return made(make_head({.vertices = 40000}, c)); }},
+         [](const Context& c) { return made(make_cylinder({.segments = 100, .rings = 100}, c)); }},
+        {"cactus", [](const Context& c) { return made(make_cactus({.vertices = 10000}, c)); }},
+        {"head", [](const Context& c) { return made(make_head({.vertices = 10000}, c)); }},
         {"copy", [&](const Context& c) { return made(Mesh(copied(in.bar, c))); }},
         {"subdivide", [&](const Context& c) { return made(subdivide(in.bar, {.levels = 1}, c)); }},
         {"subdivide by Loop",
