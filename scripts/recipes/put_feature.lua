@@ -105,11 +105,11 @@ local examples = {
     leaf = { at = { 0, 0.13, 0 }, scale = 0.03 },
 }
 
---- A generated part, a generated head, and options that join them.
-function put_feature.example(name)
+--- A generated part, a generated head of about so many vertices (8000), and options that join them.
+function put_feature.example(name, vertices)
     local options = {}
     for key, value in pairs(examples[name]) do options[key] = value end
-    return parts.make(name), lissom.shapes.head{ vertices = 8000 }, options
+    return parts.make(name), lissom.shapes.head{ vertices = vertices or 8000 }, options
 end
 
 -- Returns the requested part and the model that it goes onto.

@@ -57,6 +57,8 @@ struct PartTrials {
     bool settles = false;
     /// Sharp edges of the target's chart, whose vertices are places of that.
     std::span<const SharpEdge> sharp = {};
+    /// Sharp edges that a part may bite, if they are not those of the target it is sewn to.
+    std::optional<std::vector<SharpEdge>> left = std::nullopt;
 
     /// Deforms the part of a trial to its rim. Returns its distortion without a refinement.
     PasteDistortion move(PartTrial& trial, const Context& context) const;

@@ -57,6 +57,12 @@ std::string reach_text(double reach) {
     return text;
 }
 
+Vec2 planar_mean(std::span<const Vec2> points) {
+    Vec2 sum = Vec2::Zero();
+    for (const Vec2& p : points) sum += p;
+    return sum / static_cast<double>(points.size());
+}
+
 void require_faces(const Mesh& mesh) {
     if (mesh.face_count() > 0) return;
     throw Error(ErrorCode::mesh_empty, "a mesh without faces cannot be pasted");
@@ -163,11 +169,37 @@ std::optional<double> Paste::State::size_of(const PasteMap& on,
     return std::pow(product, 1.0 / count);
 }
 
+// The map of the plane that puts a former boundary where it lay.
+PlanarMap Paste::State::map_like(const PasteMap& on, const PlacedFeature& former,
+                                 PlanarMap plane) const {
+    std::vector<Vec2> from, to;
+    for (const Index v : former.loop.vertices) {
+        const std::size_t place = at(source_map.place_of(v));
+        if (!former.images[place].inside) continue;
+        from.push_back(source_map.map.uv[place]);
+        to.push_back(on.nearest(former.images[place].position).uv);
+    }
+    if (from.empty()) return plane;
+    plane.center = planar_mean(from);
+    plane.point = planar_mean(to);
+    double along = 0.0, across = 0.0, square = 0.0;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+        const Vec2 a = from[k] - plane.center, b = to[k] - plane.point;
+        along += a.dot(b);
+        across += a.x() * b.y() - a.y() * b.x();
+        square += a.squaredNorm();
+    }
+    plane.angle = std::atan2(across, along);
+    if (square > 0.0) plane.factor = std::hypot(along, across) / square;
+    return plane;
+}
+
 // A ring that is a tube lies in the plane with another size than on the surface: the size that is
 // wanted is that of the outlines.
 std::vector<ImagePoint> Paste::State::images_of(const PasteMap& on, const PastePlacement& placement,
-                                                double angle) const {
+                                                double angle, const PlacedFeature* like) const {
     PlanarMap plane = on.planar(placement, angle);
+    if (like) return on.images(map_like(on, *like, plane));
     std::vector<ImagePoint> images = on.images(plane);
     if (options.thesis) return images;
     const std::optional<double> size = size_of(on, images);
@@ -186,7 +218,7 @@ PlacedFeature Paste::State::place(const PasteMap& on, const PastePlacement& plac
         place.upright = on.planar(placement, 0.0).clear;
         if (!place.upright) choose_angle(on, place, context);
     }
-    place.images = images_of(on, placement, place.angle);
+    place.images = images_of(on, placement, place.angle, effort.like);
     place.mapped = place.images;
     place.loop = search_boundary(on, regions, *ring, place.images, start,
                                  energy_for(options, effort.iterations), context);

@@ -76,13 +76,13 @@ struct SewnPart {
     TargetBite bite;
 };
 
-TargetBite bite_of(const Mesh& target, const LaidPart& laid, const Sewn& sewn,
+TargetBite bite_of(std::span<const SharpEdge> edges, const LaidPart& laid, const Sewn& sewn,
                    const Context& context) {
     std::vector<Vec3> seam;
     for (const Index v : sewn.seams[0]) seam.push_back(sewn.mesh.position(v));
     const PastePart& part = laid.trial.part();
     return target_bite(
-        sharp_edges(target, context), seam,
+        edges, seam,
         {sewn.mesh, sewn.side_of_face, volume_over(laid.trial.moved.mesh, part.loop) < 0.0},
         context);
 }
@@ -94,7 +94,9 @@ SewnPart sewn_along(const PartTrials& trials, const TargetPiece& target, PartTri
         {},
         {}};
     result.sewn = sewn_well(result.laid, options, context);
-    if (!options.draft) result.bite = bite_of(target.mesh(), result.laid, result.sewn, context);
+    if (options.draft) return result;
+    const auto edges = trials.left ? *trials.left : sharp_edges(target.mesh(), context);
+    result.bite = bite_of(edges, result.laid, result.sewn, context);
     return result;
 }
 
@@ -268,9 +270,17 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     const bool refines = options.compare && !state.options.thesis && !options.draft;
     const bool settles = refines && state.optimized && !state.bound_to_boundary() &&
                          state.options.correspondence == PasteCorrespondence::closest;
-    const PartTrials trials{
-        state.options, state.regions,      surface, *state.ring, placed,
-        state.parts,   options.lock_scale, refines, settles,     state.edges_to_stand_on(context)};
+    const PartTrials trials{state.options,
+                            state.regions,
+                            surface,
+                            *state.ring,
+                            placed,
+                            state.parts,
+                            options.lock_scale,
+                            refines,
+                            settles,
+                            state.edges_to_stand_on(context),
+                            options.draft ? std::nullopt : state.edges_left(context)};
     PasteReport report;
     report.search = placed.loop.report;
     report.source_map = state.source_map.quality();

@@ -59,6 +59,8 @@ struct PasteEffort {
     bool closest = false;
     /// The boundary free of edges that belongs to the loop to start from, if it stays there.
     const FreeLoop* line = nullptr;
+    /// A placement on another target, whose boundary keeps its place.
+    const PlacedFeature* like = nullptr;
 };
 
 /// The target as a part stands on it.
@@ -157,6 +159,8 @@ struct Paste::State {
     const PasteGround& ground(const Context& context);
     /// Sharp edges that a part may stand on; none if the target was cleared under its boundary.
     std::span<const SharpEdge> edges_to_stand_on(const Context& context);
+    /// Sharp edges of the target as given that were not cleared; nothing if none of it was.
+    std::optional<std::vector<SharpEdge>> edges_left(const Context& context) const;
     LaidPart laid_on_ground(const PartTrials& trials, const PartTrial& trial,
                             const Context& context);
     LaidPart drafted(const PartTrials& trials, const PasteDraftOptions& wanted,
@@ -167,8 +171,9 @@ struct Paste::State {
                         std::span<const Index> start, const PasteEffort& effort,
                         const Context& context);
     std::optional<double> size_of(const PasteMap& on, const std::vector<ImagePoint>& images) const;
+    PlanarMap map_like(const PasteMap& on, const PlacedFeature& former, PlanarMap plane) const;
     std::vector<ImagePoint> images_of(const PasteMap& on, const PastePlacement& placement,
-                                      double angle) const;
+                                      double angle, const PlacedFeature* like) const;
     std::vector<ImagePoint> nearest_images(const PasteMap& on, const PlacedFeature& place) const;
     bool draw_once(const PasteMap& on, PlacedFeature& place, const Context& context) const;
     double energy_near(const PasteMap& on, const PlacedFeature& place, const Context& context);

@@ -186,6 +186,17 @@ AlteredTarget Paste::State::base_of(const AlteredTarget& ground, const PastePlac
     }
 }
 
+std::optional<std::vector<SharpEdge>> Paste::State::edges_left(const Context& context) const {
+    if (!gone) return std::nullopt;
+    if (!given_edges) given_edges = sharp_edges(given, context);
+    const std::vector<char> cleared = gone->mask();
+    std::vector<SharpEdge> left = *given_edges;
+    std::erase_if(left, [&](const SharpEdge& edge) {
+        return cleared[at(edge.first)] && cleared[at(edge.second)];
+    });
+    return left;
+}
+
 std::vector<Vec2> Paste::State::boundary_in_plane() const {
     std::vector<Vec2> line;
     if (placed.line) {
@@ -211,7 +222,10 @@ void Paste::State::place_on_cleared(const AlteredTarget& ground, const Region& u
     std::optional<ClearedTarget> next = cleared_inside(ground.mesh, ground.onto, under, context);
     if (!next) return place_on(ground, placement, start, effort, context);
     note_cleared(*next);
-    place_on(after(ground, std::move(*next)), placement, start, effort, context);
+    const PlacedFeature former = placed;
+    PasteEffort there = effort;
+    there.like = &former;
+    place_on(after(ground, std::move(*next)), placement, start, there, context);
 }
 
 void Paste::State::clear_under_boundary(const PasteEffort& effort, const Context& context) {
