@@ -173,7 +173,8 @@ void ObjectTable::for_each(FunctionRef<void(std::uint64_t, Object&)> visit) {
 
 // ---- Space
 
-Space::Space(const lissom_space& space) : axes_(axes_of(space)), reverses_(space.clockwise) {}
+Space::Space(const lissom_space& space)
+    : axes_(axes_of(space)), reverses_(space.clockwise), mirrors_(space.left_handed) {}
 
 Vec3 Space::to_kernel(const double p[3]) const {
     const Vec3 given(p[0], p[1], p[2]);

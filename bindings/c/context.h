@@ -34,6 +34,7 @@ enum class Kind : std::uint8_t {
     strands,
     script,
     object,
+    render_map,
 };
 
 /// A callable of the caller, for the time of a call: unlike a std::function it takes no memory.
@@ -103,6 +104,8 @@ class ObjectTable {
         int jobs = 0;
         std::shared_ptr<void> content;
         MemoryCharge charge;
+        /// Facts about the content that it does not hold itself, or null.
+        std::shared_ptr<void> beside = nullptr;
     };
 
     std::uint64_t add(Kind kind, std::shared_ptr<void> content, MemoryCharge charge);
@@ -135,10 +138,12 @@ class Space {
     lissom_transform to_host(const Affine& map) const;
     /// Returns whether faces run the other way.
     bool reverses() const { return reverses_; }
+    /// Returns whether the space is a mirror image of the kernel's.
+    bool mirrors() const { return mirrors_; }
 
   private:
     Mat3 axes_;
-    bool reverses_;
+    bool reverses_, mirrors_;
 };
 
 /// Work that runs beside the host's thread.

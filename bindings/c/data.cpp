@@ -1,14 +1,13 @@
 #include "bindings/c/data.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace lissom::c {
 namespace {
-
-std::size_t size_of(lissom_format format) {
-    return format == LISSOM_FLOAT64 ? sizeof(double) : sizeof(float);
-}
 
 template <typename Number>
 Number get(const unsigned char* place) {
@@ -17,11 +16,31 @@ Number get(const unsigned char* place) {
     return value;
 }
 
+template <typename Number>
+void put(unsigned char* place, Number value) {
+    std::memcpy(place, &value, sizeof value);
+}
+
+// The nearest number that an integer of this type holds.
+template <typename Number>
+Number nearest_integer(double value) {
+    using Limits = std::numeric_limits<Number>;
+    const double least = Limits::min(), most = Limits::max();
+    return static_cast<Number>(std::clamp(std::nearbyint(value), least, most));
+}
+
+bool is_known(lissom_format format) {
+    return format >= LISSOM_FLOAT32 && format <= LISSOM_SNORM16;
+}
+
 // Bytes from one element to the next. The stride may not be less than an element is long.
 std::size_t stride_of(std::size_t stride, std::size_t element, const char* name) {
-    if (stride == 0) return element;
-    require(stride >= element, std::string(name) + ": the stride is less than an element");
-    return stride;
+    if (stride != 0 && stride < element) {
+        throw Error(ErrorCode::invalid_argument, std::string(name) +
+                                                     ": the stride is less than an element, " +
+                                                     std::to_string(element) + " bytes");
+    }
+    return stride != 0 ? stride : element;
 }
 
 void require_list(const lissom_input* input, const char* name) {
@@ -29,23 +48,120 @@ void require_list(const lissom_input* input, const char* name) {
     require(input->data || input->count == 0, std::string(name) + " has no data");
     require(input->count <= std::size_t{std::numeric_limits<Index>::max()},
             std::string(name) + " has too many elements");
+    if (!is_known(input->format)) refuse_format(name, "of a lissom_format");
 }
 
 double number_at(const unsigned char* place, lissom_format format) {
-    return format == LISSOM_FLOAT64 ? get<double>(place) : double{get<float>(place)};
+    switch (format) {
+        case LISSOM_FLOAT32:
+            return get<float>(place);
+        case LISSOM_FLOAT64:
+            return get<double>(place);
+        case LISSOM_UINT32:
+            return get<std::uint32_t>(place);
+        case LISSOM_INT32:
+            return get<std::int32_t>(place);
+        case LISSOM_UINT8:
+            return get<std::uint8_t>(place);
+        case LISSOM_UINT16:
+            return get<std::uint16_t>(place);
+        case LISSOM_UNORM8:
+            return get<std::uint8_t>(place) / 255.0;
+        case LISSOM_UNORM16:
+            return get<std::uint16_t>(place) / 65535.0;
+        case LISSOM_SNORM8:
+            return std::max(get<std::int8_t>(place) / 127.0, -1.0);
+        case LISSOM_SNORM16:
+            return std::max(get<std::int16_t>(place) / 32767.0, -1.0);
+    }
+    return 0.0;
 }
 
-[[noreturn]] void refuse_format(const char* name, const char* wanted) {
-    throw Error(ErrorCode::invalid_argument, std::string(name) + " must be " + wanted);
+// The greatest integer of a format for ids, or 0 if it has none.
+std::uint32_t greatest_id(lissom_format format) {
+    switch (format) {
+        case LISSOM_UINT8:
+            return 0xff;
+        case LISSOM_UINT16:
+            return 0xffff;
+        case LISSOM_UINT32:
+            return 0xffffffff;
+        case LISSOM_INT32:
+            return 0x7fffffff;
+        default:
+            return 0;
+    }
+}
+
+void require_integers(lissom_format format, const char* name) {
+    if (greatest_id(format) == 0) refuse_format(name, "UINT8, UINT16, UINT32 or INT32");
+}
+
+void put_integer(unsigned char* place, lissom_format format, Index value) {
+    if (format == LISSOM_UINT8) return put(place, static_cast<std::uint8_t>(value));
+    if (format == LISSOM_UINT16) return put(place, static_cast<std::uint16_t>(value));
+    put(place, std::int32_t{value});
 }
 
 }  // namespace
 
+void refuse_format(const char* name, const char* wanted) {
+    throw Error(ErrorCode::invalid_argument, std::string(name) + " must be " + wanted);
+}
+
+std::size_t size_of(lissom_format format) {
+    switch (format) {
+        case LISSOM_FLOAT64:
+            return 8;
+        case LISSOM_UINT8:
+        case LISSOM_UNORM8:
+        case LISSOM_SNORM8:
+            return 1;
+        case LISSOM_UINT16:
+        case LISSOM_UNORM16:
+        case LISSOM_SNORM16:
+            return 2;
+        default:
+            return 4;
+    }
+}
+
+bool is_float(lissom_format format) {
+    return format == LISSOM_FLOAT32 || format == LISSOM_FLOAT64;
+}
+
+bool is_normalized(lissom_format format) {
+    return format >= LISSOM_UNORM8 && format <= LISSOM_SNORM16;
+}
+
+void put_number(unsigned char* place, lissom_format format, double value) {
+    switch (format) {
+        case LISSOM_FLOAT32:
+            return put(place, static_cast<float>(value));
+        case LISSOM_FLOAT64:
+            return put(place, value);
+        case LISSOM_UINT32:
+            return put(place, nearest_integer<std::uint32_t>(value));
+        case LISSOM_INT32:
+            return put(place, nearest_integer<std::int32_t>(value));
+        case LISSOM_UINT8:
+            return put(place, nearest_integer<std::uint8_t>(value));
+        case LISSOM_UINT16:
+            return put(place, nearest_integer<std::uint16_t>(value));
+        case LISSOM_UNORM8:
+            return put(place, nearest_integer<std::uint8_t>(255.0 * value));
+        case LISSOM_UNORM16:
+            return put(place, nearest_integer<std::uint16_t>(65535.0 * value));
+        case LISSOM_SNORM8:
+            return put(place, nearest_integer<std::int8_t>(127.0 * value));
+        case LISSOM_SNORM16:
+            return put(place, nearest_integer<std::int16_t>(32767.0 * value));
+    }
+}
+
 std::vector<Vec3> read_points(const lissom_input* input, const Space& space, const char* name) {
     require_list(input, name);
-    if (input->format != LISSOM_FLOAT32 && input->format != LISSOM_FLOAT64) {
-        refuse_format(name, "FLOAT32 or FLOAT64");
-    }
+    if (!is_float(input->format)) refuse_format(name, "FLOAT32 or FLOAT64");
     const std::size_t size = size_of(input->format);
     const std::size_t stride = stride_of(input->stride, 3 * size, name);
     const auto* place = static_cast<const unsigned char*>(input->data);
@@ -59,27 +175,62 @@ std::vector<Vec3> read_points(const lissom_input* input, const Space& space, con
     return points;
 }
 
-std::vector<Index> read_integers(const lissom_input* input, const char* name) {
+namespace {
+
+// -1 as an unsigned number.
+constexpr double kNoneUnsigned = 4294967295.0;
+
+std::vector<Index> read_ids(const lissom_input* input, bool may_be_none, const char* name) {
     require_list(input, name);
-    if (input->format != LISSOM_UINT32 && input->format != LISSOM_INT32) {
-        refuse_format(name, "UINT32 or INT32");
-    }
-    const std::size_t stride = stride_of(input->stride, sizeof(std::uint32_t), name);
+    require_integers(input->format, name);
+    const std::size_t stride = stride_of(input->stride, size_of(input->format), name);
     const auto* place = static_cast<const unsigned char*>(input->data);
     std::vector<Index> values(input->count);
     for (Index& value : values) {
-        value = get<std::int32_t>(place);
-        if (value < 0) {
+        const double given = number_at(place, input->format);
+        const bool is_none = may_be_none && (given == -1.0 || given == kNoneUnsigned);
+        if (!is_none && (given < 0.0 || given > std::numeric_limits<Index>::max())) {
             throw Error(ErrorCode::out_of_range,
                         std::string(name) + ": ids are from 0 to 2147483647");
         }
+        value = is_none ? kNoIndex : static_cast<Index>(given);
         place += stride;
     }
     return values;
 }
 
-void require_room(const lissom_output* output, std::size_t count, const char* name) {
+}  // namespace
+
+std::vector<Index> read_integers(const lissom_input* input, const char* name) {
+    return read_ids(input, false, name);
+}
+
+std::vector<Index> read_labels(const lissom_input* input, const char* name) {
+    return read_ids(input, true, name);
+}
+
+std::vector<double> read_numbers(const lissom_input* input, Index width, const char* name) {
+    require_list(input, name);
+    require(width >= 1 && width <= 1024, std::string(name) + ": an element has 1 to 1024 numbers");
+    const std::size_t size = size_of(input->format);
+    const std::size_t stride = stride_of(input->stride, at(width) * size, name);
+    const auto* place = static_cast<const unsigned char*>(input->data);
+    std::vector<double> values;
+    values.reserve(input->count * at(width));
+    for (std::size_t i = 0; i < input->count; ++i, place += stride) {
+        for (std::size_t k = 0; k < at(width); ++k) {
+            values.push_back(number_at(place + k * size, input->format));
+            if (std::isfinite(values.back())) continue;
+            throw Error(ErrorCode::not_finite, std::string(name) + ": a number is not finite");
+        }
+    }
+    return values;
+}
+
+void require_room(const lissom_output* output, std::size_t count, std::size_t width,
+                  const char* name) {
     require_given(output, name);
+    if (!is_known(output->format)) refuse_format(name, "of a lissom_format");
     if (!output->data && count > 0 && output->count > 0) {
         throw Error(ErrorCode::out_of_range, std::string(name) + ": its data are NULL, for " +
                                                  std::to_string(count) + " elements");
@@ -89,26 +240,80 @@ void require_room(const lissom_output* output, std::size_t count, const char* na
                                                  std::to_string(output->count) +
                                                  " elements, needed are " + std::to_string(count));
     }
-    if (output->stride != 0) {
-        const std::size_t element =
-            output->format == LISSOM_UINT32 || output->format == LISSOM_INT32
-                ? sizeof(std::uint32_t)
-                : size_of(output->format);
-        stride_of(output->stride, element, name);
+    stride_of(output->stride, width * size_of(output->format), name);
+}
+
+void require_directions(const lissom_output* output, std::size_t count, std::size_t width,
+                        const char* name) {
+    require_room(output, count, width, name);
+    if (is_float(output->format) || output->format == LISSOM_SNORM8 ||
+        output->format == LISSOM_SNORM16) {
+        return;
+    }
+    refuse_format(name, "FLOAT32, FLOAT64, SNORM8 or SNORM16");
+}
+
+void write_integers(const lissom_output* output, std::span<const Index> values, const char* name,
+                    std::size_t width) {
+    require_room(output, values.size() / width, width, name);
+    require_integers(output->format, name);
+    const std::uint32_t most = greatest_id(output->format);
+    for (const Index value : values) {
+        // -1 in 32 bits is no element.
+        const bool fits = size_of(output->format) == 4 || static_cast<std::uint32_t>(value) <= most;
+        if (fits) continue;
+        throw Error(ErrorCode::out_of_range,
+                    std::string(name) + ": integers of this format end at " + std::to_string(most) +
+                        ", and one is " + std::to_string(value));
+    }
+    const std::size_t size = size_of(output->format);
+    const std::size_t stride = output->stride != 0 ? output->stride : width * size;
+    auto* place = static_cast<unsigned char*>(output->data);
+    for (std::size_t i = 0; i < values.size(); i += width, place += stride) {
+        for (std::size_t k = 0; k < width; ++k) {
+            put_integer(place + k * size, output->format, values[i + k]);
+        }
     }
 }
 
-void write_integers(const lissom_output* output, std::span<const Index> values, const char* name) {
-    require_room(output, values.size(), name);
-    if (output->format != LISSOM_UINT32 && output->format != LISSOM_INT32) {
-        refuse_format(name, "UINT32 or INT32");
+// Faces run the other way in a clockwise space; the first corner stays the first.
+void reverse_faces(FaceList& faces) {
+    for (Index f = 0; f < faces.size(); ++f) {
+        std::reverse(faces.vertices.begin() + faces.offsets[at(f)] + 1,
+                     faces.vertices.begin() + faces.offsets[at(f) + 1]);
     }
-    const std::size_t stride = output->stride != 0 ? output->stride : sizeof(std::uint32_t);
-    auto* place = static_cast<unsigned char*>(output->data);
-    for (const Index value : values) {
-        put(place, static_cast<std::int32_t>(value));
-        place += stride;
+}
+
+FaceList read_faces(const lissom_input* corners, const lissom_input* sizes, const Space& space) {
+    FaceList faces;
+    faces.vertices = read_integers(corners, "corners");
+    const std::size_t count = faces.vertices.size();
+    if (sizes) {
+        std::size_t end = 0;
+        for (const Index size : read_integers(sizes, "sizes")) {
+            end += at(size);
+            require(end <= count, "the sizes of faces add up to more than there are corners");
+            faces.offsets.push_back(index_of(end));
+        }
+        require(end == count, "the sizes of faces add up to less than there are corners");
+    } else {
+        require(count % 3 == 0, "corners of triangles come in threes; give sizes for other faces");
+        for (std::size_t end = 3; end <= count; end += 3) faces.offsets.push_back(index_of(end));
     }
+    if (space.reverses()) reverse_faces(faces);
+    return faces;
+}
+
+void write_triangles(const lissom_output* output, std::span<const Triangle> triangles,
+                     const Space& space) {
+    std::vector<Index> values;
+    values.reserve(3 * triangles.size());
+    for (const Triangle& triangle : triangles) {
+        values.push_back(triangle[0]);
+        values.push_back(triangle[space.reverses() ? 2 : 1]);
+        values.push_back(triangle[space.reverses() ? 1 : 2]);
+    }
+    write_integers(output, values, "triangles", 3);
 }
 
 std::string given_text(const char* text, const char* name) {

@@ -163,6 +163,15 @@ lissom_status lissom_hairstyle_normal_at(lissom_context* context, lissom_hairsty
     });
 }
 
+lissom_status lissom_hairstyle_unit(lissom_context* context, lissom_hairstyle style, double* metres,
+                                    double* scale) {
+    return run(context, [&] {
+        const Scalp& scalp = style_of(*context, style).scalp();
+        if (metres) *metres = scalp.unit();
+        if (scale) *scale = scalp.scale();
+    });
+}
+
 lissom_status lissom_hairstyle_add_stream(lissom_context* context, lissom_hairstyle style,
                                           const lissom_input* points, int32_t* curve) {
     return add_curve<StreamCurve>(context, style, curve, [&](const Hairstyle& own, auto& shape) {

@@ -251,11 +251,19 @@ typedef enum lissom_format {
     LISSOM_FLOAT32 = 0,
     LISSOM_FLOAT64 = 1,
     LISSOM_UINT32 = 2,
-    LISSOM_INT32 = 3
+    LISSOM_INT32 = 3,
+    LISSOM_UINT8 = 4,
+    LISSOM_UINT16 = 5,
+    LISSOM_UNORM8 = 6,   ///< 0 to 255 for numbers from 0 to 1
+    LISSOM_UNORM16 = 7,  ///< 0 to 65535 for numbers from 0 to 1
+    LISSOM_SNORM8 = 8,   ///< -127 to 127 for numbers from -1 to 1
+    LISSOM_SNORM16 = 9   ///< -32767 to 32767 for numbers from -1 to 1
 } lissom_format;
 
 /// A list in the host's memory that is read, for instance the positions among the vertices of an
-/// engine. Its elements are numbers or triples of numbers, as the function says.
+/// engine. Its elements are numbers or triples of numbers, as the function says. Positions are
+/// FLOAT32 or FLOAT64; integers are UINT8, UINT16, UINT32 or INT32; attributes have any format. An
+/// element may not overlap the next: such a stride is refused (INVALID_ARGUMENT).
 typedef struct lissom_input {
     const void* data;
     size_t count;
@@ -266,7 +274,9 @@ typedef struct lissom_input {
 
 /// A list in the host's memory that is written: mapped vertex buffers too, as nothing is read from
 /// it. `count` is its capacity in elements; if it is too small the call is refused as OUT_OF_RANGE.
-/// The required number is returned by the neighbouring functions.
+/// The required number is returned by the neighbouring functions. Bytes between elements are left
+/// as they are. Integers that the format cannot hold are refused (OUT_OF_RANGE); numbers are
+/// rounded to the nearest that it holds. Normals and tangents may be SNORM8 or SNORM16 too.
 typedef struct lissom_output {
     void* data;
     size_t count;
@@ -312,6 +322,9 @@ typedef struct lissom_hairstyle {
 typedef struct lissom_strands {
     uint64_t id;
 } lissom_strands;
+typedef struct lissom_render_map {
+    uint64_t id;
+} lissom_render_map;
 typedef struct lissom_job {
     uint64_t id;
 } lissom_job;
@@ -331,6 +344,7 @@ LISSOM_API bool lissom_merger_is_valid(const lissom_context* context, lissom_mer
 LISSOM_API bool lissom_paste_is_valid(const lissom_context* context, lissom_paste paste);
 LISSOM_API bool lissom_hairstyle_is_valid(const lissom_context* context, lissom_hairstyle style);
 LISSOM_API bool lissom_strands_is_valid(const lissom_context* context, lissom_strands strands);
+LISSOM_API bool lissom_render_map_is_valid(const lissom_context* context, lissom_render_map map);
 LISSOM_API bool lissom_job_is_valid(const lissom_context* context, lissom_job job);
 LISSOM_API bool lissom_script_is_valid(const lissom_context* context, lissom_script script);
 LISSOM_API bool lissom_object_is_valid(const lissom_context* context, lissom_object object);
@@ -343,6 +357,7 @@ LISSOM_API lissom_status lissom_merger_release(lissom_context* context, lissom_m
 LISSOM_API lissom_status lissom_paste_release(lissom_context* context, lissom_paste paste);
 LISSOM_API lissom_status lissom_hairstyle_release(lissom_context* context, lissom_hairstyle style);
 LISSOM_API lissom_status lissom_strands_release(lissom_context* context, lissom_strands strands);
+LISSOM_API lissom_status lissom_render_map_release(lissom_context* context, lissom_render_map map);
 LISSOM_API lissom_status lissom_script_release(lissom_context* context, lissom_script script);
 LISSOM_API lissom_status lissom_object_release(lissom_context* context, lissom_object object);
 
@@ -469,6 +484,155 @@ LISSOM_API lissom_status lissom_mesh_bounds(lissom_context* context, lissom_mesh
 /// Receives a hash of all content, the same on every platform; equal meshes have equal hashes.
 LISSOM_API lissom_status lissom_mesh_hash(lissom_context* context, lissom_mesh mesh,
                                           uint64_t* hash);
+
+// ---- Attributes of meshes: texture coordinates, colours, weights of skins, morph targets, and
+// lists of the host's own. Names have a meaning: "uv", "uv2", ... (2 numbers), "color", "color2",
+// ... (3 or 4, linear), "normal" (3), "tangent" (4), "joints" and "weights" (4 or a multiple of
+// it), "morph.1.position", "morph.1.normal", "morph.1.tangent" (3), "morph.2.position", ...; they
+// travel through every operation and every file that can hold them. Directions and offsets are in
+// the host's space. Corners are in the order of lissom_mesh_read_faces.
+
+typedef enum lissom_domain {
+    LISSOM_ON_VERTICES = 0,
+    LISSOM_ON_CORNERS = 1,
+    LISSOM_ON_FACES = 2
+} lissom_domain;
+
+typedef struct lissom_attribute {
+    size_t struct_size;
+    /// Lives until the next call with the context.
+    const char* name;
+    lissom_domain domain;
+    /// Numbers in an element.
+    int32_t width;
+    /// Elements: vertices, corners or faces of the mesh.
+    int32_t count;
+} lissom_attribute;
+
+LISSOM_API lissom_attribute lissom_default_attribute(void);
+/// Returns the number of attributes of a mesh, or -1 for an invalid handle.
+LISSOM_API int32_t lissom_mesh_attribute_count(lissom_context* context, lissom_mesh mesh);
+/// Receives the name and shape of attribute `number`, from 0. Errors: OUT_OF_RANGE; BAD_STRUCT.
+LISSOM_API lissom_status lissom_mesh_attribute(lissom_context* context, lissom_mesh mesh,
+                                               int32_t number, lissom_attribute* attribute);
+/// Receives the same of the attribute called `name`. Errors: OUT_OF_RANGE if there is none.
+LISSOM_API lissom_status lissom_mesh_find_attribute(lissom_context* context, lissom_mesh mesh,
+                                                    const char* name, lissom_attribute* attribute);
+/// Writes all elements of an attribute, in any format. An element without values is NAN in formats
+/// that have it, else 0. Errors: OUT_OF_RANGE.
+LISSOM_API lissom_status lissom_mesh_read_attribute(lissom_context* context, lissom_mesh mesh,
+                                                    const char* name, const lissom_output* values);
+/// Adds an attribute of `width` numbers an element, or replaces the one of this name. Files get it
+/// as the type of the list's format if they can. Errors: INVALID_ARGUMENT for another number of
+/// elements than the domain has, an empty name, or a width that does not suit a name with a
+/// meaning; NOT_FINITE.
+LISSOM_API lissom_status lissom_mesh_write_attribute(lissom_context* context, lissom_mesh mesh,
+                                                     const char* name, lissom_domain domain,
+                                                     int32_t width, const lissom_input* values);
+/// Errors: OUT_OF_RANGE if there is none.
+LISSOM_API lissom_status lissom_mesh_remove_attribute(lissom_context* context, lissom_mesh mesh,
+                                                      const char* name);
+/// Return the number of labels of a kind ("material", "group", "object", "smoothing"), 0 for a mesh
+/// without them, -1 for an invalid handle; and the name of one, which lives until the next call.
+/// Errors: OUT_OF_RANGE.
+LISSOM_API int32_t lissom_mesh_label_count(lissom_context* context, lissom_mesh mesh,
+                                           const char* kind);
+LISSOM_API lissom_status lissom_mesh_label_name(lissom_context* context, lissom_mesh mesh,
+                                                const char* kind, int32_t label, const char** name);
+/// Writes the label of each face (integers); -1 in 32 bits for a face without one. Errors:
+/// OUT_OF_RANGE without labels of this kind.
+LISSOM_API lissom_status lissom_mesh_read_labels(lissom_context* context, lissom_mesh mesh,
+                                                 const char* kind, const lissom_output* labels);
+/// Sets the labels of all faces as places in `names`. Errors: INVALID_ARGUMENT; OUT_OF_RANGE for a
+/// label that has no name.
+LISSOM_API lissom_status lissom_mesh_write_labels(lissom_context* context, lissom_mesh mesh,
+                                                  const char* kind, const char* const* names,
+                                                  int32_t name_count, const lissom_input* labels);
+/// Write the origin of each vertex or face of a mesh that a merge, a paste or an erasure made, as
+/// long as its topology stays: the number of the input (0: the target or the first target, then
+/// further targets, the source last), and its element there; -1 in both for new ones. An element
+/// that blends several has the heaviest. Either list may be NULL. Errors: OUT_OF_RANGE for another
+/// mesh.
+LISSOM_API lissom_status lissom_mesh_read_vertex_origins(lissom_context* context, lissom_mesh mesh,
+                                                         const lissom_output* inputs,
+                                                         const lissom_output* elements);
+LISSOM_API lissom_status lissom_mesh_read_face_origins(lissom_context* context, lissom_mesh mesh,
+                                                       const lissom_output* inputs,
+                                                       const lissom_output* elements);
+
+// ---- Render maps: the vertices that an engine draws. A mesh has one vertex at a place; a vertex
+// buffer has several there if texture coordinates or normals differ, along seams. A map joins both:
+// it belongs to the topology of a mesh, and after that has changed its use is refused
+// (TOPOLOGY_MISMATCH). It takes part in no operation and may be used with any copy of the mesh.
+
+/// A vertex buffer and its faces.
+typedef struct lissom_buffer {
+    size_t struct_size;
+    /// Triples.
+    lissom_input positions;
+    /// Integers: the vertices of all faces. `sizes` are their numbers per face; without elements
+    /// all are triangles.
+    lissom_input corners, sizes;
+    /// One triple a vertex, or no element: vertices at one place whose normals differ by more than
+    /// a degree get normals of their own. They become the attribute "normal".
+    lissom_input normals;
+    /// One pair a vertex, or no element. They become the attribute "uv".
+    lissom_input uvs;
+    /// Vertices with equal coordinates that become one vertex of the mesh.
+    lissom_weld weld;
+    /// Repairs the mesh as loading does; if false, defects are errors.
+    bool repair;
+} lissom_buffer;
+
+/// Returns a buffer without elements that is welded along seams and repaired.
+LISSOM_API lissom_buffer lissom_default_buffer(void);
+/// Makes a mesh of a vertex buffer, and its map; `map` may be NULL. Repairs are listed in the log.
+/// Errors: as lissom_mesh_create; with `repair` only NOT_FINITE, FACE_INDEX and INVALID_ARGUMENT.
+LISSOM_API lissom_status lissom_mesh_create_welded(lissom_context* context,
+                                                   const lissom_buffer* buffer, lissom_mesh* mesh,
+                                                   lissom_render_map* map);
+/// Makes the map of a mesh that did not come from a buffer, such as the result of a merge: its
+/// render vertices are apart if an attribute of corners differs between faces, or if texture
+/// coordinates are mirrored from one face to the next.
+LISSOM_API lissom_status lissom_render_map_create(lissom_context* context, lissom_mesh mesh,
+                                                  lissom_render_map* map);
+/// Return the number of render vertices and of triangles, or -1 for an invalid handle. The
+/// triangles of a buffer may be fewer than were given: those that were dropped are not drawn.
+LISSOM_API int32_t lissom_render_map_size(lissom_context* context, lissom_render_map map);
+LISSOM_API int32_t lissom_render_map_triangle_count(lissom_context* context, lissom_render_map map);
+/// Writes the vertex of the mesh below each render vertex (integers); -1 in 32 bits if its faces
+/// were dropped and no other vertex lies at its place.
+LISSOM_API lissom_status lissom_render_map_read_vertices(lissom_context* context,
+                                                         lissom_render_map map,
+                                                         const lissom_output* vertices);
+/// Writes triples of render vertices, one a triangle (integers). Errors: OUT_OF_RANGE if the format
+/// is too small for the number of a vertex.
+LISSOM_API lissom_status lissom_render_map_read_triangles(lissom_context* context,
+                                                          lissom_render_map map, lissom_mesh mesh,
+                                                          const lissom_output* triangles);
+/// Write one triple a render vertex, of the present shape of a mesh. Render vertices without a
+/// vertex of the mesh are left as they are. Normals are of unit length, weighted by the angles of
+/// faces, across seams but not across creases.
+LISSOM_API lissom_status lissom_render_map_read_positions(lissom_context* context,
+                                                          lissom_render_map map, lissom_mesh mesh,
+                                                          const lissom_output* positions);
+LISSOM_API lissom_status lissom_render_map_read_normals(lissom_context* context,
+                                                        lissom_render_map map, lissom_mesh mesh,
+                                                        const lissom_output* normals);
+/// Writes four numbers a render vertex by the rule of MikkTSpace: a unit tangent along the first
+/// texture coordinate, and the sign of the bitangent, sign * cross(normal, tangent). `uv` names the
+/// attribute of texture coordinates; NULL is "uv". In a left-handed space the sign is that of its
+/// own cross product. Errors: OUT_OF_RANGE without such an attribute.
+LISSOM_API lissom_status lissom_render_map_read_tangents(lissom_context* context,
+                                                         lissom_render_map map, lissom_mesh mesh,
+                                                         const char* uv,
+                                                         const lissom_output* tangents);
+/// Writes an attribute of vertices or corners, one element a render vertex. Errors: OUT_OF_RANGE if
+/// there is none.
+LISSOM_API lissom_status lissom_render_map_read_attribute(lissom_context* context,
+                                                          lissom_render_map map, lissom_mesh mesh,
+                                                          const char* name,
+                                                          const lissom_output* values);
 
 // ---- Regions: sets of vertices of a mesh. A region belongs to the mesh's topology; after that has
 // changed its use is refused (TOPOLOGY_MISMATCH).
@@ -827,8 +991,9 @@ LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_merge(lissom_context* 
                                                                 lissom_mesh* mesh,
                                                                 lissom_merge_report* report);
 
-// ---- Hair (thesis, chapter 4). Points are in the space of the head's mesh, as are strands;
-// lengths of hair are in metres of an average head, so that they fit any head.
+// ---- Hair (thesis, chapter 4). Points are in the space of the head's mesh; lengths of hair are in
+// metres of an average head, so that they fit any head. Strands are in metres: a point of the mesh
+// times the unit of lissom_hairstyle_unit.
 
 typedef struct lissom_hairstyle_options {
     size_t struct_size;
@@ -876,6 +1041,10 @@ LISSOM_API lissom_status lissom_hairstyle_at(lissom_context* context, lissom_hai
 LISSOM_API lissom_status lissom_hairstyle_normal_at(lissom_context* context, lissom_hairstyle style,
                                                     double azimuth, double elevation,
                                                     double normal[3]);
+/// Receives the metres in one unit of the head's mesh, by which strands are larger than the mesh,
+/// and the units of the mesh in one metre of an average head. Either may be NULL.
+LISSOM_API lissom_status lissom_hairstyle_unit(lissom_context* context, lissom_hairstyle style,
+                                               double* metres, double* scale);
 /// Adds a curve through points (triples): hair flows along a stream curve, parts at a dividing
 /// curve, and gathers in a ponytail at the beginning of its spine. A radius of 0 is the default.
 /// `curve` is its number in this style. Errors: INVALID_ARGUMENT if fewer than two points differ;
@@ -938,6 +1107,57 @@ LISSOM_API lissom_status lissom_strands_read_points(lissom_context* context, lis
 LISSOM_API lissom_status lissom_strands_read_offsets(lissom_context* context,
                                                      lissom_strands strands,
                                                      const lissom_output* offsets);
+
+/// Values of strands.
+typedef enum lissom_strand_value {
+    LISSOM_STRAND_WIDTH = 0,             ///< diameter in metres; 1 number, on strands or points
+    LISSOM_STRAND_COLOR = 1,             ///< linear RGB; 3, on strands or points
+    LISSOM_STRAND_TRANSPARENCY = 2,      ///< 0 is opaque; 1, on strands or points
+    LISSOM_STRAND_ROOT_UV = 3,           ///< texture coordinates of the root; 2
+    LISSOM_STRAND_ROOT_FACE = 4,         ///< face of the head; 1 integer
+    LISSOM_STRAND_ROOT_BARYCENTRIC = 5,  ///< weights of that face's first three corners; 3
+    LISSOM_STRAND_GROUP = 6,             ///< place in the list of groups, -1 for none; 1 integer
+    LISSOM_STRAND_ID = 7,        ///< stays with the strand when some are selected; 1 integer
+    LISSOM_STRAND_GUIDE = 8,     ///< id of the strand it follows, -1 for none; 1 integer
+    LISSOM_STRAND_GUIDE_ARC = 9  ///< metres along the guide that its tip follows; 1
+} lissom_strand_value;
+
+/// Returns whether strands have these values: 0 or 1; -1 for an invalid handle. Widths,
+/// transparency and ids are always there.
+LISSOM_API int32_t lissom_strands_has(lissom_context* context, lissom_strands strands,
+                                      lissom_strand_value value);
+/// Write one element a strand, or one a point for widths, colours and transparency, which take the
+/// profile along the strand in. Integers go to UINT32 or INT32 lists, others to any format but
+/// those. Errors: OUT_OF_RANGE if there are none.
+LISSOM_API lissom_status lissom_strands_read(lissom_context* context, lissom_strands strands,
+                                             lissom_strand_value value,
+                                             const lissom_output* values);
+LISSOM_API lissom_status lissom_strands_read_at_points(lissom_context* context,
+                                                       lissom_strands strands,
+                                                       lissom_strand_value value,
+                                                       const lissom_output* values);
+/// Replace values of all strands, one element a strand, or one a point. Errors: INVALID_ARGUMENT
+/// for another number of elements; OUT_OF_RANGE for a group that has no name; NOT_FINITE.
+LISSOM_API lissom_status lissom_strands_write(lissom_context* context, lissom_strands strands,
+                                              lissom_strand_value value,
+                                              const lissom_input* values);
+LISSOM_API lissom_status lissom_strands_write_at_points(lissom_context* context,
+                                                        lissom_strands strands,
+                                                        lissom_strand_value value,
+                                                        const lissom_input* values);
+/// Replaces all points (triples); strands keep their numbers of points. Errors: INVALID_ARGUMENT
+/// for another number; NOT_FINITE.
+LISSOM_API lissom_status lissom_strands_set_points(lissom_context* context, lissom_strands strands,
+                                                   const lissom_input* points);
+/// Return the number of groups, or -1 for an invalid handle; and the name of one, which lives until
+/// the next call. Errors: OUT_OF_RANGE.
+LISSOM_API int32_t lissom_strands_group_count(lissom_context* context, lissom_strands strands);
+LISSOM_API lissom_status lissom_strands_group_name(lissom_context* context, lissom_strands strands,
+                                                   int32_t group, const char** name);
+/// Names the groups, and with them all groups there are; strands of a group without a name are then
+/// in none. Errors: INVALID_ARGUMENT for an empty name.
+LISSOM_API lissom_status lissom_strands_set_groups(lissom_context* context, lissom_strands strands,
+                                                   const char* const* names, int32_t count);
 
 // ---- Scripts, and everything else. These return UNSUPPORTED if the library was built without
 // Lua.

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "bindings/c/data.h"
+#include "bindings/c/origins.h"
 #include "kernel/merge/merge_once.h"
 #include "kernel/merge/paste/paste.h"
 #include "kernel/mesh/cut/cut.h"
@@ -99,6 +100,30 @@ MergeOptions merge_options(const lissom_merge_options* given) {
     return options;
 }
 
+InputCounts counts_of(const Mesh& source, std::span<const Mesh* const> targets) {
+    InputCounts counts;
+    for (const Mesh* target : targets) counts.add(*target);
+    counts.add(source);
+    return counts;
+}
+
+std::uint64_t add_merged(lissom_context& context, MergeResult&& merged, const InputCounts& inputs) {
+    auto origins = origins_of(merged.mesh, merged.provenance, inputs);
+    const std::uint64_t id = context.add_mesh(std::move(merged.mesh));
+    context.objects.find(id, Kind::mesh)->beside = std::move(origins);
+    return id;
+}
+
+// Adds an object with the numbers of its inputs.
+template <typename T>
+std::uint64_t add_with_inputs(lissom_context& context, Kind kind, std::shared_ptr<T> made,
+                              InputCounts counts) {
+    auto kept = std::make_shared<InputCounts>(std::move(counts));
+    const std::uint64_t id = context.add(kind, std::move(made));
+    context.objects.find(id, kind)->beside = std::move(kept);
+    return id;
+}
+
 // The texts of a report are kept before its mesh is: after an error there is neither.
 lissom_merge_report told_report(lissom_context& context, const MergeReport& found) {
     auto told = lissom_default_merge_report();
@@ -115,13 +140,18 @@ lissom_merge_report told_report(lissom_context& context, const MergeReport& foun
 }
 
 void give_merged(lissom_context& context, MergeResult&& merged, std::optional<double> scale,
-                 lissom_mesh* mesh, lissom_merge_report* report) {
+                 const InputCounts& inputs, lissom_mesh* mesh, lissom_merge_report* report) {
     auto told = told_report(context, merged.report);
     if (scale) told.scale = *scale;
-    mesh->id = context.add_mesh(std::move(merged.mesh));
+    mesh->id = add_merged(context, std::move(merged), inputs);
     if (!report) return;
     told.struct_size = report->struct_size;
     std::memcpy(report, &told, std::min(report->struct_size, sizeof told));
+}
+
+// The inputs of a merger or a paste, kept beside it.
+const InputCounts& inputs_of(lissom_context& context, std::uint64_t id, Kind kind) {
+    return *static_cast<const InputCounts*>(context.objects.find(id, kind)->beside.get());
 }
 
 Merger& merger_of(lissom_context& context, lissom_merger merger) {
@@ -224,7 +254,8 @@ lissom_status lissom_merger_create(lissom_context* context, lissom_mesh source,
         auto made = std::make_shared<Merger>(own, others,
                                              joins_of(*context, joins, join_count, own, others),
                                              merge_options(options), context->kernel);
-        merger->id = context->add(Kind::merger, std::move(made));
+        merger->id =
+            add_with_inputs(*context, Kind::merger, std::move(made), counts_of(own, others));
     });
 }
 
@@ -240,7 +271,8 @@ lissom_status lissom_merge(lissom_context* context, lissom_mesh source, lissom_m
         MergeResult result =
             merge(own, *other, joins_of(*context, joins, join_count, own, {&other, 1}),
                   merge_options(options), context->kernel);
-        give_merged(*context, std::move(result), std::nullopt, mesh, report);
+        give_merged(*context, std::move(result), std::nullopt, counts_of(own, {&other, 1}), mesh,
+                    report);
     });
 }
 
@@ -259,7 +291,8 @@ lissom_status lissom_merger_solve(lissom_context* context, lissom_merger merger,
         require_given(mesh, "mesh");
         if (report) take_options(report, lissom_default_merge_report());
         MergeResult result = merger_of(*context, merger).solve(context->kernel);
-        give_merged(*context, std::move(result), std::nullopt, mesh, report);
+        give_merged(*context, std::move(result), std::nullopt,
+                    inputs_of(*context, merger.id, Kind::merger), mesh, report);
     });
 }
 
@@ -272,7 +305,10 @@ lissom_status lissom_merger_begin_solve(lissom_context* context, lissom_merger m
         begin_job(
             *context, {{merger.id, Kind::merger}},
             [own, made](const Context& inner) { *made = own->solve(inner); },
-            [context, made] { return context->add_mesh(std::move(made->mesh)); }, job);
+            [context, made, inputs = inputs_of(*context, merger.id, Kind::merger)] {
+                return add_merged(*context, std::move(*made), inputs);
+            },
+            job);
     });
 }
 
@@ -289,11 +325,13 @@ lissom_status lissom_paste_create(lissom_context* context, lissom_mesh source, l
                                   const lissom_placement* placement, lissom_paste* paste) {
     return run(context, [&] {
         require_given(paste, "paste");
+        const Mesh &own = mesh_of(*context, source), *other = &mesh_of(*context, target);
         auto made = std::make_shared<Paste>(
-            mesh_of(*context, source), mesh_of(*context, target), region_of(*context, region),
-            region_if_given(*context, feature), region_if_given(*context, onto),
-            placement_of(*context, placement), PasteOptions(), context->kernel);
-        paste->id = context->add(Kind::paste, std::move(made));
+            own, *other, region_of(*context, region), region_if_given(*context, feature),
+            region_if_given(*context, onto), placement_of(*context, placement), PasteOptions(),
+            context->kernel);
+        paste->id =
+            add_with_inputs(*context, Kind::paste, std::move(made), counts_of(own, {&other, 1}));
     });
 }
 
@@ -315,7 +353,8 @@ lissom_status lissom_paste_merge(lissom_context* context, lissom_paste paste, li
         require_given(mesh, "mesh");
         if (report) take_options(report, lissom_default_merge_report());
         PasteResult result = paste_of(*context, paste).merge({}, context->kernel);
-        give_merged(*context, std::move(result.merged), result.report.scale, mesh, report);
+        give_merged(*context, std::move(result.merged), result.report.scale,
+                    inputs_of(*context, paste.id, Kind::paste), mesh, report);
     });
 }
 

@@ -5,6 +5,7 @@
 
 #include "bindings/c/data.h"
 #include "bindings/c/files.h"
+#include "bindings/c/mesh_options.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/measure/measures.h"
@@ -16,12 +17,9 @@ namespace {
 
 LoadOptions load_options(const lissom_mesh_load_options* given) {
     const auto taken = take_options(given, lissom_default_mesh_load_options());
-    require(taken.weld >= LISSOM_WELD_AUTOMATIC && taken.weld <= LISSOM_WELD_NONE,
-            "there is no such weld");
     LoadOptions options;
-    if (taken.weld == LISSOM_WELD_SEAMS) options.weld = Weld::seams;
-    if (taken.weld == LISSOM_WELD_ALL) options.weld = Weld::all;
-    if (taken.weld == LISSOM_WELD_NONE) options.weld = Weld::none;
+    const Weld weld = weld_of(taken.weld);
+    if (taken.weld != LISSOM_WELD_AUTOMATIC) options.weld = weld;
     options.repair = taken.repair;
     if (taken.z_up) options.up = UpAxis::z;
     options.unit = taken.unit;
@@ -37,50 +35,6 @@ SaveOptions save_options(const lissom_mesh_save_options* given) {
     return options;
 }
 
-// Faces run the other way in a clockwise space; the first corner stays the first.
-void reverse_faces(FaceList& faces) {
-    for (Index f = 0; f < faces.size(); ++f) {
-        std::reverse(faces.vertices.begin() + faces.offsets[at(f)] + 1,
-                     faces.vertices.begin() + faces.offsets[at(f) + 1]);
-    }
-}
-
-FaceList given_faces(const lissom_input* corners, const lissom_input* sizes) {
-    FaceList faces;
-    faces.vertices = read_integers(corners, "corners");
-    const std::size_t count = faces.vertices.size();
-    if (sizes) {
-        std::size_t end = 0;
-        for (const Index size : read_integers(sizes, "sizes")) {
-            end += at(size);
-            require(end <= count, "the sizes of faces add up to more than there are corners");
-            faces.offsets.push_back(index_of(end));
-        }
-        require(end == count, "the sizes of faces add up to less than there are corners");
-    } else {
-        require(count % 3 == 0, "corners of triangles come in threes; give sizes for other faces");
-        for (std::size_t end = 3; end <= count; end += 3) faces.offsets.push_back(index_of(end));
-    }
-    return faces;
-}
-
-// Triples as lists of their own: three integers a triangle.
-void write_triangles(const lissom_output* output, const std::vector<Triangle>& triangles,
-                     bool reversed) {
-    require_room(output, triangles.size(), "triangles");
-    require(output->format == LISSOM_UINT32 || output->format == LISSOM_INT32,
-            "triangles must be UINT32 or INT32");
-    const std::size_t stride = output->stride != 0 ? output->stride : 3 * sizeof(std::uint32_t);
-    auto* place = static_cast<unsigned char*>(output->data);
-    for (const Triangle& triangle : triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t corner = reversed && k > 0 ? 3 - k : k;
-            put(place + k * sizeof(std::uint32_t), std::int32_t{triangle[corner]});
-        }
-        place += stride;
-    }
-}
-
 FaceList faces_of(const Mesh& mesh, bool reversed) {
     FaceList faces;
     for (Index f = 0; f < mesh.face_count(); ++f) faces.add(mesh.topology().face(f));
@@ -89,6 +43,13 @@ FaceList faces_of(const Mesh& mesh, bool reversed) {
 }
 
 }  // namespace
+
+Weld weld_of(lissom_weld weld) {
+    require(weld >= LISSOM_WELD_AUTOMATIC && weld <= LISSOM_WELD_NONE, "there is no such weld");
+    if (weld == LISSOM_WELD_ALL) return Weld::all;
+    return weld == LISSOM_WELD_NONE ? Weld::none : Weld::seams;
+}
+
 }  // namespace lissom::c
 
 using namespace lissom;
@@ -117,8 +78,7 @@ lissom_status lissom_mesh_create(lissom_context* context, const lissom_input* po
                                  lissom_mesh* mesh) {
     return run(context, [&] {
         require_given(mesh, "mesh");
-        FaceList faces = given_faces(corners, sizes);
-        if (context->space.reverses()) reverse_faces(faces);
+        FaceList faces = read_faces(corners, sizes, context->space);
         Mesh made(read_points(positions, context->space, "positions"), std::move(faces),
                   context->kernel);
         mesh->id = context->add_mesh(std::move(made));
@@ -224,7 +184,7 @@ lissom_status lissom_mesh_read_triangles(lissom_context* context, lissom_mesh me
     return run(context, [&] {
         const Mesh& own = mesh_of(*context, mesh);
         write_triangles(triangles, triangulate_faces(own.topology(), own.positions()).triangles,
-                        context->space.reverses());
+                        context->space);
     });
 }
 
@@ -236,7 +196,7 @@ lissom_status lissom_mesh_read_faces(lissom_context* context, lissom_mesh mesh,
         for (std::size_t f = 0; f < counts.size(); ++f) {
             counts[f] = faces.offsets[f + 1] - faces.offsets[f];
         }
-        if (sizes) require_room(sizes, counts.size(), "sizes");
+        if (sizes) require_room(sizes, counts.size(), 1, "sizes");
         if (corners) write_integers(corners, faces.vertices, "corners");
         if (sizes) write_integers(sizes, counts, "sizes");
     });

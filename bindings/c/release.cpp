@@ -51,6 +51,9 @@ bool lissom_hairstyle_is_valid(const lissom_context* context, lissom_hairstyle s
 bool lissom_strands_is_valid(const lissom_context* context, lissom_strands strands) {
     return is_valid(context, strands.id, Kind::strands);
 }
+bool lissom_render_map_is_valid(const lissom_context* context, lissom_render_map map) {
+    return is_valid(context, map.id, Kind::render_map);
+}
 bool lissom_script_is_valid(const lissom_context* context, lissom_script script) {
     return is_valid(context, script.id, Kind::script);
 }
@@ -78,6 +81,9 @@ lissom_status lissom_hairstyle_release(lissom_context* context, lissom_hairstyle
 }
 lissom_status lissom_strands_release(lissom_context* context, lissom_strands strands) {
     return release(context, strands.id, Kind::strands);
+}
+lissom_status lissom_render_map_release(lissom_context* context, lissom_render_map map) {
+    return release(context, map.id, Kind::render_map);
 }
 lissom_status lissom_script_release(lissom_context* context, lissom_script script) {
     return release(context, script.id, Kind::script);

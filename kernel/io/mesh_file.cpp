@@ -27,6 +27,19 @@
 #include "kernel/mesh/repair/repair.h"
 
 namespace lissom {
+void log_findings(const Report& report, const Context& context) {
+    for (const Finding& finding : report.findings()) {
+        const bool is_quality = finding.kind >= FindingKind::faces_zero_area &&
+                                finding.kind <= FindingKind::components_inverted;
+        const bool is_flag = finding.kind == FindingKind::vertices_welded ||
+                             finding.kind == FindingKind::points_only ||
+                             (is_quality && finding.message.empty());
+        std::string text = describe(finding);
+        if (!finding.message.empty()) text += ": " + finding.message;
+        context.log(is_flag ? LogLevel::info : LogLevel::warning, text);
+    }
+}
+
 namespace {
 
 struct Format {
@@ -171,21 +184,6 @@ RepairOptions repair_options(const LoadOptions& options, const MeshData& data) {
                        : data.seams_are_known  ? Weld::none
                                                : Weld::seams;
     return {options.weld.value_or(usual), options.repair, options.unused};
-}
-
-// Changes are a warning, and so is a mesh that is wholly inside out, which has a message; closed
-// seams and poor faces are not.
-void log_findings(const Report& report, const Context& context) {
-    for (const Finding& finding : report.findings()) {
-        const bool is_quality = finding.kind >= FindingKind::faces_zero_area &&
-                                finding.kind <= FindingKind::components_inverted;
-        const bool is_flag = finding.kind == FindingKind::vertices_welded ||
-                             finding.kind == FindingKind::points_only ||
-                             (is_quality && finding.message.empty());
-        std::string text = describe(finding);
-        if (!finding.message.empty()) text += ": " + finding.message;
-        context.log(is_flag ? LogLevel::info : LogLevel::warning, text);
-    }
 }
 
 Mesh decode(FileInput file, const Format& format, const LoadOptions& options,

@@ -19,6 +19,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/io/record/options.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/report.h"
 
 namespace lissom {
 
@@ -59,5 +60,9 @@ const std::vector<std::string>& readable_extensions();
 
 /// Extensions that `save_mesh` knows: lower case, without the dot.
 const std::vector<std::string>& writable_extensions();
+
+/// Logs the findings of a repair: changes are warnings, and so is a mesh that is wholly inside out,
+/// which has a message; closed seams and poor faces are not.
+void log_findings(const Report& report, const Context& context);
 
 }  // namespace lissom

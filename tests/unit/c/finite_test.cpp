@@ -136,6 +136,28 @@ std::vector<Given> mesh_cases() {
              const lissom_input list = triples(points.data(), points.size() / 3);
              return lissom_mesh_set_positions(world, world.bar, &list);
          }},
+        {"lissom_mesh_create_welded", 9 + 9 + 6,
+         [](World& world, int i, double bad) {
+             std::array<double, 24> n{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1,
+                                      0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+             n = with_bad(n, i, bad);
+             const std::int32_t corners[] = {0, 1, 2};
+             lissom_buffer buffer = lissom_default_buffer();
+             buffer.positions = triples(n.data(), 3);
+             buffer.normals = triples(n.data() + 9, 3);
+             buffer.uvs = {n.data() + 18, 3, 0, LISSOM_FLOAT64};
+             buffer.corners = {corners, 3, 0, LISSOM_INT32};
+             lissom_render_map map{};
+             return lissom_mesh_create_welded(world, &buffer, &world.made_mesh, &map);
+         }},
+        {"lissom_mesh_write_attribute", 2,
+         [](World& world, int i, double bad) {
+             std::vector<double> values(2 * at(lissom_mesh_vertex_count(world, world.bar)));
+             values[at(i)] = bad;
+             const lissom_input list{values.data(), values.size() / 2, 0, LISSOM_FLOAT64};
+             return lissom_mesh_write_attribute(world, world.bar, "uv", LISSOM_ON_VERTICES, 2,
+                                                &list);
+         }},
         {"lissom_mesh_transform", 12,
          [](World& world, int i, double bad) {
              const lissom_transform map = bad_transform(i, bad);
@@ -316,6 +338,25 @@ std::vector<Given> hair_cases() {
              const lissom_job job = std::exchange(world.made_job, {});
              return lissom_job_finish(world, job, &world.made_strands.id);
          }},
+        {"lissom_strands_set_points", 15,
+         [](World& world, int i, double bad) {
+             const auto n = with_bad(std::array<double, 15>{}, i, bad);
+             const lissom_input list = triples(n.data(), 5);
+             return lissom_strands_set_points(world, world.strands, &list);
+         }},
+        {"lissom_strands_write", 2,
+         [](World& world, int i, double bad) {
+             const auto n = with_bad(std::array<double, 2>{}, i, bad);
+             const lissom_input list{n.data(), 2, 0, LISSOM_FLOAT64};
+             return lissom_strands_write(world, world.strands, LISSOM_STRAND_WIDTH, &list);
+         }},
+        {"lissom_strands_write_at_points", 5,
+         [](World& world, int i, double bad) {
+             const auto n = with_bad(std::array<double, 5>{}, i, bad);
+             const lissom_input list{n.data(), 5, 0, LISSOM_FLOAT64};
+             return lissom_strands_write_at_points(world, world.strands, LISSOM_STRAND_WIDTH,
+                                                   &list);
+         }},
         {"lissom_strands_create", 6,
          [](World& world, int i, double bad) {
              const auto n = with_bad<6>({0, 0, 0, 0, 1, 0}, i, bad);
@@ -359,7 +400,8 @@ bool takes_numbers(const std::string& parameters) {
     static const std::regex numbers(
         R"((const double\b|, double \w+[,)]|const lissom_transform\*|const lissom_placement\*|)"
         R"(const lissom_join\*|const lissom_(mesh_load|mesh_save|deformer|handle|cut|hairstyle|)"
-        R"(grow|sandbox)_options\*|lissom_input\* (points|positions|spine)))");
+        R"(grow|sandbox)_options\*|const lissom_buffer\*|)"
+        R"(lissom_input\* (points|positions|spine|values)))");
     return std::regex_search(parameters, numbers);
 }
 
@@ -388,6 +430,7 @@ TEST_CASE("no function takes a number that is not finite, and nothing changes by
     world.make_halves();
     world.make_paste();
     world.make_style();
+    world.make_strands();
     REQUIRE(lissom_hairstyle_solve(world, world.style) == LISSOM_OK);
     const std::string before = world.content();
     const double infinity = std::numeric_limits<double>::infinity();

@@ -112,6 +112,20 @@ void World::make_strands() {
     REQUIRE(lissom_strands_create(context, &list, &starts, &strands) == LISSOM_OK);
 }
 
+void World::make_map() {
+    if (map.id != 0) return;
+    const auto count = at(lissom_mesh_vertex_count(context, bar));
+    const std::vector<double> uvs(2 * count, 0.5);
+    const lissom_input pairs{uvs.data(), count, 0, LISSOM_FLOAT64};
+    REQUIRE(lissom_mesh_write_attribute(context, bar, "uv", LISSOM_ON_VERTICES, 2, &pairs) ==
+            LISSOM_OK);
+    const std::vector<std::int32_t> labels(at(lissom_mesh_face_count(context, bar)), 0);
+    const lissom_input list{labels.data(), labels.size(), 0, LISSOM_INT32};
+    const char* names[] = {"wood"};
+    REQUIRE(lissom_mesh_write_labels(context, bar, "material", names, 1, &list) == LISSOM_OK);
+    REQUIRE(lissom_render_map_create(context, bar, &map) == LISSOM_OK);
+}
+
 void World::drop() {
     if (made_job.id != 0) lissom_job_finish(context, made_job, nullptr);
     made_job = {};
@@ -123,6 +137,7 @@ void World::drop() {
     drop_one(context, made_paste, lissom_paste_release);
     drop_one(context, made_style, lissom_hairstyle_release);
     drop_one(context, made_strands, lissom_strands_release);
+    drop_one(context, made_map, lissom_render_map_release);
     drop_one(context, made_script, lissom_script_release);
 }
 

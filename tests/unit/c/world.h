@@ -23,6 +23,8 @@ class World {
     void make_paste();
     void make_style();
     void make_strands();
+    /// The bar with texture coordinates, labels, and the map of its render vertices.
+    void make_map();
 
     /// Releases what calls have made, below.
     void drop();
@@ -36,6 +38,7 @@ class World {
     lissom_region all{}, bottom{}, top{};
     lissom_deformer deformer{};
     std::int32_t handle = -1;
+    lissom_render_map map{};
     /// Two open halves of balls.
     lissom_mesh half{}, other_half{};
     lissom_merger merger{};
@@ -56,6 +59,7 @@ class World {
     lissom_paste made_paste{};
     lissom_hairstyle made_style{};
     lissom_strands made_strands{};
+    lissom_render_map made_map{};
     lissom_script made_script{};
     lissom_job made_job{};
     lissom_bytes bytes{};

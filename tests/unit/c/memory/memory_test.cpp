@@ -177,6 +177,125 @@ void add_mesh_cases(std::vector<MemoryCase>& all) {
     });
 }
 
+void mapped(World& world) {
+    world.make_map();
+}
+
+void add_buffer_cases(std::vector<MemoryCase>& all) {
+    const auto add = [&](const char* name, std::function<lissom_status(World&)> call) {
+        all.push_back({name, mapped, std::move(call)});
+    };
+    const auto numbers_out = [] {
+        return lissom_output{room, std::size(room) / 4, 0, LISSOM_FLOAT64};
+    };
+    add("lissom_mesh_create_welded", [](World& world) {
+        static const std::uint16_t kCorners[] = {0, 1, 2};
+        lissom_buffer buffer = lissom_default_buffer();
+        buffer.positions = triples(kPoints, 3);
+        buffer.normals = triples(kPoints, 3);
+        buffer.uvs = {kPoints, 3, 0, LISSOM_FLOAT64};
+        buffer.corners = {kCorners, 3, 0, LISSOM_UINT16};
+        return lissom_mesh_create_welded(world, &buffer, &world.made_mesh, &world.made_map);
+    });
+    add("lissom_render_map_create",
+        [](World& world) { return lissom_render_map_create(world, world.bar, &world.made_map); });
+    add("lissom_render_map_size", [](World& world) {
+        return status_of_count(world, lissom_render_map_size(world, world.map));
+    });
+    add("lissom_render_map_triangle_count", [](World& world) {
+        return status_of_count(world, lissom_render_map_triangle_count(world, world.map));
+    });
+    add("lissom_render_map_read_vertices", [](World& world) {
+        const lissom_output out = integers_out();
+        return lissom_render_map_read_vertices(world, world.map, &out);
+    });
+    add("lissom_render_map_read_triangles", [](World& world) {
+        const lissom_output out = integers_out();
+        return lissom_render_map_read_triangles(world, world.map, world.bar, &out);
+    });
+    add("lissom_render_map_read_positions", [=](World& world) {
+        const lissom_output out = numbers_out();
+        return lissom_render_map_read_positions(world, world.map, world.bar, &out);
+    });
+    add("lissom_render_map_read_normals", [=](World& world) {
+        const lissom_output out = numbers_out();
+        return lissom_render_map_read_normals(world, world.map, world.bar, &out);
+    });
+    add("lissom_render_map_read_tangents", [=](World& world) {
+        const lissom_output out = numbers_out();
+        return lissom_render_map_read_tangents(world, world.map, world.bar, nullptr, &out);
+    });
+    add("lissom_render_map_read_attribute", [=](World& world) {
+        const lissom_output out = numbers_out();
+        return lissom_render_map_read_attribute(world, world.map, world.bar, "uv", &out);
+    });
+    add("lissom_mesh_attribute_count", [](World& world) {
+        return status_of_count(world, lissom_mesh_attribute_count(world, world.bar));
+    });
+    add("lissom_mesh_attribute", [](World& world) {
+        lissom_attribute attribute = lissom_default_attribute();
+        return lissom_mesh_attribute(world, world.bar, 0, &attribute);
+    });
+    add("lissom_mesh_find_attribute", [](World& world) {
+        lissom_attribute attribute = lissom_default_attribute();
+        return lissom_mesh_find_attribute(world, world.bar, "uv", &attribute);
+    });
+    add("lissom_mesh_read_attribute", [=](World& world) {
+        const lissom_output out = numbers_out();
+        return lissom_mesh_read_attribute(world, world.bar, "uv", &out);
+    });
+    add("lissom_mesh_write_attribute", [](World& world) {
+        const std::int32_t count = lissom_mesh_vertex_count(world, world.bar);
+        if (count < 0) return lissom_last_error(world)->status;
+        std::memset(room, 0, sizeof room);
+        const lissom_input in{room, at(count), 0, LISSOM_FLOAT64};
+        return lissom_mesh_write_attribute(world, world.bar, "heat", LISSOM_ON_VERTICES, 1, &in);
+    });
+    add("lissom_mesh_remove_attribute",
+        [](World& world) { return lissom_mesh_remove_attribute(world, world.bar, "heat"); });
+    all.back().prepare = [](World& world) {
+        mapped(world);
+        std::memset(room, 0, sizeof room);
+        const lissom_input in{room, at(lissom_mesh_vertex_count(world, world.bar)), 0,
+                              LISSOM_FLOAT64};
+        REQUIRE(lissom_mesh_write_attribute(world, world.bar, "heat", LISSOM_ON_VERTICES, 1, &in) ==
+                LISSOM_OK);
+    };
+    add("lissom_mesh_label_count", [](World& world) {
+        return status_of_count(world, lissom_mesh_label_count(world, world.bar, "material"));
+    });
+    add("lissom_mesh_label_name", [](World& world) {
+        const char* name = nullptr;
+        return lissom_mesh_label_name(world, world.bar, "material", 0, &name);
+    });
+    add("lissom_mesh_read_labels", [](World& world) {
+        const lissom_output out{integers, std::size(integers), 0, LISSOM_INT32};
+        return lissom_mesh_read_labels(world, world.bar, "material", &out);
+    });
+    add("lissom_mesh_write_labels", [](World& world) {
+        const std::int32_t count = lissom_mesh_face_count(world, world.bar);
+        if (count < 0) return lissom_last_error(world)->status;
+        std::memset(integers, 0, sizeof integers);
+        const lissom_input in{integers, at(count), 0, LISSOM_INT32};
+        const char* names[] = {"wood"};
+        return lissom_mesh_write_labels(world, world.bar, "material", names, 1, &in);
+    });
+    const auto merged = [](World& world) {
+        world.make_halves();
+        REQUIRE(lissom_merger_solve(world, world.merger, &world.made_mesh, nullptr) == LISSOM_OK);
+    };
+    add("lissom_mesh_read_vertex_origins", [](World& world) {
+        const lissom_output out{integers, std::size(integers), 0, LISSOM_INT32};
+        return lissom_mesh_read_vertex_origins(world, world.made_mesh, &out, &out);
+    });
+    all.back().prepare = merged;
+    add("lissom_mesh_read_face_origins", [](World& world) {
+        const lissom_output out{integers, std::size(integers), 0, LISSOM_INT32};
+        return lissom_mesh_read_face_origins(world, world.made_mesh, &out, &out);
+    });
+    all.back().prepare = merged;
+}
+
 void add_region_cases(std::vector<MemoryCase>& all) {
     const auto add = [&](const char* name, std::function<lissom_status(World&)> call) {
         all.push_back({name, nothing, std::move(call)});
@@ -478,6 +597,53 @@ void add_hair_cases(std::vector<MemoryCase>& all) {
         const lissom_input list = triples(kPoints, 3), starts{kOffsets, 2, 0, LISSOM_INT32};
         return lissom_strands_create(world, &list, &starts, &world.made_strands);
     });
+    add("lissom_hairstyle_unit", one_style,
+        [](World& world) { return lissom_hairstyle_unit(world, world.style, room, room + 1); });
+    add("lissom_strands_has", some_strands, [](World& world) {
+        return status_of_count(world,
+                               lissom_strands_has(world, world.strands, LISSOM_STRAND_WIDTH));
+    });
+    const auto plain_out = [] { return lissom_output{room, 100, 0, LISSOM_FLOAT64}; };
+    const auto plain_in = [](std::size_t count) {
+        std::memset(room, 0, sizeof room);
+        return lissom_input{room, count, 0, LISSOM_FLOAT64};
+    };
+    add("lissom_strands_read", some_strands, [=](World& world) {
+        const lissom_output out = plain_out();
+        return lissom_strands_read(world, world.strands, LISSOM_STRAND_WIDTH, &out);
+    });
+    add("lissom_strands_read_at_points", some_strands, [=](World& world) {
+        const lissom_output out = plain_out();
+        return lissom_strands_read_at_points(world, world.strands, LISSOM_STRAND_WIDTH, &out);
+    });
+    add("lissom_strands_write", some_strands, [=](World& world) {
+        const lissom_input in = plain_in(2);
+        return lissom_strands_write(world, world.strands, LISSOM_STRAND_COLOR, &in);
+    });
+    add("lissom_strands_write_at_points", some_strands, [=](World& world) {
+        const lissom_input in = plain_in(5);
+        return lissom_strands_write_at_points(world, world.strands, LISSOM_STRAND_WIDTH, &in);
+    });
+    add("lissom_strands_set_points", some_strands, [=](World& world) {
+        const lissom_input in = plain_in(5);
+        return lissom_strands_set_points(world, world.strands, &in);
+    });
+    add("lissom_strands_set_groups", some_strands, [](World& world) {
+        const char* names[] = {"fringe"};
+        return lissom_strands_set_groups(world, world.strands, names, 1);
+    });
+    add("lissom_strands_group_count", some_strands, [](World& world) {
+        return status_of_count(world, lissom_strands_group_count(world, world.strands));
+    });
+    add("lissom_strands_group_name", some_strands, [](World& world) {
+        const char* name = nullptr;
+        return lissom_strands_group_name(world, world.strands, 0, &name);
+    });
+    all.back().prepare = [](World& world) {
+        some_strands(world);
+        const char* names[] = {"fringe"};
+        REQUIRE(lissom_strands_set_groups(world, world.strands, names, 1) == LISSOM_OK);
+    };
     for (const char* path : {"any.hair", "any.usda", "any.glb", "any.obj", "any.rib"}) {
         add("lissom_strands_save", some_strands,
             [path](World& world) { return lissom_strands_save(world, world.strands, path); });
@@ -647,6 +813,9 @@ void check_cases(Add* add, int threads) {
 TEST_CASE("memory that runs out in calls of meshes is a status") {
     check_cases(add_mesh_cases, 1);
 }
+TEST_CASE("memory that runs out with buffers and attributes is a status") {
+    check_cases(add_buffer_cases, 1);
+}
 TEST_CASE("memory that runs out in calls of regions is a status") {
     check_cases(add_region_cases, 1);
 }
@@ -686,8 +855,8 @@ TEST_CASE("those tests have every function of the header that may take memory") 
     REQUIRE(file);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     std::vector<MemoryCase> all;
-    for (Add* add : {add_mesh_cases, add_region_cases, add_deform_cases, add_merge_cases,
-                     add_hair_cases, add_script_cases}) {
+    for (Add* add : {add_mesh_cases, add_buffer_cases, add_region_cases, add_deform_cases,
+                     add_merge_cases, add_hair_cases, add_script_cases}) {
         add(all);
     }
     std::set<std::string> tested{"lissom_context_create", "lissom_sandbox_scripts"};
