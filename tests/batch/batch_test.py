@@ -35,7 +35,7 @@ if p.mode == "usage" then os.exit(2) end
 if p.mode == "nothing" then return end
 if p.mode == "never_ends" then while true do end end
 if p.mode == "dies" then os.execute("kill -SEGV $PPID") end
-if p.mode == "warns" then lissom.shapes.box():region{ all = true }:grow(0) end
+if p.mode == "warns" then lissom.load("odd.obj") end
 local faces = p.mesh ~= "" and lissom.load(p.mesh):face_count() or 0
 local file = assert(io.open(p.out, "w"))
 file:write(string.format("%s %.17g %d %s %d\n", word, p.number, p.count, p.text, faces))
@@ -55,7 +55,12 @@ class Folder(unittest.TestCase):
         self.write("word.lua", 'return "word"')
 
     def tearDown(self):
-        shutil.rmtree(self.folder)
+        # The last task of a cluster may still write its summary.
+        for _ in range(50):
+            shutil.rmtree(self.folder, ignore_errors=True)
+            if not os.path.exists(self.folder):
+                break
+            time.sleep(0.1)
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
@@ -200,6 +205,40 @@ class Runs(Folder):
         self.assertEqual(self.reasons(*words)[:2], ["", "failed before"])
         self.assertEqual(os.listdir(self.path("out", ".batch", "work")), [])
 
+    def pack_of(self, bad):
+        """A table of 48 jobs with bad ones among them, and the command that runs them in packs of a dozen."""
+        modes = {12 + 5 * i: mode for i, mode in enumerate(bad)}
+        rows = [f"{n},{modes.get(n, 'good')}" for n in range(1, 49)]
+        self.write("table.csv", "number,mode\n" + "\n".join(rows) + "\n")
+        return ("make.lua", "--over", "table.csv", "--jobs", "1", "--isolate", "state", "--out", "out/{number}.txt")
+
+    def test_jobs_of_one_process_have_states_logs_and_inputs_of_their_own(self):
+        self.write("make.lua", SCRIPT + "\nprint(p.number, seen)\nseen = p.number\n")
+        self.write("odd.obj", TRIANGLE + "f 1 2 2\n")
+        words = self.pack_of(["warns"])
+        self.batch(*words)
+        self.assertEqual(self.outputs(), {f"{n}.txt": b"word %d 1  0\n" % n for n in range(1, 49)})
+        jobs = json.loads(self.read("out", "summary.json"))["jobs"]
+        self.assertEqual([job["number"] for job in jobs if job["warnings"] > 0], [12])
+        for job in jobs:
+            self.assertIn("%d\tnil\n" % job["number"], self.read("out", job["log"]).replace(".0", ""))
+        processes = {job["memory_mib"] for job in jobs}
+        self.assertLess(len(processes), 48)
+        self.assertEqual(set(self.reasons(*words)), {""})
+        self.write("word.lua", 'return "changed"')
+        self.assertEqual(set(self.reasons(*words)), {"./word.lua has changed"})
+
+    def test_what_ends_a_pack_costs_no_other_job(self):
+        words = self.pack_of(["fails", "usage", "dies", "never_ends", "nothing"])
+        self.batch(*words, "--timeout", "1", status=1)
+        self.assertEqual(len(self.outputs()), 43)
+        with open(self.path("out", "summary.csv"), encoding="utf-8", newline="") as file:
+            bad = {row["mode"]: (row["outcome"], row["attempts"]) for row in csv.DictReader(file)
+                   if row["mode"] != "good" or row["outcome"] != "done" or row["attempts"] != "1"}
+        self.assertEqual(bad, {"fails": ("failed", "2"), "usage": ("failed", "1"), "dies": ("crashed", "2"),
+                               "never_ends": ("timed_out", "2"), "nothing": ("failed", "2")})
+        self.assertEqual(os.listdir(self.path("out", ".batch", "work")), [])
+
     def test_a_folder_is_an_output_too_and_loses_what_is_not_made_again(self):
         self.write("many.lua", '''
             local p = require("lissom").params{ files = { type = "integer", default = 1 },
@@ -299,7 +338,8 @@ class Kills(Folder):
         self.batch(*self.WORDS, "undisturbed/{number}.txt")
         rng = random.Random(1)
         for _ in range(TRIALS):
-            process = subprocess.Popen(self.words(*self.WORDS, "out/{number}.txt"), cwd=self.folder,
+            isolate = rng.choice(("process", "state"))
+            process = subprocess.Popen(self.words(*self.WORDS, "out/{number}.txt", "--isolate", isolate), cwd=self.folder,
                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             self.kill_at_random(rng, process)
             if rng.random() < 0.2:

@@ -54,6 +54,12 @@ void declare(CLI::App& app, Wanted& wanted) {
         ->check(CLI::Range(0, 100));
     app.add_option("--timeout", wanted.options.timeout, "Seconds a job may take; 0: any (default)")
         ->check(CLI::NonNegativeNumber);
+    app.add_option_function<std::string>(
+           "--isolate",
+           [&wanted](const std::string& word) { wanted.options.packs = word == "state"; },
+           "process (default): each job in a process of its own; state: short jobs several to a "
+           "process, each in a Lua state of its own; a job that ends the process runs again alone")
+        ->check(CLI::IsMember({"process", "state"}));
     app.add_option("--progress", wanted.progress,
                    "auto (default: a line on a terminal), plain, json or none")
         ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
@@ -254,7 +260,7 @@ int batch(Program& program, const std::vector<std::string>& words) {
         return program.fail("lissom batch: words after -- belong to --slurm", kUsage);
     }
     if (!wanted.submission.empty()) return run_submitted(program, wanted);
-    if (!wanted.job.empty()) return run_job(program, wanted.job);
+    if (!wanted.job.empty()) return run_jobs(program, wanted.job);
     if (wanted.words.script.empty() || wanted.words.out.empty()) {
         return program.fail("lissom batch: SCRIPT and --out are needed (see lissom batch --help)",
                             kUsage);

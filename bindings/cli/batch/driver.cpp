@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <deque>
 #include <fstream>
 #include <memory>
-#include <optional>
 #include <set>
 #include <thread>
 
 #include "bindings/cli/batch/durable_files.h"
-#include "bindings/cli/batch/job_process.h"
-#include "bindings/cli/batch/staging.h"
-#include "bindings/cli/json.h"
+#include "bindings/cli/batch/job_pack.h"
 #include "bindings/cli/process/child_process.h"
-#include "bindings/cli/process/process_number.h"
 #include "kernel/core/error.h"
 #include "kernel/core/version.h"
 #include "kernel/io/stream/file.h"
@@ -29,19 +24,11 @@ using Clock = std::chrono::steady_clock;
 constexpr double kProgressSeconds = 0.25, kWaitSeconds = 0.1;
 // A disk with less free space is full.
 constexpr std::uintmax_t kFullBytes = 1 << 20;
-constexpr std::size_t kMessageLength = 500;
+// Jobs of one process at most, and bytes of their tasks, which are words of its command line.
+constexpr std::size_t kMostPacked = 64, kMostTaskBytes = 60000;
 
 double seconds_after(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::int64_t milliseconds_since_1970() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
-}
-
-std::string job_key(const BatchJob& job) {
-    return text_digest(job.output.string()).substr(0, 16);
 }
 
 bool is_full(const fs::path& folder) {
@@ -50,149 +37,10 @@ bool is_full(const fs::path& folder) {
     return !error && space.available < kFullBytes;
 }
 
-// A job while it is tried.
-class Attempt {
-  public:
-    Attempt(const BatchPlan& plan, const BatchJob& job, int number, const BatchOptions& options,
-            const BatchState& state)
-        : plan_(plan),
-          job_(job),
-          number_(number),
-          options_(options),
-          folder_(state.folder()),
-          lock_(state.folder() / "locks" / job_key(job)) {
-        log_ = state.folder() / "logs" / (job_key(job) + "." + std::to_string(number) + ".log");
-        is_free_ = lock_.take();
-    }
-    ~Attempt() {
-        // Ends the process before its folder and lock go.
-        process_.reset();
-    }
-    Attempt(const Attempt&) = delete;
-    Attempt& operator=(const Attempt&) = delete;
-
-    /// False while a process of an earlier batch still works on the job.
-    bool is_free() const { return is_free_; }
-    const BatchJob& job() const { return job_; }
-    int number() const { return number_; }
-    const ChildProcess& process() const { return *process_; }
-
-    void start() {
-        std::error_code ignored;
-        fs::remove(log_, ignored);
-        // A process that outlives its driver keeps its own folder.
-        const std::string work = job_key(job_) + "." + std::to_string(process_number());
-        staging_.emplace(folder_ / "work" / work, job_.output, plan_.makes_folders);
-        const JobTask task{plan_.script, script_words(plan_, job_, staging_->output())};
-        start_ = Clock::now();
-        process_ = std::make_unique<ChildProcess>(
-            std::vector<std::string>{"batch", "--threads", std::to_string(options_.threads),
-                                     "--job", task_line(task)},
-            log_, lock_.descriptor());
-    }
-
-    // Takes the news; returns whether the process has ended.
-    bool has_ended() {
-        for (const std::string& line : process_->lines()) take(line);
-        if (!process_->has_ended() && options_.timeout > 0.0 &&
-            seconds_after(start_) > options_.timeout) {
-            is_late_ = true;
-            process_->kill();
-        }
-        return process_->has_ended();
-    }
-
-    // Moves the outputs of a job that ended well to their place.
-    JobRecord conclude(BatchState& state, std::set<fs::path>& folders) {
-        JobRecord record = ended_record(state);
-        if (record.is_done()) publish(record, state, folders);
-        const std::string end = record.is_done() ? "done" : record.outcome + ": " + record.message;
-        std::ofstream(log_, std::ios::app) << end << " after " << number_text(record.seconds)
-                                           << " s, " << record.memory / (1 << 20) << " MiB\n";
-        return record;
-    }
-
-  private:
-    void take(const std::string& line) {
-        try {
-            news_ = read_news(line);
-        } catch (const nlohmann::json::exception&) {
-            news_.message = "the process of the job told nothing that is understood";
-        }
-    }
-
-    JobRecord ended_record(BatchState& state) {
-        const ProcessEnd& end = process_->end();
-        JobRecord record;
-        record.output = job_.output.string();
-        record.arguments = job_.arguments;
-        record.status = end.status;
-        record.outcome = is_late_                 ? "timed_out"
-                         : end.by_signal          ? "crashed"
-                         : end.status == kSuccess ? "done"
-                                                  : "failed";
-        record.message = is_late_ ? "it took longer than " + number_text(options_.timeout) + " s"
-                         : end.by_signal ? end.text()
-                                         : news_.message.substr(0, kMessageLength);
-        record.log = fs::path(log_).lexically_relative(state.folder().parent_path()).string();
-        record.attempts = number_;
-        record.warnings = news_.warnings;
-        record.seconds = std::round(1000.0 * seconds_after(start_)) / 1000.0;
-        record.cpu_seconds = std::round(1000.0 * end.cpu_seconds) / 1000.0;
-        record.memory = end.memory;
-        record.time = milliseconds_since_1970();
-        record.program = state.program();
-        return record;
-    }
-
-    void publish(JobRecord& record, BatchState& state, std::set<fs::path>& folders) {
-        try {
-            record.reads = read_stamps(state.digests());
-            record.outputs = staging_->publish(state.record(job_), state.digests(), folders);
-        } catch (const Error& error) {
-            record.outcome = "failed";
-            record.status = kFailure;
-            record.message = error.message();
-        }
-    }
-
-    // Without the files that the job itself has made.
-    std::vector<FileStamp> read_stamps(FileDigests& digests) const {
-        std::set<std::string> files(news_.reads.begin(), news_.reads.end());
-        for (const fs::path& input : job_.inputs) files.insert(input.string());
-        const std::string own = staging_->output().parent_path().string() + "/";
-        std::vector<FileStamp> stamps;
-        for (const std::string& file : files) {
-            if (!file.starts_with(own)) stamps.push_back(digests.stamp(file));
-        }
-        return stamps;
-    }
-
-    const BatchPlan& plan_;
-    const BatchJob& job_;
-    int number_;
-    const BatchOptions& options_;
-    fs::path folder_;
-    FileLock lock_;
-    fs::path log_;
-    bool is_free_ = false, is_late_ = false;
-    std::optional<Staging> staging_;
-    std::unique_ptr<ChildProcess> process_;
-    JobNews news_;
-    Clock::time_point start_;
-};
-
 bool is_tried_again(const JobRecord& record, const BatchOptions& options) {
     const bool was_called_wrongly = record.outcome == "failed" && record.status == kUsage;
     return !record.is_done() && !was_called_wrongly && record.attempts <= options.retries;
 }
-
-// What waits: a job and the number of its next attempt.
-struct Waiting {
-    const BatchJob* job;
-    int attempt;
-    std::string reason;
-};
 
 class Driver {
   public:
@@ -205,7 +53,7 @@ class Driver {
         start_jobs();
         while ((!waiting_.empty() || !running_.empty()) && !options_.stopped()) {
             wait();
-            const std::vector<std::unique_ptr<Attempt>> ended = take_ended();
+            const Attempts ended = take_ended();
             // Others run while these are brought to the disk.
             start_jobs();
             conclude(ended);
@@ -231,11 +79,37 @@ class Driver {
 
     void start_jobs() {
         const auto most = static_cast<std::size_t>(options_.jobs);
-        for (std::size_t tries = waiting_.size(); tries > 0 && running_.size() < most; --tries) {
-            Waiting next = std::move(waiting_.front());
+        while (running_.size() < most) {
+            Attempts attempts = next_pack();
+            if (attempts.empty()) return;
+            if (options_.started) {
+                for (const auto& attempt : attempts) {
+                    options_.started(attempt->job(), attempt->waiting().reason);
+                }
+            }
+            running_.push_back(std::make_unique<JobPack>(std::move(attempts), options_));
+        }
+    }
+
+    // So many that all processes have work to the end.
+    std::size_t pack_size() const {
+        if (!options_.packs) return 1;
+        const auto processes = static_cast<std::size_t>(options_.jobs);
+        return std::clamp<std::size_t>(waiting_.size() / (4 * processes), 1, kMostPacked);
+    }
+
+    // The next jobs that are free. A job that has failed is tried again alone.
+    Attempts next_pack() {
+        Attempts pack;
+        std::size_t bytes = 0;
+        const std::size_t size = pack_size();
+        for (std::size_t tries = waiting_.size(); tries > 0 && pack.size() < size; --tries) {
+            bytes += task_bytes(*waiting_.front().job);
+            const bool is_alone = waiting_.front().attempt > 1;
+            if (!pack.empty() && (is_alone || bytes > kMostTaskBytes)) break;
+            WaitingJob next = std::move(waiting_.front());
             waiting_.pop_front();
-            auto attempt =
-                std::make_unique<Attempt>(plan_, *next.job, next.attempt, options_, state_);
+            auto attempt = std::make_unique<Attempt>(plan_, next, state_);
             if (!attempt->is_free()) {
                 waiting_.push_back(std::move(next));
                 continue;
@@ -244,10 +118,16 @@ class Driver {
                 ++progress_.kept;
                 continue;
             }
-            attempt->start();
-            if (options_.started) options_.started(*next.job, next.reason);
-            running_.push_back(std::move(attempt));
+            pack.push_back(std::move(attempt));
+            if (is_alone) break;
         }
+        return pack;
+    }
+
+    std::size_t task_bytes(const BatchJob& job) const {
+        std::size_t bytes = plan_.script.size() + 2 * plan_.folder.string().size() + 200;
+        for (const auto& [name, value] : job.arguments) bytes += name.size() + 2 * value.size() + 8;
+        return bytes;
     }
 
     // To be asked with the lock of the job, which another process may have had.
@@ -258,21 +138,25 @@ class Driver {
 
     void wait() const {
         std::vector<const ChildProcess*> processes;
-        for (const auto& attempt : running_) processes.push_back(&attempt->process());
+        for (const auto& pack : running_) processes.push_back(&pack->process());
         ChildProcess::wait(processes, kWaitSeconds);
     }
 
-    std::vector<std::unique_ptr<Attempt>> take_ended() {
-        std::vector<std::unique_ptr<Attempt>> ended;
-        for (auto& attempt : running_) {
-            if (attempt->has_ended()) ended.push_back(std::move(attempt));
+    // Jobs to which a process did not come wait again.
+    Attempts take_ended() {
+        Attempts ended;
+        for (auto& pack : running_) {
+            for (auto& attempt : pack->take_ended()) ended.push_back(std::move(attempt));
+            if (!pack->has_ended()) continue;
+            for (const auto& other : pack->take_others()) waiting_.push_back(other->waiting());
+            pack.reset();
         }
         std::erase(running_, nullptr);
         return ended;
     }
 
     // All at once, as the disk takes as long for one as for several.
-    void conclude(const std::vector<std::unique_ptr<Attempt>>& ended) {
+    void conclude(const Attempts& ended) {
         if (ended.empty()) return;
         std::set<fs::path> folders;
         std::vector<JobRecord> records;
@@ -312,8 +196,8 @@ class Driver {
     BatchState& state_;
     const BatchOptions& options_;
     BatchProgress progress_;
-    std::deque<Waiting> waiting_;
-    std::vector<std::unique_ptr<Attempt>> running_;
+    std::deque<WaitingJob> waiting_;
+    std::vector<std::unique_ptr<JobPack>> running_;
     Clock::time_point start_ = Clock::now();
     double next_progress_ = 0.0;
 };
@@ -400,7 +284,10 @@ std::unique_ptr<FileLock> lock_batch(const BatchPlan& plan, const BatchState& st
 
 BatchProgress run_batch(const BatchPlan& plan, BatchState& state, const BatchOptions& options) {
     const std::unique_ptr<FileLock> lock = lock_batch(plan, state, options.shares_folder);
-    return Driver(plan, state, options).run();
+    const BatchProgress progress = Driver(plan, state, options).run();
+    // Processes of a killed batch may have lived until now.
+    if (!options.shares_folder) remove_abandoned_work(state.folder());
+    return progress;
 }
 
 }  // namespace lissom::cli

@@ -32,6 +32,9 @@ struct BatchOptions {
     int retries = 1;
     /// Seconds that an attempt may take; 0: any.
     double timeout = 0.0;
+    /// A process runs several jobs, each in a Lua state of its own, instead of one. If a job ends
+    /// the process, it is tried again alone, and the jobs behind it start in another process.
+    bool packs = false;
     /// Returns whether the batch shall stop; asked often.
     std::function<bool()> stopped;
     /// Hears of each job that starts, with the reason, and of each that ends.

@@ -72,8 +72,14 @@ void GrowingFile::append(std::string_view text) {
     }
 }
 
-FileLock::FileLock(const fs::path& path)
-    : descriptor_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+FileLock::FileLock(const fs::path& path) {
+    const int opened = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (opened < 0) fail(path);
+    // Above the numbers that a process has for its channels (see ChildProcess).
+    descriptor_ = fcntl(opened, F_DUPFD_CLOEXEC, 10);
+    const int error = errno;
+    close(opened);
+    errno = error;
     if (descriptor_ < 0) fail(path);
 }
 

@@ -10,37 +10,15 @@
 namespace lissom::cli {
 namespace {
 
-JobTask read_task(const std::string& line) {
-    const Json json = Json::parse(line);
+JobTask read_task(const Json& json) {
     JobTask task;
     task.script = json.at("script");
     for (const Json& word : json.at("words")) task.words.push_back(word);
+    task.log = json.at("log");
     return task;
 }
 
-}  // namespace
-
-std::string task_line(const JobTask& task) {
-    return json_text({{"script", task.script}, {"words", task.words}}, -1);
-}
-
-std::string news_line(const JobNews& news) {
-    return json_text(
-        {{"reads", news.reads}, {"warnings", news.warnings}, {"message", news.message}}, -1);
-}
-
-JobNews read_news(const std::string& line) {
-    const Json json = Json::parse(line);
-    JobNews news;
-    for (const Json& file : json.at("reads")) news.reads.push_back(file);
-    news.warnings = json.at("warnings");
-    news.message = json.at("message");
-    return news;
-}
-
-int run_job(Program& program, const std::string& line) {
-    const ParentProcess parent;
-    const JobTask task = read_task(line);
+JobNews run_task_alone(Program& program, const JobTask& task) {
     std::set<std::string> reads = {task.script};
     JobNews news;
     program.file_used = [&reads](const std::filesystem::path& file, lua::FileUse use) {
@@ -54,10 +32,61 @@ int run_job(Program& program, const std::string& line) {
     const ScriptResult result = script.run_file(task.script);
     for (std::string& file : script.module_files()) reads.insert(std::move(file));
     news.reads.assign(reads.begin(), reads.end());
+    news.status = result.status;
     news.message = result.message;
     if (!result.message.empty()) std::cerr << result.message << std::endl;
-    parent.tell(news_line(news));
-    return result.status;
+    return news;
+}
+
+}  // namespace
+
+std::string tasks_line(const std::vector<JobTask>& tasks) {
+    Json list = Json::array();
+    for (const JobTask& task : tasks) {
+        list.push_back({{"script", task.script}, {"words", task.words}, {"log", task.log}});
+    }
+    return json_text(list, -1);
+}
+
+std::string news_line(const JobNews& news) {
+    return json_text({{"status", news.status},
+                      {"cpu_seconds", news.cpu_seconds},
+                      {"memory", news.memory},
+                      {"reads", news.reads},
+                      {"warnings", news.warnings},
+                      {"message", news.message}},
+                     -1);
+}
+
+JobNews read_news(const std::string& line) {
+    const Json json = Json::parse(line);
+    JobNews news;
+    news.status = json.at("status");
+    news.cpu_seconds = json.at("cpu_seconds");
+    news.memory = json.at("memory");
+    for (const Json& file : json.at("reads")) news.reads.push_back(file);
+    news.warnings = json.at("warnings");
+    news.message = json.at("message");
+    return news;
+}
+
+int run_jobs(Program& program, const std::string& line) {
+    const ParentProcess parent;
+    int status = kSuccess;
+    ProcessUse before;
+    for (const Json& json : Json::parse(line)) {
+        const JobTask task = read_task(json);
+        redirect_outputs(task.log);
+        JobNews news = run_task_alone(program, task);
+        status = news.status;
+        const ProcessUse now = process_use();
+        news.cpu_seconds = now.cpu_seconds - before.cpu_seconds;
+        news.memory = now.memory;
+        before = now;
+        parent.tell(news_line(news));
+        if (program.interrupted()) break;
+    }
+    return status;
 }
 
 }  // namespace lissom::cli

@@ -46,6 +46,7 @@ Submission read_json(const Json& json) {
     submission.options.threads = json.at("threads");
     submission.options.retries = json.at("retries");
     submission.options.timeout = json.at("timeout");
+    submission.options.packs = json.at("packs");
     submission.directory = json.at("directory").get<std::string>();
     submission.tasks = json.at("tasks").get<std::vector<std::vector<std::size_t>>>();
     return submission;
@@ -81,6 +82,7 @@ void write_submission(const Submission& submission, const fs::path& file) {
                        {"threads", submission.options.threads},
                        {"retries", submission.options.retries},
                        {"timeout", submission.options.timeout},
+                       {"packs", submission.options.packs},
                        {"tasks", submission.tasks},
                        {"jobs", jobs}};
     write_file_atomically(file, json_text(json, -1) + "\n");

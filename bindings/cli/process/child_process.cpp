@@ -11,7 +11,9 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
+#include <iostream>
 #include <stdexcept>
 #include <string_view>
 #ifdef __linux__
@@ -23,8 +25,8 @@ extern char** environ;
 namespace lissom::cli {
 namespace {
 
-// Descriptors of the child: its channel to the parent, and one that it holds open.
-constexpr int kChannel = 3, kHeld = 4;
+// Descriptor of the child: its channel to the parent.
+constexpr int kChannel = 3;
 // Descriptors of the parent stay above those of a child.
 constexpr int kFirstOwn = 10;
 
@@ -63,7 +65,7 @@ struct Channel {
 // group.
 class SpawnSettings {
   public:
-    SpawnSettings(const std::filesystem::path& output, int channel, int held) {
+    SpawnSettings(const std::filesystem::path& output, int channel, const std::vector<int>& held) {
         posix_spawn_file_actions_init(&actions_);
         posix_spawnattr_init(&attributes_);
         posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
@@ -71,7 +73,8 @@ class SpawnSettings {
                                          O_WRONLY | O_CREAT | O_APPEND, 0666);
         posix_spawn_file_actions_adddup2(&actions_, 1, 2);
         posix_spawn_file_actions_adddup2(&actions_, channel, kChannel);
-        if (held >= 0) posix_spawn_file_actions_adddup2(&actions_, held, kHeld);
+        // The same number: it is then not closed in the child.
+        for (const int own : held) posix_spawn_file_actions_adddup2(&actions_, own, own);
         posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
         posix_spawnattr_setpgroup(&attributes_, 0);
     }
@@ -129,7 +132,7 @@ struct ChildProcess::Parts {
 };
 
 ChildProcess::ChildProcess(const std::vector<std::string>& words,
-                           const std::filesystem::path& output, int held)
+                           const std::filesystem::path& output, const std::vector<int>& held)
     : own_(std::make_unique<Parts>()) {
     std::vector<std::string> line = {program_file().string()};
     line.insert(line.end(), words.begin(), words.end());
@@ -208,6 +211,26 @@ bool ParentProcess::tell(const std::string& line) const {
         at += static_cast<std::size_t>(count);
     }
     return true;
+}
+
+ProcessUse process_use() {
+    ProcessUse use;
+    for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+        rusage usage{};
+        getrusage(who, &usage);
+        use.cpu_seconds += seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+        use.memory = std::max(use.memory, 1024 * static_cast<std::uint64_t>(usage.ru_maxrss));
+    }
+    return use;
+}
+
+void redirect_outputs(const std::filesystem::path& file) {
+    std::cout.flush();
+    std::fflush(nullptr);
+    const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor < 0) require_done(errno, "the log of a job cannot be opened");
+    for (const int output : {1, 2}) dup2(descriptor, output);
+    close(descriptor);
 }
 
 // Not std::raise: it would call the handler on the thread that calls it.

@@ -30,10 +30,10 @@ struct ProcessEnd {
 class ChildProcess {
   public:
     /// Starts the program with `words` as its command line. Both its outputs go to the end of the
-    /// file `output`. If `held` is not negative, this descriptor stays open in the process and in
-    /// all that it starts. Throws std::runtime_error if the system refuses.
+    /// file `output`. The descriptors `held`, of 10 or more, stay open in the process and in all
+    /// that it starts. Throws std::runtime_error if the system refuses.
     ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& output,
-                 int held = -1);
+                 const std::vector<int>& held = {});
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
@@ -65,6 +65,18 @@ class ParentProcess {
     /// Sends it a line; returns false if nobody listens.
     bool tell(const std::string& line) const;
 };
+
+/// Resources that a process and its ended children have used.
+struct ProcessUse {
+    double cpu_seconds = 0.0;
+    /// Greatest memory, in bytes.
+    std::uint64_t memory = 0;
+};
+ProcessUse process_use();
+
+/// Sends both outputs of this process to the end of a file from now on. Throws std::runtime_error
+/// if the file cannot be opened.
+void redirect_outputs(const std::filesystem::path& file);
 
 /// Interrupts this program as Ctrl-C does.
 void interrupt_program();
