@@ -1,6 +1,7 @@
 // lissom.Strands: braids and buns.
 #include "bindings/lua/hair/strand_effect.h"
 #include "kernel/hair/operators/strand_braid.h"
+#include "kernel/hair/operators/strand_feed.h"
 
 namespace lissom::lua {
 namespace {
@@ -67,6 +68,34 @@ int bun_strands(Call& call) {
     return push_report(call, done, report);
 }
 
+int feed_strands(Call& call) {
+    const std::span<const float> asked = ask_mask(call);
+    BraidReport report;
+    const bool done = call.attempt([&] {
+        FeedBraidOptions options;
+        read_mask(call, asked, options);
+        for (const Vec3& p : call.points("spine")) options.spine.push_back(metres_of(call) * p);
+        options.across = call.vector("across");
+        options.radius = call.number("radius");
+        if (call.has("wide")) options.wide = call.number("wide");
+        if (call.has("high")) options.high = call.number("high");
+        if (call.has("wavelength")) options.wavelength = call.number("wavelength");
+        options.reach = call.number("reach");
+        options.joined = call.number("joined");
+        options.blend = call.number("blend");
+        options.least_run = call.number("least_run");
+        options.most_run = call.number("most_run");
+        options.tail = call.number("tail");
+        options.begin = call.number("begin_size");
+        options.end = call.number("end_size");
+        options.loose = call.number("loose");
+        options.step = call.number("step");
+        options.drop_others = call.boolean("drop_others");
+        report = feed_braid(call.self<StrandsObject>()->strands, options, call.context());
+    });
+    return push_report(call, done, report);
+}
+
 const std::vector<Result> kBraidResults = {
     {"lissom.Strands", "strands", "The strands themselves."},
     {"integer", "count", "Number of strands that pass the tie."}};
@@ -88,12 +117,65 @@ std::vector<Parameter> braid_fields() {
                        part_fields());
 }
 
+Function feed_braid_method() {
+    const FeedBraidOptions d;
+    return {
+        .name = "feed_braid",
+        .body = feed_strands,
+        .summary = "Braids strands that join along a spine, as in crown braids and cornrows.",
+        .options = with_fields(
+            {points("spine", "The middle of the braid."),
+             vector("across", "Direction across the braid at its beginning: its widest."),
+             meters("radius", "Radius of each of the three tubes.").defaults(d.radius).above(0),
+             meters("wide", "From the spine to the middle of a tube, across.")
+                 .above(0)
+                 .optional("1.25 radii"),
+             meters("high", "The same towards the viewer.").above(0).optional("0.8 radii"),
+             meters("wavelength", "Length of one turn of a tube.").above(0).optional("7 radii"),
+             meters("reach",
+                    "A strand joins where it first comes so near to the spine, else at its nearest "
+                    "point within 2.5 times of it.")
+                 .defaults(d.reach)
+                 .above(0),
+             number("joined",
+                    "Part of the spine within which strands join; below 1 a ring closes that ends "
+                    "on its beginning.")
+                 .defaults(d.joined)
+                 .between(0.001, 1),
+             meters("blend", "Over which hair comes into its tube.").defaults(d.blend).above(0),
+             meters("least_run", "Least length that a strand runs in the braid.")
+                 .defaults(d.least_run)
+                 .above(0),
+             meters("most_run", "Greatest one.").defaults(d.most_run).above(0),
+             number("tail", "Part of the strands that run to the end.")
+                 .defaults(d.tail)
+                 .between(0, 1),
+             number("begin_size", "Size at the beginning as a part of that further on.")
+                 .defaults(d.begin)
+                 .above(0),
+             number("end_size", "The same at the end.").defaults(d.end).above(0),
+             number("loose", "Part of the strands that lie loosely.")
+                 .defaults(d.loose)
+                 .between(0, 1),
+             meters("step", "Between points.").defaults(d.step).above(0),
+             boolean("drop_others", "Removes strands of the mask that come nowhere near the spine.")
+                 .defaults(d.drop_others)},
+            braid_fields()),
+        .results = {{"lissom.Strands", "strands", "The strands themselves."},
+                    {"integer", "count", "Number of strands that joined."}},
+        .errors = kOperatorErrors,
+        .example = kSheaf +
+                   "local _, count = hair:feed_braid{ spine = { { -0.1, 0.1, 0 }, { 0.2, 0.1, 0 } "
+                   "},\n    across = { 0, 1, 0 } }\nassert(count == 5)"};
+}
+
 }  // namespace
 
 std::vector<Function> strand_braid_methods() {
     const BraidOptions d;
     const BunOptions b;
     return {
+        feed_braid_method(),
         {.name = "braid",
          .body = braid_strands,
          .summary = "Braids the strands that pass a tie at the beginning of a spine; others stay.",

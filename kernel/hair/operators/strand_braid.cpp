@@ -4,20 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/hair/operators/braid_spine.h"
+#include "kernel/hair/operators/strand_tails.h"
 #include "kernel/hair/strands/strand_random.h"
-#include "kernel/hair/strands/strand_resample.h"
 
 namespace lissom {
 namespace {
 
 constexpr std::uint64_t kPlaceStream = 61, kLooseStream = 62, kEndStream = 63, kLockStream = 64;
-constexpr double kSpineStep = 0.002;
-constexpr int kSpineSmoothing = 8;
 
 // In [0, 1).
 double even_random(std::uint64_t seed, std::uint64_t id, std::uint64_t stream) {
@@ -62,36 +60,10 @@ std::vector<TieCrossing> crossings_of(const Strands& strands, const TieFrame& ti
     return list;
 }
 
-// Strands that end at the point `last` of their crossing and go on with tail(i, points).
-void carry_on(Strands& strands, const std::vector<TieCrossing>& crossings,
-              const std::function<void(std::size_t, std::vector<Vec3>&)>& tail,
-              const Context& context) {
-    std::vector<std::vector<Vec3>> tails(crossings.size());
-    context.parallel_for(0, count_of(crossings), 64, [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) tail(at(i), tails[at(i)]);
-    });
-    std::vector<Index> place(at(strands.size()), kNoIndex);
-    for (std::size_t i = 0; i < crossings.size(); ++i) place[at(crossings[i].strand)] = index_of(i);
-    const auto find = [&](Index s, std::vector<StrandPlace>& places) {
-        const Index i = place[at(s)];
-        const Index last = i == kNoIndex ? strands.point_count(s) - 1 : crossings[at(i)].last;
-        for (Index k = 0; k <= last; ++k) places.push_back({k, 0.0f});
-        if (i != kNoIndex) places.insert(places.end(), tails[at(i)].size(), {last, 0.0f});
-    };
-    Strands made = at_places(strands, find, context);
-    Elements bad{ElementKind::strand, 0, {}};
-    for (std::size_t i = 0; i < crossings.size(); ++i) {
-        StrandEdit strand = made.edit_strand(crossings[i].strand);
-        Index k = crossings[i].last;
-        for (const Vec3& p : tails[i]) strand.col(++k) = p.cast<float>();
-        if (!strand.allFinite()) bad.add(crossings[i].strand);
-    }
-    if (bad.count > 0) {
-        const std::string names = describe(bad);
-        throw Error(ErrorCode::not_finite, names + " would exceed the range of 32-bit numbers",
-                    std::move(bad));
-    }
-    strands = std::move(made);
+std::vector<StrandEnd> ends_of(const std::vector<TieCrossing>& crossings) {
+    std::vector<StrandEnd> ends;
+    for (const TieCrossing& crossing : crossings) ends.push_back({crossing.strand, crossing.last});
+    return ends;
 }
 
 void require_enough(std::size_t crossings) {
@@ -100,86 +72,11 @@ void require_enough(std::size_t crossings) {
                                 "hair to it");
 }
 
-// ---- The spine
-
-std::vector<Vec3> even_points(const std::vector<Vec3>& points) {
-    std::vector<double> arcs = {0.0};
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        arcs.push_back(arcs.back() + (points[i] - points[i - 1]).norm());
-    }
-    const auto count =
-        static_cast<std::size_t>(std::clamp(std::ceil(arcs.back() / kSpineStep), 1.0, 100000.0));
-    std::vector<Vec3> made;
-    for (std::size_t i = 0; i <= count; ++i) {
-        const double arc = arcs.back() * double(i) / double(count);
-        std::size_t k = 1;
-        while (k + 1 < arcs.size() && arcs[k] < arc) ++k;
-        const double size = arcs[k] - arcs[k - 1];
-        const double u = size > 0.0 ? (arc - arcs[k - 1]) / size : 0.0;
-        made.push_back(points[k - 1] + u * (points[k] - points[k - 1]));
-    }
-    for (int pass = 0; pass < kSpineSmoothing; ++pass) {
-        const std::vector<Vec3> old = made;
-        for (std::size_t i = 1; i + 1 < made.size(); ++i) {
-            made[i] = 0.5 * old[i] + 0.25 * (old[i - 1] + old[i + 1]);
-        }
-    }
-    return made;
-}
-
-class BraidSpine {
-  public:
-    BraidSpine(const std::vector<Vec3>& points, const Vec3& across) : points_(even_points(points)) {
-        Vec3 normal = across, tangent = Vec3::UnitY();
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-            const Vec3 along =
-                points_[std::min(i + 1, points_.size() - 1)] - points_[i == 0 ? 0 : i - 1];
-            if (along.norm() > 0.0) tangent = along.normalized();
-            normal -= normal.dot(tangent) * tangent;
-            if (!(normal.norm() > 1e-9)) normal = tangent.unitOrthogonal();
-            normal.normalize();
-            tangents_.push_back(tangent);
-            normals_.push_back(normal);
-            arcs_.push_back(i == 0 ? 0.0 : arcs_.back() + (points_[i] - points_[i - 1]).norm());
-        }
-    }
-
-    double length() const { return arcs_.back(); }
-    const Vec3& start() const { return points_.front(); }
-    const Vec3& direction() const { return tangents_.front(); }
-
-    // The place x across, z towards the viewer and t along, from the spine's point at an arc.
-    Vec3 place(double arc, double x, double z, double t) const {
-        const auto above = std::upper_bound(arcs_.begin() + 1, arcs_.end() - 1, arc);
-        const auto i = static_cast<std::size_t>(above - arcs_.begin()) - 1;
-        const double size = arcs_[i + 1] - arcs_[i];
-        const double u = size > 0.0 ? std::clamp((arc - arcs_[i]) / size, 0.0, 1.0) : 0.0;
-        const auto mix = [&](const std::vector<Vec3>& list) -> Vec3 {
-            return list[i] + u * (list[i + 1] - list[i]);
-        };
-        const Vec3 normal = mix(normals_), tangent = mix(tangents_);
-        // Beyond its end the spine goes on straight.
-        const double beyond = std::max(0.0, arc - arcs_.back());
-        return mix(points_) + x * normal + z * tangent.cross(normal) + (t + beyond) * tangent;
-    }
-
-  private:
-    std::vector<Vec3> points_, normals_, tangents_;
-    std::vector<double> arcs_;
-};
-
 // ---- Braids
 
 void require_braid(const Strands& strands, const BraidOptions& options) {
     require_operator(strands, options);
-    bool differ = false;
-    for (const Vec3& p : options.spine) {
-        require(p.allFinite(), "the spine of a braid must be finite");
-        differ = differ || p != options.spine.front();
-    }
-    require(differ, "the spine of a braid needs two points that differ");
-    require(options.across.allFinite() && options.across.norm() > 0.0,
-            "the direction across a braid must be finite and not 0");
+    require_spine(options.spine, options.across);
     require(options.radius > 0.0 && options.length > 0.0 && options.blend > 0.0 &&
                 options.step > 0.0 && std::isfinite(options.radius + options.length) &&
                 std::isfinite(options.blend + options.step),
@@ -291,7 +188,7 @@ BraidReport braid(Strands& strands, const BraidOptions& options, const Context& 
         braider.run(strands.id(crossings[i].strand), crossings[i], tubes[i], points);
     };
     const Index all = strands.size();
-    carry_on(strands, crossings, tail, context);
+    carry_on(strands, ends_of(crossings), tail, context);
     return {count_of(crossings), all - count_of(crossings)};
 }
 
@@ -340,7 +237,7 @@ BraidReport bun(Strands& strands, const BunOptions& options, const Context& cont
         }
     };
     const Index all = strands.size();
-    carry_on(strands, crossings, tail, context);
+    carry_on(strands, ends_of(crossings), tail, context);
     return {count_of(crossings), all - count_of(crossings)};
 }
 

@@ -13,10 +13,14 @@ constexpr double kMost = 1000.0;
 // Share of the band in which hair thins out that lies below the hairline.
 constexpr double kBelow = 1.0 / 6.0;
 
-// Ears lie between these azimuths, below the elevation, and stand out from the ellipse of the
-// head's slice by more than the share of its width.
-constexpr double kEarFront = 78.0 * kDegree, kEarBack = 122.0 * kDegree, kEarTop = 14.0 * kDegree;
+// Ears lie between these azimuths, below the elevation, and stand out from the skull above them by
+// more than the share of its width.
+constexpr double kEarFront = SkullOverEars::kFront, kEarBack = SkullOverEars::kBack;
+constexpr double kEarTop = 14.0 * kDegree;
 constexpr double kEarDepth = 4.0 / 155.0;
+// Ears rise so steeply that what stands out by a length is as far again and more from their crease:
+// skull that is level with that above it has all of its hair.
+constexpr double kEarSlope = 4.0;
 // Points farther from the axis than this many ellipses, or lower than this many widths, are neck or
 // shoulder.
 constexpr double kReach = 1.3, kLowest = 0.75;
@@ -27,11 +31,6 @@ constexpr double kLeast = -0.999 * kMost;
 double to_margin(double distance, double softness) {
     if (softness > 0.0) return std::clamp(distance / softness + kBelow, kLeast, kMost);
     return distance > 0.0 ? kMost : kLeast;
-}
-
-// Radius of a point across the axis of the head, in ellipses of its slice.
-double ellipses(const HeadFrame& frame, const Vec3& p) {
-    return 2.0 * hypotenuse(p.x() / frame.width, p.z() / frame.length);
 }
 
 // Returns the angle above the hairline: the difference in elevation, larger at a steep line, over
@@ -51,9 +50,10 @@ double inside_hairline(const HairlineTest& test, const Vec3& p) {
     const double elevation = std::atan2(p.y(), hypotenuse(p.x(), p.z()));
     double inside =
         angle_above(test.hairline, azimuth, elevation) * std::min(p.norm(), frame.width);
-    const double radius = ellipses(frame, p);
+    const double radius = SkullOverEars::ellipses(frame, p);
     if (azimuth > kEarFront && azimuth < kEarBack && elevation < kEarTop) {
-        inside = std::min(inside, kEarDepth * frame.width - (radius - 1.0) * 0.5 * frame.width);
+        const double out = radius - test.skull.radius_at(p);
+        inside = std::min(inside, kEarSlope * frame.width * (kEarDepth - 0.5 * out));
     }
     if (radius > kReach || p.y() < -kLowest * frame.width) inside = -frame.width;
     return inside;

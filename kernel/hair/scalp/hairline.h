@@ -5,7 +5,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/hair/scalp/head_frame.h"
-#include "kernel/hair/scalp/scalp.h"
+#include "kernel/hair/scalp/skull_over_ears.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 #include "kernel/mesh/shapes/hairline.h"
@@ -18,6 +18,7 @@ struct HairlineTest {
     const std::vector<HairlinePoint>& hairline;
     /// Width of the band in which hair thins out, in the mesh's unit; 0 is a sharp line.
     double softness = 0.0;
+    SkullOverEars skull = {};
 
     /// Returns whether a vertex of this margin lies above the hairline.
     static bool inside(double margin);

@@ -108,7 +108,8 @@ void Scalp::set_given_region(const Mesh& head, const Region& region, double soft
 }
 
 void Scalp::guess_region(const Mesh& head) {
-    const HairlineTest test{frame_, hairline_, softness_};
+    skull_ = SkullOverEars(tree_, frame_);
+    const HairlineTest test{frame_, hairline_, softness_, skull_};
     margins_ = margins_of_hairline(head, normals_, test);
     std::vector<Index> vertices;
     for (Index v = 0; v < head.vertex_count(); ++v) {
@@ -123,17 +124,25 @@ void Scalp::guess_region(const Mesh& head) {
     }
 }
 
+// The back of an ear faces the head: skin ends where the surface turns, and not at a vertex before.
+bool Scalp::faces_outward(const Triangle& triangle, const Vec3& barycentric,
+                          const Vec3& position) const {
+    return normal_at(triangle, barycentric).dot(position - frame_.center) > 0.0;
+}
+
 double Scalp::margin_at(const Triangle& triangle, const Vec3& barycentric,
                         const Vec3& position) const {
     double interpolated = 0.0;
-    bool bald = false;
+    bool bald = false, all_bald = true;
     for (int corner = 0; corner < 3; ++corner) {
         const double margin = margins_[triangle[corner]];
         interpolated += barycentric[corner] * margin;
         bald = bald || HairlineTest::bald(margin);
+        all_bald = all_bald && HairlineTest::bald(margin);
     }
-    if (!guessed_ || bald) return interpolated;
-    return HairlineTest{frame_, hairline_, softness_}.margin_at(position);
+    if (!guessed_ || all_bald || (bald && !faces_outward(triangle, barycentric, position)))
+        return interpolated;
+    return HairlineTest{frame_, hairline_, softness_, skull_}.margin_at(position);
 }
 
 Vec3 Scalp::vector_of(const ScalpDirection& direction) const {

@@ -9,6 +9,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/hair/scalp/head_frame.h"
+#include "kernel/hair/scalp/skull_over_ears.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/spatial_tree.h"
@@ -119,6 +120,8 @@ class Scalp {
     void choose_region(const Mesh& head, const ScalpOptions& options);
     void set_given_region(const Mesh& head, const Region& region, double softness);
     void guess_region(const Mesh& head);
+    bool faces_outward(const Triangle& triangle, const Vec3& barycentric,
+                       const Vec3& position) const;
 
     ScalpOptions options_;
     HeadFrame frame_;
@@ -126,6 +129,7 @@ class Scalp {
     bool guessed_ = false, knows_unit_ = true;
     std::vector<HairlinePoint> hairline_;
     double softness_ = 0.0;
+    SkullOverEars skull_;
     Region region_;
     std::vector<Index> root_faces_;
     std::vector<double> margins_;

@@ -155,7 +155,7 @@ TEST_CASE("hair thins out at a guessed hairline and stays behind it") {
         between += above > 0.0 && above < 0.05;
         before += above < 0.0;
     }
-    CHECK(behind > 100);
+    CHECK(behind > 80);
     CHECK(between > behind / 10);
     CHECK(between < behind);
     CHECK(before < behind / 5);

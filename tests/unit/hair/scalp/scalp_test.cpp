@@ -340,6 +340,52 @@ TEST_CASE("a guessed region has crown, sides and nape, but neither face nor ears
     CHECK(!holds(180, -70));
 }
 
+TEST_CASE("a skull that is wider than its ellipse has hair above and behind the ears") {
+    for (const char* file : {"ict_head.obj", "makehuman_head.obj", "sintel_head.obj"}) {
+        const auto mesh = test::load_head(file);
+        if (!mesh) return;
+        const Scalp scalp(*mesh);
+        for (const double side : {-1.0, 1.0}) {
+            for (double azimuth = 98; azimuth <= 122; azimuth += 4) {
+                CAPTURE(file);
+                CAPTURE(side * azimuth);
+                const ScalpPoint point = scalp.at({side * azimuth * kDegree, 12 * kDegree});
+                CHECK(scalp.margin_at(point.on_head.triangle, point.on_head.barycentric,
+                                      point.position) > 0.5);
+            }
+            const ScalpPoint ear = scalp.at({side * 95 * kDegree, -12 * kDegree});
+            CHECK(scalp.margin_at(ear.on_head.triangle, ear.on_head.barycentric, ear.position) <=
+                  0.0);
+        }
+    }
+}
+
+TEST_CASE("hair goes around what stands out of a skull below its widest place") {
+    // An egg whose sides bulge as skulls do, with a knob in the place of an ear.
+    Mesh mesh = egg();
+    std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
+    const double width = 0.16;
+    for (Vec3& p : positions) {
+        const double azimuth = std::abs(std::atan2(p.x(), p.z()));
+        const double out = std::exp(-std::pow((azimuth - 105 * kDegree) / (25 * kDegree), 2));
+        const double knob = std::exp(-(std::pow((azimuth - 100 * kDegree) / (9 * kDegree), 2) +
+                                       std::pow((p.y() + 0.02) / 0.015, 2)));
+        p.x() += std::copysign(0.05 * width * out + 0.12 * width * knob, p.x());
+    }
+    mesh.set_positions(positions);
+    ScalpOptions options = upright();
+    const Scalp scalp(mesh, options);
+    const auto margin = [&](double azimuth, double elevation) {
+        const ScalpPoint point = scalp.at({azimuth * kDegree, elevation * kDegree});
+        return scalp.margin_at(point.on_head.triangle, point.on_head.barycentric, point.position);
+    };
+    for (const double side : {-1.0, 1.0}) {
+        CHECK(margin(side * 110, 10) > 0.0);
+        CHECK(margin(side * 118, 5) > 0.0);
+        CHECK(margin(side * 100, -10) <= 0.0);
+    }
+}
+
 TEST_CASE("the generated head has the frame it was made with") {
     const Mesh head = make_head();
     const Scalp scalp(head);
