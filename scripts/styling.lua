@@ -95,6 +95,84 @@ function styling.radial(style, length, rise)
     styling.streams(style, routes)
 end
 
+-- Long hair behind the shoulders, and before them.
+styling.behind = {
+    { { 12, 50, 9 }, { 30, 40, 16 }, { 50, 24, 18 }, { 66, 6, 18 }, { "at", 86, -60, 22 }, { "at", 82, -115,
+        -20 }, { "at", 76, -170, -80 }, { "at", 72, -220, -106 }, { "at", 70, -360, -110 } },
+    { { 30, 72, 10 }, { 66, 50, 18 }, { 84, 20, 18 }, { 92, 2, 20 }, { "at", 92, -60, -18 }, { "at", 76, -120,
+        -58 }, { "at", 66, -190, -104 }, { "at", 62, -360, -112 } },
+    { { 120, 70, 10 }, { 118, 40, 17 }, { 122, -5, 18 }, { "at", 70, -80, -66 }, { "at", 54, -130, -84 },
+        { "at", 46, -190, -108 }, { "at", 44, -360, -114 } },
+    { { 150, 66, 8 }, { 152, 30, 16 }, { 154, -28, 18 }, { "at", 34, -130, -88 }, { "at", 30, -200, -108 },
+        { "at", 28, -360, -114 } },
+    { { 180, 70, 8 }, { 180, 30, 16 }, { 180, -30, 18 }, { "at", 0, -130, -92 }, { "at", 0, -200, -110 },
+        { "at", 0, -360, -116 } },
+}
+styling.over_shoulders = {
+    { { 10, 50, 10 }, { 30, 40, 18 }, { 52, 25, 20 }, { 68, 5, 20 }, { "at", 80, -60, 20 },
+        { "at", 80, -115, 6 }, { "at", 80, -180, 4 }, { "at", 82, -300, 10 } },
+    { { 30, 72, 12 }, { 66, 50, 20 }, { 84, 18, 20 }, { 90, 0, 20 }, { "at", 88, -60, -6 },
+        { "at", 84, -116, -24 }, { "at", 86, -180, -24 }, { "at", 86, -300, -20 } },
+    { { 120, 70, 10 }, { 116, 40, 18 }, { 118, 5, 20 }, { "at", 74, -60, -60 }, { "at", 70, -115, -70 },
+        { "at", 66, -190, -104 }, { "at", 62, -360, -112 } },
+    { { 150, 66, 8 }, { 150, 30, 18 }, { 150, -10, 20 }, { "at", 44, -70, -84 }, { "at", 40, -130, -92 },
+        { "at", 38, -200, -108 }, { "at", 36, -360, -114 } },
+    { { 180, 70, 8 }, { 180, 30, 18 }, { 180, -10, 20 }, { "at", 0, -80, -88 }, { "at", 0, -130, -94 },
+        { "at", 0, -200, -110 }, { "at", 0, -360, -116 } },
+}
+
+--- A style of long hair: `routes` of its streams, and the places of its `parting` or none.
+function styling.long(head, o, routes, parting)
+    local style = lissom.hairstyle(head, { scalp = o.scalp, resolution = math.floor(1.2 * o.resolution),
+        volume = { min = { -0.15, -0.42, -0.19 }, max = { 0.15, 0.16, 0.16 } } })
+    if parting then
+        style:add_dividing{ points = styling.route(o.scalp, parting), tilt = { 15, 0 } }
+    end
+    styling.streams(style, routes)
+    return style
+end
+
+--- Straight long hair of a style: grown, cut `length` metres below the middle of the head, in locks.
+function styling.straight(style, o, v)
+    local hair = style:grow{ count = o.count, seed = v.seed, length = 0.225 + v.length, layer = v.volume,
+        clearance = 0.003 }
+    hair:resample{ step = 0.006 }:smooth{ iterations = 4 }
+    hair:cut{ hem = { { 0, -v.length } }, scalp = o.scalp, jitter = v.ragged, seed = v.seed }
+    hair:clump{ clumps = 1200, strength = 0.4, seed = v.seed }
+    return styling.finish(hair, 0.00028, 0.002):push_out{ head = style, clearance = 0.002 }
+end
+
+--- Parameters of straight long hair; `length` is the usual one.
+function styling.straight_schema(length)
+    return {
+        length = { type = "number", default = length, min = 0.08, max = 0.34, unit = "metres",
+            help = "of the ends below the middle of the head" },
+        volume = { type = "number", default = 0.01, min = 0.002, max = 0.02, unit = "metres",
+            help = "thickness of the hair" },
+        ragged = { type = "number", default = 0.012, min = 0, max = 0.04, unit = "metres",
+            help = "of the ends" },
+    }
+end
+
+-- How short hair lies: forwards on top and at the sides, down at the back.
+styling.crown_to_hairline = {
+    { 0, 75, 0, 52, 11 }, { 25, 62, 20, 40, 10 }, { 0, 50, 0, 34, 11 }, { 25, 46, 22, 33, 9 },
+    { 45, 50, 46, 30, 6 }, { 100, 66, 92, 42, 5 }, { 180, 72, 0, 84, 3 }, { 80, 36, 84, 12, 4 },
+    { 60, 40, 63, 18, 4 }, { 82, 12, 86, -8, 3 }, { 66, 22, 70, 4, 3 }, { 180, 48, 180, 18, 5 },
+    { 140, 45, 140, 12, 5 }, { 180, 4, 180, -28, 3 }, { 130, 0, 132, -28, 3 },
+}
+
+--- Hair of a few millimetres, and its style: shaved sides, or all of a short cut. `options` has its `length`
+-- and `density` as style:grow takes them, the `part` of all strands that it holds, and the `seed`.
+function styling.stubble(head, o, options)
+    local style = lissom.hairstyle(head, { scalp = o.scalp, resolution = o.resolution })
+    styling.comb(style, styling.crown_to_hairline)
+    local hair = style:grow{ count = math.floor((options.part or 1) * o.count), seed = options.seed,
+        length = options.length, density = options.density, layer = 0.001, clearance = 0.0012, lift = 1,
+        variation = 0.15, segment = 0.1 }
+    return style, hair:resample{ count = 5 }:set_widths{ width = 0.00024 }
+end
+
 --- A mask of the strands that hang over the face.
 function styling.over_face(scalp, hair)
     local mask, points, unit, at = {}, hair:points(), scalp:unit(), 0

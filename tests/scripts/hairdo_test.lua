@@ -1,6 +1,7 @@
 -- What scripts of hairstyles share.
-local lissom = require "lissom"
+local groom = require "groom"
 local hairdo = require "hairdo"
+local lissom = require "lissom"
 
 test("a head whose unit nobody can guess gets it from the parameters, and nothing warns", function()
     local head = lissom.shapes.head{ vertices = 3000 }:transform{ scale = 3 }
@@ -20,13 +21,15 @@ test("a head whose unit nobody can guess gets it from the parameters, and nothin
     expect.truthy(#assert(lissom.load_strands(test.file("hair.usda"))) > 100)
 end)
 
-local presets = { "afro", "bob", "braid", "bun", "messy", "mohawk", "ringlets", "spiky", "waves" }
+local presets = { "afro", "bob", "braid", "bun", "buzz", "centre_part", "cornrows", "crop", "crown_braid",
+    "half_up", "high_ponytail", "locs", "long_straight", "messy", "mohawk", "pigtails", "pixie", "ringlets",
+    "side_part", "slick_back", "spiky", "topknot", "two_braids", "undercut", "waves" }
 
 test("every preset makes hair on a head that stays out of it, by parameters that it names", function()
     local head = lissom.shapes.head{ vertices = 6000 }
     for _, name in ipairs(presets) do
         local preset = require("presets." .. name)
-        local style, hair, look = preset.grow(head, {}, { count = 400, resolution = 12000 })
+        local style, hair, look = preset.grow(head, {}, { count = 600, resolution = 12000 })
         local stats = hair:stats{ style = style, depth = 0.001 }
         expect.truthy(#hair > 200, name)
         expect.equal(stats.not_finite, 0, name)
@@ -45,4 +48,83 @@ test("another seed gives another head of hair, the same seed the same", function
     end
     expect.equal(hash(2), hash(2))
     expect.truthy(hash(2) ~= hash(3))
+end)
+
+-- ---- Grooms
+
+local head = lissom.shapes.head{ vertices = 4000 }
+
+local function style_of(elevation)
+    local style = lissom.hairstyle(head, { resolution = 5000 })
+    for _, azimuth in ipairs{ -90, 90, 180 } do
+        style:add_stream{ points = { style:at{ azimuth = azimuth, elevation = 70, lift = 0.01 },
+            style:at{ azimuth = azimuth, elevation = elevation, lift = 0.02 },
+            style:at{ azimuth = azimuth, elevation = -30, lift = 0.02 } } }
+    end
+    return style
+end
+
+local function two_layers()
+    return groom.new{ head = head, layers = {
+        { name = "lower", style = style_of(20), grow = { count = 100, length = 0.1 }, operators = {
+            { "guides", count = 20 }, { "gather", spread = 0.001 }, { "push_out", clearance = 0.001 } } },
+        { name = "upper", style = style_of(25), grow = { count = 50, length = 0.1, seed = 2 }, operators = {
+            { "frizz", amplitude = 0.001 }, { "cut", hem = { { 0, -0.05 } } } } },
+    } }
+end
+
+test("a groom is the hair of its layers after their operators", function()
+    local g = two_layers()
+    local by_hand = style_of(20):grow{ count = 100, length = 0.1 }
+    by_hand:guides{ count = 20 }:gather{ spread = 0.001 }:push_out{ head = style_of(20), clearance = 0.001 }
+    expect.equal(g:switch("upper", nil, false):hair():hash(), by_hand:hash())
+    expect.equal(#g:switch("upper", nil, true):hair(), 150)
+end)
+
+test("a groom evaluates again only what follows a change", function()
+    local g = two_layers()
+    local first = g:hair():hash()
+    expect.equal(g.evaluated, 7)
+    expect.equal(g:hair():hash(), first)
+    expect.equal(g.evaluated, 7)
+    expect.truthy(g:set("lower", 2, { spread = 0.004 }):hair():hash() ~= first)
+    expect.equal(g.evaluated, 9)
+    expect.equal(g:set("lower", 2, { spread = 0.001 }):hair():hash(), first)
+    expect.truthy(g:switch("upper", 2, false):hair():hash() ~= first)
+    expect.equal(g.evaluated, 11)
+    local style = g:layer("upper").style
+    style:add_stream{ points = { style:at{ azimuth = 0, elevation = 60, lift = 0.01 },
+        style:at{ azimuth = 0, elevation = 40, lift = 0.02 } } }
+    g:hair()
+    expect.equal(g.evaluated, 13)
+end)
+
+test("operators are put in, taken out and named in errors", function()
+    local g = two_layers()
+    local first = g:hair():hash()
+    g:insert("upper", { "noise", amplitude = 0.002 }, 1)
+    expect.truthy(g:hair():hash() ~= first)
+    expect.equal(g:remove("upper", 1):hair():hash(), first)
+    expect.error(function() g:insert("upper", { "comb_over" }):hair() end, "no method 'comb_over'")
+    expect.equal(g:remove("upper", 3):hair():hash(), first)
+    expect.error(function() g:layer("middle") end, "no layer 'middle'")
+    expect.error(function() g:set("upper", 9, {}) end, "no operator 9")
+    expect.error(function() groom.new{ head = head, layers = {} } end, "at least one layer")
+    expect.error(function() groom.new{ head = head, layers = { { name = "a" } } } end, "needs a style")
+    expect.error(function()
+        g:set("upper", 1, { mask = function() return 1 end }):hair()
+    end, "a groom cannot save")
+end)
+
+test("a groom that was saved and read makes the same hair", function()
+    local g = two_layers()
+    local path = test.file("groom.json")
+    g:switch("upper", 1, false):save(path)
+    local read = groom.load(path, head)
+    expect.equal(read:hair():hash(), g:hair():hash())
+    expect.equal(read:switch("upper", 1, true):hair():hash(), g:switch("upper", 1, true):hair():hash())
+    local file = io.open(path, "wb")
+    file:write('{"layers": [')
+    file:close()
+    expect.error(function() groom.load(path, head) end, "no JSON at byte")
 end)

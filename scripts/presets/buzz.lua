@@ -1,0 +1,23 @@
+--- A buzz cut: hair of a few millimetres all over the head.
+--
+--     lissom run scripts/presets/buzz.lua --length 0.009
+local styling = require "styling"
+
+return styling.preset(..., {
+    name = "buzz",
+    schema = {
+        length = { type = "number", default = 0.006, min = 0.001, max = 0.025, unit = "metres",
+            help = "of the hair" },
+        fade = { type = "number", default = 0.35, min = 0, max = 1,
+            help = "part by which hair is shorter at the hairline than on top" },
+    },
+    make = function(head, v, o)
+        local scalp = o.scalp
+        local lengths = styling.by_angles(scalp, function(_, elevation)
+            return v.length * (1 - v.fade * (1 - styling.smooth(-30, 40, elevation)))
+        end)
+        local style, hair = styling.stubble(head, o, { length = lengths, seed = v.seed })
+        hair:noise{ amplitude = 0.0008, across = 0.02, along = 0.11 }:taper{ tip = 0.4, start = 0.6 }
+        return style, hair, { color = "#33241a", primary = 0.1, scalp_tint = 0.75, unit = scalp:unit() }
+    end,
+})

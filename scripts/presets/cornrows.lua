@@ -1,0 +1,74 @@
+--- Cornrows: narrow braids along the scalp from the hairline to the nape.
+--
+--     lissom run scripts/presets/cornrows.lua --rows 9 --tails 0.16
+local lissom = require "lissom"
+local styling = require "styling"
+
+local first, step = 34, 5
+
+-- The direction `along` degrees over the head in the row `across` degrees beside its middle.
+local function place(across, along)
+    local a, t = math.rad(across), math.rad(along)
+    return styling.angles{ math.sin(a), math.cos(a) * math.sin(t), math.cos(a) * math.cos(t) }
+end
+
+-- The middle of a row, in the unit of the head, and on as a tail of so many metres.
+local function spine_of(scalp, across, tail)
+    local points, last = {}, 215 - 0.43 * math.abs(across)
+    for t = first, last, step do
+        local azimuth, elevation = place(across, t)
+        points[#points + 1] = scalp:at{ azimuth = azimuth, elevation = elevation,
+            lift = 0.0005 + 0.0022 * styling.smooth(34, 60, t) }
+    end
+    local q = scalp:to_metres(points[#points])
+    for j = 1, 6 do
+        points[#points + 1] = scalp:from_metres{ q[1] * (1 + 0.02 * j), q[2] - tail * j / 6,
+            q[3] * (1 + 0.01 * j) - 0.006 * math.min(j, 2) }
+    end
+    return points
+end
+
+return styling.preset(..., {
+    name = "cornrows",
+    schema = {
+        rows = { type = "integer", default = 11, min = 5, max = 15, help = "number of braids" },
+        tails = { type = "number", default = 0.108, min = 0.02, max = 0.25, unit = "metres",
+            help = "length of the braids below the nape" },
+        gap = { type = "number", default = 0.14, min = 0, max = 0.5,
+            help = "part of the scalp between them" },
+        thickness = { type = "number", default = 1, min = 0.6, max = 1.3,
+            help = "of a braid as a part of the usual" },
+    },
+    make = function(head, v, o)
+        local scalp = o.scalp
+        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        styling.radial(style, 60)
+        local hair = style:grow{ count = math.floor(1.3 * o.count), seed = v.seed, length = 0.004, layer = 0,
+            clearance = 0.001, segment = 0.2, lift = 0.5 }
+        local pitch, unit, braids = 126.5 / v.rows, scalp:unit(), nil
+        local size = v.thickness * pitch / 11.5
+        local function across(x, y, z)
+            local p = scalp:to_metres(x / unit, y / unit, z / unit)
+            return math.deg(math.asin(p[1] / math.sqrt(p[1] ^ 2 + p[2] ^ 2 + p[3] ^ 2)))
+        end
+        for row = 1, v.rows do
+            local middle = (row - (v.rows + 1) / 2) * pitch
+            local one = hair:select{ where = function(_, x, y, z)
+                return math.abs(across(x, y, z) - middle) < 0.5 * (1 - v.gap) * pitch
+            end }
+            if #one > 0 then
+                one:feed_braid{ spine = spine_of(scalp, middle, v.tails), scalp = scalp,
+                    across = scalp:left(), radius = 0.0031 * size, wide = 0.0042 * size,
+                    high = 0.0022 * size, wavelength = 0.021 * size, blend = 0.009, least_run = 0.03,
+                    most_run = 0.06, tail = 0.35, begin_size = 0.45, end_size = 0.55, step = 0.0012,
+                    seed = v.seed, drop_others = true }
+            end
+            braids = braids and braids:append(one) or one
+        end
+        braids:push_out{ head = style, clearance = 0.0012, ramp = 0.004 }
+        braids:frizz{ amplitude = 0.0003, wavelength = 0.008, flyaway = 4 }
+        braids:set_widths{ width = 0.00022 }:taper{ tip = 0.4, start = 0.6 }
+        return style, braids, { color = "#1f1511", primary = 0.12, scalp_tint = 0.35, clump_tone = 0.1,
+            unit = unit }
+    end,
+})

@@ -1,0 +1,34 @@
+--- A crop: short hair that is longer on top, with a short fringe.
+--
+--     lissom run scripts/presets/crop.lua --top 0.045 --sides 0.008
+local lissom = require "lissom"
+local styling = require "styling"
+
+return styling.preset(..., {
+    name = "crop",
+    schema = {
+        top = { type = "number", default = 0.036, min = 0.012, max = 0.06, unit = "metres",
+            help = "length of the hair on top" },
+        sides = { type = "number", default = 0.006, min = 0.002, max = 0.03, unit = "metres",
+            help = "length of the hair at nape and sideburns" },
+        texture = { type = "number", default = 0.6, min = 0, max = 1,
+            help = "how far hair gathers in locks" },
+    },
+    make = function(head, v, o)
+        local scalp = o.scalp
+        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        styling.comb(style, styling.crown_to_hairline)
+        local lengths = styling.by_angles(scalp, function(azimuth, elevation)
+            local front = math.abs(azimuth) < 40
+            local on_top = styling.smooth(front and 28 or 34, front and 40 or 66, elevation)
+            local side = v.sides + 0.25 * (v.top - v.sides) * styling.smooth(-30, 25, elevation)
+            return side + (v.top - side) * on_top
+        end)
+        local hair = style:grow{ count = o.count, seed = v.seed, length = lengths, layer = 0.003,
+            clearance = 0.0012, lift = 0.5, variation = 0.25, segment = 0.25 }
+        hair:resample{ count = 10 }
+        hair:clump{ clumps = 700, strength = v.texture, seed = v.seed }
+        styling.finish(hair, 0.00028, 0.004):push_out{ head = style, clearance = 0.0008 }
+        return style, hair, { color = "#4a3020", scalp_tint = 0.8, unit = scalp:unit() }
+    end,
+})

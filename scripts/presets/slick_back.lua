@@ -1,0 +1,48 @@
+--- Slicked back: wet-looking hair that is combed from the hairline over the head to the nape.
+--
+--     lissom run scripts/presets/slick_back.lua --length 0.09
+local lissom = require "lissom"
+local styling = require "styling"
+
+local routes = {
+    { { 0, 37, 3 }, { 0, 52, 9 }, { 0, 75, 8 }, { 180, 70, 7 }, { 180, 35, 8 }, { 180, 0, 8 },
+        { 180, -30, 8 }, stop = false },
+    { { 22, 38, 3 }, { 26, 52, 9 }, { 50, 66, 8 }, { 120, 60, 7 }, { 155, 30, 8 }, { 160, 0, 8 }, { 163, -32,
+        8 }, stop = false },
+    { { 44, 36, 3 }, { 56, 44, 8 }, { 85, 46, 8 }, { 120, 36, 7 }, { 140, 10, 8 }, { 148, -20, 8 },
+        stop = false },
+    { { 60, 22, 3 }, { 74, 30, 5 }, { 95, 31, 6 }, { 116, 22, 7 }, { 134, 0, 7 }, { 144, -30, 7 },
+        stop = false },
+    { { 70, 4, 3 }, { 76, 16, 4 }, { 88, 22, 5 }, { 104, 22, 6 }, { 122, 8, 6 }, stop = false },
+    { { 180, 20, 7 }, { 180, -10, 8 }, { 180, -38, 8 } },
+}
+
+return styling.preset(..., {
+    name = "slick_back",
+    schema = {
+        length = { type = "number", default = 0.088, min = 0.05, max = 0.12, unit = "metres",
+            help = "of the ends below the middle of the head" },
+        volume = { type = "number", default = 0.006, min = 0, max = 0.02, unit = "metres",
+            help = "thickness of the hair" },
+        locks = { type = "integer", default = 900, min = 100, max = 3000,
+            help = "number of the strands of a comb" },
+        ragged = { type = "number", default = 0.012, min = 0, max = 0.03, unit = "metres",
+            help = "of the ends" },
+    },
+    make = function(head, v, o)
+        local scalp = o.scalp
+        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        styling.streams(style, routes)
+        local hair = style:grow{ count = o.count, seed = v.seed, length = 0.11, layer = v.volume,
+            clearance = 0.0015, lift = 0.3, variation = 0.2 }
+        local hem = {}
+        for azimuth = 110, 126, 2 do
+            hem[#hem + 1] = { azimuth, 0.012 - (v.length + 0.012) * styling.smooth(112, 124, azimuth) }
+        end
+        hair:cut{ hem = hem, scalp = scalp, jitter = v.ragged / 2, guide_jitter = v.ragged / 2,
+            seed = v.seed }
+        hair:smooth{ iterations = 3 }:clump{ clumps = v.locks, strength = 0.4 }
+        styling.finish(hair, 0.00026, 0.001):push_out{ head = style, clearance = 0.001 }
+        return style, hair, { color = "#2b1a10", primary = 0.4, unit = scalp:unit() }
+    end,
+})
