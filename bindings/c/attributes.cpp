@@ -136,13 +136,13 @@ lissom_attribute lissom_default_attribute(void) {
 
 int32_t lissom_mesh_attribute_count(lissom_context* context, lissom_mesh mesh) {
     if (!context) return -1;
-    return context->count([&] { return count_of(mesh_of(*context, mesh).attributes().all()); });
+    return context->count([&] { return count_of(shown_mesh(*context, mesh).attributes().all()); });
 }
 
 lissom_status lissom_mesh_attribute(lissom_context* context, lissom_mesh mesh, int32_t number,
                                     lissom_attribute* attribute) {
     return run(context, [&] {
-        const auto& all = mesh_of(*context, mesh).attributes().all();
+        const auto& all = shown_mesh(*context, mesh).attributes().all();
         if (number < 0 || number >= count_of(all)) {
             throw Error(ErrorCode::out_of_range, "the mesh has " + std::to_string(all.size()) +
                                                      " attributes, numbered from 0");
@@ -154,7 +154,7 @@ lissom_status lissom_mesh_attribute(lissom_context* context, lissom_mesh mesh, i
 lissom_status lissom_mesh_find_attribute(lissom_context* context, lissom_mesh mesh,
                                          const char* name, lissom_attribute* attribute) {
     return run(context, [&] {
-        tell_attribute(*context, attribute_of(mesh_of(*context, mesh), given_text(name, "name")),
+        tell_attribute(*context, attribute_of(shown_mesh(*context, mesh), given_text(name, "name")),
                        attribute);
     });
 }
@@ -162,7 +162,7 @@ lissom_status lissom_mesh_find_attribute(lissom_context* context, lissom_mesh me
 lissom_status lissom_mesh_read_attribute(lissom_context* context, lissom_mesh mesh,
                                          const char* name, const lissom_output* values) {
     return run(context, [&] {
-        const Mesh& own = mesh_of(*context, mesh);
+        const Mesh& own = shown_mesh(*context, mesh);
         const Attribute& found = attribute_of(own, given_text(name, "name"));
         std::vector<Index> order;
         if (found.domain == Domain::corner && context->space.reverses()) {
@@ -210,7 +210,7 @@ lissom_status lissom_mesh_remove_attribute(lissom_context* context, lissom_mesh 
 int32_t lissom_mesh_label_count(lissom_context* context, lissom_mesh mesh, const char* kind) {
     if (!context) return -1;
     return context->count([&] {
-        const auto& all = mesh_of(*context, mesh).attributes().labels();
+        const auto& all = shown_mesh(*context, mesh).attributes().labels();
         const auto found = all.find(given_text(kind, "kind"));
         return found == all.end() ? 0 : count_of(found->second.names);
     });
@@ -220,7 +220,7 @@ lissom_status lissom_mesh_label_name(lissom_context* context, lissom_mesh mesh, 
                                      int32_t label, const char** name) {
     return run(context, [&] {
         require_given(name, "name");
-        const FaceLabels& found = labels_of(mesh_of(*context, mesh), given_text(kind, "kind"));
+        const FaceLabels& found = labels_of(shown_mesh(*context, mesh), given_text(kind, "kind"));
         if (label < 0 || label >= count_of(found.names)) {
             throw Error(ErrorCode::out_of_range, "there are " + std::to_string(found.names.size()) +
                                                      " labels, numbered from 0");
@@ -233,7 +233,8 @@ lissom_status lissom_mesh_label_name(lissom_context* context, lissom_mesh mesh, 
 lissom_status lissom_mesh_read_labels(lissom_context* context, lissom_mesh mesh, const char* kind,
                                       const lissom_output* labels) {
     return run(context, [&] {
-        write_integers(labels, labels_of(mesh_of(*context, mesh), given_text(kind, "kind")).of_face,
+        write_integers(labels,
+                       labels_of(shown_mesh(*context, mesh), given_text(kind, "kind")).of_face,
                        "labels");
     });
 }

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <new>
 
+#include "bindings/c/jobs.h"
 #include "bindings/c/script_host.h"
 #include "kernel/core/build_info.h"
 #include "kernel/core/version.h"
@@ -68,6 +69,8 @@ FileTable files_of(const lissom_context_options& host) {
     return files;
 }
 
+}  // namespace
+
 ContextOptions kernel_options(const lissom_context_options& host) {
     ContextOptions options;
     options.threads = host.threads;
@@ -96,6 +99,8 @@ ContextOptions kernel_options(const lissom_context_options& host) {
     options.files = files_of(host);
     return options;
 }
+
+namespace {
 
 Mat3 axes_of(const lissom_space& space) {
     Mat3 axes = Mat3::Identity();
@@ -236,6 +241,14 @@ void copy_options(const void* given, std::size_t given_size, void* options, std:
     std::memcpy(options, given, std::min(given_size, size));
 }
 
+const Mesh& shown_mesh(lissom_context& context, lissom_mesh mesh) {
+    return context.readable<Mesh>(mesh.id, Kind::mesh);
+}
+
+std::shared_ptr<const Mesh> mesh_for_job(lissom_context& context, lissom_mesh mesh) {
+    return std::make_shared<const Mesh>(shown_mesh(context, mesh));
+}
+
 Mesh& mesh_of(lissom_context& context, lissom_mesh mesh) {
     return context.content<Mesh>(mesh.id, Kind::mesh);
 }
@@ -244,59 +257,7 @@ const Region& region_of(lissom_context& context, lissom_region region) {
     return context.content<Region>(region.id, Kind::region);
 }
 
-// ---- Jobs
-
 namespace {
-
-// A context of its own for a job, as operations of two threads cannot share one; the memory is that
-// of the host's.
-Context job_context(const lissom_context& context) {
-    ContextOptions options = kernel_options(context.options);
-    options.memory = context.kernel.memory();
-    return Context(std::move(options));
-}
-
-void run_job(void* argument) {
-    auto& job = *static_cast<Job*>(argument);
-    job.error.guard([&] { job.work(job.context); });
-    job.work = nullptr;
-    job.ended.store(true, std::memory_order_release);
-    job.ended.notify_all();
-}
-
-void hold(lissom_context& context, const Job& job, int change) {
-    for (const auto& [id, kind] : job.held) {
-        if (auto* object = context.objects.find(id, kind)) object->jobs += change;
-    }
-}
-
-std::shared_ptr<Job> find_job(const lissom_context& context, lissom_job job) {
-    const std::lock_guard lock(context.jobs_mutex);
-    const auto found = context.jobs.find(job.id);
-    return found == context.jobs.end() ? nullptr : found->second;
-}
-
-void wait_for(const lissom_context& context, Job& job) {
-    if (job.task) context.options.wait(context.options.user, std::exchange(job.task, nullptr));
-    job.ended.wait(false, std::memory_order_acquire);
-}
-
-// A call that any thread may make: its error is told to the thread that uses the context alone.
-lissom_status tell(const lissom_context* context, lissom_status status, const char* text) {
-    if (!context ||
-        context->user_thread.load(std::memory_order_relaxed) != std::this_thread::get_id()) {
-        return status;
-    }
-    CallError& error = const_cast<lissom_context*>(context)->error;
-    error.guard([&] {
-        if (status != LISSOM_OK) throw StatusError(status, text);
-    });
-    return error.status;
-}
-
-lissom_status refuse_job(const lissom_context* context) {
-    return tell(context, LISSOM_INVALID_HANDLE, "there is no such job: it was finished");
-}
 
 // The text of an error; its explanation if there was no memory for one.
 const char* message_of(const CallError& error) {
@@ -304,44 +265,7 @@ const char* message_of(const CallError& error) {
     return lost ? lissom_status_explanation(error.status) : error.message.c_str();
 }
 
-// Gives up the job and its objects, and takes over its result or throws its error.
-std::uint64_t finish(lissom_context& context, std::uint64_t id, Job& job) {
-    wait_for(context, job);
-    hold(context, job, -1);
-    {
-        const std::lock_guard lock(context.jobs_mutex);
-        context.jobs.erase(id);
-    }
-    if (job.error.status != LISSOM_OK) {
-        throw StatusError(job.error.status, std::move(job.error.message),
-                          std::move(job.error.elements));
-    }
-    return job.take ? job.take() : 0;
-}
-
 }  // namespace
-
-void begin_job(lissom_context& context, std::vector<std::pair<std::uint64_t, Kind>> held,
-               std::function<void(const Context&)> work, std::function<std::uint64_t()> take,
-               lissom_job* job) {
-    const auto made = std::make_shared<Job>(job_context(context));
-    made->work = std::move(work);
-    made->take = std::move(take);
-    made->held = std::move(held);
-    const std::uint64_t id = context.objects.new_id();
-    {
-        const std::lock_guard lock(context.jobs_mutex);
-        context.jobs.emplace(id, made);
-    }
-    if (context.kernel.cancelled()) made->context.cancel();
-    hold(context, *made, 1);
-    if (context.options.enqueue) {
-        made->task = context.options.enqueue(context.options.user, run_job, made.get());
-    } else {
-        run_job(made.get());
-    }
-    job->id = id;
-}
 
 }  // namespace lissom::c
 
@@ -356,7 +280,7 @@ lissom_context::lissom_context(const lissom_context_options& given)
 lissom_context::~lissom_context() {
     // No job may still use the memory freed here.
     for (auto& [id, job] : jobs) job->context.cancel();
-    for (auto& [id, job] : jobs) wait_for(*this, *job);
+    for (auto& [id, job] : jobs) wait_for_job(*this, *job);
 }
 
 const std::shared_ptr<void>& lissom_context::shared(std::uint64_t id, Kind kind) {
@@ -462,43 +386,6 @@ size_t lissom_object_count(const lissom_context* context) {
 
 lissom_transform lissom_identity(void) {
     return {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
-}
-
-// ---- Jobs
-
-bool lissom_job_is_valid(const lissom_context* context, lissom_job job) {
-    return context && find_job(*context, job);
-}
-
-lissom_status lissom_job_poll(const lissom_context* context, lissom_job job,
-                              lissom_job_state* state) {
-    const auto found = context ? find_job(*context, job) : nullptr;
-    if (!found) return refuse_job(context);
-    if (!state) return tell(context, LISSOM_INVALID_ARGUMENT, "state is NULL");
-    *state = found->ended.load(std::memory_order_acquire) ? LISSOM_JOB_DONE : LISSOM_JOB_RUNNING;
-    return tell(context, LISSOM_OK, "");
-}
-
-lissom_status lissom_job_cancel(const lissom_context* context, lissom_job job) {
-    const auto found = context ? find_job(*context, job) : nullptr;
-    if (!found) return refuse_job(context);
-    found->context.cancel();
-    return tell(context, LISSOM_OK, "");
-}
-
-lissom_status lissom_job_finish(lissom_context* context, lissom_job job, uint64_t* result) {
-    return run(context, [&] {
-        const auto found = find_job(*context, job);
-        if (!found) {
-            throw StatusError(LISSOM_INVALID_HANDLE, "there is no such job: it was finished");
-        }
-        const std::uint64_t made = finish(*context, job.id, *found);
-        if (result) {
-            *result = made;
-        } else {
-            context->objects.release(made);
-        }
-    });
 }
 
 // ---- Version

@@ -8,7 +8,9 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -104,6 +106,10 @@ class ObjectTable {
         int jobs = 0;
         std::shared_ptr<void> content;
         MemoryCharge charge;
+        /// The content as it was when a job began to work with it, for reading; or null.
+        std::shared_ptr<void> frozen = nullptr;
+        /// Whether scripts know the object.
+        bool scripted = false;
         /// Facts about the content that it does not hold itself, or null.
         std::shared_ptr<void> beside = nullptr;
     };
@@ -146,15 +152,47 @@ class Space {
     bool reverses_, mirrors_;
 };
 
-/// Work that runs beside the host's thread.
-struct Job {
-    explicit Job(Context own) : context(std::move(own)) {}
+/// The last progress of a job, read from any thread.
+class JobProgress {
+  public:
+    void tell(std::string_view label, double fraction);
+    /// Writes the label, cut to `room` bytes with a zero at the end, and returns the fraction.
+    double read(char* label, std::size_t room) const;
 
-    Context context;
+  private:
+    mutable std::mutex mutex_;
+    std::string label_;
+    double fraction_ = 0.0;
+};
+
+/// What a job leaves: handles of new objects in the order of the function's parameters.
+struct JobResult {
+    std::uint64_t objects[2] = {0, 0};
+    std::optional<lissom_merge_report> report = {};
+    /// Results of a script, made only if they are wanted.
+    bool wants_json = false;
+    lissom_bytes json{};
+};
+
+/// An object by its handle.
+using Held = std::pair<std::uint64_t, Kind>;
+
+/// Work to run beside the host's thread.
+struct JobPlan {
+    /// Objects that nothing else may change meanwhile.
+    std::vector<Held> held = {};
     std::function<void(const Context&)> work;
-    /// Takes over the result, on the host's thread. Returns the handle of a new object, or 0.
-    std::function<std::uint64_t()> take;
-    std::vector<std::pair<std::uint64_t, Kind>> held;
+    /// Takes over the result, on the host's thread; null for none.
+    std::function<void(JobResult&)> take = nullptr;
+    /// Called on the host's thread once the job is finished, whatever its end was; null for
+    /// nothing.
+    std::function<void()> end = nullptr;
+};
+
+struct Job {
+    JobPlan plan;
+    std::shared_ptr<JobProgress> progress;
+    Context context;
     CallError error;
     std::atomic<bool> ended{false};
     void* task = nullptr;
@@ -214,6 +252,13 @@ struct lissom_context {
     T& content(std::uint64_t id, lissom::c::Kind kind) {
         return *static_cast<T*>(shared(id, kind).get());
     }
+    /// Returns the content for reading: as it was if a job works with it now. Errors: as content.
+    template <typename T>
+    const T& readable(std::uint64_t id, lissom::c::Kind kind) {
+        const lissom::c::ObjectTable::Object* object = objects.find(id, kind);
+        const bool is_frozen = object && object->jobs > 0 && object->frozen;
+        return is_frozen ? *static_cast<const T*>(object->frozen.get()) : content<T>(id, kind);
+    }
     template <typename T>
     std::shared_ptr<T> share(std::uint64_t id, lissom::c::Kind kind) {
         return std::static_pointer_cast<T>(shared(id, kind));
@@ -230,10 +275,8 @@ namespace lissom::c {
 /// Runs a call: `work` throws its errors.
 lissom_status run(lissom_context* context, FunctionRef<void()> work) noexcept;
 
-/// Begins a job that works with `held`, and gives its handle.
-void begin_job(lissom_context& context, std::vector<std::pair<std::uint64_t, Kind>> held,
-               std::function<void(const Context&)> work, std::function<std::uint64_t()> take,
-               lissom_job* job);
+/// Begins a job and gives its handle. Errors: INVALID_ARGUMENT if `job` is NULL.
+void begin_job(lissom_context& context, JobPlan plan, lissom_job* job);
 
 /// Throws INVALID_ARGUMENT, naming it, if a pointer is NULL.
 void require_given(const void* pointer, const char* name);
@@ -251,6 +294,10 @@ Options take_options(const Options* given, Options defaults) {
     return defaults;
 }
 
+/// Returns the mesh of a handle for reading, also while a job works with it.
+const Mesh& shown_mesh(lissom_context& context, lissom_mesh mesh);
+/// Returns a copy of it for a job, so that the mesh itself stays free.
+std::shared_ptr<const Mesh> mesh_for_job(lissom_context& context, lissom_mesh mesh);
 /// Returns the mesh of a handle.
 Mesh& mesh_of(lissom_context& context, lissom_mesh mesh);
 /// Returns the region of a handle.

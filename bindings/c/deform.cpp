@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bindings/c/data.h"
+#include "bindings/c/jobs.h"
 #include "kernel/deform/deform_report.h"
 #include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer.h"
@@ -59,6 +60,13 @@ VertexConstraint constraint_of(const lissom_context& context, Index vertex, cons
     return constraint;
 }
 
+// The frame before the job that works with the deformer now, or null.
+const Frame* last_frame(const lissom_context& context, lissom_deformer deformer) {
+    const auto* object = context.objects.find(deformer.id, Kind::deformer);
+    const bool is_busy = object && object->jobs > 0;
+    return is_busy ? static_cast<const Frame*>(object->frozen.get()) : nullptr;
+}
+
 lissom_deform_report told_report(lissom_context& context, const DeformReport& found) {
     lissom_deform_report told = lissom_default_deform_report();
     told.stretch = found.stretch;
@@ -77,6 +85,12 @@ lissom_deform_report told_report(lissom_context& context, const DeformReport& fo
 }
 
 }  // namespace
+
+Frame frame_of(lissom_context& context, std::uint64_t deformer) {
+    auto& own = context.content<Deformer>(deformer, Kind::deformer);
+    return {own.region().vertices(), own.positions(), normals_of(own, context.kernel)};
+}
+
 }  // namespace lissom::c
 
 using namespace lissom;
@@ -188,8 +202,9 @@ lissom_status lissom_deformer_begin_prepare(lissom_context* context, lissom_defo
         require_given(job, "job");
         const auto own = context->share<Deformer>(deformer.id, Kind::deformer);
         begin_job(
-            *context, {{deformer.id, Kind::deformer}},
-            [own](const Context& inner) { own->prepare(inner); }, nullptr, job);
+            *context,
+            {{{deformer.id, Kind::deformer}}, [own](const Context& inner) { own->prepare(inner); }},
+            job);
     });
 }
 
@@ -205,31 +220,39 @@ lissom_status lissom_deformer_begin_solve(lissom_context* context, lissom_deform
     return run(context, [&] {
         require_given(job, "job");
         const auto own = context->share<Deformer>(deformer.id, Kind::deformer);
-        begin_job(
-            *context, {{deformer.id, Kind::deformer}},
-            [own, wanted = quality_of(quality)](const Context& inner) {
-                own->solve(wanted, inner);
-            },
-            nullptr, job);
+        begin_job(*context,
+                  {{{deformer.id, Kind::deformer}},
+                   [own, wanted = quality_of(quality)](const Context& inner) {
+                       own->solve(wanted, inner);
+                   }},
+                  job);
     });
 }
 
 int32_t lissom_deformer_row_count(lissom_context* context, lissom_deformer deformer) {
     if (!context) return -1;
-    return context->count([&] { return deformer_of(*context, deformer).region().size(); });
+    return context->count([&] {
+        if (const Frame* frame = last_frame(*context, deformer)) return count_of(frame->rows);
+        return deformer_of(*context, deformer).region().size();
+    });
 }
 
 lissom_status lissom_deformer_read_rows(lissom_context* context, lissom_deformer deformer,
                                         const lissom_output* vertices) {
     return run(context, [&] {
-        write_integers(vertices, deformer_of(*context, deformer).region().vertices(), "vertices");
+        const Frame* frame = last_frame(*context, deformer);
+        write_integers(vertices,
+                       frame ? frame->rows : deformer_of(*context, deformer).region().vertices(),
+                       "vertices");
     });
 }
 
 lissom_status lissom_deformer_read_positions(lissom_context* context, lissom_deformer deformer,
                                              const lissom_output* positions) {
     return run(context, [&] {
-        const std::vector<Vec3>& points = deformer_of(*context, deformer).positions();
+        const Frame* frame = last_frame(*context, deformer);
+        const std::vector<Vec3>& points =
+            frame ? frame->positions : deformer_of(*context, deformer).positions();
         write_points(positions, points.size(), "positions",
                      [&](std::size_t i) { return context->space.to_host(points[i]); });
     });
@@ -238,7 +261,9 @@ lissom_status lissom_deformer_read_positions(lissom_context* context, lissom_def
 lissom_status lissom_deformer_read_normals(lissom_context* context, lissom_deformer deformer,
                                            const lissom_output* normals) {
     return run(context, [&] {
-        const std::vector<Vec3>& own = normals_of(deformer_of(*context, deformer), context->kernel);
+        const Frame* frame = last_frame(*context, deformer);
+        const std::vector<Vec3>& own =
+            frame ? frame->normals : normals_of(deformer_of(*context, deformer), context->kernel);
         write_points(normals, own.size(), "normals",
                      [&](std::size_t i) { return context->space.to_host(own[i]); });
     });

@@ -246,6 +246,17 @@ lissom_status lissom_hairstyle_solve(lissom_context* context, lissom_hairstyle s
     return run(context, [&] { style_of(*context, style).solve(context->kernel); });
 }
 
+lissom_status lissom_hairstyle_begin_solve(lissom_context* context, lissom_hairstyle style,
+                                           lissom_job* job) {
+    return run(context, [&] {
+        const auto own = context->share<Hairstyle>(style.id, Kind::hairstyle);
+        begin_job(
+            *context,
+            {{{style.id, Kind::hairstyle}}, [own](const Context& inner) { own->solve(inner); }},
+            job);
+    });
+}
+
 lissom_status lissom_hairstyle_grow(lissom_context* context, lissom_hairstyle style,
                                     const lissom_grow_options* options, lissom_strands* strands) {
     return run(context, [&] {
@@ -267,10 +278,13 @@ lissom_status lissom_hairstyle_begin_grow(lissom_context* context, lissom_hairst
         const auto own = context->share<Hairstyle>(style.id, Kind::hairstyle);
         const HairOptions wanted = hair_options(*own, options);
         const auto made = std::make_shared<Strands>();
-        begin_job(
-            *context, {{style.id, Kind::hairstyle}},
-            [own, wanted, made](const Context& inner) { own->grow(wanted, *made, inner); },
-            [context, made] { return add_strands(*context, std::move(*made)); }, job);
+        begin_job(*context,
+                  {{{style.id, Kind::hairstyle}},
+                   [own, wanted, made](const Context& inner) { own->grow(wanted, *made, inner); },
+                   [context, made](JobResult& result) {
+                       result.objects[0] = add_strands(*context, std::move(*made));
+                   }},
+                  job);
     });
 }
 
@@ -297,6 +311,35 @@ lissom_status lissom_strands_load(lissom_context* context, const char* path,
         require_given(strands, "strands");
         strands->id = add_strands(
             *context, load_strands(path_of(given_text(path, "path")), {}, context->kernel));
+    });
+}
+
+lissom_status lissom_strands_begin_load(lissom_context* context, const char* path,
+                                        lissom_job* job) {
+    return run(context, [&] {
+        const auto made = std::make_shared<Strands>();
+        begin_job(*context,
+                  {{},
+                   [made, file = path_of(given_text(path, "path"))](const Context& inner) {
+                       *made = load_strands(file, {}, inner);
+                   },
+                   [context, made](JobResult& result) {
+                       result.objects[0] = add_strands(*context, std::move(*made));
+                   }},
+                  job);
+    });
+}
+
+lissom_status lissom_strands_begin_save(lissom_context* context, lissom_strands strands,
+                                        const char* path, lissom_job* job) {
+    return run(context, [&] {
+        const auto own = context->share<Strands>(strands.id, Kind::strands);
+        begin_job(*context,
+                  {{{strands.id, Kind::strands}},
+                   [own, file = path_of(given_text(path, "path"))](const Context& inner) {
+                       save_strands(*own, file, {}, inner);
+                   }},
+                  job);
     });
 }
 

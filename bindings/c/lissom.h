@@ -364,24 +364,63 @@ LISSOM_API lissom_status lissom_object_release(lissom_context* context, lissom_o
 // ---- Jobs
 //
 // Functions with `begin` in their name start a job and return at once if the host has given
-// `enqueue`. Objects that the job works with are BUSY until it is finished. Progress and log are
-// called on the thread that the host runs the job on.
+// `enqueue`; without it the job has run when they return. Each does what the function of the same
+// name without `begin` does, and its arguments may be freed once it has returned. Progress, log,
+// and the functions for files are called on the thread that the host runs the job on.
+//
+// Meshes that a job reads (to save, cut, merge, paste, erase) are copied when it begins and stay
+// free. Other objects that it works with are BUSY until it is finished, but the last frame of a
+// deformer and the content of a mesh can be read meanwhile, as they were when the job began. A job
+// of a script or of lissom_call works with all objects that scripts know; other scripts and calls
+// are BUSY.
 
 typedef enum lissom_job_state { LISSOM_JOB_RUNNING = 0, LISSOM_JOB_DONE = 1 } lissom_job_state;
 
 /// Receives whether the job has ended, successfully or not. Does not wait. Called on the thread of
-/// the last other call with the context it sets lissom_last_error, as does lissom_job_cancel.
-/// Errors: INVALID_HANDLE; INVALID_ARGUMENT. [any thread]
+/// the last other call with the context it sets lissom_last_error, as do lissom_job_progress and
+/// lissom_job_cancel. Errors: INVALID_HANDLE; INVALID_ARGUMENT. [any thread]
 LISSOM_API lissom_status lissom_job_poll(const lissom_context* context, lissom_job job,
                                          lissom_job_state* state);
+/// Receives the fraction done, 0 to 1, and writes the name of the current step, cut to `label_size`
+/// bytes with the zero at its end; `label` may be NULL. Does not wait. [any thread]
+LISSOM_API lissom_status lissom_job_progress(const lissom_context* context, lissom_job job,
+                                             double* fraction, char* label, size_t label_size);
 /// Asks this job alone to stop; finish it all the same. [any thread]
 LISSOM_API lissom_status lissom_job_cancel(const lissom_context* context, lissom_job job);
 /// Waits for the job if it still runs, takes over its result, and frees it. Returns the status of
 /// the function without `begin`; the error is that of the job. `result` receives the handle of the
-/// new object if the job makes one (`id` of its struct), else 0; it may be NULL, and the object is
-/// then dropped.
+/// first new object if the job makes one (`id` of its struct), else 0; it may be NULL. Objects that
+/// are not received are dropped.
 LISSOM_API lissom_status lissom_job_finish(lissom_context* context, lissom_job job,
                                            uint64_t* result);
+
+/// All that a job leaves.
+typedef struct lissom_job_outcome {
+    size_t struct_size;
+    /// Handles of new objects in the order of the function's parameters, as a mesh and its map, or
+    /// both parts of a cut; 0 for no object.
+    uint64_t objects[2];
+    /// Results of a script or of lissom_call. They live until the next call with the context.
+    lissom_bytes json;
+    /// Set it to a report to receive that of a merge or a paste; NULL for none.
+    struct lissom_merge_report* report;
+} lissom_job_outcome;
+
+LISSOM_API lissom_job_outcome lissom_default_job_outcome(void);
+/// Finishes a job as lissom_job_finish does, and receives all that it leaves.
+LISSOM_API lissom_status lissom_job_finish_with(lissom_context* context, lissom_job job,
+                                                lissom_job_outcome* outcome);
+
+// ---- Between contexts
+
+/// Moves an object to another context that the same thread uses: the handle in `context` is
+/// released and `moved` receives the new one. Meshes move with their attributes, regions and files'
+/// contents, strands with all their values. Regions, deformers and other objects belong to a mesh,
+/// and are made again in the other context. Errors, those of `context`: UNSUPPORTED for an object
+/// of such a kind, naming how it is made again; INVALID_HANDLE; BUSY; MEMORY_LIMIT of `other`.
+/// Nothing has moved then.
+LISSOM_API lissom_status lissom_move(lissom_context* context, uint64_t object,
+                                     lissom_context* other, uint64_t* moved);
 
 // ---- Meshes
 
@@ -437,6 +476,14 @@ LISSOM_API lissom_status lissom_mesh_decode(lissom_context* context, const void*
 LISSOM_API lissom_status lissom_mesh_save(lissom_context* context, lissom_mesh mesh,
                                           const char* path,
                                           const lissom_mesh_save_options* options);
+/// Start the load, whose result is a mesh, and the save, as jobs.
+LISSOM_API lissom_status lissom_mesh_begin_load(lissom_context* context, const char* path,
+                                                const lissom_mesh_load_options* options,
+                                                lissom_job* job);
+LISSOM_API lissom_status lissom_mesh_begin_save(lissom_context* context, lissom_mesh mesh,
+                                                const char* path,
+                                                const lissom_mesh_save_options* options,
+                                                lissom_job* job);
 LISSOM_API lissom_status lissom_mesh_encode(lissom_context* context, lissom_mesh mesh,
                                             const char* extension,
                                             const lissom_mesh_save_options* options,
@@ -591,6 +638,10 @@ LISSOM_API lissom_buffer lissom_default_buffer(void);
 LISSOM_API lissom_status lissom_mesh_create_welded(lissom_context* context,
                                                    const lissom_buffer* buffer, lissom_mesh* mesh,
                                                    lissom_render_map* map);
+/// Starts that as a job, whose results are a mesh and its map. The buffer is read before it
+/// returns.
+LISSOM_API lissom_status lissom_mesh_begin_create(lissom_context* context,
+                                                  const lissom_buffer* buffer, lissom_job* job);
 /// Makes the map of a mesh that did not come from a buffer, such as the result of a merge: its
 /// render vertices are apart if an attribute of corners differs between faces, or if texture
 /// coordinates are mirrored from one face to the next.
@@ -875,6 +926,15 @@ LISSOM_API lissom_status lissom_cut_by_region(lissom_context* context, lissom_me
                                               lissom_region region,
                                               const lissom_cut_options* options, lissom_mesh* kept,
                                               lissom_mesh* rest);
+/// Start the cuts as jobs, whose results are the kept part and the rest.
+LISSOM_API lissom_status lissom_cut_begin_by_plane(lissom_context* context, lissom_mesh mesh,
+                                                   const double point[3], const double normal[3],
+                                                   const lissom_cut_options* options,
+                                                   lissom_job* job);
+LISSOM_API lissom_status lissom_cut_begin_by_region(lissom_context* context, lissom_mesh mesh,
+                                                    lissom_region region,
+                                                    const lissom_cut_options* options,
+                                                    lissom_job* job);
 
 // ---- Merging (thesis, section 3.3)
 
@@ -932,6 +992,11 @@ LISSOM_API lissom_status lissom_merge(lissom_context* context, lissom_mesh sourc
                                       lissom_mesh target, const lissom_join* joins,
                                       int32_t join_count, const lissom_merge_options* options,
                                       lissom_mesh* mesh, lissom_merge_report* report);
+/// Starts the merge as a job, whose result is a mesh, with a report.
+LISSOM_API lissom_status lissom_begin_merge(lissom_context* context, lissom_mesh source,
+                                            lissom_mesh target, const lissom_join* joins,
+                                            int32_t join_count, const lissom_merge_options* options,
+                                            lissom_job* job);
 /// Checks and prepares a merge of `source` onto `target_count` targets, to be solved again with
 /// other keys. Without joins each target meets the source at their nearest boundaries. The meshes
 /// stay as they are. Errors: INVALID_ARGUMENT; OUT_OF_RANGE for a boundary; BOUNDARY_CONFLICT;
@@ -990,6 +1055,27 @@ LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_merge(lissom_context* 
                                                                 lissom_paste paste,
                                                                 lissom_mesh* mesh,
                                                                 lissom_merge_report* report);
+/// Start these as jobs: the result is a paste, nothing, or a mesh with a report.
+LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_begin_create(
+    lissom_context* context, lissom_mesh source, lissom_mesh target, lissom_region region,
+    lissom_region feature, lissom_region onto, const lissom_placement* placement, lissom_job* job);
+LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_begin_optimize(lissom_context* context,
+                                                                         lissom_paste paste,
+                                                                         int32_t iterations,
+                                                                         lissom_job* job);
+LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_paste_begin_merge(lissom_context* context,
+                                                                      lissom_paste paste,
+                                                                      lissom_job* job);
+/// Makes a copy of a mesh without the feature in a region: the surface around goes on over its
+/// place. Errors: REGION_EMPTY; TOPOLOGY_MISMATCH; NOT_A_DISK; BOUNDARY_CONFLICT; CANCELLED.
+LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_erase(lissom_context* context, lissom_mesh mesh,
+                                                          lissom_region region,
+                                                          lissom_mesh* erased);
+/// Starts that as a job, whose result is a mesh.
+LISSOM_EXPERIMENTAL LISSOM_API lissom_status lissom_begin_erase(lissom_context* context,
+                                                                lissom_mesh mesh,
+                                                                lissom_region region,
+                                                                lissom_job* job);
 
 // ---- Hair (thesis, chapter 4). Points are in the space of the head's mesh; lengths of hair are in
 // metres of an average head, so that they fit any head. Strands are in metres: a point of the mesh
@@ -1075,6 +1161,9 @@ LISSOM_API lissom_status lissom_hairstyle_field(lissom_context* context, lissom_
                                                 const double point[3], double direction[3]);
 /// Updates the field; lissom_hairstyle_grow does so by itself.
 LISSOM_API lissom_status lissom_hairstyle_solve(lissom_context* context, lissom_hairstyle style);
+/// Starts the update as a job.
+LISSOM_API lissom_status lissom_hairstyle_begin_solve(lissom_context* context,
+                                                      lissom_hairstyle style, lissom_job* job);
 /// Grows hair into new strands. If `strands` is valid its content is replaced and its memory
 /// reused: set it to zero before the first call. Errors: INVALID_ARGUMENT without a curve;
 /// CANCELLED.
@@ -1099,6 +1188,12 @@ LISSOM_API lissom_status lissom_strands_load(lissom_context* context, const char
                                              lissom_strands* strands);
 LISSOM_API lissom_status lissom_strands_save(lissom_context* context, lissom_strands strands,
                                              const char* path);
+/// Start the load, whose result is new strands, and the save, as jobs. Strands that are saved are
+/// BUSY.
+LISSOM_API lissom_status lissom_strands_begin_load(lissom_context* context, const char* path,
+                                                   lissom_job* job);
+LISSOM_API lissom_status lissom_strands_begin_save(lissom_context* context, lissom_strands strands,
+                                                   const char* path, lissom_job* job);
 /// Return the numbers of strands and of points, or -1 for an invalid handle.
 LISSOM_API int32_t lissom_strands_size(lissom_context* context, lissom_strands strands);
 LISSOM_API int32_t lissom_strands_point_count(lissom_context* context, lissom_strands strands);
@@ -1222,6 +1317,9 @@ LISSOM_API lissom_status lissom_script_set(lissom_context* context, lissom_scrip
 /// SCRIPT_ERROR with file and line; CANCELLED; MEMORY_LIMIT; INVALID_ARGUMENT for bad JSON.
 LISSOM_API lissom_status lissom_script_run(lissom_context* context, lissom_script script,
                                            const char* arguments, lissom_bytes* json);
+/// Starts the run as a job, whose results are JSON.
+LISSOM_API lissom_status lissom_script_begin_run(lissom_context* context, lissom_script script,
+                                                 const char* arguments, lissom_job* job);
 
 /// Calls any function of the Lua reference. `name` is "shapes.box", or "Mesh.smooth" for a method.
 /// `arguments` is a JSON list: first the object of a method, then the arguments by position and the
@@ -1235,6 +1333,9 @@ LISSOM_API lissom_status lissom_script_run(lissom_context* context, lissom_scrip
 /// those of the function.
 LISSOM_API lissom_status lissom_call(lissom_context* context, const char* name,
                                      const char* arguments, lissom_bytes* json);
+/// Starts the call as a job, whose results are JSON.
+LISSOM_API lissom_status lissom_begin_call(lissom_context* context, const char* name,
+                                           const char* arguments, lissom_job* job);
 
 #ifdef __cplusplus
 }

@@ -10,6 +10,7 @@
 #include "bindings/c/data.h"
 #include "bindings/c/origins.h"
 #include "kernel/merge/merge_once.h"
+#include "kernel/merge/paste/erase/erase_feature.h"
 #include "kernel/merge/paste/paste.h"
 #include "kernel/mesh/cut/cut.h"
 
@@ -25,18 +26,48 @@ CutOptions cut_options(const lissom_cut_options* given) {
 }
 
 // Keeps both parts of a cut, or none.
-void keep_cut(lissom_context& context, Cut&& cut, lissom_mesh* kept, lissom_mesh* rest) {
+void add_cut(lissom_context& context, Cut&& cut, bool with_rest, JobResult& result) {
     for (const CutWarning& warning : cut.report.warnings) {
         context.kernel.log(LogLevel::warning, warning.message);
     }
     const std::uint64_t first = context.add_mesh(std::move(cut.kept.mesh));
     try {
-        if (rest) rest->id = context.add_mesh(std::move(cut.rest.mesh));
+        if (with_rest) result.objects[1] = context.add_mesh(std::move(cut.rest.mesh));
     } catch (...) {
         context.objects.release(first);
         throw;
     }
-    kept->id = first;
+    result.objects[0] = first;
+}
+
+void keep_cut(lissom_context& context, Cut&& cut, lissom_mesh* kept, lissom_mesh* rest) {
+    JobResult result;
+    add_cut(context, std::move(cut), rest != nullptr, result);
+    kept->id = result.objects[0];
+    if (rest) rest->id = result.objects[1];
+}
+
+template <typename Line>
+void begin_cut(lissom_context& context, lissom_mesh mesh, Line line, const CutOptions& options,
+               lissom_job* job) {
+    const auto made = std::make_shared<std::optional<Cut>>();
+    begin_job(context,
+              {{},
+               [own = mesh_for_job(context, mesh), line = std::move(line), options,
+                made](const Context& inner) { *made = cut(*own, line, options, inner); },
+               [&context, made](JobResult& result) {
+                   add_cut(context, std::move(**made), true, result);
+               }},
+              job);
+}
+
+CutPlane plane_of(const lissom_context& context, const double point[3], const double normal[3]) {
+    require_given(point, "point");
+    require_given(normal, "normal");
+    CutPlane plane;
+    plane.point = context.space.to_kernel(point);
+    plane.normal = context.space.to_kernel(normal);
+    return plane;
 }
 
 Path boundary_of(const Mesh& mesh, Index number, const char* side) {
@@ -114,6 +145,15 @@ std::uint64_t add_merged(lissom_context& context, MergeResult&& merged, const In
     return id;
 }
 
+std::uint64_t add_erased(lissom_context& context, ErasedFeature&& erased, const Mesh& from) {
+    InputCounts counts;
+    counts.add(from);
+    auto origins = origins_of(erased.mesh, erased.map, counts);
+    const std::uint64_t id = context.add_mesh(std::move(erased.mesh));
+    context.objects.find(id, Kind::mesh)->beside = std::move(origins);
+    return id;
+}
+
 // Adds an object with the numbers of its inputs.
 template <typename T>
 std::uint64_t add_with_inputs(lissom_context& context, Kind kind, std::shared_ptr<T> made,
@@ -152,6 +192,14 @@ void give_merged(lissom_context& context, MergeResult&& merged, std::optional<do
 // The inputs of a merger or a paste, kept beside it.
 const InputCounts& inputs_of(lissom_context& context, std::uint64_t id, Kind kind) {
     return *static_cast<const InputCounts*>(context.objects.find(id, kind)->beside.get());
+}
+
+void take_merged(lissom_context& context, MergeResult&& merged, std::optional<double> scale,
+                 const InputCounts& inputs, JobResult& result) {
+    auto told = told_report(context, merged.report);
+    if (scale) told.scale = *scale;
+    result.objects[0] = add_merged(context, std::move(merged), inputs);
+    result.report = told;
 }
 
 Merger& merger_of(lissom_context& context, lissom_merger merger) {
@@ -199,15 +247,11 @@ lissom_status lissom_cut_by_plane(lissom_context* context, lissom_mesh mesh, con
                                   const double normal[3], const lissom_cut_options* options,
                                   lissom_mesh* kept, lissom_mesh* rest) {
     return run(context, [&] {
-        require_given(point, "point");
-        require_given(normal, "normal");
         require_given(kept, "kept");
-        CutPlane plane;
-        plane.point = context->space.to_kernel(point);
-        plane.normal = context->space.to_kernel(normal);
         keep_cut(*context,
-                 cut(mesh_of(*context, mesh), plane, cut_options(options), context->kernel), kept,
-                 rest);
+                 cut(mesh_of(*context, mesh), plane_of(*context, point, normal),
+                     cut_options(options), context->kernel),
+                 kept, rest);
     });
 }
 
@@ -220,6 +264,23 @@ lissom_status lissom_cut_by_region(lissom_context* context, lissom_mesh mesh, li
                  cut(mesh_of(*context, mesh), CutRegion{region_of(*context, region)},
                      cut_options(options), context->kernel),
                  kept, rest);
+    });
+}
+
+lissom_status lissom_cut_begin_by_plane(lissom_context* context, lissom_mesh mesh,
+                                        const double point[3], const double normal[3],
+                                        const lissom_cut_options* options, lissom_job* job) {
+    return run(context, [&] {
+        begin_cut(*context, mesh, plane_of(*context, point, normal), cut_options(options), job);
+    });
+}
+
+lissom_status lissom_cut_begin_by_region(lissom_context* context, lissom_mesh mesh,
+                                         lissom_region region, const lissom_cut_options* options,
+                                         lissom_job* job) {
+    return run(context, [&] {
+        begin_cut(*context, mesh, CutRegion{region_of(*context, region)}, cut_options(options),
+                  job);
     });
 }
 
@@ -276,6 +337,25 @@ lissom_status lissom_merge(lissom_context* context, lissom_mesh source, lissom_m
     });
 }
 
+lissom_status lissom_begin_merge(lissom_context* context, lissom_mesh source, lissom_mesh target,
+                                 const lissom_join* joins, int32_t join_count,
+                                 const lissom_merge_options* options, lissom_job* job) {
+    return run(context, [&] {
+        const auto own = mesh_for_job(*context, source), other = mesh_for_job(*context, target);
+        const Mesh* const targets[] = {other.get()};
+        const auto made = std::make_shared<MergeResult>();
+        begin_job(*context,
+                  {{},
+                   [own, other, made, wanted = merge_options(options),
+                    all = joins_of(*context, joins, join_count, *own, targets)](
+                       const Context& inner) { *made = merge(*own, *other, all, wanted, inner); },
+                   [context, made, inputs = counts_of(*own, targets)](JobResult& result) {
+                       take_merged(*context, std::move(*made), std::nullopt, inputs, result);
+                   }},
+                  job);
+    });
+}
+
 lissom_status lissom_merger_set_keys(lissom_context* context, lissom_merger merger, int32_t join,
                                      const double* source_keys, const double* target_keys,
                                      int32_t key_count) {
@@ -302,13 +382,14 @@ lissom_status lissom_merger_begin_solve(lissom_context* context, lissom_merger m
         require_given(job, "job");
         const auto own = context->share<Merger>(merger.id, Kind::merger);
         const auto made = std::make_shared<MergeResult>();
-        begin_job(
-            *context, {{merger.id, Kind::merger}},
-            [own, made](const Context& inner) { *made = own->solve(inner); },
-            [context, made, inputs = inputs_of(*context, merger.id, Kind::merger)] {
-                return add_merged(*context, std::move(*made), inputs);
-            },
-            job);
+        begin_job(*context,
+                  {{{merger.id, Kind::merger}},
+                   [own, made](const Context& inner) { *made = own->solve(inner); },
+                   [context, made,
+                    inputs = inputs_of(*context, merger.id, Kind::merger)](JobResult& result) {
+                       take_merged(*context, std::move(*made), std::nullopt, inputs, result);
+                   }},
+                  job);
     });
 }
 
@@ -355,6 +436,86 @@ lissom_status lissom_paste_merge(lissom_context* context, lissom_paste paste, li
         PasteResult result = paste_of(*context, paste).merge({}, context->kernel);
         give_merged(*context, std::move(result.merged), result.report.scale,
                     inputs_of(*context, paste.id, Kind::paste), mesh, report);
+    });
+}
+
+lissom_status lissom_paste_begin_create(lissom_context* context, lissom_mesh source,
+                                        lissom_mesh target, lissom_region region,
+                                        lissom_region feature, lissom_region onto,
+                                        const lissom_placement* placement, lissom_job* job) {
+    return run(context, [&] {
+        const auto own = mesh_for_job(*context, source), other = mesh_for_job(*context, target);
+        const Mesh* const targets[] = {other.get()};
+        const auto made = std::make_shared<std::shared_ptr<Paste>>();
+        begin_job(
+            *context,
+            {{},
+             [own, other, made, whole = region_of(*context, region),
+              part = region_if_given(*context, feature), place = region_if_given(*context, onto),
+              where = placement_of(*context, placement)](const Context& inner) {
+                 *made = std::make_shared<Paste>(*own, *other, whole, part, place, where,
+                                                 PasteOptions(), inner);
+             },
+             [context, made, counts = counts_of(*own, targets)](JobResult& result) {
+                 result.objects[0] =
+                     add_with_inputs(*context, Kind::paste, std::move(*made), counts);
+             }},
+            job);
+    });
+}
+
+lissom_status lissom_paste_begin_optimize(lissom_context* context, lissom_paste paste,
+                                          int32_t iterations, lissom_job* job) {
+    return run(context, [&] {
+        const auto own = context->share<Paste>(paste.id, Kind::paste);
+        begin_job(*context,
+                  {{{paste.id, Kind::paste}},
+                   [own, iterations](const Context& inner) { own->optimize(iterations, inner); }},
+                  job);
+    });
+}
+
+lissom_status lissom_paste_begin_merge(lissom_context* context, lissom_paste paste,
+                                       lissom_job* job) {
+    return run(context, [&] {
+        const auto own = context->share<Paste>(paste.id, Kind::paste);
+        const auto made = std::make_shared<PasteResult>();
+        begin_job(*context,
+                  {{{paste.id, Kind::paste}},
+                   [own, made](const Context& inner) { *made = own->merge({}, inner); },
+                   [context, made,
+                    inputs = inputs_of(*context, paste.id, Kind::paste)](JobResult& result) {
+                       take_merged(*context, std::move(made->merged), made->report.scale, inputs,
+                                   result);
+                   }},
+                  job);
+    });
+}
+
+lissom_status lissom_erase(lissom_context* context, lissom_mesh mesh, lissom_region region,
+                           lissom_mesh* erased) {
+    return run(context, [&] {
+        require_given(erased, "erased");
+        const Mesh& own = mesh_of(*context, mesh);
+        erased->id = add_erased(
+            *context, erase_feature(own, region_of(*context, region), {}, context->kernel), own);
+    });
+}
+
+lissom_status lissom_begin_erase(lissom_context* context, lissom_mesh mesh, lissom_region region,
+                                 lissom_job* job) {
+    return run(context, [&] {
+        const auto own = mesh_for_job(*context, mesh);
+        const auto made = std::make_shared<std::optional<ErasedFeature>>();
+        begin_job(*context,
+                  {{},
+                   [own, made, place = region_of(*context, region)](const Context& inner) {
+                       *made = erase_feature(*own, place, {}, inner);
+                   },
+                   [context, own, made](JobResult& result) {
+                       result.objects[0] = add_erased(*context, std::move(**made), *own);
+                   }},
+                  job);
     });
 }
 

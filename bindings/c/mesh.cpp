@@ -95,6 +95,34 @@ lissom_status lissom_mesh_load(lissom_context* context, const char* path,
     });
 }
 
+lissom_status lissom_mesh_begin_load(lissom_context* context, const char* path,
+                                     const lissom_mesh_load_options* options, lissom_job* job) {
+    return run(context, [&] {
+        const auto made = std::make_shared<Mesh>();
+        begin_job(*context,
+                  {{},
+                   [made, file = path_of(given_text(path, "path")), wanted = load_options(options)](
+                       const Context& inner) { *made = load_mesh(file, wanted, inner); },
+                   [context, made](JobResult& result) {
+                       result.objects[0] = context->add_mesh(std::move(*made));
+                   }},
+                  job);
+    });
+}
+
+lissom_status lissom_mesh_begin_save(lissom_context* context, lissom_mesh mesh, const char* path,
+                                     const lissom_mesh_save_options* options, lissom_job* job) {
+    return run(context, [&] {
+        begin_job(*context,
+                  {{},
+                   [own = mesh_for_job(*context, mesh), file = path_of(given_text(path, "path")),
+                    wanted = save_options(options)](const Context& inner) {
+                       save_mesh(*own, file, wanted, inner);
+                   }},
+                  job);
+    });
+}
+
 lissom_status lissom_mesh_decode(lissom_context* context, const void* bytes, size_t size,
                                  const char* extension, const lissom_mesh_load_options* options,
                                  lissom_mesh* mesh) {
@@ -111,8 +139,8 @@ lissom_status lissom_mesh_decode(lissom_context* context, const void* bytes, siz
 lissom_status lissom_mesh_save(lissom_context* context, lissom_mesh mesh, const char* path,
                                const lissom_mesh_save_options* options) {
     return run(context, [&] {
-        save_mesh(mesh_of(*context, mesh), path_of(given_text(path, "path")), save_options(options),
-                  context->kernel);
+        save_mesh(shown_mesh(*context, mesh), path_of(given_text(path, "path")),
+                  save_options(options), context->kernel);
     });
 }
 
@@ -120,7 +148,7 @@ lissom_status lissom_mesh_encode(lissom_context* context, lissom_mesh mesh, cons
                                  const lissom_mesh_save_options* options, lissom_bytes* bytes) {
     return run(context, [&] {
         require_given(bytes, "bytes");
-        context->bytes = encode_mesh(mesh_of(*context, mesh), given_text(extension, "extension"),
+        context->bytes = encode_mesh(shown_mesh(*context, mesh), given_text(extension, "extension"),
                                      save_options(options), context->kernel);
         *bytes = {context->bytes.data(), context->bytes.size()};
     });
@@ -129,42 +157,42 @@ lissom_status lissom_mesh_encode(lissom_context* context, lissom_mesh mesh, cons
 lissom_status lissom_mesh_copy(lissom_context* context, lissom_mesh mesh, lissom_mesh* copy) {
     return run(context, [&] {
         require_given(copy, "copy");
-        Mesh made = mesh_of(*context, mesh);
+        Mesh made = shown_mesh(*context, mesh);
         copy->id = context->add_mesh(std::move(made));
     });
 }
 
 int32_t lissom_mesh_vertex_count(lissom_context* context, lissom_mesh mesh) {
-    return context ? context->count([&] { return mesh_of(*context, mesh).vertex_count(); }) : -1;
+    return context ? context->count([&] { return shown_mesh(*context, mesh).vertex_count(); }) : -1;
 }
 
 int32_t lissom_mesh_face_count(lissom_context* context, lissom_mesh mesh) {
-    return context ? context->count([&] { return mesh_of(*context, mesh).face_count(); }) : -1;
+    return context ? context->count([&] { return shown_mesh(*context, mesh).face_count(); }) : -1;
 }
 
 int32_t lissom_mesh_corner_count(lissom_context* context, lissom_mesh mesh) {
     if (!context) return -1;
     return context->count(
-        [&] { return element_count(mesh_of(*context, mesh).topology(), Domain::corner); });
+        [&] { return element_count(shown_mesh(*context, mesh).topology(), Domain::corner); });
 }
 
 int32_t lissom_mesh_triangle_count(lissom_context* context, lissom_mesh mesh) {
     if (!context) return -1;
     return context->count([&] {
-        const Mesh& own = mesh_of(*context, mesh);
+        const Mesh& own = shown_mesh(*context, mesh);
         return element_count(own.topology(), Domain::corner) - 2 * own.face_count();
     });
 }
 
 int32_t lissom_mesh_boundary_count(lissom_context* context, lissom_mesh mesh) {
     if (!context) return -1;
-    return context->count([&] { return count_of(boundaries(mesh_of(*context, mesh))); });
+    return context->count([&] { return count_of(boundaries(shown_mesh(*context, mesh))); });
 }
 
 lissom_status lissom_mesh_read_positions(lissom_context* context, lissom_mesh mesh,
                                          const lissom_output* positions) {
     return run(context, [&] {
-        const auto points = mesh_of(*context, mesh).positions();
+        const auto points = shown_mesh(*context, mesh).positions();
         write_points(positions, points.size(), "positions",
                      [&](std::size_t i) { return context->space.to_host(points[i]); });
     });
@@ -173,7 +201,7 @@ lissom_status lissom_mesh_read_positions(lissom_context* context, lissom_mesh me
 lissom_status lissom_mesh_read_normals(lissom_context* context, lissom_mesh mesh,
                                        const lissom_output* normals) {
     return run(context, [&] {
-        const std::vector<Vec3> own = vertex_normals(mesh_of(*context, mesh));
+        const std::vector<Vec3> own = vertex_normals(shown_mesh(*context, mesh));
         write_points(normals, own.size(), "normals",
                      [&](std::size_t i) { return context->space.to_host(own[i]); });
     });
@@ -182,7 +210,7 @@ lissom_status lissom_mesh_read_normals(lissom_context* context, lissom_mesh mesh
 lissom_status lissom_mesh_read_triangles(lissom_context* context, lissom_mesh mesh,
                                          const lissom_output* triangles) {
     return run(context, [&] {
-        const Mesh& own = mesh_of(*context, mesh);
+        const Mesh& own = shown_mesh(*context, mesh);
         write_triangles(triangles, triangulate_faces(own.topology(), own.positions()).triangles,
                         context->space);
     });
@@ -191,7 +219,7 @@ lissom_status lissom_mesh_read_triangles(lissom_context* context, lissom_mesh me
 lissom_status lissom_mesh_read_faces(lissom_context* context, lissom_mesh mesh,
                                      const lissom_output* corners, const lissom_output* sizes) {
     return run(context, [&] {
-        const FaceList faces = faces_of(mesh_of(*context, mesh), context->space.reverses());
+        const FaceList faces = faces_of(shown_mesh(*context, mesh), context->space.reverses());
         std::vector<Index> counts(at(faces.size()));
         for (std::size_t f = 0; f < counts.size(); ++f) {
             counts[f] = faces.offsets[f + 1] - faces.offsets[f];
@@ -205,7 +233,7 @@ lissom_status lissom_mesh_read_faces(lissom_context* context, lissom_mesh mesh,
 lissom_status lissom_mesh_read_boundary(lissom_context* context, lissom_mesh mesh, int32_t number,
                                         const lissom_output* vertices, int32_t* count) {
     return run(context, [&] {
-        const auto loops = boundaries(mesh_of(*context, mesh));
+        const auto loops = boundaries(shown_mesh(*context, mesh));
         if (number < 0 || number >= count_of(loops)) {
             throw Error(ErrorCode::out_of_range, "the mesh has " + std::to_string(loops.size()) +
                                                      " boundaries, numbered from 0");
@@ -240,7 +268,7 @@ lissom_status lissom_mesh_bounds(lissom_context* context, lissom_mesh mesh, doub
     return run(context, [&] {
         require_given(least, "least");
         require_given(greatest, "greatest");
-        const Box box = bounds(mesh_of(*context, mesh));
+        const Box box = bounds(shown_mesh(*context, mesh));
         require(!box.empty(), "the mesh has no vertices", ErrorCode::mesh_empty);
         const Vec3 a = context->space.to_host(box.min), b = context->space.to_host(box.max);
         for (int k = 0; k < 3; ++k) {
@@ -253,7 +281,7 @@ lissom_status lissom_mesh_bounds(lissom_context* context, lissom_mesh mesh, doub
 lissom_status lissom_mesh_hash(lissom_context* context, lissom_mesh mesh, uint64_t* hash) {
     return run(context, [&] {
         require_given(hash, "hash");
-        *hash = lissom::hash(mesh_of(*context, mesh));
+        *hash = lissom::hash(shown_mesh(*context, mesh));
     });
 }
 

@@ -58,4 +58,13 @@ lissom_status lissom_call(lissom_context* context, const char*, const char*, lis
     return refuse(context);
 }
 
+lissom_status lissom_script_begin_run(lissom_context* context, lissom_script, const char*,
+                                      lissom_job*) {
+    return refuse(context);
+}
+
+lissom_status lissom_begin_call(lissom_context* context, const char*, const char*, lissom_job*) {
+    return refuse(context);
+}
+
 }  // extern "C"

@@ -45,6 +45,18 @@ std::uint64_t add_map(lissom_context& context, RenderMap&& made) {
     return context.add(Kind::render_map, std::make_shared<RenderMap>(std::move(made)), bytes);
 }
 
+// Adds the mesh and its map, or neither.
+void add_welded(lissom_context& context, WeldedBuffer&& made, bool with_map, JobResult& result) {
+    const std::uint64_t map = with_map ? add_map(context, std::move(made.map)) : 0;
+    try {
+        result.objects[0] = context.add_mesh(std::move(made.mesh));
+    } catch (...) {
+        context.objects.release(map);
+        throw;
+    }
+    result.objects[1] = map;
+}
+
 void require_mesh(const RenderMap& map, const Mesh& mesh) {
     require_same_topology(mesh, map.topology, "the render map");
 }
@@ -84,15 +96,31 @@ lissom_status lissom_mesh_create_welded(lissom_context* context, const lissom_bu
         require_given(buffer, "buffer");
         require_given(mesh, "mesh");
         const auto given = take_options(buffer, lissom_default_buffer());
-        WeldedBuffer made = make_welded(render_buffer(*context, given), given, context->kernel);
-        const std::uint64_t kept = map ? add_map(*context, std::move(made.map)) : 0;
-        try {
-            mesh->id = context->add_mesh(std::move(made.mesh));
-        } catch (...) {
-            context->objects.release(kept);
-            throw;
-        }
-        if (map) map->id = kept;
+        JobResult result;
+        add_welded(*context, make_welded(render_buffer(*context, given), given, context->kernel),
+                   map != nullptr, result);
+        mesh->id = result.objects[0];
+        if (map) map->id = result.objects[1];
+    });
+}
+
+lissom_status lissom_mesh_begin_create(lissom_context* context, const lissom_buffer* buffer,
+                                       lissom_job* job) {
+    return run(context, [&] {
+        require_given(buffer, "buffer");
+        const auto given = take_options(buffer, lissom_default_buffer());
+        weld_of(given.weld);
+        const auto read = std::make_shared<RenderBuffer>(render_buffer(*context, given));
+        const auto made = std::make_shared<WeldedBuffer>();
+        begin_job(*context,
+                  {{},
+                   [read, made, given](const Context& inner) {
+                       *made = make_welded(*read, given, inner);
+                   },
+                   [context, made](JobResult& result) {
+                       add_welded(*context, std::move(*made), true, result);
+                   }},
+                  job);
     });
 }
 
@@ -100,7 +128,7 @@ lissom_status lissom_render_map_create(lissom_context* context, lissom_mesh mesh
                                        lissom_render_map* map) {
     return run(context, [&] {
         require_given(map, "map");
-        map->id = add_map(*context, render_map(mesh_of(*context, mesh), context->kernel));
+        map->id = add_map(*context, render_map(shown_mesh(*context, mesh), context->kernel));
     });
 }
 
@@ -125,7 +153,8 @@ lissom_status lissom_render_map_read_vertices(lissom_context* context, lissom_re
 lissom_status lissom_render_map_read_triangles(lissom_context* context, lissom_render_map map,
                                                lissom_mesh mesh, const lissom_output* triangles) {
     return run(context, [&] {
-        write_triangles(triangles, render_triangles(map_of(*context, map), mesh_of(*context, mesh)),
+        write_triangles(triangles,
+                        render_triangles(map_of(*context, map), shown_mesh(*context, mesh)),
                         context->space);
     });
 }
@@ -134,7 +163,7 @@ lissom_status lissom_render_map_read_positions(lissom_context* context, lissom_r
                                                lissom_mesh mesh, const lissom_output* positions) {
     return run(context, [&] {
         const RenderMap& own = map_of(*context, map);
-        const Mesh& shape = mesh_of(*context, mesh);
+        const Mesh& shape = shown_mesh(*context, mesh);
         require_mesh(own, shape);
         require_room(positions, own.vertex.size(), 3, "positions");
         if (!is_float(positions->format)) refuse_format("positions", "FLOAT32 or FLOAT64");
@@ -155,7 +184,7 @@ lissom_status lissom_render_map_read_normals(lissom_context* context, lissom_ren
     return run(context, [&] {
         const RenderMap& own = map_of(*context, map);
         require_directions(normals, own.vertex.size(), 3, "normals");
-        const std::vector<Vec3> found = render_normals(own, mesh_of(*context, mesh));
+        const std::vector<Vec3> found = render_normals(own, shown_mesh(*context, mesh));
         Vec3 normal = Vec3::Zero();
         write_elements(
             *normals, own.vertex.size(), 3,
@@ -173,7 +202,7 @@ lissom_status lissom_render_map_read_tangents(lissom_context* context, lissom_re
     return run(context, [&] {
         const RenderMap& own = map_of(*context, map);
         require_directions(tangents, own.vertex.size(), 4, "tangents");
-        const auto found = render_tangents(own, mesh_of(*context, mesh), uv ? uv : "uv");
+        const auto found = render_tangents(own, shown_mesh(*context, mesh), uv ? uv : "uv");
         const double mirror = context->space.mirrors() ? -1.0 : 1.0;
         Vec4 tangent = Vec4::Zero();
         write_elements(
@@ -191,7 +220,7 @@ lissom_status lissom_render_map_read_attribute(lissom_context* context, lissom_r
                                                const lissom_output* values) {
     return run(context, [&] {
         const RenderMap& own = map_of(*context, map);
-        const Mesh& shape = mesh_of(*context, mesh);
+        const Mesh& shape = shown_mesh(*context, mesh);
         require_mesh(own, shape);
         const std::string text = given_text(name, "name");
         const Attribute* found = shape.attributes().find(text);

@@ -35,7 +35,7 @@ void look_for_cancel(lua_State* L) {
 
 // A script that catches the error gets it again at once, until the cancel is cleared.
 void stop_where_cancelled(lua_State* L, lua_Debug*) {
-    if (!host_of(L).context().kernel.cancelled()) {
+    if (!host_of(L).working().cancelled()) {
         if (lua_gethookcount(L) == 1) look_for_cancel(L);
         return;
     }
@@ -138,6 +138,21 @@ int ScriptHost::call(int arguments, int results) {
     // The host reads results and messages by calls that nothing protects.
     lua_sethook(L, nullptr, 0, 0);
     return status;
+}
+
+void ScriptHost::work_in(const Context& context) {
+    working_ = context;
+    if (sandbox_) return sandbox_->work_in(context);
+    lua::find_state(lua())->context = context;
+    stoppable_.follow(context);
+}
+
+std::vector<Held> ScriptHost::known_objects() {
+    std::vector<Held> known;
+    context_.objects.for_each([&](std::uint64_t id, ObjectTable::Object& object) {
+        if (object.scripted) known.emplace_back(id, object.kind);
+    });
+    return known;
 }
 
 lua_State* ScriptHost::lua() {
@@ -284,6 +299,7 @@ lua::Holder ScriptHost::holder_of(std::uint64_t id) {
         if (!context_.objects.find(id, kind)) continue;
         lua::Holder holder(name);
         holder.object = object_of(kind, context_.share<void>(id, kind));
+        context_.objects.find(id, kind)->scripted = true;
         return holder;
     }
     throw StatusError(
@@ -307,7 +323,10 @@ std::uint64_t ScriptHost::handle_of(int index) {
     }
     const std::string_view type = found->type_name;
     const auto handle = [&](Kind kind, std::shared_ptr<void> content) {
-        if (const std::uint64_t known = known_handle(kind, content.get())) return known;
+        if (const std::uint64_t known = known_handle(kind, content.get())) {
+            context_.objects.find(known, kind)->scripted = true;
+            return known;
+        }
         keep(content.get(), found->object);
         return add_handle(kind, std::move(content));
     };
@@ -339,7 +358,9 @@ std::uint64_t ScriptHost::handle_of(int index) {
 
 std::uint64_t ScriptHost::add_handle(Kind kind, std::shared_ptr<void> content) {
     new_handles_.push_back(0);
-    return new_handles_.back() = context_.add(kind, std::move(content));
+    const std::uint64_t id = context_.add(kind, std::move(content));
+    context_.objects.find(id, kind)->scripted = true;
+    return new_handles_.back() = id;
 }
 
 void ScriptHost::drop_new_handles() noexcept {
@@ -348,6 +369,9 @@ void ScriptHost::drop_new_handles() noexcept {
 }
 
 ScriptHost& scripts_of(lissom_context& context) {
+    if (context.scripts->busy()) {
+        throw StatusError(LISSOM_BUSY, "a job runs a script in this context; finish the job first");
+    }
     return *context.scripts;
 }
 

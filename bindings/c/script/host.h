@@ -34,7 +34,7 @@ struct Script {
 
 class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
   public:
-    explicit ScriptHost(lissom_context& context) : context_(context) {}
+    explicit ScriptHost(lissom_context& context) : context_(context), working_(context.kernel) {}
     ~ScriptHost();
     ScriptHost(const ScriptHost&) = delete;
     ScriptHost& operator=(const ScriptHost&) = delete;
@@ -46,6 +46,16 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     /// Opens the state as a sandbox. Errors: invalid_argument if it is open already, or for
     /// limits below 0; memory_limit.
     void open_sandbox(lua::SandboxLimits limits);
+    /// Works in another context from now on: that of a job, or the host's own again.
+    void work_in(const Context& context);
+    /// The context that scripts run in now.
+    const Context& working() const { return working_; }
+    /// Refuses scripts and calls while a job runs one.
+    void set_busy(bool busy) { busy_ = busy; }
+    bool busy() const { return busy_; }
+    /// Returns all objects that scripts know.
+    std::vector<Held> known_objects();
+
     /// Runs lua_pcall without a handler, within the limits of the sandbox.
     int call(int arguments, int results);
 
@@ -93,6 +103,8 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     void keep(const void* content, const std::shared_ptr<void>& object);
 
     lissom_context& context_;
+    Context working_;
+    bool busy_ = false;
     lua_State* L_ = nullptr;
     std::vector<std::uint64_t> new_handles_;
     // Null if scripts are trusted.
@@ -106,9 +118,11 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     std::map<const void*, std::weak_ptr<lua::MeshObject>> owners_;
     // Objects for the values that are being pushed, by handle.
     std::map<std::uint64_t, lua::Holder> holders_;
+    // Their places in Lua's registry, for objects of scripts alone.
+    std::map<std::uint64_t, int> references_;
 };
 
-/// Returns the host of a context that can run scripts.
+/// Returns the host of a context that can run scripts. Errors: BUSY while a job runs one.
 ScriptHost& scripts_of(lissom_context& context);
 
 /// Throws the Lua error on top of the stack: with the code of an error object, or that in brackets

@@ -1,4 +1,5 @@
 // Scripts of a host, and calls by name.
+#include <algorithm>
 #include <cmath>
 
 #include "bindings/c/data.h"
@@ -89,11 +90,11 @@ void check_syntax(ScriptHost& host, const Script& script) {
     }
 }
 
-// Runs a script, or only up to its parameters; its results are on the stack.
-void run_script(ScriptHost& host, Script& script, const List& arguments, bool only_parameters) {
+// Runs a script, or only up to its parameters; its results are on the stack. Its arguments were
+// checked.
+void run_checked(ScriptHost& host, Script& script, const List& arguments, bool only_parameters) {
     lua_State* L = host.lua();
     lua::State& state = host.binding();
-    host.check_values(arguments);
     state.host.arguments = {script.name.substr(1), words_of(script)};
     state.parameters = nullptr;
     state.script_end = lua::ScriptEnd::none;
@@ -109,6 +110,11 @@ void run_script(ScriptHost& host, Script& script, const List& arguments, bool on
     if (status == LUA_OK || (only_parameters && ended)) return;
     if (ended) throw Error(ErrorCode::invalid_argument, state.script_end_text);
     throw_lua_error(L, LISSOM_SCRIPT_ERROR);
+}
+
+void run_script(ScriptHost& host, Script& script, const List& arguments, bool only_parameters) {
+    host.check_values(arguments);
+    run_checked(host, script, arguments, only_parameters);
 }
 
 Value value_of(const std::optional<lua::ParameterValue>& value) {
@@ -241,15 +247,50 @@ int call_protected(lua_State* L) {
     return lua_gettop(L) - 1;
 }
 
-// Leaves the results on the stack.
-void call_by_name(ScriptHost& host, const lua::Entry& entry, const List& arguments) {
+// Leaves the results on the stack; the arguments were checked.
+void call_checked(ScriptHost& host, const lua::Entry& entry, const List& arguments) {
     lua_State* L = host.lua();
-    host.check_values(arguments);
     Calling calling{&host, &entry, &arguments};
     lua_pushcfunction(L, call_protected);
     lua_pushlightuserdata(L, &calling);
     if (host.call(1, LUA_MULTRET) != LUA_OK) {
         throw_lua_error(L, LISSOM_INVALID_ARGUMENT);
+    }
+}
+
+void call_by_name(ScriptHost& host, const lua::Entry& entry, const List& arguments) {
+    host.check_values(arguments);
+    call_checked(host, entry, arguments);
+}
+
+// Begins a job that runs `work`, which leaves its results on the stack of Lua.
+void begin_script(lissom_context& context, ScriptHost& host, std::vector<Held> held,
+                  std::function<void()> work, lissom_job* job) {
+    require_given(job, "job");
+    for (const Held& one : host.known_objects()) {
+        if (std::find(held.begin(), held.end(), one) == held.end()) held.push_back(one);
+    }
+    const int top = lua_gettop(host.lua());
+    JobPlan plan;
+    plan.held = std::move(held);
+    plan.work = [&host, work = std::move(work)](const Context& inner) {
+        host.work_in(inner);
+        work();
+    };
+    plan.take = [&context, &host, top](JobResult& result) {
+        if (result.wants_json) give_results(context, host, top + 1, &result.json);
+    };
+    plan.end = [&context, &host, top] {
+        host.work_in(context.kernel);
+        lua_settop(host.lua(), top);
+        host.set_busy(false);
+    };
+    host.set_busy(true);
+    try {
+        begin_job(context, std::move(plan), job);
+    } catch (...) {
+        host.set_busy(false);
+        throw;
     }
 }
 
@@ -342,6 +383,34 @@ lissom_status lissom_call(lissom_context* context, const char* name, const char*
         const StackGuard guard(host.lua());
         call_by_name(host, entry_of(*host.binding().registry, text), list_of(arguments));
         give_results(*context, host, guard.top() + 1, json);
+    });
+}
+
+lissom_status lissom_script_begin_run(lissom_context* context, lissom_script script,
+                                      const char* arguments, lissom_job* job) {
+    return run(context, [&] {
+        ScriptHost& host = scripts_of(*context);
+        host.lua();
+        const auto own = context->share<Script>(script.id, Kind::script);
+        const auto values = std::make_shared<List>(list_of(arguments));
+        host.check_values(*values);
+        begin_script(
+            *context, host, {{script.id, Kind::script}},
+            [&host, own, values] { run_checked(host, *own, *values, false); }, job);
+    });
+}
+
+lissom_status lissom_begin_call(lissom_context* context, const char* name, const char* arguments,
+                                lissom_job* job) {
+    return run(context, [&] {
+        ScriptHost& host = scripts_of(*context);
+        host.lua();
+        const lua::Entry* entry = &entry_of(*host.binding().registry, given_text(name, "name"));
+        const auto values = std::make_shared<List>(list_of(arguments));
+        host.check_values(*values);
+        begin_script(
+            *context, host, {}, [&host, entry, values] { call_checked(host, *entry, *values); },
+            job);
     });
 }
 

@@ -35,12 +35,13 @@ void visit_handles(const Value& value, FunctionRef<void(std::uint64_t)> visit) {
 
 void ScriptHost::check_values(const List& values) {
     holders_.clear();
+    references_.clear();
     for (const Value& value : values) {
         visit_handles(value, [&](std::uint64_t id) {
             if (!context_.objects.find(id, Kind::object)) {
                 holders_.insert_or_assign(id, holder_of(id));
             } else {
-                context_.share<LuaReference>(id, Kind::object);
+                references_[id] = context_.share<LuaReference>(id, Kind::object)->reference;
             }
         });
     }
@@ -49,9 +50,7 @@ void ScriptHost::check_values(const List& values) {
 void ScriptHost::push_object(std::uint64_t id) {
     const auto found = holders_.find(id);
     if (found == holders_.end()) {
-        const auto* object = context_.objects.find(id, Kind::object);
-        lua_rawgeti(L_, LUA_REGISTRYINDEX,
-                    static_cast<LuaReference*>(object->content.get())->reference);
+        lua_rawgeti(L_, LUA_REGISTRYINDEX, references_.at(id));
         return;
     }
     // One userdata an object, so that scripts can compare them.

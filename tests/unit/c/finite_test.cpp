@@ -65,6 +65,12 @@ lissom_grow_options bad_growth(int i, double bad) {
     return options;
 }
 
+// The status of a job that was begun.
+lissom_status finished(World& world, lissom_status begun) {
+    if (begun != LISSOM_OK) return begun;
+    return lissom_job_finish(world, std::exchange(world.made_job, {}), nullptr);
+}
+
 const std::array<double, 9> kTriangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
 const char kObj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
@@ -149,6 +155,29 @@ std::vector<Given> mesh_cases() {
              buffer.corners = {corners, 3, 0, LISSOM_INT32};
              lissom_render_map map{};
              return lissom_mesh_create_welded(world, &buffer, &world.made_mesh, &map);
+         }},
+        {"lissom_mesh_begin_create", 9,
+         [](World& world, int i, double bad) {
+             const auto points = with_bad(kTriangle, i, bad);
+             const std::int32_t corners[] = {0, 1, 2};
+             lissom_buffer buffer = lissom_default_buffer();
+             buffer.positions = triples(points.data(), 3);
+             buffer.corners = {corners, 3, 0, LISSOM_INT32};
+             return finished(world, lissom_mesh_begin_create(world, &buffer, &world.made_job));
+         }},
+        {"lissom_mesh_begin_load", 1,
+         [](World& world, int, double bad) {
+             auto options = lissom_default_mesh_load_options();
+             options.unit = bad;
+             return finished(world,
+                             lissom_mesh_begin_load(world, "any.obj", &options, &world.made_job));
+         }},
+        {"lissom_mesh_begin_save", 1,
+         [](World& world, int, double bad) {
+             auto options = lissom_default_mesh_save_options();
+             options.unit = bad;
+             return finished(world, lissom_mesh_begin_save(world, world.bar, "any.obj", &options,
+                                                           &world.made_job));
          }},
         {"lissom_mesh_write_attribute", 2,
          [](World& world, int i, double bad) {
@@ -237,6 +266,36 @@ std::vector<Given> merge_cases() {
              options.slide = bad;
              return lissom_cut_by_region(world, world.bar, world.top, &options, &world.made_mesh,
                                          nullptr);
+         }},
+        {"lissom_cut_begin_by_plane", 7,
+         [](World& world, int i, double bad) {
+             const auto n = with_bad<7>({0, 0, 0, 0, 1, 0, 0.1}, i, bad);
+             auto options = lissom_default_cut_options();
+             options.slide = n[6];
+             return finished(world,
+                             lissom_cut_begin_by_plane(world, world.bar, n.data(), n.data() + 3,
+                                                       &options, &world.made_job));
+         }},
+        {"lissom_cut_begin_by_region", 1,
+         [](World& world, int, double bad) {
+             auto options = lissom_default_cut_options();
+             options.slide = bad;
+             return finished(world, lissom_cut_begin_by_region(world, world.bar, world.top,
+                                                               &options, &world.made_job));
+         }},
+        {"lissom_begin_merge", 6,
+         [](World& world, int i, double bad) {
+             std::array<double, 6> keys{};
+             const lissom_join join = bad_join(keys, i, bad);
+             return finished(world, lissom_begin_merge(world, world.half, world.other_half, &join,
+                                                       1, nullptr, &world.made_job));
+         }},
+        {"lissom_paste_begin_create", 11,
+         [](World& world, int i, double bad) {
+             const lissom_placement placement = bad_placement(i, bad);
+             return finished(
+                 world, lissom_paste_begin_create(world, world.bump, world.ball, world.bump_region,
+                                                  {0}, {0}, &placement, &world.made_job));
          }},
         {"lissom_merge", 6,
          [](World& world, int i, double bad) {

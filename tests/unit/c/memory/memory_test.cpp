@@ -296,6 +296,79 @@ void add_buffer_cases(std::vector<MemoryCase>& all) {
     all.back().prepare = merged;
 }
 
+void add_job_cases(std::vector<MemoryCase>& all) {
+    const auto add = [&](const char* name, void (*prepare)(World&),
+                         std::function<lissom_status(World&)> call) {
+        all.push_back({name, prepare, std::move(call)});
+    };
+    static const double kPlace[] = {0, 0.13, 0};
+    add("lissom_mesh_begin_create", nothing, [](World& world) {
+        static const std::uint16_t kCorners[] = {0, 1, 2};
+        lissom_buffer buffer = lissom_default_buffer();
+        buffer.positions = triples(kPoints, 3);
+        buffer.corners = {kCorners, 3, 0, LISSOM_UINT16};
+        return lissom_mesh_begin_create(world, &buffer, &world.made_job);
+    });
+    add("lissom_mesh_begin_load", nothing, [](World& world) {
+        return lissom_mesh_begin_load(world, "any.obj", nullptr, &world.made_job);
+    });
+    add("lissom_mesh_begin_save", nothing, [](World& world) {
+        return lissom_mesh_begin_save(world, world.bar, "any.obj", nullptr, &world.made_job);
+    });
+    add("lissom_cut_begin_by_plane", nothing, [](World& world) {
+        return lissom_cut_begin_by_plane(world, world.bar, kPlace, kUp, nullptr, &world.made_job);
+    });
+    add("lissom_cut_begin_by_region", fresh_halves, [](World& world) {
+        return lissom_cut_begin_by_region(world, world.bar, world.top, nullptr, &world.made_job);
+    });
+    add("lissom_begin_merge", fresh_halves, [](World& world) {
+        return lissom_begin_merge(world, world.half, world.other_half, nullptr, 0, nullptr,
+                                  &world.made_job);
+    });
+    add("lissom_paste_begin_create", fresh_paste, [](World& world) {
+        auto placement = lissom_default_placement();
+        placement.at[0] = 2.0;
+        return lissom_paste_begin_create(world, world.bump, world.ball, world.bump_region, {0}, {0},
+                                         &placement, &world.made_job);
+    });
+    add("lissom_paste_begin_optimize", fresh_paste, [](World& world) {
+        return lissom_paste_begin_optimize(world, world.paste, 1, &world.made_job);
+    });
+    add("lissom_paste_begin_merge", fresh_paste,
+        [](World& world) { return lissom_paste_begin_merge(world, world.paste, &world.made_job); });
+    add("lissom_erase", fresh_paste, [](World& world) {
+        return lissom_erase(world, world.bump, world.bump_region, &world.made_mesh);
+    });
+    add("lissom_begin_erase", fresh_paste, [](World& world) {
+        return lissom_begin_erase(world, world.bump, world.bump_region, &world.made_job);
+    });
+    add("lissom_hairstyle_begin_solve", fresh_style, [](World& world) {
+        return lissom_hairstyle_begin_solve(world, world.style, &world.made_job);
+    });
+    add("lissom_strands_begin_load", some_strands,
+        [](World& world) { return lissom_strands_begin_load(world, "any.usda", &world.made_job); });
+    add("lissom_strands_begin_save", some_strands, [](World& world) {
+        return lissom_strands_begin_save(world, world.strands, "any.hair", &world.made_job);
+    });
+    add("lissom_job_progress", nothing, [](World& world) {
+        double fraction = 0.0;
+        const lissom_status status = lissom_job_progress(world, {77}, &fraction, nullptr, 0);
+        return status == LISSOM_INVALID_HANDLE ? LISSOM_OK : status;
+    });
+    add("lissom_job_finish_with", posed_deformer, [](World& world) {
+        lissom_job job{};
+        lissom_job_outcome outcome = lissom_default_job_outcome();
+        const lissom_status status =
+            lissom_deformer_begin_solve(world, world.deformer, LISSOM_FULL, &job);
+        return status == LISSOM_OK ? lissom_job_finish_with(world, job, &outcome) : status;
+    });
+    add("lissom_move", nothing, [](World& world) {
+        std::uint64_t moved = 0;
+        const lissom_status status = lissom_move(world, 77, world, &moved);
+        return status == LISSOM_INVALID_ARGUMENT ? LISSOM_OK : status;
+    });
+}
+
 void add_region_cases(std::vector<MemoryCase>& all) {
     const auto add = [&](const char* name, std::function<lissom_status(World&)> call) {
         all.push_back({name, nothing, std::move(call)});
@@ -702,6 +775,11 @@ void add_script_cases(std::vector<MemoryCase>& all) {
     add("lissom_script_run", [](World& world) {
         return lissom_script_run(world, world.script, "[1, {\"a\": [true, \"b\"]}]", &world.bytes);
     });
+    add("lissom_script_begin_run", [](World& world) {
+        return lissom_script_begin_run(world, world.script, "[1]", &world.made_job);
+    });
+    add("lissom_begin_call",
+        [](World& world) { return lissom_begin_call(world, "shapes.box", "[]", &world.made_job); });
     add("lissom_call", [](World& world) {
         return lissom_call(world, "shapes.box", "[{\"size\": 2}]", &world.bytes);
     });
@@ -816,6 +894,9 @@ TEST_CASE("memory that runs out in calls of meshes is a status") {
 TEST_CASE("memory that runs out with buffers and attributes is a status") {
     check_cases(add_buffer_cases, 1);
 }
+TEST_CASE("memory that runs out while a job begins is a status") {
+    check_cases(add_job_cases, 1);
+}
 TEST_CASE("memory that runs out in calls of regions is a status") {
     check_cases(add_region_cases, 1);
 }
@@ -855,8 +936,8 @@ TEST_CASE("those tests have every function of the header that may take memory") 
     REQUIRE(file);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     std::vector<MemoryCase> all;
-    for (Add* add : {add_mesh_cases, add_buffer_cases, add_region_cases, add_deform_cases,
-                     add_merge_cases, add_hair_cases, add_script_cases}) {
+    for (Add* add : {add_mesh_cases, add_buffer_cases, add_job_cases, add_region_cases,
+                     add_deform_cases, add_merge_cases, add_hair_cases, add_script_cases}) {
         add(all);
     }
     std::set<std::string> tested{"lissom_context_create", "lissom_sandbox_scripts"};
