@@ -2,6 +2,7 @@
 """Runs `lissom batch --slurm` on a Slurm of four nodes on the loopback: requeued tasks, a node whose tasks go on after it
 has failed, a controller that forgets, a time limit, jobs that are purged, and more jobs than an array may have.
 Needs slurmctld, slurmd, munged, and root. Usage: slurm_test.py PROGRAM"""
+import json
 import os
 import shutil
 import signal
@@ -192,6 +193,55 @@ class Slurm(unittest.TestCase):
         self.assertEqual(status, 1, text)
         self.until_all("--sweep", "n=1:3:1", "--set", "seconds=0", "--", "--time=1")
         self.expect_all(3)
+
+    def array(self):
+        with open(os.path.join(self.folder, "out", ".batch", "slurm", "array.json"), encoding="ascii") as file:
+            return json.load(file)["id"]
+
+    def test_a_requeued_task_does_only_what_is_left(self):
+        words = ("--sweep", "n=1:24:1", "--set", "seconds=0.5")
+        process = self.start(*words)
+        self.wait_for_outputs(3)
+        array = self.array()
+        subprocess.run(["scontrol", "requeue", array], check=True)
+        # It would wait for two minutes.
+        for _ in range(50):
+            time.sleep(0.2)
+            run = subprocess.run(["scontrol", "update", "jobid=" + array, "StartTime=now"], capture_output=True,
+                                 check=False)
+            if run.returncode == 0:
+                break
+        text = process.communicate(timeout=600)[0]
+        self.assertEqual(process.returncode, 0, text)
+        self.expect_all(24)
+        records = []
+        results = os.path.join(self.folder, "out", ".batch", "results")
+        for name in os.listdir(results):
+            with open(os.path.join(results, name), encoding="utf-8") as file:
+                records += [json.loads(line)["output"] for line in file]
+        # A job that was cut short has no record.
+        self.assertEqual(sorted(records), sorted(set(records)))
+
+    def test_an_array_that_slurm_has_purged_is_submitted_anew(self):
+        words = ("--sweep", "n=1:40:1", "--set", "seconds=0.5")
+        process = self.start(*words)
+        self.wait_for_outputs(1)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        array = self.array()
+        subprocess.run(["scancel", array], check=True)
+        for _ in range(600):
+            run = subprocess.run(["squeue", "-h", "-t", "all", "-j", array], capture_output=True, text=True, check=False)
+            if run.returncode != 0 and "Invalid job id" in run.stderr:
+                break
+            time.sleep(0.5)
+        else:
+            self.fail("Slurm keeps the record")
+        self.assertLess(len(self.outputs()), 40)
+        self.until_all(*words)
+        self.assertNotEqual(self.array(), array)
+        self.expect_all(40)
 
     def test_a_refused_option_is_told(self):
         status, text = self.run_all("--sweep", "n=1:3:1", "--", "--partition=nowhere")
