@@ -126,7 +126,7 @@ function ponytail.style(head, values, options)
         -- tail.
         spread = 0.5 + math.min(math.max((values.height - 12) / 20, 0), 1),
         -- If the tail hangs free of the head its end is seen: tips of like lengths would end it bluntly.
-        ragged = 0.45 + 0.25 * math.min(math.max((values.height - 30) / 20, 0), 1),
+        ragged = 0.3 + 0.1 * math.min(math.max((values.height - 30) / 20, 0), 1),
         tail_length = values.length,
         name = "ponytail",
     }
