@@ -170,7 +170,7 @@ function styling.stubble(head, o, options)
     local hair = style:grow{ count = math.floor((options.part or 1) * o.count), seed = options.seed,
         length = options.length, density = options.density, layer = 0.001, clearance = 0.0012, lift = 1,
         variation = 0.15, segment = 0.1 }
-    return style, hair:resample{ count = 5 }:set_widths{ width = 0.00024 }
+    return style, styling.set_width(hair:resample{ count = 5 }, 0.00024, o.count)
 end
 
 --- A mask of the strands that hang over the face.
@@ -189,11 +189,17 @@ function styling.over_face(scalp, hair)
     return mask
 end
 
---- Thin tips, and the waves of single hairs; `width` in metres.
-function styling.finish(hair, width, noise)
+--- Gives strands a width in metres that holds for 20,000 and more of a preset; fewer are up to three times as
+-- wide, so that they cover as much of the head. `all` is the number of strands of the preset, else of `hair`.
+function styling.set_width(hair, width, all)
+    return hair:set_widths{ width = width * math.min(math.max(20000 / math.max(all or #hair, 1), 1), 3) }
+end
+
+--- Thin tips, and the waves of single hairs; `width` in metres, and `all` as in styling.set_width.
+function styling.finish(hair, width, noise, all)
     hair:noise{ amplitude = noise or 0.001, across = 0.02, along = 0.11 }
     hair:noise{ amplitude = 0.0003, across = 0.0005, along = 0.03, seed = 2 }
-    return hair:set_widths{ width = width }:taper{ tip = 0.4, start = 0.6 }
+    return styling.set_width(hair, width, all):taper{ tip = 0.4, start = 0.6 }
 end
 
 -- Values of all parameters: those given, else the defaults. An unknown name is an error.

@@ -30,7 +30,7 @@ return styling.preset(..., {
         hair:cut{ ellipsoid = { center = { 0, 0.02, -0.015 }, radii = { 0.05 + h, 0.065 + h, 0.068 + h } },
             scalp = scalp, jitter = v.ragged }
         hair:push_out{ head = style }
-        hair:set_widths{ width = 0.0002 }:taper{ tip = 0.4, start = 0.6 }
+        styling.set_width(hair, 0.0002):taper{ tip = 0.4, start = 0.6 }
         return style, hair, { color = "#2a1d16", clump_tone = 0.25, primary = 0.08, secondary = 0.3,
             scalp_tint = 0.9, unit = scalp:unit() }
     end,

@@ -44,7 +44,8 @@ return styling.preset(..., {
         local hair = sides:grow{ count = math.floor(0.6 * o.count), seed = v.seed, length = v.sides,
             layer = 0.001, clearance = 0.0012, lift = 1, variation = 0.15, segment = 0.1,
             density = beside(half - 0.003, half) }
-        hair:resample{ count = 5 }:set_widths{ width = 0.00024 }:set_colors{ color = { 0.04, 0.028, 0.02 } }
+        styling.set_width(hair:resample{ count = 5 }, 0.00024, o.count)
+        hair:set_colors{ color = { 0.04, 0.028, 0.02 } }
         local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution,
             volume = { min = { -0.12, -0.2, -0.24 }, max = { 0.12, 0.28, 0.22 } } })
         fin(style, v.width)
@@ -59,7 +60,7 @@ return styling.preset(..., {
         top:resample{ count = 16 }
         top:clump{ clumps = v.spikes, strength = 0.75, shape = 0.8, tip_spread = 0.003 }
         top:clump{ clumps = 600, strength = 0.3 }:push_out{ head = style }
-        styling.finish(top, 0.00026, 0.004):set_colors{ color = { 0.30, 0.03, 0.05 } }
+        styling.finish(top, 0.00026, 0.004, o.count):set_colors{ color = { 0.30, 0.03, 0.05 } }
         return style, hair:append(top), { unit = scalp:unit() }
     end,
 })

@@ -45,7 +45,7 @@ return styling.preset(..., {
             variation = 0.2 }
         top:resample{ count = 24 }:smooth{ iterations = 3 }
         top:clump{ clumps = 350, strength = 0.5 }
-        styling.finish(top, 0.00028, 0.004):push_out{ head = style, clearance = 0.0015 }
+        styling.finish(top, 0.00028, 0.004, o.count):push_out{ head = style, clearance = 0.0015 }
         return style, hair:append(top:set_colors{ color = { 0.1, 0.055, 0.028 } }), { unit = scalp:unit() }
     end,
 })

@@ -39,6 +39,27 @@ for _, name in ipairs(presets) do
     end)
 end
 
+test("few strands of a preset are wider, so that they cover as much as many", function()
+    local styling = require "styling"
+    local function width(count, all)
+        local counts, points = {}, {}
+        for i = 1, count do
+            counts[i], points[2 * i - 1], points[2 * i] = 2, { i, 0, 0 }, { i, 1, 0 }
+        end
+        local hair = styling.set_width(lissom.strands{ points = points, counts = counts }, 0.0002, all)
+        local path = test.file("hair.usda")
+        hair:select{ first = 1 }:save(path)
+        local file = io.open(path, "rb")
+        local text = file:read("*a")
+        file:close()
+        return tonumber(text:match("widths = %[([%d%.e%-]+)"))
+    end
+    expect.near(width(2), 0.0006, 1e-6)
+    expect.near(width(2, 10000), 0.0004, 1e-6)
+    expect.near(width(2, 20000), 0.0002, 1e-6)
+    expect.near(width(2, 90000), 0.0002, 1e-6)
+end)
+
 test("another seed gives another head of hair, the same seed the same", function()
     local head = lissom.shapes.head{ vertices = 6000 }
     local preset = require "presets.spiky"
