@@ -71,12 +71,16 @@ FileTable files_of(const lissom_context_options& host) {
 
 }  // namespace
 
-ContextOptions kernel_options(const lissom_context_options& host) {
+ContextOptions kernel_options(const lissom_context_options& host,
+                              const std::atomic<MessageCounter*>& counter) {
     ContextOptions options;
     options.threads = host.threads;
     options.memory_limit = host.memory_limit;
     if (host.log) {
-        options.log = [log = host.log, user = host.user](LogLevel level, std::string_view message) {
+        options.log = [log = host.log, user = host.user, &counter](LogLevel level,
+                                                                   std::string_view message) {
+            MessageCounter* const hears = counter;
+            if (hears && !hears->count(level, message.size())) return;
             log(user, static_cast<lissom_log_level>(level), std::string(message).c_str());
         };
     }
@@ -273,7 +277,7 @@ using namespace lissom;
 using namespace lissom::c;
 
 lissom_context::lissom_context(const lissom_context_options& given)
-    : options(given), space(given.space), kernel(kernel_options(given)) {
+    : options(given), space(given.space), kernel(kernel_options(given, message_counter)) {
     connect_scripts(*this);
 }
 

@@ -201,6 +201,18 @@ struct Job {
 /// State of scripts and lissom_call; null if the library was built without Lua.
 class ScriptHost;
 
+/// Hears of messages before the host does.
+class MessageCounter {
+  public:
+    MessageCounter() = default;
+    MessageCounter(const MessageCounter&) = delete;
+    MessageCounter& operator=(const MessageCounter&) = delete;
+    virtual ~MessageCounter() = default;
+
+    /// Returns whether the host may be told. Called on any thread.
+    virtual bool count(LogLevel level, std::size_t bytes) noexcept = 0;
+};
+
 /// Hooks that make and change objects so that scripts can share them.
 struct Sharing {
     std::function<std::shared_ptr<Mesh>(Mesh&&)> make_mesh = [](Mesh&& mesh) {
@@ -225,6 +237,8 @@ struct lissom_context {
 
     lissom_context_options options;
     lissom::c::Space space;
+    /// Null until scripts have limits.
+    std::atomic<lissom::c::MessageCounter*> message_counter{nullptr};
     lissom::Context kernel;
     lissom::c::ObjectTable objects;
     /// Error of the last call; `shown` points into it.

@@ -38,7 +38,7 @@ namespace {
 // A context of its own for a job, as operations of two threads cannot share one; the memory is that
 // of the host's.
 Context job_context(const lissom_context& context, const std::shared_ptr<JobProgress>& told) {
-    ContextOptions options = kernel_options(context.options);
+    ContextOptions options = kernel_options(context.options, context.message_counter);
     options.memory = context.kernel.memory();
     options.progress = [told, host = std::move(options.progress)](std::string_view label,
                                                                   double fraction) {

@@ -5,8 +5,9 @@
 
 namespace lissom::c {
 
-/// Returns the kernel's options for the services of a host.
-ContextOptions kernel_options(const lissom_context_options& host);
+/// Returns the kernel's options for the services of a host; `counter` hears its messages before.
+ContextOptions kernel_options(const lissom_context_options& host,
+                              const std::atomic<MessageCounter*>& counter);
 
 /// Returns once the job has ended.
 void wait_for_job(const lissom_context& context, Job& job);

@@ -110,6 +110,7 @@ LuaReference::~LuaReference() {
 }
 
 ScriptHost::~ScriptHost() {
+    context_.message_counter = nullptr;
     if (!L_ || sandbox_) return;
     lua_sethook(L_, end_finalizer, LUA_MASKCOUNT, kFinalInstructions);
     lua_close(L_);
@@ -128,6 +129,11 @@ void ScriptHost::open_sandbox(lua::SandboxLimits limits) {
     made->work_in(context_.kernel);
     sandbox_ = std::move(made);
     L_ = sandbox_->lua();
+    context_.message_counter = this;
+}
+
+bool ScriptHost::count(LogLevel level, std::size_t bytes) noexcept {
+    return level != LogLevel::warning || sandbox_->count_shown(bytes);
 }
 
 int ScriptHost::call(int arguments, int results) {
@@ -288,7 +294,7 @@ std::shared_ptr<void> ScriptHost::object_of(Kind kind, const std::shared_ptr<voi
     return made;
 }
 
-lua::Holder ScriptHost::holder_of(std::uint64_t id) {
+ScriptObject ScriptHost::holder_of(std::uint64_t id) {
     constexpr std::pair<Kind, const char*> kTypes[] = {
         {Kind::mesh, lua::MeshObject::kTypeName},
         {Kind::region, lua::RegionObject::kTypeName},
@@ -297,10 +303,8 @@ lua::Holder ScriptHost::holder_of(std::uint64_t id) {
         {Kind::strands, lua::StrandsObject::kTypeName}};
     for (const auto& [kind, name] : kTypes) {
         if (!context_.objects.find(id, kind)) continue;
-        lua::Holder holder(name);
-        holder.object = object_of(kind, context_.share<void>(id, kind));
         context_.objects.find(id, kind)->scripted = true;
-        return holder;
+        return {name, object_of(kind, context_.share<void>(id, kind))};
     }
     throw StatusError(
         LISSOM_INVALID_HANDLE,
@@ -327,27 +331,27 @@ std::uint64_t ScriptHost::handle_of(int index) {
             context_.objects.find(known, kind)->scripted = true;
             return known;
         }
-        keep(content.get(), found->object);
+        keep(content.get(), found->object.shared());
         return add_handle(kind, std::move(content));
     };
     if (type == lua::MeshObject::kTypeName) {
-        const auto object = std::static_pointer_cast<lua::MeshObject>(found->object);
+        const auto object = std::static_pointer_cast<lua::MeshObject>(found->object.shared());
         return handle(Kind::mesh, {object, &object->mesh});
     }
     if (type == lua::RegionObject::kTypeName) {
-        const auto object = std::static_pointer_cast<lua::RegionObject>(found->object);
+        const auto object = std::static_pointer_cast<lua::RegionObject>(found->object.shared());
         return handle(Kind::region, {object, &object->region});
     }
     if (type == lua::StrandsObject::kTypeName) {
-        const auto object = std::static_pointer_cast<lua::StrandsObject>(found->object);
+        const auto object = std::static_pointer_cast<lua::StrandsObject>(found->object.shared());
         return handle(Kind::strands, {object, &object->strands});
     }
     if (type == lua::DeformObject::kTypeName) {
-        const auto object = std::static_pointer_cast<lua::DeformObject>(found->object);
+        const auto object = std::static_pointer_cast<lua::DeformObject>(found->object.shared());
         return handle(Kind::deformer, {object, &object->deformer()});
     }
     if (type == lua::HairstyleObject::kTypeName) {
-        const auto object = std::static_pointer_cast<lua::HairstyleObject>(found->object);
+        const auto object = std::static_pointer_cast<lua::HairstyleObject>(found->object.shared());
         return handle(Kind::hairstyle, {object, &object->style()});
     }
     auto reference = std::make_shared<LuaReference>();

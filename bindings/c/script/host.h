@@ -32,10 +32,17 @@ struct Script {
     std::map<std::string, std::string> values;
 };
 
-class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
+/// An object as Lua knows it.
+struct ScriptObject {
+    /// The name of its type; a constant of the program.
+    const char* type_name;
+    std::shared_ptr<void> object;
+};
+
+class ScriptHost : public std::enable_shared_from_this<ScriptHost>, public MessageCounter {
   public:
     explicit ScriptHost(lissom_context& context) : context_(context), working_(context.kernel) {}
-    ~ScriptHost();
+    ~ScriptHost() override;
     ScriptHost(const ScriptHost&) = delete;
     ScriptHost& operator=(const ScriptHost&) = delete;
 
@@ -55,7 +62,8 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     bool busy() const { return busy_; }
     /// Returns all objects that scripts know.
     std::vector<Held> known_objects();
-
+    /// Counts warnings as output of the sandbox.
+    bool count(LogLevel level, std::size_t bytes) noexcept override;
     /// Runs lua_pcall without a handler, within the limits of the sandbox.
     int call(int arguments, int results);
 
@@ -64,7 +72,7 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     /// Returns the Lua object that shares a handle's content. Content new to Lua gets a
     /// new object if that is possible without a copy. Errors: StatusError for invalid
     /// handles.
-    lua::Holder holder_of(std::uint64_t id);
+    ScriptObject holder_of(std::uint64_t id);
     /// Returns a handle for the object of a userdata at `index`: its own if it has one.
     std::uint64_t handle_of(int index);
     /// Releases the handles that were made since the last call of either of these: the host gets no
@@ -117,7 +125,7 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost> {
     // The mesh that an object was made for, by the object.
     std::map<const void*, std::weak_ptr<lua::MeshObject>> owners_;
     // Objects for the values that are being pushed, by handle.
-    std::map<std::uint64_t, lua::Holder> holders_;
+    std::map<std::uint64_t, ScriptObject> holders_;
     // Their places in Lua's registry, for objects of scripts alone.
     std::map<std::uint64_t, int> references_;
 };

@@ -63,10 +63,7 @@ void ScriptHost::push_object(std::uint64_t id) {
         return;
     }
     lua_pop(L_, 1);
-    auto* made = static_cast<lua::Holder*>(lua::new_userdata(L_, sizeof(lua::Holder)));
-    new (made) lua::Holder(found->second.type_name);
-    luaL_getmetatable(L_, found->second.type_name);
-    lua_setmetatable(L_, -2);
+    lua::Holder* made = lua::push_holder(L_, binding(), found->second.type_name);
     made->object = found->second.object;
     lua_pushvalue(L_, -1);
     lua::raw_set_pointer(L_, -3, content);

@@ -1,7 +1,10 @@
 #include "bindings/lua/core/call.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <new>
+#include <utility>
 
 #include "bindings/lua/core/error_object.h"
 #include "bindings/lua/core/file_path.h"
@@ -13,13 +16,23 @@ namespace {
 // Native bytes between two steps of the collector.
 constexpr std::size_t kChargeStep = std::size_t{64} << 10;
 
-// Header of a held value.
-struct HeldHead {
-    void (*destroy)(void*);
+// Content of the userdata of a held value.
+struct HeldSlot {
     const void* mark;
+    Cell* cell;
 };
-static_assert(sizeof(HeldHead) <= Call::kHeldOffset);
 const char kHeldMark = 0;
+
+// Returns false if the account has no room.
+bool hold_bytes(const State& state, Cell& cell, std::size_t bytes) {
+    try {
+        cell.bytes = MemoryHold(state.context.memory(), "an object of a script");
+        cell.bytes.resize(bytes);
+    } catch (const Error&) {
+        return false;
+    }
+    return true;
+}
 
 // Whether a place is in the library's own Lua text: then it says nothing to a script.
 bool is_own_text(const char* place) {
@@ -161,33 +174,42 @@ bool Call::holds(const char* path, const char* type_name) const {
     return std::strcmp(holder->type_name, type_name) == 0;
 }
 
-Holder* Call::push_holder(const char* type_name) const {
-    auto* holder = static_cast<Holder*>(new_userdata(L_, sizeof(Holder)));
+void own_cell(lua_State* L, State& state, Cell* cell, std::size_t bytes) {
+    bool fits = cell && hold_bytes(state, *cell, bytes);
+    if (cell && !fits && lua_gc(L, LUA_GCISRUNNING, 0)) {
+        lua_gc(L, LUA_GCCOLLECT, 0);
+        fits = hold_bytes(state, *cell, bytes);
+    }
+    if (fits) return state.cells.add(*cell);
+    delete cell;
+    luaL_error(L, "not enough memory");
+}
+
+Holder* push_holder(lua_State* L, State& state, const char* type_name) {
+    auto* holder = static_cast<Holder*>(new_userdata(L, sizeof(Holder)));
     new (holder) Holder(type_name);
-    luaL_getmetatable(L_, type_name);
-    lua_setmetatable(L_, -2);
+    luaL_getmetatable(L, type_name);
+    lua_setmetatable(L, -2);
+    auto* cell = new (std::nothrow) ObjectSlot::Content;
+    own_cell(L, state, cell, sizeof *cell);
+    holder->object.set_cell(cell);
     return holder;
 }
 
-void* Call::push_held(std::size_t bytes, void (*destroy)(void*)) const {
-    auto* memory = static_cast<char*>(new_userdata(L_, kHeldOffset + bytes));
-    new (memory) HeldHead{destroy, &kHeldMark};
+Cell*& Call::push_held() const {
+    auto* slot = static_cast<HeldSlot*>(new_userdata(L_, sizeof(HeldSlot)));
+    *slot = {&kHeldMark, nullptr};
     raw_get_pointer(L_, LUA_REGISTRYINDEX, State::held_metatable_key());
     lua_setmetatable(L_, -2);
-    return memory + kHeldOffset;
+    return slot->cell;
 }
 
 int collect_held(lua_State* L) {
-    auto* memory = static_cast<char*>(lua_touserdata(L, 1));
-    if (!memory || raw_length(L, 1) < Call::kHeldOffset) return 0;
-    auto* head = reinterpret_cast<HeldHead*>(memory);
-    if (head->mark != &kHeldMark) return 0;
-    head->mark = nullptr;
-    head->destroy(memory + Call::kHeldOffset);
+    auto* slot = static_cast<HeldSlot*>(lua_touserdata(L, 1));
+    if (!slot || raw_length(L, 1) != sizeof(HeldSlot) || slot->mark != &kHeldMark) return 0;
+    delete std::exchange(slot->cell, nullptr);
     return 0;
 }
-
-const char Holder::kMark = 0;
 
 Holder* find_holder(lua_State* L, int index, const char* type_name) {
     if (lua_type(L, index) != LUA_TUSERDATA || raw_length(L, index) != sizeof(Holder)) {
@@ -204,7 +226,9 @@ void Call::make_room() const {
     const MemoryAccount& account = *context().memory();
     const std::size_t limit = account.limit(), used = account.used();
     if (limit == 0 || used < limit / 2) return;
-    if (used < state_->used_after_collection + limit / 8) return;
+    const std::size_t after = state_->used_after_collection;
+    const std::size_t room = limit - std::min(limit, after);
+    if (used < after + std::min(limit / 8, room / 2)) return;
     if (!lua_gc(L_, LUA_GCISRUNNING, 0)) return;
     lua_gc(L_, LUA_GCCOLLECT, 0);
     state_->used_after_collection = account.used();

@@ -59,9 +59,6 @@ struct Value {
 
 class Call {
   public:
-    /// Bytes before a held value: how to destroy it, and the mark that it is one.
-    static constexpr std::size_t kHeldOffset = 16;
-
     /// A call of `entry`, whose arguments are on the stack of `L`. Checks them: raises a Lua error.
     Call(lua_State* L, State& state, const Entry& entry);
     /// A call of a metamethod, whose operands are on the stack; nothing is checked.
@@ -150,9 +147,14 @@ class Call {
     /// step 3 and pushed in step 4.
     template <typename T>
     T& hold() const {
-        static_assert(std::is_nothrow_default_constructible_v<T> && alignof(T) <= kHeldOffset);
-        void* memory = push_held(sizeof(T), [](void* object) { static_cast<T*>(object)->~T(); });
-        return *new (memory) T();
+        static_assert(std::is_nothrow_default_constructible_v<T>);
+        struct Held : Cell {
+            T value{};
+        };
+        Cell*& slot = push_held();
+        auto* held = own(new (std::nothrow) Held, sizeof(Held));
+        slot = held;
+        return held->value;
     }
 
     // ---- Step 2: results.
@@ -160,7 +162,7 @@ class Call {
     /// Pushes a new userdata without an object.
     template <typename T>
     Ref<T> create() const {
-        return Ref<T>(push_holder(T::kTypeName));
+        return Ref<T>(push_holder(L_, *state_, T::kTypeName));
     }
 
     // ---- Step 3: C++.
@@ -245,9 +247,14 @@ class Call {
     friend class Parser;
 
     const Value& value(const char* path) const;
-    Holder* push_holder(const char* type_name) const;
     bool holds(const char* path, const char* type_name) const;
-    void* push_held(std::size_t bytes, void (*destroy)(void*)) const;
+    Cell*& push_held() const;
+    // A new cell, null if there is no memory for one, becomes the state's.
+    template <typename T>
+    T* own(T* cell, std::size_t bytes) const {
+        own_cell(L_, *state_, cell, bytes);
+        return cell;
+    }
     void hold_memory(MemoryHold& held, std::size_t bytes) const;
     bool push_remembered(const void* object) const;
     void make_room() const;
@@ -271,6 +278,13 @@ inline constexpr const char kOwnLuaText[] = "lissom tools:";
 /// Pushes "file:line: " of the innermost Lua function, or "" if there is none near: the script's
 /// place even after a tail call or inside a metamethod.
 void push_place(lua_State* L);
+
+/// Pushes a new userdata of the type with this name, without an object.
+Holder* push_holder(lua_State* L, State& state, const char* type_name);
+
+/// Gives a new cell of `bytes` to the state, on the account of its context. Deletes it and raises a
+/// Lua error if there is no room, or if it is null.
+void own_cell(lua_State* L, State& state, Cell* cell, std::size_t bytes);
 
 /// __gc of held values.
 int collect_held(lua_State* L);

@@ -120,7 +120,7 @@ void release_collected(lua_State* L, Listeners& listeners) {
     raw_get_pointer(L, LUA_REGISTRYINDEX, &kCollected);
     for (; listeners.collected > 0; --listeners.collected) {
         lua_rawgeti(L, -1, listeners.collected);
-        if (Holder* holder = find_holder(L, -1, nullptr)) holder->object.reset();
+        if (Holder* holder = find_holder(L, -1, nullptr)) holder->object.end();
         lua_pop(L, 1);
         lua_pushnil(L);
         lua_rawseti(L, -2, listeners.collected);

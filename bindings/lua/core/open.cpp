@@ -217,12 +217,13 @@ int missing_function(lua_State* L) {
 
 int collect_object(lua_State* L) {
     Holder* holder = find_holder(L, 1, nullptr);
-    if (!holder || !holder->object) return 0;
+    if (!holder) return 0;
     const StateBox* box = find_box(L, lua_upvalueindex(2));
-    if (box && box->state && box->state->listeners->running) {
+    if (!box || !box->state) return 0;
+    if (holder->object && box->state->listeners->running) {
         keep_collected(L, *box->state->listeners);
     } else {
-        holder->object.reset();
+        holder->object.end();
     }
     return 0;
 }

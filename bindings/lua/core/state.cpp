@@ -5,6 +5,26 @@
 #include "bindings/lua/core/script_parameters.h"
 
 namespace lissom::lua {
+
+const char Holder::kMark = 0;
+const std::shared_ptr<void> ObjectSlot::kNone;
+
+Cell::~Cell() {
+    if (before_) before_->after_ = after_;
+    if (after_) after_->before_ = before_;
+}
+
+void CellList::add(Cell& cell) noexcept {
+    cell.before_ = &first_;
+    cell.after_ = first_.after_;
+    if (first_.after_) first_.after_->before_ = &cell;
+    first_.after_ = &cell;
+}
+
+void CellList::clear() noexcept {
+    while (first_.after_) delete first_.after_;
+}
+
 namespace {
 
 const char kObjectTable = 0, kHeldMetatable = 0;
@@ -34,6 +54,7 @@ State::State(const HostOptions& options)
 
 State::~State() {
     listeners->running = nullptr;
+    cells.clear();
 }
 
 void State::end_operation(lua_State* L) {

@@ -10,6 +10,7 @@
 #include "bindings/lua/core/compat.h"
 #include "bindings/lua/core/failure.h"
 #include "bindings/lua/core/listeners.h"
+#include "bindings/lua/core/object.h"
 #include "bindings/lua/core/registry.h"
 #include "kernel/core/context.h"
 
@@ -61,6 +62,8 @@ struct State {
     /// Returns the key of the metatable of values held by a call.
     static const void* held_metatable_key();
 
+    /// C++ of userdata: objects, and values held by calls.
+    CellList cells;
     std::shared_ptr<Listeners> listeners = std::make_shared<Listeners>();
     std::shared_ptr<const Registry> registry;
     Context context;

@@ -78,7 +78,7 @@ struct Sandbox::Parts : Work {
     std::atomic<SandboxEnd> end = SandboxEnd::none;
     std::int64_t instructions = 0;
     // Whether a script runs, and not the host.
-    bool runs = false;
+    std::atomic<bool> runs = false;
     // Bytes of warnings, from any thread.
     std::atomic<std::size_t> warned = 0;
     lua_State* L = nullptr;
@@ -93,13 +93,23 @@ struct Sandbox::Parts : Work {
 
 namespace {
 
+// Lua skips the finalizer of an object if there is no memory for its call. A state that runs one
+// answers no question about its collector.
+bool is_finalizing(lua_State* L) {
+    return L && lua_gc(L, LUA_GCISRUNNING) != 1;
+}
+
 // Lua works for minutes without a call or an instruction where a value is its own __call: then its
-// stack grows, and that is where it is stopped. Small blocks are for messages.
+// stack grows, and that is where it is stopped. Small blocks are for messages, and the smallest for
+// finalizers, beyond the limit.
 void* allocate_in_time(void* sandbox, void* block, std::size_t old_size, std::size_t new_size) {
-    constexpr std::size_t kSmall = std::size_t{256} << 10;
+    constexpr std::size_t kSmall = std::size_t{256} << 10, kSmallest = std::size_t{16} << 10;
     auto& parts = *static_cast<Sandbox::Parts*>(sandbox);
     const bool grows = new_size > kSmall && (!block || new_size > old_size);
     if (grows && parts.runs && parts.stop.asked()) return nullptr;
+    void* made = allocate_counted(parts.account.get(), block, old_size, new_size);
+    if (made || new_size == 0 || new_size > kSmallest || !is_finalizing(parts.L)) return made;
+    const MemoryOverdraft overdraft(parts.account);
     return allocate_counted(parts.account.get(), block, old_size, new_size);
 }
 
@@ -190,10 +200,8 @@ void guard_files(Sandbox::Parts& parts) {
 void count_warnings(Sandbox::Parts& parts) {
     auto& log = parts.options.context.log;
     log = [&parts, log = std::move(log)](LogLevel level, std::string_view text) {
-        const std::size_t most = parts.limits.output_bytes;
-        const bool counts = level == LogLevel::warning && most != 0;
-        if (counts && (parts.warned += text.size()) > most) return parts.ask(SandboxEnd::output);
-        if (log) log(level, text);
+        const bool fits = level != LogLevel::warning || parts.owner.count_shown(text.size());
+        if (fits && log) log(level, text);
     };
 }
 
@@ -309,6 +317,13 @@ void Sandbox::work_in(const Context& context) {
 
 std::shared_ptr<MemoryAccount> Sandbox::memory() const {
     return parts_->account;
+}
+
+bool Sandbox::count_shown(std::size_t bytes) {
+    const std::size_t most = parts_->limits.output_bytes;
+    if (most == 0 || !parts_->runs || (parts_->warned += bytes) <= most) return true;
+    parts_->ask(SandboxEnd::output);
+    return false;
 }
 
 SandboxEnd Sandbox::end() const {

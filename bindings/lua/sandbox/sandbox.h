@@ -23,8 +23,8 @@ struct SandboxLimits {
     /// Instructions of Lua's virtual machine, counted in twenties; work of its libraries' functions
     /// counts as one per 64 bytes or table element. 0: any number.
     std::int64_t instructions = 0;
-    /// Memory of Lua, and of the library for the script's objects and for its work, together. 0: as
-    /// much as there is.
+    /// Memory of Lua, and of the library for the script's objects and for its work, together.
+    /// Finalizers of objects may go beyond it by some KB. 0: as much as there is.
     std::size_t memory_bytes = std::size_t{256} << 20;
     /// Printed bytes, and those of written files. A file is counted when it is there, so that the
     /// last one may go beyond; 0: any number.
@@ -65,6 +65,10 @@ class Sandbox {
     /// limits and with a handler of messages at stack index `handler` (0: none). The state is of
     /// use afterwards whatever has happened.
     int call(int arguments, int results, int handler = 0);
+    /// Counts bytes that the host is about to show for the script, as a warning, from any thread.
+    /// Returns false, and ends the script, if they are more than it may write; true while none
+    /// runs.
+    bool count_shown(std::size_t bytes);
     /// Returns why the last call was ended; none also if it failed by itself.
     SandboxEnd end() const;
 

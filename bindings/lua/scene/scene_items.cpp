@@ -180,7 +180,7 @@ ItemArgument ItemArgument::read(const Call& call, int index) {
 }
 
 std::shared_ptr<SceneItem> ItemArgument::item() const {
-    return type_of(*holder).make(holder->object);
+    return type_of(*holder).make(holder->object.shared());
 }
 
 void ItemArgument::remember(const Call& call) const {

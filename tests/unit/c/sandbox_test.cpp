@@ -1,5 +1,6 @@
 // Scripts of a host that nobody vouches for.
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -111,6 +112,42 @@ TEST_CASE("sandbox of C: limits end a script, and the next one runs") {
           LISSOM_MEMORY_LIMIT);
     CHECK(is_true(host, "return true"));
     CHECK(lissom_memory_peak(host) <= options.memory);
+}
+
+TEST_CASE("sandbox of C: warnings are output, those of the host's own calls are not") {
+    // A face without area is told.
+    std::string model = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\n";
+    struct Shown {
+        Files files;
+        std::size_t warned = 0;
+    } shown{{{"odd.obj", model}}};
+    auto given = lissom_default_context_options();
+    given.user = &shown;
+    given.read_file = [](void* user, const char* path, lissom_sink* sink, void* argument) {
+        const Files& files = static_cast<Shown*>(user)->files;
+        const auto found = files.find(path);
+        if (found == files.end()) return false;
+        sink(argument, found->second.data(), found->second.size());
+        return true;
+    };
+    given.log = [](void* user, lissom_log_level level, const char* message) {
+        if (level == LISSOM_WARNING) static_cast<Shown*>(user)->warned += std::strlen(message);
+    };
+    const Host host(given);
+    auto options = lissom_default_sandbox_options();
+    options.output = 1000;
+    options.seconds = 60.0;
+    REQUIRE(lissom_sandbox_scripts(host, &options) == LISSOM_OK);
+    const Outcome outcome =
+        run_sandboxed(host, "while true do require('lissom').load('odd.obj') end");
+    CHECK(outcome == LISSOM_CANCELLED);
+    CHECK(outcome.says("written"));
+    CHECK(shown.warned > 0);
+    CHECK(shown.warned <= options.output);
+    const std::size_t before = shown.warned;
+    lissom_mesh mesh{};
+    REQUIRE(lissom_mesh_load(host, "odd.obj", nullptr, &mesh) == LISSOM_OK);
+    CHECK(shown.warned > before);
 }
 
 TEST_CASE("sandbox of C: a time ends a script, and is not the host's cancel") {

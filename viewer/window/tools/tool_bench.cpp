@@ -34,7 +34,7 @@ constexpr std::array kVerbs{"press", "move", "release", "wheel", "key", "cancel"
 template <typename Object>
 std::shared_ptr<Object> object_at(lua_State* L, int index) {
     const lua::Holder* holder = lua::find_holder(L, index, Object::kTypeName);
-    return holder ? std::static_pointer_cast<Object>(holder->object) : nullptr;
+    return holder ? std::static_pointer_cast<Object>(holder->object.shared()) : nullptr;
 }
 
 // Returns the object in a field of the host, or null.
@@ -243,7 +243,7 @@ void ToolBench::revive_scene() {
     push_raw(L, -1, "scene");
     lua::Holder* holder = lua::find_holder(L, -1, lua::SceneObject::kTypeName);
     if (holder && !holder->object) holder->object = scene_;
-    if (holder) scene_ = holder->object;
+    if (holder) scene_ = holder->object.shared();
     lua_pop(L, 2);
 }
 

@@ -20,6 +20,8 @@ using test::HostileScript;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMemory = std::size_t{48} << 20;
+// Beyond it: finalizers, and the way back from a failed step of a scene.
+constexpr std::size_t kOverdraft = std::size_t{64} << 10;
 constexpr int kThreads = 4;
 
 // Short for those that it has to end; the others come to their own end, on any machine.
@@ -69,7 +71,7 @@ void check_end(Sandbox& sandbox, const HostileScript& script, int status) {
 }
 
 void check_use(Sandbox& sandbox) {
-    CHECK(sandbox.memory()->peak() <= kMemory);
+    CHECK(sandbox.memory()->peak() <= kMemory + kOverdraft);
     lua_settop(sandbox.lua(), 0);
     lua_gc(sandbox.lua(), LUA_GCCOLLECT);
     CHECK(run(sandbox, "local t = {} for i = 1, 1000 do t[i] = i end return #t") == LUA_OK);
@@ -132,7 +134,7 @@ void check_composed(std::uint32_t seed) {
         check_use(sandbox);
     }
     CHECK_MESSAGE(memory->used() == 0, script.text);
-    CHECK(memory->peak() <= limits.memory_bytes);
+    CHECK(memory->peak() <= limits.memory_bytes + kOverdraft);
     CHECK(Clock::now() - start < std::chrono::seconds(30));
 }
 

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "bindings/lua/core/error_object.h"
 #include "kernel/core/error.h"
 
 namespace lissom::lua {
@@ -53,6 +54,56 @@ TEST_CASE("sandbox: instructions are counted, of each run") {
         CHECK(run_text(sandbox, "coroutine.wrap(function() while true do end end)()") != LUA_OK);
         CHECK(sandbox.end() == SandboxEnd::instructions);
     }
+}
+
+// Bytes that the kernel has taken for objects, after all garbage was collected.
+std::size_t kernel_bytes(const Sandbox& sandbox) {
+    lua_State* L = sandbox.lua();
+    lua_settop(L, 0);
+    lua_gc(L, LUA_GCCOLLECT);
+    lua_gc(L, LUA_GCCOLLECT);
+    const std::size_t of_lua = (static_cast<std::size_t>(lua_gc(L, LUA_GCCOUNT)) << 10) +
+                               static_cast<std::size_t>(lua_gc(L, LUA_GCCOUNTB));
+    return sandbox.memory()->used() - of_lua;
+}
+
+TEST_CASE("sandbox: objects whose finalizers find no stack are freed with the state") {
+    std::shared_ptr<MemoryAccount> memory;
+    {
+        Sandbox sandbox(patient(), {});
+        memory = sandbox.memory();
+        const std::size_t before = kernel_bytes(sandbox);
+        // Finalizers that run at the depth of the error fail by it, which some of these depths
+        // meet.
+        run_text(sandbox,
+                 "local l = require('lissom') local function f() l.shapes.box() l.scene() "
+                 "collectgarbage(); ('x'):gsub('.', f) end "
+                 "local function deep(k) if k > 0 then pcall(deep, k - 1) else f() end end "
+                 "for k = 0, 12 do pcall(deep, k) end");
+        INFO("the test has to get there");
+        CHECK(kernel_bytes(sandbox) > before);
+    }
+    CHECK(memory->used() == 0);
+}
+
+TEST_CASE("sandbox: objects that are made while the memory runs out are freed") {
+    SandboxLimits limits = patient();
+    limits.memory_bytes = std::size_t{4} << 20;
+    std::shared_ptr<MemoryAccount> memory;
+    {
+        Sandbox sandbox(limits, {});
+        memory = sandbox.memory();
+        for (int i = 0; i < 20; ++i) {
+            run_text(sandbox,
+                     "local l, t = require('lissom'), {} "
+                     "pcall(function() while true do t[#t + 1] = ('x'):rep(1000) .. #t end end) "
+                     "for i = 1, 200 do pcall(function() local s = l.scene() "
+                     "s:step('s', function() s:add('a', l.shapes.box()) end) end) t[#t] = nil end");
+        }
+        const int status = run_text(sandbox, "return require('lissom').shapes.box():area()");
+        CHECK_MESSAGE(status == LUA_OK, push_error_text(sandbox.lua(), -1));
+    }
+    CHECK(memory->used() == 0);
 }
 
 TEST_CASE("sandbox: memory is Lua's and the kernel's together") {
