@@ -7,6 +7,7 @@
 #include "kernel/io/gltf/file/tiny_gltf.h"
 #include "kernel/io/gltf/mesh/surface.h"
 #include "kernel/io/gltf/nodes.h"
+#include "kernel/io/stream/json_object.h"
 #include "kernel/io/stream/scalar.h"
 
 namespace lissom {
@@ -48,7 +49,7 @@ std::size_t add_node(GltfAsset& asset, const std::string& label) {
         node["name"] = label;
         Json& meshes = list_in(asset.json, "meshes");
         node["mesh"] = meshes.size();
-        meshes.push_back({{"name", label}});
+        meshes.push_back(json_object({{"name", label}}));
     }
     nodes.push_back(std::move(node));
     list_in(scene, "nodes").push_back(nodes.size() - 1);
@@ -93,9 +94,9 @@ std::vector<std::size_t> moving_nodes(const Mesh& mesh, const std::vector<char>&
 std::size_t add_floats(GltfAsset& asset, const std::vector<float>& values) {
     std::string bytes;
     for (const float value : values) append_number(bytes, value, Endianness::little);
-    Json json{{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
-              {"count", values.size()},
-              {"type", "SCALAR"}};
+    Json json = json_object({{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
+                             {"count", values.size()},
+                             {"type", "SCALAR"}});
     asset.accessors.push_back(
         {std::move(json), std::make_shared<const std::string>(std::move(bytes))});
     return asset.accessors.size() - 1;
@@ -116,14 +117,16 @@ void add_animation(GltfAsset& asset, const std::vector<std::size_t>& nodes, cons
     const std::size_t times = add_floats(asset, keys.times);
     asset.accessors[times].json["min"] = Json::array({keys.times.front()});
     asset.accessors[times].json["max"] = Json::array({keys.times.back()});
-    const Json sampler{{"input", times},
-                       {"output", add_floats(asset, weights_of(keys))},
-                       {"interpolation", keys.is_stepped ? "STEP" : "LINEAR"}};
+    const Json sampler = json_object({{"input", times},
+                                      {"output", add_floats(asset, weights_of(keys))},
+                                      {"interpolation", keys.is_stepped ? "STEP" : "LINEAR"}});
     Json channels = Json::array();
     for (const std::size_t node : nodes) {
-        channels.push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
+        Json target = json_object({{"node", node}, {"path", "weights"}});
+        channels.push_back(json_object({{"sampler", 0}, {"target", std::move(target)}}));
     }
-    Json animation{{"samplers", Json::array({sampler})}, {"channels", std::move(channels)}};
+    Json animation =
+        json_object({{"samplers", Json::array({sampler})}, {"channels", std::move(channels)}});
     if (!keys.name.empty()) animation["name"] = keys.name;
     list_in(asset.json, "animations").push_back(std::move(animation));
 }

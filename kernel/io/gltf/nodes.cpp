@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/io/stream/json_object.h"
 #include "kernel/io/stream/read_error.h"
 
 namespace lissom {
@@ -260,7 +261,7 @@ std::size_t elements_of_mesh(const Json& document, const Json& node, std::size_t
 
 // Gives node `n` a child for each copy in place of its mesh.
 void add_copies(Json& nodes, std::size_t n, const std::vector<InstanceTransforms>& transforms) {
-    Json copy{{"mesh", nodes[n]["mesh"]}};
+    Json copy = json_object({{"mesh", nodes[n]["mesh"]}});
     if (nodes[n].contains("name")) copy["name"] = nodes[n]["name"];
     Json children = nodes[n].value("children", Json::array());
     for (std::size_t i = 0; i < transforms[0].values.count; ++i) {
@@ -364,7 +365,7 @@ void expand_instancing(Json& document, const AccessorReader& accessors, GltfBudg
 
 Json& default_scene(Json& json) {
     if (size_of_member(json, "scenes") == 0) {
-        json["scenes"] = Json::array({Json{{"nodes", root_nodes(json)}}});
+        json["scenes"] = Json::array({json_object({{"nodes", root_nodes(json)}})});
         json["scene"] = 0;
     }
     const Json* scene = member(json, "scene");

@@ -16,6 +16,7 @@
 #include "kernel/io/gltf/mesh/transform.h"
 #include "kernel/io/gltf/nodes.h"
 #include "kernel/io/record/skipped_content.h"
+#include "kernel/io/stream/json_object.h"
 #include "kernel/io/stream/read_error.h"
 #include "kernel/mesh/edit/label_adder.h"
 
@@ -160,7 +161,7 @@ class SurfaceReader {
     void read_extras(const GltfInstance& instance, std::size_t first_vertex, Index first_face) {
         const Json& json = document_.json["meshes"][instance.mesh];
         if (!json.contains("extras")) return;
-        Json mesh{{"extras", json["extras"]}};
+        Json mesh = json_object({{"extras", json["extras"]}});
         bool fits = true;
         const MeshExtras extras = take_extras(mesh, vertices_.positions().size() - first_vertex,
                                               mesh_.faces.size() - first_face, fits);

@@ -11,6 +11,7 @@
 #include "kernel/io/gltf/file/tiny_gltf.h"
 #include "kernel/io/gltf/file/uri.h"
 #include "kernel/io/stream/byte_source.h"
+#include "kernel/io/stream/json_object.h"
 
 namespace lissom {
 namespace {
@@ -24,7 +25,7 @@ std::string bytes_of(std::span<const T> numbers) {
 }
 
 Json accessor(int component, std::size_t count, const char* type) {
-    return {{"componentType", component}, {"count", count}, {"type", type}};
+    return json_object({{"componentType", component}, {"count", count}, {"type", type}});
 }
 
 std::size_t add_positions(const Strands& strands, GltfBinary& binary) {
@@ -75,18 +76,20 @@ std::size_t add_lines(const Strands& strands, GltfBinary& binary) {
 // glTF allows no empty meshes: without strands the scene is empty.
 Json make_document(const Strands& strands, GltfBinary& binary, const Context& context) {
     Progress progress(context, "write strands");
-    Json document{{"asset", {{"version", "2.0"}, {"generator", "Lissom"}}}};
+    Json document =
+        json_object({{"asset", json_object({{"version", "2.0"}, {"generator", "Lissom"}})}});
     if (strands.empty()) return document;
-    Json primitive{{"mode", TINYGLTF_MODE_LINE}, {"attributes", Json::object()}};
+    Json primitive = json_object({{"mode", TINYGLTF_MODE_LINE}, {"attributes", Json::object()}});
     primitive["attributes"]["POSITION"] = add_positions(strands, binary);
     progress.update(0.3);
     if (strands.colors()) primitive["attributes"]["COLOR_0"] = add_colors(strands, binary);
     progress.update(0.6);
     primitive["indices"] = add_lines(strands, binary);
-    document["meshes"] =
-        Json::array({{{"name", "Hair"}, {"primitives", Json::array({std::move(primitive)})}}});
-    document["nodes"] = Json::array({{{"name", "Hair"}, {"mesh", 0}}});
-    document["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
+    Json mesh = json_object({{"name", "Hair"}});
+    list_in(mesh, "primitives").push_back(std::move(primitive));
+    list_in(document, "meshes").push_back(std::move(mesh));
+    list_in(document, "nodes").push_back(json_object({{"name", "Hair"}, {"mesh", 0}}));
+    list_in(document, "scenes").push_back(json_object({{"nodes", Json::array({0})}}));
     document["scene"] = 0;
     binary.finish(document);
     return document;

@@ -16,6 +16,7 @@
 #include "kernel/io/gltf/mesh/surface.h"
 #include "kernel/io/gltf/mesh/told_morphs.h"
 #include "kernel/io/gltf/nodes.h"
+#include "kernel/io/stream/json_object.h"
 
 namespace lissom {
 namespace {
@@ -231,7 +232,7 @@ class DocumentWriter {
     std::size_t add_child(std::size_t parent, const std::string& name) {
         Json& nodes = json_["nodes"];
         const std::size_t number = nodes.size();
-        nodes.push_back({{"name", name}});
+        nodes.push_back(json_object({{"name", name}}));
         list_in(nodes[parent], "children").push_back(number);
         return number;
     }
@@ -260,7 +261,7 @@ class DocumentWriter {
         } else {
             Json& materials = list_in(json_, "materials");
             number = new_materials_[name] = materials.size();
-            materials.push_back({{"name", name}});
+            materials.push_back(json_object({{"name", name}}));
         }
         return {index_of(number), uv_count(json_["materials"][number])};
     }

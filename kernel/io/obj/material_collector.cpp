@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/io/record/file_rules.h"
+#include "kernel/io/stream/json_object.h"
 #include "kernel/io/stream/read_error.h"
 
 namespace lissom {
@@ -63,25 +64,26 @@ SharedBytes MaterialCollector::find(const std::string& name) {
 void MaterialCollector::add(const MtlMaterial& m) {
     Json& materials = asset_->json["materials"];
     if (!asset_->material_of_label.emplace(m.name, materials.size()).second) return;
-    Json surface{{"metallicFactor", m.metalness}, {"roughnessFactor", roughness_of(m)}};
+    Json surface =
+        json_object({{"metallicFactor", m.metalness}, {"roughnessFactor", roughness_of(m)}});
     const int diffuse = texture(m.diffuse_map);
     // The colour of a material with a texture is a stand-in for programs that show none.
     const std::array<double, 3> color =
         diffuse < 0 ? m.diffuse : std::array<double, 3>{1.0, 1.0, 1.0};
     surface["baseColorFactor"] = {color[0], color[1], color[2], m.opacity};
-    if (diffuse >= 0) surface["baseColorTexture"] = {{"index", diffuse}};
-    Json json{{"name", m.name}, {"pbrMetallicRoughness", std::move(surface)}};
+    if (diffuse >= 0) surface["baseColorTexture"] = json_object({{"index", diffuse}});
+    Json json = json_object({{"name", m.name}, {"pbrMetallicRoughness", std::move(surface)}});
     if (m.opacity < 1.0) json["alphaMode"] = "BLEND";
     add_emission(m, json);
     if (const int normal = texture(m.normal_map); normal >= 0)
-        json["normalTexture"] = {{"index", normal}};
+        json["normalTexture"] = json_object({{"index", normal}});
     if (!m.others.empty()) json["extras"][kMtlExtras] = m.others;
     materials.push_back(std::move(json));
 }
 
 void MaterialCollector::add_emission(const MtlMaterial& m, Json& json) {
     const int map = texture(m.emissive_map);
-    if (map >= 0) json["emissiveTexture"] = {{"index", map}};
+    if (map >= 0) json["emissiveTexture"] = json_object({{"index", map}});
     const bool shines = m.emissive != std::array<double, 3>{};
     if (shines || map >= 0)
         json["emissiveFactor"] = shines ? m.emissive : std::array<double, 3>{1.0, 1.0, 1.0};
@@ -102,8 +104,8 @@ int MaterialCollector::texture(const std::string& name) {
     }
     Json& images = asset_->json["images"];
     Json& textures = asset_->json["textures"];
-    textures.push_back({{"source", images.size()}});
-    images.push_back({{"name", name}, {"mimeType", type}});
+    textures.push_back(json_object({{"source", images.size()}}));
+    images.push_back(json_object({{"name", name}, {"mimeType", type}}));
     asset_->images.push_back(content);
     return entry->second = count_of(textures) - 1;
 }

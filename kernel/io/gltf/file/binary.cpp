@@ -5,6 +5,7 @@
 
 #include "kernel/io/gltf/file/container.h"
 #include "kernel/io/gltf/file/tiny_gltf.h"
+#include "kernel/io/stream/json_object.h"
 #include "kernel/io/stream/scalar.h"
 
 namespace lissom {
@@ -68,7 +69,8 @@ void add_bounds(const WrittenNumbers& numbers, Json& accessor) {
 }  // namespace
 
 std::size_t GltfBinary::add_view(std::string_view bytes) {
-    views_.push_back({{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}});
+    views_.push_back(
+        json_object({{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}}));
     bytes_ += bytes;
     bytes_.append(padded(bytes_.size()) - bytes_.size(), '\0');
     return views_.size() - 1;
@@ -86,9 +88,9 @@ std::size_t GltfBinary::add(const WrittenNumbers& numbers, BufferUse use, bool w
     const std::size_t width = numbers.width;
     const std::size_t size = width * size_of(numbers.type);
     const std::size_t stride = is_indices ? size : padded(size);
-    Json accessor{{"componentType", component_type(numbers.type)},
-                  {"count", numbers.values.size() / width},
-                  {"type", type_name(numbers.width)}};
+    Json accessor = json_object({{"componentType", component_type(numbers.type)},
+                                 {"count", numbers.values.size() / width},
+                                 {"type", type_name(numbers.width)}});
     if (numbers.normalized) accessor["normalized"] = true;
     if (with_bounds) add_bounds(numbers, accessor);
     const std::size_t added = add(std::move(accessor), encoded(numbers, stride), use);
@@ -99,7 +101,8 @@ std::size_t GltfBinary::add(const WrittenNumbers& numbers, BufferUse use, bool w
 void GltfBinary::finish(Json& document) {
     if (!accessors_.empty()) document["accessors"] = std::move(accessors_);
     if (!views_.empty()) document["bufferViews"] = std::move(views_);
-    if (!bytes_.empty()) document["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
+    if (!bytes_.empty())
+        list_in(document, "buffers").push_back(json_object({{"byteLength", bytes_.size()}}));
 }
 
 }  // namespace lissom

@@ -7,6 +7,7 @@
 
 #include "kernel/io/gltf/file/container.h"
 #include "kernel/io/gltf/file/extensions.h"
+#include "kernel/io/stream/json_object.h"
 #include "kernel/io/stream/read_error.h"
 
 namespace lissom {
@@ -227,7 +228,7 @@ std::vector<std::size_t> add_stand_in_view(Json& json) {
         (*accessors)[a]["bufferView"] = views.size();
         without_view.push_back(a);
     }
-    views.push_back({{"buffer", 0}, {"byteLength", 1}});
+    views.push_back(json_object({{"buffer", 0}, {"byteLength", 1}}));
     return without_view;
 }
 

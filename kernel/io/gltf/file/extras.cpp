@@ -1,4 +1,5 @@
 #include "kernel/io/gltf/file/extras.h"
+#include "kernel/io/stream/json_object.h"
 
 #include <algorithm>
 
@@ -159,10 +160,10 @@ void put_extras(Json& mesh, const MeshExtras& extras, std::size_t vertex_count,
     const bool is_empty = extras.labels.empty() && extras.regions.empty() && extras.turns.empty() &&
                           extras.corners.empty() && extras.parts.empty() && extras.copies.empty();
     if (is_empty) return;
-    Json ours{{"vertices", vertex_count}, {"faces", face_count}};
+    Json ours = json_object({{"vertices", vertex_count}, {"faces", face_count}});
     for (const auto& [kind, labels] : extras.labels) {
-        (*ours.emplace("labels", Json::object()).first)[kind] = {
-            {"names", labels.names}, {"runs", label_runs(labels.of_face)}};
+        (*ours.emplace("labels", Json::object()).first)[kind] =
+            json_object({{"names", labels.names}, {"runs", label_runs(labels.of_face)}});
     }
     for (const auto& [name, vertices] : extras.regions) {
         (*ours.emplace("regions", Json::object()).first)[name] = vertex_runs(vertices);

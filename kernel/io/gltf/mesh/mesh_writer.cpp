@@ -10,6 +10,7 @@
 #include "kernel/io/gltf/mesh/fans.h"
 #include "kernel/io/gltf/mesh/told_morphs.h"
 #include "kernel/io/gltf/mesh/values.h"
+#include "kernel/io/stream/json_object.h"
 
 namespace lissom {
 namespace {
@@ -69,7 +70,7 @@ class MeshWriter::Object {
         std::vector<Index> all;
         for (std::size_t v = 0; v < pool_.size(); ++v) all.push_back(index_of(v));
         mesh_["primitives"].push_back(
-            {{"mode", TINYGLTF_MODE_POINTS}, {"attributes", attributes_of(all, 0)}});
+            json_object({{"mode", TINYGLTF_MODE_POINTS}, {"attributes", attributes_of(all, 0)}}));
     }
 
     Json finish() {
@@ -173,8 +174,9 @@ class MeshWriter::Object {
     }
 
     Json attributes_of(const std::vector<Index>& used, Index uv_count) {
-        Json json{{"POSITION", once(
-                                   "POSITION", [&] { return values_.positions(); }, true)}};
+        Json json = Json::object();
+        json["POSITION"] = once(
+            "POSITION", [&] { return values_.positions(); }, true);
         Index sets_of_uv = uv_count, sets_of_color = 0;
         bool has_normal = false;
         for (const WrittenAttribute& written : writer_.attributes_.plain) {
