@@ -28,19 +28,20 @@ namespace {
 // ---- The renderer of a Lua state: made by its first picture, ended with the state.
 
 using RendererSlot = std::unique_ptr<Renderer>;
-const char kRendererKey = 0;
+// Keys of Lua's registry: the held value, and its address.
+const char kHeldKey = 0, kRendererKey = 0;
 
 RendererSlot& renderer_slot(const Call& call) {
     lua_State* L = call.lua();
     raw_get_pointer(L, LUA_REGISTRYINDEX, &kRendererKey);
-    if (lua_isnil(L, -1)) {
-        lua_pop(L, 1);
-        call.hold<RendererSlot>();
-        lua_pushvalue(L, -1);
-        raw_set_pointer(L, LUA_REGISTRYINDEX, &kRendererKey);
-    }
-    auto* held = static_cast<char*>(lua_touserdata(L, -1)) + Call::kHeldOffset;
-    return *reinterpret_cast<RendererSlot*>(held);
+    if (void* known = lua_touserdata(L, -1)) return *static_cast<RendererSlot*>(known);
+    lua_pop(L, 1);
+    auto& slot = call.hold<RendererSlot>();
+    lua_pushvalue(L, -1);
+    raw_set_pointer(L, LUA_REGISTRYINDEX, &kHeldKey);
+    lua_pushlightuserdata(L, &slot);
+    raw_set_pointer(L, LUA_REGISTRYINDEX, &kRendererKey);
+    return slot;
 }
 
 // ---- Who sees pictures beside their files
