@@ -8,7 +8,7 @@
 
 #include "bindings/lua/core/error_object.h"
 #include "bindings/lua/core/file_path.h"
-#include "bindings/lua/core/parser.h"
+#include "bindings/lua/core/parse/parser.h"
 
 namespace lissom::lua {
 namespace {

@@ -66,6 +66,8 @@ class Call {
 
     /// The Lua stack: arguments from 1 on, then values pushed by parsing and `create`.
     lua_State* lua() const { return L_; }
+    /// The function's name, for messages.
+    const char* name() const { return name_; }
     State& state() const { return *state_; }
     const Context& context() const { return state_->context; }
 

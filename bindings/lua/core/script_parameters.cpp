@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "bindings/lua/core/file_path.h"
-#include "bindings/lua/core/parser.h"
+#include "bindings/lua/core/parse/expectation.h"
 #include "bindings/lua/core/state.h"
 #include "kernel/core/error.h"
 #include "kernel/core/nearest.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string>
 
-#include "bindings/lua/core/parser.h"
+#include "bindings/lua/core/parse/expectation.h"
 #include "bindings/lua/hair/hair_object.h"
 
 namespace lissom::lua {

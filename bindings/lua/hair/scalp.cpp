@@ -1,6 +1,6 @@
 // lissom.Scalp: the hairy part of a head, and its frame.
 #include "bindings/lua/core/kernel_library.h"
-#include "bindings/lua/core/parser.h"
+#include "bindings/lua/core/parse/expectation.h"
 #include "bindings/lua/hair/hair_object.h"
 
 namespace lissom::lua {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bindings/lua/core/parser.h"
+#include "bindings/lua/core/parse/expectation.h"
 
 namespace lissom::lua {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "bindings/lua/core/parser.h"
+#include "bindings/lua/core/parse/expectation.h"
 #include "bindings/lua/reference/reference.h"
 
 namespace lissom::lua {

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "bindings/lua/core/failure.h"
-#include "bindings/lua/core/parser.h"
+#include "bindings/lua/core/parse/expectation.h"
 #include "bindings/lua/reference/departures.h"
 
 namespace lissom::lua {

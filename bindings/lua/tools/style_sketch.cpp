@@ -4,7 +4,7 @@
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/sketch/camera_object.h"
-#include "bindings/lua/tools/tools.h"
+#include "bindings/lua/tools/tool_calls.h"
 
 namespace lissom::lua {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 // The tools do the work, which are Lua.
 int sketch_style(Call& call) {
     lua_State* L = call.lua();
-    push_tool_function(L, "sketch");
+    push_tool_call(L, ToolCall::sketch);
     lua_pushvalue(L, 1);
     lua_pushvalue(L, call.stack_index("strokes"));
     lua_createtable(L, 0, 3);

@@ -14,6 +14,7 @@
 #include "bindings/lua/host/script_files.h"
 #include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
+#include "bindings/lua/tools/tool_calls.h"
 #include "bindings/lua/tools/tool_text.h"
 #include "bindings/lua/tools/tool_view.h"
 #include "kernel/core/clock.h"
@@ -216,20 +217,20 @@ void push_given(const Call& call, const char* path) {
 // ---- Tools and hosts
 
 int make_tool(Call& call) {
-    push_tool_function(call.lua(), "tool");
+    push_tool_call(call.lua(), ToolCall::tool);
     push_given(call, "tool");
     return finish_call(call, 1);
 }
 
 int load_tool(Call& call) {
-    push_tool_function(call.lua(), "load_tool");
+    push_tool_call(call.lua(), ToolCall::load_tool);
     call.push(call.string("name"));
     return finish_call(call, 1);
 }
 
 // The option table that a function was called with, which stands behind its arguments.
 int make_host(Call& call) {
-    push_tool_function(call.lua(), "host");
+    push_tool_call(call.lua(), ToolCall::host);
     lua_pushvalue(call.lua(), 1);
     return finish_tool_call(call, 1);
 }
@@ -255,7 +256,7 @@ void push_script_place(lua_State* L) {
 
 int replay(Call& call) {
     lua_State* L = call.lua();
-    push_tool_function(L, "replay");
+    push_tool_call(L, ToolCall::replay);
     lua_pushvalue(L, 1);
     lua_createtable(L, 0, 4);
     push_script_place(L);
@@ -486,15 +487,12 @@ const std::vector<Parameter>& event_fields(EventKind kind) {
     return kFields[static_cast<std::size_t>(kind)];
 }
 
-void push_tool_function(lua_State* L, const char* name) {
+void push_tool_functions(lua_State* L) {
     luaL_checkstack(L, LUA_MINSTACK, "no room for tools");
     raw_get_pointer(L, LUA_REGISTRYINDEX, &kToolFunctions);
-    if (!lua_istable(L, -1)) {
-        lua_pop(L, 1);
-        load_tool_functions(L);
-    }
-    lua_getfield(L, -1, name);
-    lua_remove(L, -2);
+    if (lua_istable(L, -1)) return;
+    lua_pop(L, 1);
+    load_tool_functions(L);
 }
 
 std::vector<Function> tool_functions() {

@@ -10,10 +10,9 @@
 
 namespace lissom::lua {
 
-/// Pushes a function of the host's Lua text: "tool", "host", "replay", "open" (of paths and the
-/// options of lissom.load: their scene), "load_tool", or one that windows call (windows.lua).
-/// Raises a Lua error if the state has no memory for it.
-void push_tool_function(lua_State* L, const char* name);
+/// Pushes the table of functions of the host's Lua text; `tool_calls` describes those that C++
+/// calls. Raises a Lua error if the state has no memory for it.
+void push_tool_functions(lua_State* L);
 
 /// Events of a hand that a host takes.
 enum class EventKind { mouse, wheel, key };

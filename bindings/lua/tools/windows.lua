@@ -276,11 +276,9 @@ local function restore(host, text, selects)
     if host.journal then table.insert(host.journal.lines, "scene:clear_history()") end
 end
 
-local function method(host, name, ...) return host[name](host, ...) end
-
 return { tool = make_tool, is_tool = is_tool, host = make_host, replay = replay, open = open_for_window,
     load_tool = load_tool, host_of = host_of, look = look_in_window, use = use, tool_files = tool_files,
-    draw = draw, holds = holds, save = save, export = export, write_export = write_export, method = method,
+    draw = draw, holds = holds, save = save, export = export, write_export = write_export, methods = Host,
     sketch = sketch,
     open_recording = open_recording, play = play, keep = keep,
     restore = restore }

@@ -64,7 +64,7 @@ Names of_merge() {
     note(names, "smooth", smooth != t.smooth);
     note(names, "collar", collar != t.collar);
     note(names, "transition",
-         suit != t.suit_transition || source_width != t.source_transition ||
+         suit != t.auto_transition || source_width != t.source_transition ||
              target_width != t.target_transition);
     note(names, "weight", weight != t.transition_weight);
     note(names, "trim", trim != t.trim);

@@ -219,10 +219,6 @@ void OpenScene::keep_tool(const std::string& word) {
     parts_.names.set_tool_files(bench_->tool_files(word));
 }
 
-void OpenScene::take(const ToolInput& input, bool is_late) {
-    succeeds(bench_->take(input, is_late));
-}
-
 void OpenScene::let_go() {
     if (!has_scene() || !bench_->is_held()) return;
     ToolInput cancel;

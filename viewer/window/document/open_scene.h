@@ -100,8 +100,6 @@ class OpenScene {
     void keep_tool(const std::string& word);
     /// Takes a tool in hand with the next scene.
     void set_next_tool(const std::string& word) { options_.tool = word; }
-    /// Takes input of a hand; `is_late` if a later place of the same drag is known already.
-    void take(const ToolInput& input, bool is_late);
     /// The window looks at the scene so.
     void look(const ToolInput& input) { look_ = input; }
     /// Releases objects held by a gesture.

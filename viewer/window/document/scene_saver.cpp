@@ -43,7 +43,7 @@ void SceneSaver::copy(const std::string& path, const std::string& journal) {
     std::string left_out;
     if (!scene_.succeeds(scene_.bench().save(path, left_out))) return;
     if (scene_.records().has_journal()) return;
-    const std::optional<std::string> text = scene_.bench().text_of("journal_text");
+    const std::optional<std::string> text = scene_.bench().text_of(Transcript::journal);
     if (text && !write_whole(journal, *text)) {
         parts_.news.tell(LineKind::error, "the journal cannot be written to " + journal);
     }

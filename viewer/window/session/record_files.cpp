@@ -48,8 +48,8 @@ std::vector<cli::ScriptResult> RecordFiles::begin(ToolBench& bench,
         whole.push_back(fs::absolute(path, error).generic_string());
     }
     std::vector<cli::ScriptResult> results;
-    if (has_recording()) results.push_back(bench.record("record", told, options));
-    results.push_back(bench.record("keep_journal", has_journal() ? open : whole, options));
+    if (has_recording()) results.push_back(bench.record(Transcript::recording, told, options));
+    results.push_back(bench.record(Transcript::journal, has_journal() ? open : whole, options));
     return results;
 }
 
@@ -60,7 +60,7 @@ std::string RecordFiles::save(ToolBench& bench) {
 
 std::string RecordFiles::save(ToolBench& bench, Record& record) {
     if (record.path.empty() || bench.is_held()) return "";
-    const std::optional<std::string> text = bench.text_of(record.method);
+    const std::optional<std::string> text = bench.text_of(record.transcript);
     if (!text || *text == record.saved) return "";
     if (write_whole(record.path, *text)) {
         record.saved = *text;

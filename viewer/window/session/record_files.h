@@ -15,8 +15,8 @@ class RecordFiles {
   public:
     /// Files of the recording and of the journal; empty for none.
     RecordFiles(std::string recording, std::string journal)
-        : recording_{"recording", std::move(recording), {}},
-          journal_{"journal_text", std::move(journal), {}} {}
+        : recording_{Transcript::recording, std::move(recording), {}},
+          journal_{Transcript::journal, std::move(journal), {}} {}
 
     bool has_recording() const { return !recording_.path.empty(); }
     bool has_journal() const { return !journal_.path.empty(); }
@@ -33,7 +33,7 @@ class RecordFiles {
 
   private:
     struct Record {
-        const char* method;
+        Transcript transcript;
         std::string path, saved;
     };
     std::string save(ToolBench& bench, Record& record);

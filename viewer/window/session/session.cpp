@@ -177,7 +177,7 @@ void Session::take_input(const ToolInput& input, bool is_late) {
     } else if (input.kind == ToolInput::Kind::stop) {
         scene_.let_go();
     } else {
-        scene_.take(input, is_late);
+        scene_.succeeds(scene_.bench().take(input, is_late));
     }
 }
 

@@ -11,7 +11,6 @@
 #include "bindings/lua/scene/scene_object.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/tools/tool_view.h"
-#include "bindings/lua/tools/tools.h"
 #include "kernel/hair/strands/strand_edit.h"
 #include "kernel/io/record/file_rules.h"
 #include "kernel/io/strand_file.h"
@@ -29,7 +28,11 @@ namespace fs = std::filesystem;
 const char kHostOfBench = 0, kPlaying = 0;
 constexpr RegistryValue kHost{&kHostOfBench};
 
-constexpr std::array kVerbs{"press", "move", "release", "wheel", "key", "cancel", "undo", "redo"};
+using lua::ToolCall;
+
+// Calls by the kind of an input.
+constexpr std::array kInputs{ToolCall::press, ToolCall::move,   ToolCall::release, ToolCall::wheel,
+                             ToolCall::key,   ToolCall::cancel, ToolCall::undo,    ToolCall::redo};
 
 template <typename Object>
 std::shared_ptr<Object> object_at(lua_State* L, int index) {
@@ -47,10 +50,10 @@ std::shared_ptr<Object> host_field(lua_State* L, const char* key) {
     return object;
 }
 
-// Calls the function of tools that is named by upvalue 1 with the list at upvalue 2. To find the
+// Makes the call of tools at upvalue 1 with the list at upvalue 2. To find the
 // first of them runs Lua, which may be cancelled like the call.
 int call_packed(lua_State* L) {
-    lua::push_tool_function(L, lua_tostring(L, lua_upvalueindex(1)));
+    lua::push_tool_call(L, static_cast<ToolCall>(lua_tointeger(L, lua_upvalueindex(1))));
     const int count = static_cast<int>(lua_tointeger(L, lua_upvalueindex(3)));
     for (int i = 1; i <= count; ++i) lua_rawgeti(L, lua_upvalueindex(2), i);
     lua_call(L, count, LUA_MULTRET);
@@ -78,12 +81,12 @@ StackValues on_stack(StackRange values) {
 }  // namespace
 
 // Calls a function of tools: `count` arguments are on top of the stack; results take their place.
-cli::ScriptResult ToolBench::call(const char* function, int count) {
+cli::ScriptResult ToolBench::call(ToolCall called, int count) {
     lua_State* L = script_.lua();
     lua_createtable(L, count, 0);
     lua_insert(L, -count - 1);
     for (int i = count; i >= 1; --i) lua_rawseti(L, -i - 1, i);
-    lua_pushstring(L, function);
+    lua_pushinteger(L, static_cast<lua_Integer>(called));
     lua_insert(L, -2);
     lua_pushinteger(L, count);
     lua_pushcclosure(L, call_packed, 3);
@@ -96,13 +99,13 @@ cli::ScriptResult ToolBench::call(const char* function, int count) {
 
 // The same with values of C++: reads as many results as are asked for; the stack stays as it is.
 template <typename... Results, typename... Arguments>
-cli::ScriptResult ToolBench::ask(std::tuple<Results&...> results, const char* function,
+cli::ScriptResult ToolBench::ask(std::tuple<Results&...> results, ToolCall called,
                                  const Arguments&... arguments) {
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     int count = 0;
     ((count += push(L, arguments)), ...);
-    cli::ScriptResult result = call(function, count);
+    cli::ScriptResult result = call(called, count);
     if (result.status == cli::kSuccess) {
         int index = top;
         std::apply([&](auto&... values) { (read(L, ++index, values), ...); }, results);
@@ -125,7 +128,7 @@ cli::ScriptResult ToolBench::open(const std::vector<std::string>& paths,
     const int top = lua_gettop(L);
     push(L, paths);
     push(L, options);
-    cli::ScriptResult result = call("open", 2);
+    cli::ScriptResult result = call(ToolCall::open, 2);
     if (result.status == cli::kSuccess) result = take_values({top + 1, lua_gettop(L)});
     lua_settop(L, top);
     return result;
@@ -134,7 +137,7 @@ cli::ScriptResult ToolBench::open(const std::vector<std::string>& paths,
 cli::ScriptResult ToolBench::take_values(StackRange values) {
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
-    cli::ScriptResult result = call("host_of", push(L, on_stack(values)));
+    cli::ScriptResult result = call(ToolCall::host_of, push(L, on_stack(values)));
     if (result.status == cli::kSuccess) {
         has_scene_ = lua_istable(L, -1);
         read(L, -1, kHost);
@@ -146,7 +149,7 @@ cli::ScriptResult ToolBench::take_values(StackRange values) {
 std::optional<std::string> ToolBench::tool_among(StackRange values) {
     bool is_tool = false;
     if (values.first != values.last) return std::nullopt;
-    ask(std::tie(is_tool), "is_tool", on_stack(values));
+    ask(std::tie(is_tool), ToolCall::is_tool, on_stack(values));
     if (!is_tool) return std::nullopt;
     std::string name;
     read_field(script_.lua(), values.first, "name", name);
@@ -162,7 +165,7 @@ bool ToolBench::has_scene_among(StackRange values) const {
 
 bool ToolBench::holds(StackRange values) {
     bool held = false;
-    if (has_scene_) ask(std::tie(held), "holds", kHost, on_stack(values));
+    if (has_scene_) ask(std::tie(held), ToolCall::holds, kHost, on_stack(values));
     return held;
 }
 
@@ -181,7 +184,7 @@ void ToolBench::publish_scene() {
 }
 
 cli::ScriptResult ToolBench::save(const std::string& path, std::string& left_out) {
-    return ask(std::tie(left_out), "save", kHost, path);
+    return ask(std::tie(left_out), ToolCall::save, kHost, path);
 }
 
 namespace {
@@ -220,7 +223,7 @@ cli::ScriptResult ToolBench::write_export(int first, std::string& told) {
         failed.message = error.message();
         return failed;
     }
-    return ask(std::tie(told), "write_export", kHost, StackValues{first, first + 2});
+    return ask(std::tie(told), ToolCall::write_export, kHost, StackValues{first, first + 2});
 }
 
 cli::ScriptResult ToolBench::export_object(const std::string& path, std::string& told) {
@@ -230,7 +233,7 @@ cli::ScriptResult ToolBench::export_object(const std::string& path, std::string&
     push(L, path);
     push(L, is_among(path, writable_extensions()));
     push(L, is_among(path, writable_strand_extensions()));
-    cli::ScriptResult result = call("export", 4);
+    cli::ScriptResult result = call(ToolCall::export_object, 4);
     if (result.status == cli::kSuccess) result = write_export(top + 1, told);
     lua_settop(L, top);
     return result;
@@ -250,12 +253,12 @@ void ToolBench::revive_scene() {
 // ---- Tools
 
 cli::ScriptResult ToolBench::use(const std::string& word, const std::string& told) {
-    return ask(std::tie(), "use", kHost, word, told);
+    return ask(std::tie(), ToolCall::use, kHost, word, told);
 }
 
 std::vector<fs::path> ToolBench::tool_files(const std::string& word) {
     std::vector<std::string> files;
-    if (!word.empty()) ask(std::tie(files), "tool_files", word);
+    if (!word.empty()) ask(std::tie(files), ToolCall::tool_files, word);
     return {files.begin(), files.end()};
 }
 
@@ -269,51 +272,57 @@ bool ToolBench::is_held() const {
 }
 
 cli::ScriptResult ToolBench::take(const ToolInput& input, bool is_late) {
-    if (input.kind == ToolInput::Kind::look) return ask(std::tie(), "look", kHost, Look{input});
-    return ask(std::tie(), "method", kHost, kVerbs[static_cast<std::size_t>(input.kind)],
+    if (input.kind == ToolInput::Kind::look)
+        return ask(std::tie(), ToolCall::look, kHost, Look{input});
+    return ask(std::tie(), kInputs[static_cast<std::size_t>(input.kind)], kHost,
                HandEvent{input, is_late});
 }
 
 cli::ScriptResult ToolBench::show(const std::string& name, bool visible) {
-    return ask(std::tie(), "method", kHost, "show", name, visible);
+    return ask(std::tie(), ToolCall::show, kHost, name, visible);
 }
 
 cli::ScriptResult ToolBench::set(const std::string& name, const lua::ParameterValue& value) {
-    return ask(std::tie(), "method", kHost, "set", ToolSetting{name, value});
+    return ask(std::tie(), ToolCall::set, kHost, ToolSetting{name, value});
 }
 
 bool ToolBench::recover() {
-    return !has_scene_ || ask(std::tie(), "method", kHost, "recover").status == cli::kSuccess;
+    return !has_scene_ || ask(std::tie(), ToolCall::recover, kHost).status == cli::kSuccess;
 }
 
 void ToolBench::begin_outside() {
-    if (has_scene_) ask(std::tie(), "method", kHost, "begin_outside");
+    if (has_scene_) ask(std::tie(), ToolCall::begin_outside, kHost);
 }
 
 bool ToolBench::changed_outside(const std::string& line, bool failed) {
     bool changed = false;
-    if (has_scene_) ask(std::tie(changed), "method", kHost, "changed_outside", line, failed);
+    if (has_scene_) ask(std::tie(changed), ToolCall::changed_outside, kHost, line, failed);
     return changed;
 }
 
 std::optional<std::string> ToolBench::kept() {
     std::optional<std::string> text;
-    if (has_scene_) ask(std::tie(text), "keep", kHost);
+    if (has_scene_) ask(std::tie(text), ToolCall::keep, kHost);
     return text;
 }
 
 cli::ScriptResult ToolBench::restore(const std::string& kept, bool selects) {
-    return ask(std::tie(), "restore", kHost, kept, selects);
+    return ask(std::tie(), ToolCall::restore, kHost, kept, selects);
 }
 
-cli::ScriptResult ToolBench::record(const char* method, const std::vector<std::string>& open,
+cli::ScriptResult ToolBench::record(Transcript transcript, const std::vector<std::string>& open,
                                     const LoadOptions& options) {
-    return ask(std::tie(), "method", kHost, method, open, options, true);
+    if (transcript == Transcript::journal) {
+        return ask(std::tie(), ToolCall::keep_journal, kHost, open, options);
+    }
+    constexpr bool kTimed = true;
+    return ask(std::tie(), ToolCall::record, kHost, open, options, kTimed);
 }
 
-std::optional<std::string> ToolBench::text_of(const char* method) {
+std::optional<std::string> ToolBench::text_of(Transcript transcript) {
+    const bool is_journal = transcript == Transcript::journal;
     std::optional<std::string> text;
-    ask(std::tie(text), "method", kHost, method);
+    ask(std::tie(text), is_journal ? ToolCall::journal_text : ToolCall::recording, kHost);
     return text;
 }
 
@@ -323,7 +332,7 @@ cli::ScriptResult ToolBench::open_recording(const std::string& path, Recording& 
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     push(L, path);
-    cli::ScriptResult result = call("open_recording", 1);
+    cli::ScriptResult result = call(ToolCall::open_recording, 1);
     if (result.status == cli::kSuccess) {
         read(L, top + 2, opened.files);
         read(L, top + 3, RegistryValue{&kPlaying});
@@ -336,7 +345,7 @@ cli::ScriptResult ToolBench::open_recording(const std::string& path, Recording& 
 }
 
 cli::ScriptResult ToolBench::play(std::size_t place, PlayedEvent& done) {
-    return ask(std::tie(done.difference, done.differs, done.tool), "play", kHost,
+    return ask(std::tie(done.difference, done.differs, done.tool), ToolCall::play, kHost,
                RegistryValue{&kPlaying}, static_cast<lua_Integer>(place) + 1);
 }
 
@@ -361,7 +370,7 @@ cli::ScriptResult ToolBench::draw() {
     lua_State* L = script_.lua();
     const int top = lua_gettop(L);
     push(L, kHost);
-    cli::ScriptResult result = call("draw", 1);
+    cli::ScriptResult result = call(ToolCall::draw, 1);
     if (result.status == cli::kSuccess) {
         const auto seen = object_at<lua::CameraObject>(L, top + 1);
         if (seen) camera_ = seen->camera;

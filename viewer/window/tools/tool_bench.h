@@ -12,6 +12,7 @@
 
 #include "bindings/cli/script.h"
 #include "bindings/lua/core/script_parameters.h"
+#include "bindings/lua/tools/tool_calls.h"
 #include "kernel/io/mesh_file.h"
 #include "viewer/window/tools/tool_state.h"
 
@@ -41,6 +42,9 @@ struct ToolPicture {
     Picture picture;
     std::vector<std::string> names;
 };
+
+/// A text of all that was done with tools: its events, or calls of the library.
+enum class Transcript { recording, journal };
 
 /// Values on the stack of the script, from the first to the last.
 struct StackRange {
@@ -104,12 +108,12 @@ class ToolBench {
     /// Restores that before a tool is taken in hand; the selection only if it `selects`.
     cli::ScriptResult restore(const std::string& kept, bool selects);
 
-    /// Begins a recording ("record") or a journal ("keep_journal"); `open` are the files of the
-    /// scene, if nothing else led to it, and their options.
-    cli::ScriptResult record(const char* method, const std::vector<std::string>& open,
+    /// Begins a recording or a journal; `open` are the files of the scene, if nothing else led to
+    /// it, and their options.
+    cli::ScriptResult record(Transcript transcript, const std::vector<std::string>& open,
                              const LoadOptions& options);
-    /// Returns their text up to now ("recording", "journal_text"); nothing if none is made.
-    std::optional<std::string> text_of(const char* method);
+    /// Returns its text up to now; nothing if none is made.
+    std::optional<std::string> text_of(Transcript transcript);
 
     // ---- Playing
 
@@ -129,9 +133,9 @@ class ToolBench {
     ToolState state();
 
   private:
-    cli::ScriptResult call(const char* function, int count);
+    cli::ScriptResult call(lua::ToolCall called, int count);
     template <typename... Results, typename... Arguments>
-    cli::ScriptResult ask(std::tuple<Results&...> results, const char* function,
+    cli::ScriptResult ask(std::tuple<Results&...> results, lua::ToolCall called,
                           const Arguments&... arguments);
     cli::ScriptResult write_export(int first, std::string& told);
     PlayedHand hand(int host) const;
