@@ -125,7 +125,7 @@ MergeOptions merge_options(const lissom_merge_options* given) {
     if (taken.fixed_configuration) options.configuration = Configuration::fixed;
     options.smooth = taken.smooth;
     options.collar = taken.collar;
-    options.suit_transition = taken.transition;
+    options.auto_transition = taken.transition;
     options.find_intersections = taken.find_intersections;
     options.thesis = taken.thesis;
     return options;

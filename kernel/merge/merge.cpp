@@ -16,9 +16,9 @@ namespace lissom {
 namespace {
 
 // Loose parts stay in the fixed configuration, as they do without a merge.
-void note_loose_parts(const MergePreparation& preparation, std::vector<std::string>& warnings) {
-    const LooseParts& loose = preparation.loose;
-    if (loose.parts == 0 || preparation.options.configuration == Configuration::fixed) return;
+void note_loose_parts(const LooseParts& loose, Configuration configuration,
+                      std::vector<std::string>& warnings) {
+    if (loose.parts == 0 || configuration == Configuration::fixed) return;
     const bool one = loose.parts == 1;
     warnings.push_back(
         std::to_string(loose.parts) + (one ? " part" : " parts") + " of the source (" +
@@ -57,21 +57,22 @@ void Merger::set_keys(Index join, std::vector<KeyPair> keys) try {
     if (join < 0 || join >= count_of(state_->keys)) {
         throw Error(ErrorCode::out_of_range, "there is no such join");
     }
-    (void)parameters_of(state_->preparation, join, keys);
+    const MergePreparation& made = state_->preparation;
+    (void)parameters_of(made.given, made.boundaries, made.method, join, keys);
     state_->keys[join] = std::move(keys);
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
 }
 
 const std::vector<std::string>& Merger::warnings() const {
-    return state_->preparation.found.warnings;
+    return state_->preparation.report.sides.warnings;
 }
 
 std::size_t Merger::memory_bytes() const {
     const MergePreparation& made = state_->preparation;
     std::size_t bytes =
         made.boundaries.source.mesh.memory_bytes() + made.boundaries.target.memory_bytes();
-    for (const auto* deformer : {made.deformer.get(), made.featured.get()}) {
+    for (const auto* deformer : {made.system.deformer.get(), made.system.featured.get()}) {
         if (deformer) bytes += deformer->stats().factor_bytes;
     }
     return bytes;
@@ -80,24 +81,23 @@ std::size_t Merger::memory_bytes() const {
 namespace {
 
 // The surface around one seam, against the parts as they were joined.
-BandQuality band_of(const MergePreparation& preparation, const Sewn& sewn, const JoinReport& join,
-                    std::size_t j, const Context& context) {
+BandQuality band_of(const Boundaries& from, Configuration configuration, const Sewn& sewn,
+                    const JoinReport& join, std::size_t j, const Context& context) {
     const std::vector<Index>& seam = sewn.seams[j];
     const std::vector<Index> of_target = faces_on(sewn.side_of_face, SeamSide::target);
     const std::vector<Index> of_source = faces_on(sewn.side_of_face, SeamSide::source);
-    const Boundaries& from = preparation.boundaries;
     const std::vector<Vec3> rest =
         places_on_second(sewn.map, from.source.mesh, from.target.vertex_count());
     return band_quality({&sewn.mesh, of_target, seam}, {&sewn.mesh, of_source, seam, false, rest},
                         {&from.target, {}, from.target_loops[j]},
                         {&from.source.mesh, {}, from.source.loops[j]}, join.scale,
-                        preparation.options.configuration == Configuration::fixed, context);
+                        configuration == Configuration::fixed, context);
 }
 
 // Options of a merge that the caller could still change.
 OpenOptions open_options(const MergeOptions& options, const Matching& matching,
                          const MergeReport& report) {
-    const bool blends = options.suit_transition || options.source_transition > 0.0 ||
+    const bool blends = options.auto_transition || options.source_transition > 0.0 ||
                         options.target_transition > 0.0;
     OpenOptions open;
     open.sought = options.find_intersections;
@@ -116,31 +116,33 @@ OpenOptions open_options(const MergeOptions& options, const Matching& matching,
 
 }  // namespace
 
-MergeReport report_of(const MergePreparation& preparation, const MergeOptions& options,
-                      const Matching& matching, const Moved& moved, const MergedSides& merged,
+MergeReport report_of(const PreparationReport& prepared, const Boundaries& boundaries,
+                      const MergeOptions& options, const Matching& matching,
+                      const DeformedSource& moved, const MergedSides& merged,
                       const Context& context) {
     MergeReport report;
-    report.source_rim = preparation.source_rim;
-    report.target_rim = preparation.target_rim;
-    report.loose_parts = preparation.loose.parts;
+    report.source_rim = prepared.source_rim;
+    report.target_rim = prepared.target_rim;
+    report.loose_parts = prepared.loose.parts;
     report.joins = matching.joins;
-    report.source_flipped = preparation.found.source_flipped;
-    report.targets_flipped = preparation.found.targets_flipped;
-    report.warnings = preparation.found.warnings;
-    note_loose_parts(preparation, report.warnings);
+    report.source_flipped = prepared.sides.source_flipped;
+    report.targets_flipped = prepared.sides.targets_flipped;
+    report.warnings = prepared.sides.warnings;
+    note_loose_parts(prepared.loose, options.configuration, report.warnings);
     for (const auto* told : {&matching.warnings, &merged.warnings}) {
         report.warnings.insert(report.warnings.end(), told->begin(), told->end());
     }
-    report.deform = preparation.stats;
+    report.deform = prepared.stats;
     report.deform_seconds = moved.seconds;
     report.seam = merged.sewn.report;
     report.transition = merged.transition;
     report.intersections = merged.intersections;
     report.known_intersections = merged.known_intersections;
     report.crossings = crossing_groups(merged.sewn, merged.intersections, context);
-    report.prepare_seconds = preparation.seconds;
+    report.prepare_seconds = prepared.seconds;
     for (std::size_t j = 0; j < report.joins.size(); ++j) {
-        report.joins[j].band = band_of(preparation, merged.sewn, report.joins[j], j, context);
+        report.joins[j].band =
+            band_of(boundaries, options.configuration, merged.sewn, report.joins[j], j, context);
     }
     judge(report, open_options(options, matching, report));
     return report;
@@ -155,7 +157,8 @@ MergeResult Merger::solve(const Context& context) try {
     const auto start = Clock::now();
     const Matching matching = match_boundaries(preparation, state_->keys, context);
     progress.step(0.5);
-    const Moved moved = deform_source(preparation, matching, context);
+    const DeformedSource moved =
+        deform_source(sides, preparation.system, preparation.options, matching, context);
     progress.step(0.5);
     auto [merged, report] = judged_sides(preparation, matching, moved, context);
     report.solve_seconds = seconds_since(start);

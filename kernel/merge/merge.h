@@ -24,9 +24,8 @@
 #include "kernel/deform/stats.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/loop/band_quality.h"
-#include "kernel/merge/loop/correspondence.h"
+#include "kernel/merge/loop/keys.h"
 #include "kernel/merge/sew/seam_quality.h"
-#include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/path.h"
@@ -103,7 +102,7 @@ struct MergeOptions {
     double source_transition = 0.0, target_transition = 0.0;
     /// Chooses the widths by the seams (suitable_widths) in place of given ones; not for the
     /// thesis's transition.
-    bool suit_transition = false;
+    bool auto_transition = false;
     /// w_T of 3.3.3, of the thesis's transition.
     double transition_weight = 0.1;
     /// Makes the thesis's transition, which `thesis` with widths asks for: literal_transition of

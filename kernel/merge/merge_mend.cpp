@@ -24,16 +24,18 @@ bool depends_on_sewing(const MergeReason& reason) {
 }
 
 bool may_mend(const MergeOptions& options, const MergeReport& report) {
-    const bool plain = options.seam == SeamKind::conform && !options.suit_transition &&
+    const bool plain = options.seam == SeamKind::conform && !options.auto_transition &&
                        !(options.source_transition > 0.0) && !(options.target_transition > 0.0);
     return options.mend && plain && options.collar && options.smooth > 0 && !options.thesis &&
            std::any_of(report.reasons.begin(), report.reasons.end(), depends_on_sewing);
 }
 
 JudgedSides sewn_judged(const MergePreparation& preparation, const MergeOptions& options,
-                        const Matching& matching, const Moved& moved, const Context& context) {
-    JudgedSides sides{sew_sides(preparation, options, matching, moved, context), {}};
-    sides.report = report_of(preparation, options, matching, moved, sides.merged, context);
+                        const Matching& matching, const DeformedSource& moved,
+                        const Context& context) {
+    JudgedSides sides{sew_sides(preparation.boundaries, options, matching, moved, context), {}};
+    sides.report = report_of(preparation.report, preparation.boundaries, options, matching, moved,
+                             sides.merged, context);
     return sides;
 }
 
@@ -58,14 +60,14 @@ std::string fault_names(const MergeReport& report) {
 }  // namespace
 
 JudgedSides judged_sides(const MergePreparation& preparation, const Matching& matching,
-                         const Moved& moved, const Context& context) {
+                         const DeformedSource& moved, const Context& context) {
     const MergeOptions& asked = preparation.options;
     JudgedSides best = sewn_judged(preparation, asked, matching, moved, context);
     if (!may_mend(asked, best.report)) return best;
     const std::string faults = fault_names(best.report);
     MergeOptions fair = asked, blended = asked;
     fair.seam = SeamKind::fair;
-    blended.suit_transition = true;
+    blended.auto_transition = true;
     std::string way;
     for (const auto& [options, name] :
          {std::pair(&fair, "the seam is fair"), std::pair(&blended, "a transition is made")}) {

@@ -162,7 +162,7 @@ void compare_with_shape(const MergePreparation& preparation, FoundPlaces& found,
 std::vector<JudgedTurn> judged_turns(const MergePreparation& preparation, const Context& context) {
     const Boundaries& from = preparation.boundaries;
     const PartShapes::Pair& parts = preparation.parts->of(from, context);
-    const Region& region = preparation.deformer->region();
+    const Region& region = preparation.system.deformer->region();
     const bool snap = preparation.method.loops == LoopMeasure::robust;
     const Loop &source = from.source_curves.front(), &target = from.target_curves.front();
     std::vector<JudgedTurn> turns;
@@ -170,8 +170,8 @@ std::vector<JudgedTurn> judged_turns(const MergePreparation& preparation, const 
          turn_candidates({&source, &target, &parts.source, &parts.target})) {
         const ParameterPair key{0.0, turn.offset};
         const LoopPair pair = corresponding(source, target, std::span(&key, 1), snap);
-        const BoundaryDeformation deformed =
-            deformed_by(preparation, std::span(&pair, 1), {}, context);
+        const BoundaryDeformation deformed = deformed_by(
+            from, preparation.system, preparation.method.values, std::span(&pair, 1), {}, context);
         turns.push_back({turn, bend_of(from.source.mesh, region, deformed.positions), 0.0});
     }
     find_certainty(turns);

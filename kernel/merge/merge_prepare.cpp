@@ -51,7 +51,7 @@ void require_options(const MergeOptions& options, std::size_t joins, std::size_t
                 "directions that belong together must be finite and have a length above 0");
     }
     const bool widths = options.source_transition > 0.0 || options.target_transition > 0.0;
-    require(!(options.suit_transition && widths),
+    require(!(options.auto_transition && widths),
             "the widths of a transition are either given or chosen");
     require(options.smooth >= 0, "the number of smoothing steps must not be negative");
     require(options.source_transition >= 0.0 && options.target_transition >= 0.0 &&
@@ -475,7 +475,7 @@ Region deforming(const MergePreparation& made) {
     if (made.options.configuration == Configuration::free) return parts;
     double reach = made.options.reach.value_or(0.0);
     if (!made.options.reach) {
-        if (!made.features.empty()) return parts;
+        if (!made.system.features.empty()) return parts;
         for (const Loop& loop : made.boundaries.source_curves) {
             reach = std::max(reach, kReach * loop.radius());
         }
@@ -508,22 +508,23 @@ void factor(MergePreparation& made, const Context& context) {
     const Region region = deforming(made);
     const Region loops = region_of_loops(source.mesh, source.loops);
     Region kept = loops;
-    for (const Region& feature : made.features) kept = kept.united(feature.intersected(region));
-    made.kept = kept;
+    for (const Region& feature : made.system.features)
+        kept = kept.united(feature.intersected(region));
+    made.system.kept = kept;
     BoundaryDeformOptions how = made.method.deform;
     const auto deformer_with = [&](const Region& held) {
         return firm_deformer(source.mesh, region, held, how, context);
     };
     if (made.options.configuration == Configuration::fixed) {
-        made.deformer = deformer_with(kept);
+        made.system.deformer = deformer_with(kept);
     } else if (made.options.feature_motion == FeatureMotion::fitted) {
-        made.deformer = deformer_with(loops);
-        if (!made.features.empty()) made.featured = deformer_with(kept);
+        made.system.deformer = deformer_with(loops);
+        if (!made.system.features.empty()) made.system.featured = deformer_with(kept);
     } else {
-        how.features = made.features;
-        made.deformer = deformer_with(loops);
+        how.features = made.system.features;
+        made.system.deformer = deformer_with(loops);
     }
-    made.stats = made.deformer->stats();
+    made.report.stats = made.system.deformer->stats();
 }
 
 }  // namespace
@@ -559,7 +560,7 @@ MergeMethod method_of(const MergeOptions& options) {
     MergeMethod method;
     method.values.turn = options.configuration == Configuration::free || options.turn_frames;
     if (!options.thesis) return method;
-    if (options.suit_transition) {
+    if (options.auto_transition) {
         throw Error(ErrorCode::invalid_argument,
                     "the thesis's transition needs its widths: it does not choose them");
     }
@@ -631,19 +632,19 @@ MergePreparation prepare_merge(const Mesh& source, std::span<const Mesh* const> 
     made.method = method_of(options);
     Sides sides = make_sides(source, targets, joins, options, context);
     made.given = sides.given;
-    made.found = sides.found;
+    made.report.sides = sides.found;
     progress.step(0.3);
     made.boundaries = find_boundaries(std::move(sides), joins, options, context);
     const Boundaries& from = made.boundaries;
-    note_thin_outlines(from, made.found.warnings);
-    made.features = carried_features(from.source, options);
-    made.loose = loose_parts(from.source);
-    made.source_rim = seam_quality(from.source.mesh, from.source.loops);
-    made.target_rim = seam_quality(from.target, from.target_loops);
+    note_thin_outlines(from, made.report.sides.warnings);
+    made.system.features = carried_features(from.source, options);
+    made.report.loose = loose_parts(from.source);
+    made.report.source_rim = seam_quality(from.source.mesh, from.source.loops);
+    made.report.target_rim = seam_quality(from.target, from.target_loops);
     made.parts = std::make_unique<PartShapes>();
     progress.step(0.7);
     factor(made, context);
-    made.seconds = seconds_since(start);
+    made.report.seconds = seconds_since(start);
     return made;
 }
 

@@ -72,7 +72,7 @@ double greatest_angles(const SewReport& report) {
 }
 
 bool makes_transition(const MergeOptions& options) {
-    return options.suit_transition || options.source_transition > 0.0 ||
+    return options.auto_transition || options.source_transition > 0.0 ||
            options.target_transition > 0.0;
 }
 
@@ -103,15 +103,15 @@ KeptCreases kept_creases(const Boundaries& boundaries, const MergeOptions& optio
     return kept;
 }
 
-SewOptions sewing(const MergePreparation& preparation, const MergeOptions& options,
-                  const Matching& matching, const std::vector<Index>& firm, bool collar) {
+SewOptions sewing(const MergeOptions& options, const Matching& matching,
+                  const std::vector<Index>& firm, bool collar) {
     SewOptions how;
     for (const auto& fit : matching.fits) how.kept.push_back(fit ? 1 : 0);
     how.firm = firm;
     how.kind = options.seam;
     how.smooth = options.smooth;
     how.collar = collar;
-    how.guard = how.flip = preparation.method.guard;
+    how.guard = how.flip = method_of(options).guard;
     return how;
 }
 
@@ -126,7 +126,7 @@ std::vector<TransitionWidths> asked_widths(const MergeOptions& options,
 
 void blend(const MergeOptions& options, const Matching& matching, const std::vector<Index>& firm,
            MergedSides& merged, const Context& context) {
-    std::vector<TransitionWidths> widths = options.suit_transition
+    std::vector<TransitionWidths> widths = options.auto_transition
                                                ? suitable_widths(merged.sewn, context)
                                                : asked_widths(options, matching.joins);
     for (std::size_t k = 0; k < widths.size(); ++k) {
@@ -149,8 +149,9 @@ void blend(const MergeOptions& options, const Matching& matching, const std::vec
     note_refused_bands(merged.transition.kept, merged.warnings);
 }
 
-void finish_seams(const MergeOptions& options, const Matching& matching, const Moved& moved,
-                  const std::vector<Index>& firm, MergedSides& merged, const Context& context) {
+void finish_seams(const MergeOptions& options, const Matching& matching,
+                  const DeformedSource& moved, const std::vector<Index>& firm, MergedSides& merged,
+                  const Context& context) {
     const bool blends = makes_transition(options);
     Sewn& sewn = merged.sewn;
     const std::vector<std::vector<Index>> worked = worked_seams(sewn);
@@ -177,14 +178,15 @@ void finish_seams(const MergeOptions& options, const Matching& matching, const M
 
 // Sews with collars, and without if that hides the seam better: no step after the collar may be
 // possible on folded sides.
-MergedSides sew_well(const MergePreparation& preparation, const MergeOptions& options,
-                     const Matching& matching, const Moved& moved, const Context& context) {
-    const Mesh& target = preparation.boundaries.target;
-    const KeptCreases firm = kept_creases(preparation.boundaries, options);
+MergedSides sew_well(const Boundaries& boundaries, const MergeOptions& options,
+                     const Matching& matching, const DeformedSource& moved,
+                     const Context& context) {
+    const Mesh& target = boundaries.target;
+    const KeptCreases firm = kept_creases(boundaries, options);
     const auto sew_with = [&](bool collar) {
         MergedSides merged;
         merged.sewn = sew(target, moved.source, matching.pairs,
-                          sewing(preparation, options, matching, firm.near, collar), context);
+                          sewing(options, matching, firm.near, collar), context);
         finish_seams(options, matching, moved, firm.all, merged, context);
         require_sound(merged.sewn, target, moved.source, matching.pairs);
         return merged;
@@ -200,12 +202,13 @@ MergedSides sew_well(const MergePreparation& preparation, const MergeOptions& op
 
 }  // namespace
 
-MergedSides sew_sides(const MergePreparation& preparation, const MergeOptions& options,
-                      const Matching& matching, const Moved& moved, const Context& context) {
-    MergedSides merged = sew_well(preparation, options, matching, moved, context);
+MergedSides sew_sides(const Boundaries& boundaries, const MergeOptions& options,
+                      const Matching& matching, const DeformedSource& moved,
+                      const Context& context) {
+    MergedSides merged = sew_well(boundaries, options, matching, moved, context);
     if (!options.find_intersections) return merged;
-    Crossings found = new_crossings(preparation.boundaries.target,
-                                    preparation.boundaries.source.mesh, merged.sewn, context);
+    Crossings found =
+        new_crossings(boundaries.target, boundaries.source.mesh, merged.sewn, context);
     merged.intersections = std::move(found.pairs);
     merged.known_intersections = found.known;
     if (!merged.intersections.empty()) {

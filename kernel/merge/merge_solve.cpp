@@ -66,10 +66,8 @@ void carry_to_end(const OverlapTransition& transition, const Overlap& overlap, c
     }
 }
 
-PlacedKeys placed_keys(const MergePreparation& preparation, std::size_t join,
-                       std::span<const KeyPair> given) {
-    const GivenMeshes& meshes = preparation.given;
-    const Boundaries& from = preparation.boundaries;
+PlacedKeys placed_keys(const GivenMeshes& meshes, const Boundaries& from, const MergeMethod& method,
+                       std::size_t join, std::span<const KeyPair> given) {
     const Loop& source = from.source_curves[join];
     const Loop& target = from.overlap ? from.overlap->curves[join] : from.target_curves[join];
     std::vector<KeyPair> keys;
@@ -80,8 +78,7 @@ PlacedKeys placed_keys(const MergePreparation& preparation, std::size_t join,
     }
     PlacedKeys placed{key_parameters(source, target, keys), 0};
     if (from.overlap && !keys.empty()) {
-        carry_to_end(*preparation.method.overlap, *from.overlap, from.target_curves[join], join,
-                     placed);
+        carry_to_end(*method.overlap, *from.overlap, from.target_curves[join], join, placed);
     }
     return placed;
 }
@@ -193,7 +190,7 @@ BoundaryDeformation laid(const Mesh& mesh, const Region& region, const CurveFit&
 }
 
 // Vertices of the source with their positions, and rotation and scale of the surface there.
-struct Motion {
+struct SourceMotion {
     Region region;
     BoundaryDeformation deformed;
 };
@@ -221,11 +218,11 @@ void follow(const Mesh& mesh, const Region& moved, const BoundaryDeformation& de
 }
 
 // Parts without a join move along; in the fixed configuration they stay.
-Motion motion_of(const Mesh& mesh, const Region& region, Configuration configuration,
-                 BoundaryDeformation deformed) {
+SourceMotion motion_of(const Mesh& mesh, const Region& region, Configuration configuration,
+                       BoundaryDeformation deformed) {
     const bool stays = configuration == Configuration::fixed;
     if (stays || region.size() == mesh.vertex_count()) return {region, std::move(deformed)};
-    Motion motion{Region::all(mesh.shared_topology()), {}};
+    SourceMotion motion{Region::all(mesh.shared_topology()), {}};
     BoundaryDeformation& whole = motion.deformed;
     whole.positions.assign(mesh.positions().begin(), mesh.positions().end());
     whole.transforms.assign(whole.positions.size(), Mat3::Identity());
@@ -242,26 +239,26 @@ Motion motion_of(const Mesh& mesh, const Region& region, Configuration configura
 }
 
 // The thesis's transition, if it is asked for.
-std::shared_ptr<OverlapMerge> overlap_merge(const MergePreparation& preparation,
+std::shared_ptr<OverlapMerge> overlap_merge(const Boundaries& from, const MergeOptions& options,
                                             const Matching& matching, const Context& context) {
-    if (!preparation.method.overlap) return nullptr;
-    const MergeOptions& options = preparation.options;
+    const OverlapTransition* overlap = method_of(options).overlap;
+    if (!overlap) return nullptr;
     const bool scales = options.configuration == Configuration::free;
     std::vector<OverlapJoin> joins;
     for (std::size_t j = 0; j < matching.pairs.size(); ++j) {
         joins.push_back({matching.pairs[j], matching.starts[j], matching.overlap_starts[j],
                          scales ? matching.joins[j].scale : 1.0, options.source_transition});
     }
-    const Boundaries& from = preparation.boundaries;
-    return preparation.method.overlap->begin(from.overlap->target, from.target, from.source.mesh,
-                                             std::move(joins), options.transition_weight, context);
+    return overlap->begin(from.overlap->target, from.target, from.source.mesh, std::move(joins),
+                          options.transition_weight, context);
 }
 
 }  // namespace
 
-std::vector<ParameterPair> parameters_of(const MergePreparation& preparation, std::size_t join,
-                                         std::span<const KeyPair> given) {
-    return placed_keys(preparation, join, given).parameters;
+std::vector<ParameterPair> parameters_of(const GivenMeshes& given, const Boundaries& boundaries,
+                                         const MergeMethod& method, std::size_t join,
+                                         std::span<const KeyPair> keys) {
+    return placed_keys(given, boundaries, method, join, keys).parameters;
 }
 
 namespace {
@@ -358,9 +355,10 @@ Matching match_boundaries(const MergePreparation& preparation,
         return *found;
     };
     Matching result;
-    result.joins = preparation.found.joins;
+    result.joins = preparation.report.sides.joins;
     for (std::size_t j = 0; j < given.size(); ++j) {
-        PlacedKeys placed = placed_keys(preparation, j, given[j]);
+        PlacedKeys placed =
+            placed_keys(preparation.given, preparation.boundaries, preparation.method, j, given[j]);
         result.overlap_starts.push_back(placed.start);
         const Loop& source = preparation.boundaries.source_curves[j];
         result.starts.push_back(placed.parameters.empty()
@@ -376,24 +374,22 @@ Matching match_boundaries(const MergePreparation& preparation,
     return result;
 }
 
-BoundaryDeformation deformed_by(const MergePreparation& preparation,
-                                std::span<const LoopPair> pairs,
+BoundaryDeformation deformed_by(const Boundaries& from, const SourceSystem& system,
+                                const LoopValueOptions& how, std::span<const LoopPair> pairs,
                                 std::span<const std::optional<CurveFit>> fits,
                                 const Context& context) {
-    const Boundaries& from = preparation.boundaries;
     if (const auto fit = common_fit(fits, from.source_curves, from.target_curves)) {
-        return laid(from.source.mesh, preparation.deformer->region(), *fit);
+        return laid(from.source.mesh, system.deformer->region(), *fit);
     }
-    BoundaryDeformer& deformer = *preparation.deformer;
-    BoundaryDeformation deformed = deformer.solve(
-        values_of(from, preparation.method.values, pairs, fits, deformer.held()), context);
-    if (!preparation.featured) return deformed;
-    BoundaryDeformer& featured = *preparation.featured;
-    const Mesh& mesh = preparation.boundaries.source.mesh;
-    std::vector<BoundaryValue> values =
-        values_of(from, preparation.method.values, pairs, fits, featured.held());
+    BoundaryDeformer& deformer = *system.deformer;
+    BoundaryDeformation deformed =
+        deformer.solve(values_of(from, how, pairs, fits, deformer.held()), context);
+    if (!system.featured) return deformed;
+    BoundaryDeformer& featured = *system.featured;
+    const Mesh& mesh = from.source.mesh;
+    std::vector<BoundaryValue> values = values_of(from, how, pairs, fits, featured.held());
     const std::vector<Index>& ids = featured.held().vertices();
-    for (const Region& feature : preparation.features) {
+    for (const Region& feature : system.features) {
         Vec3 center;
         const BoundaryValue move = common_value(mesh, feature, featured.region(), deformed, center);
         for (const Index v : feature.vertices()) {
@@ -409,17 +405,19 @@ BoundaryDeformation deformed_by(const MergePreparation& preparation,
     return result;
 }
 
-Moved deform_source(const MergePreparation& preparation, const Matching& matching,
-                    const Context& context) {
-    const Mesh& rest = preparation.boundaries.source.mesh;
-    BoundaryDeformation deformed = deformed_by(preparation, matching.pairs, matching.fits, context);
-    Moved result{rest, deformed.seconds, overlap_merge(preparation, matching, context)};
+DeformedSource deform_source(const Boundaries& boundaries, const SourceSystem& system,
+                             const MergeOptions& options, const Matching& matching,
+                             const Context& context) {
+    const Mesh& rest = boundaries.source.mesh;
+    const Region& region = system.deformer->region();
+    BoundaryDeformation deformed = deformed_by(boundaries, system, method_of(options).values,
+                                               matching.pairs, matching.fits, context);
+    DeformedSource result{rest, deformed.seconds,
+                          overlap_merge(boundaries, options, matching, context)};
     if (result.overlap) {
-        deformed = result.overlap->deform(preparation.deformer->region(), *preparation.kept,
-                                          deformed, context);
+        deformed = result.overlap->deform(region, *system.kept, deformed, context);
     }
-    const Motion motion = motion_of(rest, preparation.deformer->region(),
-                                    preparation.options.configuration, std::move(deformed));
+    const SourceMotion motion = motion_of(rest, region, options.configuration, std::move(deformed));
     std::vector<Vec3> positions(rest.positions().begin(), rest.positions().end());
     for (std::size_t row = 0; row < motion.deformed.positions.size(); ++row) {
         positions[at(motion.region.vertices()[row])] = motion.deformed.positions[row];

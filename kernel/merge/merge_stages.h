@@ -1,7 +1,8 @@
 /// The stages of a merge; private to kernel/merge. Each is a function of the ones before it:
 ///
 ///     make_sides -> Sides -> find_boundaries -> Boundaries -> prepare_merge -> MergePreparation,
-///     match_boundaries -> Matching, deform_source -> Moved, sew_sides -> MergedSides, report_of
+///     match_boundaries -> Matching, deform_source -> DeformedSource, sew_sides -> MergedSides,
+///     report_of
 #pragma once
 
 #include <cstddef>
@@ -22,6 +23,7 @@
 #include "kernel/merge/loop/automatic_keys.h"
 #include "kernel/merge/loop/correspondence.h"
 #include "kernel/merge/loop/curve_fit.h"
+#include "kernel/merge/loop/keys.h"
 #include "kernel/merge/loop/loop.h"
 #include "kernel/merge/loop/loop_pair.h"
 #include "kernel/merge/loop/loop_values.h"
@@ -128,33 +130,44 @@ struct LooseParts {
     Index parts = 0, vertices = 0;
 };
 
-/// All that does not depend on keys.
+/// The factored systems that deform the source by its boundaries.
+struct SourceSystem {
+    std::vector<Region> features;
+    /// The vertices of loops and features that deform.
+    std::optional<Region> kept;
+    std::unique_ptr<BoundaryDeformer> deformer;
+    /// The system with features held as well, if features of a free configuration are fitted.
+    std::unique_ptr<BoundaryDeformer> featured;
+};
+
+/// The part of a report that does not depend on keys.
+struct PreparationReport {
+    SidesFound sides;
+    LooseParts loose;
+    SeamQuality source_rim, target_rim;
+    DeformStats stats;
+    double seconds = 0.0;
+};
+
+/// All that does not depend on keys. Later stages take the members that they need.
 struct MergePreparation {
     /// Memory beside the meshes and factors: origins of elements, loops and parts.
     MemoryCharge charge;
     MergeOptions options;
     MergeMethod method;
     GivenMeshes given;
-    SidesFound found;
     Boundaries boundaries;
-    std::vector<Region> features;
-    LooseParts loose;
-    SeamQuality source_rim, target_rim;
     std::unique_ptr<PartShapes> parts;
-    /// The vertices of loops and features that deform.
-    std::optional<Region> kept;
-    std::unique_ptr<BoundaryDeformer> deformer;
-    /// The system with features held as well, if features of a free configuration are fitted.
-    std::unique_ptr<BoundaryDeformer> featured;
-    DeformStats stats;
-    double seconds = 0.0;
+    SourceSystem system;
+    PreparationReport report;
 };
 MergePreparation prepare_merge(const Mesh& source, std::span<const Mesh* const> targets,
                                std::span<const Join> joins, const MergeOptions& options,
                                const Context& context);
 
 /// Keys of one join, on its loops. Errors: key_conflict.
-std::vector<ParameterPair> parameters_of(const MergePreparation& preparation, std::size_t join,
+std::vector<ParameterPair> parameters_of(const GivenMeshes& given, const Boundaries& boundaries,
+                                         const MergeMethod& method, std::size_t join,
                                          std::span<const KeyPair> keys);
 
 /// Places of joins without keys: one key and the certainty of each join.
@@ -187,8 +200,8 @@ Matching match_boundaries(const MergePreparation& preparation,
 
 /// The source as the boundaries of `pairs` deform it, or move it if parts fit; `fits` by join, or
 /// none. Errors: cancelled.
-BoundaryDeformation deformed_by(const MergePreparation& preparation,
-                                std::span<const LoopPair> pairs,
+BoundaryDeformation deformed_by(const Boundaries& boundaries, const SourceSystem& system,
+                                const LoopValueOptions& how, std::span<const LoopPair> pairs,
                                 std::span<const std::optional<CurveFit>> fits,
                                 const Context& context);
 
@@ -205,15 +218,16 @@ struct JudgedTurn {
 std::vector<JudgedTurn> judged_turns(const MergePreparation& preparation, const Context& context);
 
 /// The source brought to the target.
-struct Moved {
+struct DeformedSource {
     Mesh source;
     BoundaryTimes seconds;
     /// The thesis's transition, if it is made; else null.
     std::shared_ptr<OverlapMerge> overlap;
 };
-/// The preparation must outlive the result.
-Moved deform_source(const MergePreparation& preparation, const Matching& matching,
-                    const Context& context);
+/// The boundaries must outlive the result.
+DeformedSource deform_source(const Boundaries& boundaries, const SourceSystem& system,
+                             const MergeOptions& options, const Matching& matching,
+                             const Context& context);
 
 /// The sides sewn together.
 struct MergedSides {
@@ -223,12 +237,13 @@ struct MergedSides {
     std::vector<FacePair> intersections;
     Index known_intersections = 0;
 };
-/// With the seams of `options`, which agree with those of the preparation on all else.
-MergedSides sew_sides(const MergePreparation& preparation, const MergeOptions& options,
-                      const Matching& matching, const Moved& moved, const Context& context);
+MergedSides sew_sides(const Boundaries& boundaries, const MergeOptions& options,
+                      const Matching& matching, const DeformedSource& moved,
+                      const Context& context);
 
-MergeReport report_of(const MergePreparation& preparation, const MergeOptions& options,
-                      const Matching& matching, const Moved& moved, const MergedSides& merged,
+MergeReport report_of(const PreparationReport& prepared, const Boundaries& boundaries,
+                      const MergeOptions& options, const Matching& matching,
+                      const DeformedSource& moved, const MergedSides& merged,
                       const Context& context);
 
 /// Sewn sides and their report.
@@ -238,6 +253,6 @@ struct JudgedSides {
 };
 /// Sews and judges as the options of the preparation say, and mends if they allow it.
 JudgedSides judged_sides(const MergePreparation& preparation, const Matching& matching,
-                         const Moved& moved, const Context& context);
+                         const DeformedSource& moved, const Context& context);
 
 }  // namespace lissom

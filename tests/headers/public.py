@@ -5,12 +5,14 @@
 
 What is installed must be usable by itself: a public header includes only public ones and Eigen, the standard
 library, Lua's or C's headers. `via` marks what is there for that alone: each of those is included by another
-public header, so that none is installed for nothing. Names are unique where they are installed.
+public header, so that none is installed for nothing, and there are few. Names are unique where they are installed.
 """
 import re
 import sys
 from pathlib import Path
 
+# Private headers of a folder that may come along.
+MOST_DRAGGED = 15
 FOLDERS = ("kernel", "kernel/thesis", "bindings", "viewer")
 LIBRARIES = re.compile(r"Eigen/|lua\.h$|lauxlib\.h$|lualib\.h$|std\w+\.h$|math\.h$|string\.h$|[a-z_]+$")
 
@@ -55,6 +57,10 @@ def findings(root):
         found += [f"{header}: shows <{name}>" for name in angled if not LIBRARIES.match(name)]
     found += [f"{header}: marked via, and nothing public includes it"
               for header, via in listed if via and header not in included]
+    for folder in FOLDERS:
+        dragged = sum(via for _, via in read_list(root, folder))
+        if dragged > MOST_DRAGGED:
+            found.append(f"{folder}: {dragged} private headers come along: at most {MOST_DRAGGED} may")
     return found
 
 

@@ -29,6 +29,13 @@ class PublicTest(unittest.TestCase):
         found = self.findings(files={"kernel/mesh/soup.h": '#include "kernel/mesh/secret.h"\n'})
         self.assertEqual(found, ["kernel/mesh/soup.h: includes kernel/mesh/secret.h, which is private"])
 
+    def test_many_private_headers_come_along(self):
+        names = [f"mesh/h{i}.h" for i in range(public.MOST_DRAGGED)]
+        lists = {"kernel": LISTS["kernel"] + "".join(f"via {name}\n" for name in names)}
+        files = {f"kernel/{name}": "" for name in names}
+        files["kernel/mesh/mesh.h"] = "".join(f'#include "kernel/{name}"\n' for name in [*names, "mesh/soup.h"])
+        self.assertEqual(self.findings(lists, files), ["kernel: 16 private headers come along: at most 15 may"])
+
     def test_a_library_shows(self):
         found = self.findings(files={"kernel/mesh/soup.h": "#include <tiny_gltf.h>\n#include <cmath>\n"})
         self.assertEqual(found, ["kernel/mesh/soup.h: shows <tiny_gltf.h>"])

@@ -7,6 +7,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/measure/triangulation.h"
 

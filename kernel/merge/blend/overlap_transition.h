@@ -11,12 +11,13 @@
 #include "kernel/deform/boundary/boundary_deformer.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/loop/loop_pair.h"
-#include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 
 namespace lissom {
+
+struct Sewn;
 
 /// All targets as one mesh, before they were opened.
 struct OverlapTarget {

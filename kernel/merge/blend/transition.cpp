@@ -10,6 +10,7 @@
 #include "kernel/merge/blend/band_map.h"
 #include "kernel/merge/blend/band_system.h"
 #include "kernel/merge/blend/seam_core.h"
+#include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/region.h"
 
 namespace lissom {

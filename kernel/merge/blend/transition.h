@@ -7,9 +7,10 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
-#include "kernel/merge/sew/sew.h"
 
 namespace lissom {
+
+struct Sewn;
 
 /// How far a transition reaches from one seam, in geodesic distance on the merged mesh: a width of
 /// the source is in the merged mesh's unit too, which is the source's times the scale of its join.

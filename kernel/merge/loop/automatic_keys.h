@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/merge/loop/correspondence.h"
+#include "kernel/merge/loop/keys.h"
 #include "kernel/merge/loop/loop.h"
 #include "kernel/merge/loop/loop_fit.h"
 #include "kernel/merge/loop/part_shape.h"

@@ -9,7 +9,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
-#include "kernel/merge/sew/sew.h"
+#include "kernel/merge/sew/seam_quality.h"
 #include "kernel/mesh/attributes.h"
 #include "kernel/mesh/derive.h"
 #include "kernel/mesh/mesh.h"

@@ -6,6 +6,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/merge/loop/loop_pair.h"
+#include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/mesh.h"
 

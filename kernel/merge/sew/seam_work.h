@@ -13,6 +13,7 @@
 #include "kernel/merge/sew/seam_attributes.h"
 #include "kernel/merge/sew/seam_faces.h"
 #include "kernel/merge/sew/seam_patch.h"
+#include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/mesh/mesh.h"
 

@@ -15,23 +15,8 @@
 
 namespace lissom {
 
-/// The side of a seam that a face comes from.
-enum class SeamSide : char { target, source };
-
 /// The faces that come from a side, given that of each, ascending.
 std::vector<Index> faces_on(std::span<const SeamSide> side_of_face, SeamSide side);
-
-/// How two meshes meet at a seam.
-enum class SeamKind {
-    /// The seam runs along the target's loop: vertices of either loop are inserted into the faces
-    /// of the other side.
-    conform,
-    /// Like `conform`; the caller bends the surface around the seam afterwards.
-    fair,
-    /// One band of target faces along the loop is replaced by triangles of least area between the
-    /// rest of the target and the source's loop, which becomes the seam (the thesis's).
-    band,
-};
 
 struct SewOptions {
     SeamKind kind = SeamKind::conform;
@@ -62,25 +47,6 @@ struct SewOptions {
     /// Vertices that smoothing leaves in place, ascending: of the target, and after all of them
     /// those of the source.
     std::vector<Index> firm = {};
-};
-
-/// Measures of sewing two meshes.
-struct SewReport {
-    /// Vertices of the source's loops that were inserted into faces of the target, and the other
-    /// way round, over all joins.
-    Index inserted_into_target = 0, inserted_into_source = 0;
-    /// Vertices of the source's loops that became one with a vertex of the target, and that were
-    /// drawn into another of the source, because they were close.
-    Index snapped = 0, collapsed = 0;
-    Index flipped = 0;
-    /// Umbrella steps that were made.
-    Index smoothed = 0;
-    /// Faces of the target that `band` removed, and those it made.
-    Index band_removed = 0, band_added = 0;
-    /// Faces that collars took the place of, and the triangles of the collars.
-    Index collar_removed = 0, collar_added = 0;
-    /// The seam before and after smoothing.
-    SeamQuality before, after;
 };
 
 /// One mesh made of two.

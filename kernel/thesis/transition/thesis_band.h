@@ -9,7 +9,7 @@
 #include "kernel/core/index.h"
 #include "kernel/merge/blend/band_chart.h"
 #include "kernel/merge/loop/loop_pair.h"
-#include "kernel/merge/sew/sew.h"
+#include "kernel/merge/sew/seam_quality.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

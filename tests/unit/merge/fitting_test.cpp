@@ -145,8 +145,8 @@ MergeOptions any_options(std::mt19937& random) {
     options.seam = one_of(3) == 0   ? SeamKind::fair
                    : one_of(3) == 0 ? SeamKind::band
                                     : SeamKind::conform;
-    options.suit_transition = one_of(3) == 0;
-    if (!options.suit_transition && one_of(3) == 0) {
+    options.auto_transition = one_of(3) == 0;
+    if (!options.auto_transition && one_of(3) == 0) {
         options.source_transition = options.target_transition = 0.8;
     }
     return options;
@@ -157,7 +157,7 @@ std::string text_of(const MergeOptions& options) {
            " smooth " + std::to_string(options.smooth) + " collar " +
            std::to_string(options.collar) + " refine " + std::to_string(options.refine) + " seam " +
            std::to_string(static_cast<int>(options.seam)) + " transition " +
-           std::to_string(options.suit_transition) + " " +
+           std::to_string(options.auto_transition) + " " +
            std::to_string(options.target_transition);
 }
 
@@ -360,7 +360,7 @@ TEST_CASE("fair seams and transitions move no vertex of the target with a crease
         MergeOptions options;
         options.collar = false;
         if (run % 2 == 0) options.seam = SeamKind::fair;
-        options.suit_transition = run % 2 == 1;
+        options.auto_transition = run % 2 == 1;
         const MergeResult result = joined(source, box, options);
         for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
             for (const auto& from : result.provenance.vertices[v]) {
@@ -379,7 +379,7 @@ TEST_CASE("a tube on a like tube stays a tube: fair seams and transitions do not
         for (int how = 0; how < 3; ++how) {
             MergeOptions options;
             if (how == 1) options.seam = SeamKind::fair;
-            options.suit_transition = how == 2;
+            options.auto_transition = how == 2;
             const MergeResult result =
                 joined(source, target, options, {{Vec3(1, 0, 0), Vec3(1, 0, 0)}});
             double least = kInfinity, most = 0.0;
@@ -430,7 +430,7 @@ TEST_CASE("of several joins the one that fits is left as it is") {
     for (const bool blends : {false, true}) {
         MergeOptions options;
         options.configuration = Configuration::fixed;
-        options.suit_transition = blends;
+        options.auto_transition = blends;
         if (!blends) options.seam = SeamKind::fair;
         const MergeResult result =
             Merger(source, targets,

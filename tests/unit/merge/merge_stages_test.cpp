@@ -37,7 +37,7 @@ struct Pair {
 std::vector<MergeOptions> ways() {
     MergeOptions fair, blended, thesis, fixed;
     fair.seam = SeamKind::fair;
-    blended.suit_transition = true;
+    blended.auto_transition = true;
     thesis.thesis = true;
     thesis.overlap = test::thesis_overlap();
     if (thesis.overlap) thesis.source_transition = thesis.target_transition = 0.6;

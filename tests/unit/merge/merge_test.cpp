@@ -591,7 +591,7 @@ TEST_CASE("a transition wider than there is room is told, one that is chosen fit
     CHECK(wide.transition.source[0].width < 20.0);
 
     options.source_transition = options.target_transition = 0.0;
-    options.suit_transition = true;
+    options.auto_transition = true;
     const MergeReport chosen = merged(source, target, options, keys).report;
     CHECK(chosen.warnings.empty());
     CHECK(chosen.transition.source[0].width > 1.0);

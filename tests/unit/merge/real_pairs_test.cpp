@@ -222,7 +222,7 @@ TEST_CASE("neither fairing nor a transition crumples the band that it was to smo
         const double plain = pair.merged().report.joins[0].band.roughness;
         MergeOptions fair, transition;
         fair.seam = SeamKind::fair;
-        transition.suit_transition = true;
+        transition.auto_transition = true;
         for (const MergeOptions& options : {fair, transition}) {
             const MergeReport report = pair.merged(options).report;
             CHECK(report.joins[0].band.roughness < 1.05 * plain);

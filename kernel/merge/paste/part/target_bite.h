@@ -8,7 +8,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/merge/merge.h"
-#include "kernel/merge/sew/sew.h"
+#include "kernel/merge/sew/seam_quality.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

@@ -1,6 +1,7 @@
 #include "kernel/merge/blend/fair_seam.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/sew/seam_quality.h"
+#include "kernel/merge/sew/sew.h"
 #include "tests/unit/merge/real_pairs.h"
 #include "tests/unit/support.h"
 

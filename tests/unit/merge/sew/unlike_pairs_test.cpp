@@ -152,7 +152,7 @@ TEST_CASE("on twelve unlike pairs no step leaves a seam worse, with and without 
         MergeOptions blended;
         blended.collar = false;
         const MergeResult smoothed = merged(blended);
-        blended.suit_transition = true;
+        blended.auto_transition = true;
         const MergeResult faded = merged(blended);
         const SeamQuality &plain = smoothed.report.seam.after, &across = faded.report.seam.after;
         // A transition and a fair seam may turn so far, if that smooths the surface beside them.
