@@ -1,6 +1,7 @@
 /// Strands that are cut and go on along another way; private to kernel/hair.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
