@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <mutex>
 
 #include "kernel/core/context_state.h"
@@ -70,7 +71,7 @@ void Context::parallel_for(Index begin, Index end, Index grain,
     grain = std::max<Index>(1, grain);
     const std::size_t count = (std::int64_t{end} - begin + grain - 1) / grain;
     FirstException first;
-    const std::function<void(std::size_t)> chunk = [&](std::size_t i) {
+    const auto guarded = [&](std::size_t i) {
         if (cancelled()) return;
         const auto from = index_of(begin + static_cast<std::int64_t>(i) * grain);
         const auto to = index_of(std::min<std::int64_t>(end, std::int64_t{from} + grain));
@@ -80,6 +81,8 @@ void Context::parallel_for(Index begin, Index end, Index grain,
             first.keep(i, std::current_exception());
         }
     };
+    // By reference: a frame takes no memory for its loops.
+    const std::function<void(std::size_t)> chunk = std::cref(guarded);
     if (state_->options.parallel_for) {
         state_->options.parallel_for(count, chunk);
     } else if (threads() > 1 && count > 1) {

@@ -99,6 +99,22 @@ const Preparation& required(const std::shared_ptr<const Preparation>& preparatio
     return *preparation;
 }
 
+// Poses are assigned, which takes no memory once there is some.
+void remember_draft(DraftMemo& draft, const std::shared_ptr<const Preparation>& preparation,
+                    const Poses& poses) {
+    draft.preparation = preparation;
+    draft.poses = poses;
+    draft.is_there = true;
+}
+
+// The memory of `motion` goes back to the scratch.
+DeformFrame finished(const std::shared_ptr<const Preparation>& preparation, FrameInput& motion,
+                     FrameScratch::State& scratch, std::vector<Vec3> positions) {
+    DeformFrame frame = framed(preparation, motion, scratch, std::move(positions));
+    scratch.differences = motion.take_room();
+    return frame;
+}
+
 DeformFrame resting(const Preparation& prepared, const Poses& poses) {
     DeformFrame frame = rest_frame(*prepared.rest);
     frame.poses = poses;
@@ -114,6 +130,7 @@ FrameScratch& FrameScratch::operator=(FrameScratch&&) noexcept = default;
 
 void FrameScratch::recycle(DeformFrame&& frame) {
     state_->positions = std::move(frame.positions);
+    state_->poses = std::move(frame.poses);
 }
 
 DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
@@ -122,7 +139,7 @@ DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation,
     if (at_rest(*prepared.rest, *prepared.constraints, poses)) return resting(prepared, poses);
     if (!prepared.implicit()) return solve_compared(preparation, poses, scratch.state(), context);
     const TargetRhs& asked = target_rhs(preparation, poses.targets, scratch.state().asked);
-    const FrameInput motion(prepared, poses, asked);
+    FrameInput motion(prepared, poses, asked, std::exchange(scratch.state().differences, {}));
     std::vector<Vec3> positions = take_positions(scratch.state(), prepared);
     if (const LinearSolution* solution = motion.method().solution.get()) {
         const LinearSolution::Places places{motion.base() - matrix_of({}), prepared.patch().origin,
@@ -131,7 +148,7 @@ DeformFrame preview_frame(const std::shared_ptr<const Preparation>& preparation,
             solution->place(motion.differences(), asked.fixed, places, begin, end);
         });
     }
-    return framed(preparation, motion, poses, std::move(positions));
+    return finished(preparation, motion, scratch.state(), std::move(positions));
 }
 
 DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, const Poses& poses,
@@ -142,18 +159,19 @@ DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, c
     if (at_rest(*prepared.rest, *prepared.constraints, poses)) return resting(prepared, poses);
     if (!prepared.implicit()) return solve_compared(preparation, poses, scratch, context);
     const TargetRhs& asked = target_rhs(preparation, poses.targets, scratch.asked);
-    const FrameInput motion(prepared, poses, asked);
+    FrameInput motion(prepared, poses, asked, std::exchange(scratch.differences, {}));
     std::vector<Vec3> positions = take_positions(scratch, prepared);
-    const std::optional<DraftMemo> drafted = std::exchange(scratch.draft, std::nullopt);
+    const bool is_drafted = scratch.draft.is_of(preparation, poses);
+    scratch.draft.is_there = false;
     const bool draft = quality == FrameQuality::draft;
     const RotationSystem& second = *motion.method().second;
     if (second.free_vertices().empty()) {
         solve_first(motion, context, scratch.deviation);
-        return framed(preparation, motion, poses, std::move(positions));
+        return finished(preparation, motion, scratch, std::move(positions));
     }
-    const SecondInput input{motion, rotation_of(motion, motion.base_linear()), motion.max_turn(),
-                            draft};
-    if (!draft && drafted && drafted->is_of(preparation, poses)) {
+    const SecondInput input{motion, rotation_of(motion, motion.base_linear()),
+                            motion.max_turn(scratch.turns), draft};
+    if (!draft && is_drafted) {
         second.finish_draft(scratch.deviation, scratch.second, context);
     } else {
         solve_first(motion, context, scratch.deviation);
@@ -164,8 +182,8 @@ DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, c
         solve_second(input, scratch, context);
     }
     place_free(input, scratch.deviation, context, positions);
-    if (draft && may_be_finished(motion)) scratch.draft = {preparation, poses};
-    return framed(preparation, motion, poses, std::move(positions));
+    if (draft && may_be_finished(motion)) remember_draft(scratch.draft, preparation, poses);
+    return finished(preparation, motion, scratch, std::move(positions));
 }
 
 }  // namespace lissom

@@ -124,7 +124,7 @@ DeformFrame solve_compared(const std::shared_ptr<const Preparation>& preparation
         positions.push_back(at[v] + patch.origin);
         gradients.push_back(transforms[v]);
     }
-    DeformFrame frame = framed(preparation, motion, poses, std::move(positions));
+    DeformFrame frame = framed(preparation, motion, scratch, std::move(positions));
     frame.gradients = std::move(gradients);
     return frame;
 }

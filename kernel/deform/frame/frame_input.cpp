@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kernel/deform/rotation/polar.h"
 #include "kernel/deform/rotation/winding.h"
@@ -45,8 +46,14 @@ TargetRhs target_rhs(const Preparation& prepared, const std::vector<TargetPose>&
     return part;
 }
 
-FrameInput::FrameInput(const Preparation& prepared, const Poses& poses, const TargetRhs& asked)
-    : prepared_(prepared), poses_(poses), asked_(asked), base_(matrix_of({})) {
+FrameInput::FrameInput(const Preparation& prepared, const Poses& poses, const TargetRhs& asked,
+                       std::vector<Mat4> room)
+    : prepared_(prepared),
+      poses_(poses),
+      asked_(asked),
+      base_(matrix_of({})),
+      differences_(std::move(room)) {
+    differences_.clear();
     const ImplicitMethod* method = prepared.implicit();
     if (!method || !method->solution) return;
     const LinearSolution& solution = *method->solution;
@@ -79,13 +86,12 @@ Mat3 FrameInput::known_gradient(Index v) const {
     return asked_.at.at(v).gradient.value_or(Mat3(Mat3::Identity()));
 }
 
-std::vector<Vec4> FrameInput::relative_turns() const {
+void FrameInput::add_relative_turns(std::vector<Vec4>& turns) const {
     const bool based = solution().base() != kNoIndex;
     const Mat3 base =
         based ? pose(solution().base()).local_transform.linear : Mat3(Mat3::Identity());
     const Vec3 base_turn = based ? pose(solution().base()).turn : Vec3(Vec3::Zero());
     const Mat3 back = nearest_rotation(base).transpose();
-    std::vector<Vec4> turns;
     for (const Index h : solution().handles()) {
         Vec4 relative;
         const Mat3& linear = pose(h).local_transform.linear;
@@ -93,16 +99,21 @@ std::vector<Vec4> FrameInput::relative_turns() const {
         relative[3] = std::log(uniform_scale(linear) / uniform_scale(base));
         turns.push_back(relative);
     }
+}
+
+std::vector<Vec4> FrameInput::relative_turns() const {
+    std::vector<Vec4> turns;
+    add_relative_turns(turns);
     return turns;
 }
 
-double FrameInput::max_turn() const {
+double FrameInput::max_turn(std::vector<Vec4>& turns) const {
     if (!method().solution || !options().scale_free) return 0.0;
-    std::vector<Vec4> ends = relative_turns();
-    ends.push_back(Vec4::Zero());
+    turns.assign(1, Vec4::Zero());
+    add_relative_turns(turns);
     double greatest = 0.0;
-    for (const Vec4& a : ends) {
-        for (const Vec4& b : ends) greatest = std::max(greatest, (a - b).head<3>().norm());
+    for (const Vec4& a : turns) {
+        for (const Vec4& b : turns) greatest = std::max(greatest, (a - b).head<3>().norm());
     }
     return greatest;
 }

@@ -1,6 +1,7 @@
 /// Input of one frame: a preparation and poses; private to kernel/deform.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -27,7 +28,12 @@ TargetRhs target_rhs(const Preparation& prepared, const std::vector<TargetPose>&
 /// Positions are relative to the patch's origin. All that it is made from lives as long.
 class FrameInput {
   public:
-    FrameInput(const Preparation& prepared, const Poses& poses, const TargetRhs& asked);
+    /// `room` may be memory of a former one: see take_room.
+    FrameInput(const Preparation& prepared, const Poses& poses, const TargetRhs& asked,
+               std::vector<Mat4> room = {});
+
+    /// Returns its memory, for the next one; this one is of no more use.
+    std::vector<Mat4> take_room() { return std::move(differences_); }
 
     const Preparation& prepared() const { return prepared_; }
     const ImplicitMethod& method() const { return *prepared_.implicit(); }
@@ -52,8 +58,9 @@ class FrameInput {
 
     /// Turns and logarithms of scale of the solution's handles, relative to the base.
     std::vector<Vec4> relative_turns() const;
-    /// The greatest turn between two handles. The thesis's literal formulation knows no turns.
-    double max_turn() const;
+    /// The greatest turn between two handles; `turns` is memory for it. The thesis's literal
+    /// formulation knows no turns.
+    double max_turn(std::vector<Vec4>& turns) const;
     /// Returns sum over h of w_h value_h at every local vertex; w_h are the weights of translations
     /// in the first system.
     std::vector<Vec4> spread(const std::vector<Vec4>& value, const Context& context) const;
@@ -61,6 +68,8 @@ class FrameInput {
     void add_asked_moves(std::vector<Vec4>& field) const;
 
   private:
+    void add_relative_turns(std::vector<Vec4>& turns) const;
+
     const Preparation& prepared_;
     const Poses& poses_;
     const TargetRhs& asked_;

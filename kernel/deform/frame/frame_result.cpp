@@ -76,8 +76,10 @@ std::vector<Mat3> turns_without_faces(const Preparation& prepared, const Poses& 
 }  // namespace
 
 DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const FrameInput& motion,
-                   const Poses& poses, std::vector<Vec3> positions) {
+                   FrameScratch::State& scratch, std::vector<Vec3> positions) {
     const Preparation& prepared = *preparation;
+    Poses poses = std::exchange(scratch.poses, {});
+    poses = motion.poses();
     const Patch& patch = prepared.patch();
     place_held(prepared, poses, positions);
     const auto own = std::ssize(prepared.rest->positions);
@@ -86,11 +88,11 @@ DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const 
         positions[at(prepared.rest->frame_row(patch, v))] = motion.known_position(v) + patch.origin;
     }
     place_followers(prepared, poses, positions);
-    DeformFrame frame{preparation, poses, {}, {}, prepared.work, {}, {}};
+    DeformFrame frame{preparation, std::move(poses), {}, {}, prepared.work, {}, {}};
     frame.inserted.assign(positions.begin() + own, positions.end());
     positions.resize(own);
     frame.positions = std::move(positions);
-    frame.turns_without_faces = turns_without_faces(prepared, poses);
+    frame.turns_without_faces = turns_without_faces(prepared, frame.poses);
     return frame;
 }
 
@@ -111,7 +113,7 @@ std::vector<Mat3> frame_gradients(const DeformFrame& frame, FrameScratch& given)
     FrameScratch::State& scratch = given.state();
     const FrameInput motion(prepared, frame.poses,
                             target_rhs(frame.preparation, frame.poses.targets, scratch.asked));
-    scratch.draft.reset();
+    scratch.draft.is_there = false;
     solve_first(motion, {}, scratch.deviation);
     std::vector<Mat3> gradients;
     for (const Index v : prepared.patch().of_region) {

@@ -39,17 +39,19 @@ struct TargetMemo {
 
 /// Poses of the draft in the scratch; a full frame of the same poses starts from it.
 struct DraftMemo {
+    /// Whether there is one.
+    bool is_there = false;
     std::weak_ptr<const Preparation> preparation;
     Poses poses;
 
     bool is_of(const std::shared_ptr<const Preparation>& other, const Poses& at) const {
-        return preparation.lock() == other && poses == at;
+        return is_there && preparation.lock() == other && poses == at;
     }
 };
 
 struct FrameScratch::State {
     TargetMemo asked;
-    std::optional<DraftMemo> draft;
+    DraftMemo draft;
     /// Deviation of the whole motion, and of a part of the turns.
     Deviation deviation, part;
     /// Sized, and zero outside the region, for `sized_for`.
@@ -59,7 +61,11 @@ struct FrameScratch::State {
     /// For refinements, of the preparation `surface_of`.
     std::optional<MovingSurface> surface;
     std::weak_ptr<const Preparation> surface_of;
+    /// Memory of the frame before.
     std::vector<Vec3> positions;
+    Poses poses;
+    std::vector<Mat4> differences;
+    std::vector<Vec4> turns;
     RotationSystem::Scratch second;
 };
 
@@ -180,7 +186,8 @@ void turn_followers(const Preparation& prepared, const Poses& poses,
                     const std::vector<Vec3>& positions, std::vector<Mat3>& gradients);
 
 /// Returns the frame with `positions` of the free vertices; held ones lie exactly as prescribed.
+/// Its poses take the memory of `scratch`.
 DeformFrame framed(const std::shared_ptr<const Preparation>& preparation, const FrameInput& motion,
-                   const Poses& poses, std::vector<Vec3> positions);
+                   FrameScratch::State& scratch, std::vector<Vec3> positions);
 
 }  // namespace lissom

@@ -1,6 +1,7 @@
 #include "kernel/deform/system/linear_solution.h"
 
 #include <algorithm>
+#include <array>
 
 #include "kernel/core/extended.h"
 #include "kernel/deform/system/frame_loops.h"
@@ -38,13 +39,20 @@ std::vector<Value> folds(const LinearProblem& problem, const At& at) {
 
 // A loop over weights, with the list of their rows that it refers to.
 struct WeightLoop {
-    std::vector<const Vec4*> weights;
+    // Of so many handles without memory: blocks are many.
+    static constexpr std::size_t kUsual = 64;
+    std::array<const Vec4*, kUsual> usual;
+    std::vector<const Vec4*> more;
     BasisLoop loop;
 
     WeightLoop(std::span<const Mat4> differences, const std::vector<std::vector<Vec4>>& of) {
-        for (const std::vector<Vec4>& weight : of) weights.push_back(weight.data());
-        loop = {differences.data(), weights.data(), weights.size()};
+        if (of.size() > kUsual) more.resize(of.size());
+        const Vec4** const weights = more.empty() ? usual.data() : more.data();
+        for (std::size_t h = 0; h < of.size(); ++h) weights[h] = of[h].data();
+        loop = {differences.data(), weights, of.size()};
     }
+    WeightLoop(const WeightLoop&) = delete;
+    WeightLoop& operator=(const WeightLoop&) = delete;
 };
 
 }  // namespace

@@ -283,7 +283,7 @@ void RotationSystem::bend(const PaddedMat3* transforms, std::span<const Vec4> x,
                           std::vector<Vec4>& bending, const Context& context) const {
     const EnergyLoop loop = energy();
     bending.resize(rest_.size());
-    context.parallel_for(0, rings_.size(), kFrameGrain, [&](Index begin, Index end) {
+    for_each_part(context, rings_.size(), [&](Index begin, Index end) {
         loop.bend(transforms, x.data(), bending.data(), begin, end);
     });
 }
@@ -351,8 +351,7 @@ void RotationSystem::find_residual(const PaddedMat3* transforms, std::span<const
     bend(transforms, x, scratch.bending, context);
     const EnergyLoop loop = energy();
     residual.resize(free_.size());
-    const auto count = count_of(free_);
-    context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
+    for_each_part(context, count_of(free_), [&](Index begin, Index end) {
         loop.descend(transforms, x.data(), scratch.bending.data(), free_.data(), residual.data(),
                      begin, end);
     });

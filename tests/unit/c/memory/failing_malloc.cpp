@@ -16,11 +16,12 @@ void __libc_free(void* block);
 namespace {
 
 constexpr long kNever = -1;
-std::atomic<long> left{kNever}, live{0};
+std::atomic<long> left{kNever}, live{0}, made{0};
 std::atomic<bool> fails_on{false}, has_failed{false};
 
 // Whether this allocation fails.
 bool fails() {
+    made.fetch_add(1, std::memory_order_relaxed);
     if (left.load(std::memory_order_relaxed) == kNever) return false;
     const long before = left.fetch_sub(1);
     if (before > 0) return false;
@@ -96,6 +97,10 @@ void fail_at(long n, bool all) {
 bool stop_failing() {
     left = kNever;
     return has_failed;
+}
+
+long allocations() {
+    return made;
 }
 
 long live_blocks() {

@@ -7,6 +7,8 @@ namespace lissom::test {
 void fail_at(long n, bool all);
 /// Lets all succeed again. Returns whether one has failed.
 bool stop_failing();
+/// Returns the number of allocations since the program began, of all threads.
+long allocations();
 /// Returns the number of blocks that were not freed.
 long live_blocks();
 
