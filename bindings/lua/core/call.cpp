@@ -182,7 +182,9 @@ void own_cell(lua_State* L, State& state, Cell* cell, std::size_t bytes) {
     }
     if (fits) return state.cells.add(*cell);
     delete cell;
-    luaL_error(L, "not enough memory");
+    // As Lua's own error, without a place: hosts know it.
+    lua_pushliteral(L, "not enough memory");
+    lua_error(L);
 }
 
 Holder* push_holder(lua_State* L, State& state, const char* type_name) {
