@@ -451,6 +451,7 @@ test("erase takes nothing beyond the region and its ring, and nothing that it ru
     -- A band around the horn: the tip is not marked.
     local band = ball:region{ box = { min = { -0.4, 1.15, -0.4 }, max = { 0.4, 1.4, 0.4 } } }
     expect.error(function() assert(ball:erase(band)) end, "runs around")
+    expect.error(function() assert(ball:erase(band, { ring = 0 })) end, "runs around")
     for _, ring in ipairs{ 0.2, 0.5, 1 } do
         local marked = ball:region{ sphere = { center = { 0, 1.4, 0 }, radius = 0.62 } }
         local _, report = assert(ball:erase(marked, { ring = ring }))

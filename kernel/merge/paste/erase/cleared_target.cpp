@@ -7,6 +7,7 @@
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/paste/erase/erase_feature.h"
 #include "kernel/merge/paste/placement/plane_line.h"
+#include "kernel/merge/paste/region/paste_regions.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/mesh/edit/extract.h"
 
@@ -128,9 +129,15 @@ ClearedTarget cleared_target(const Mesh& target, const std::optional<Region>& on
 std::optional<ClearedTarget> cleared_inside(const Mesh& target, const std::optional<Region>& onto,
                                             const Region& under, const Context& context) {
     if (under.shrunk(1).faces().empty()) return std::nullopt;
+    // Hollows that it runs around, as nostrils are, lie under the line too.
+    std::vector<Index> vertices = under.vertices();
+    for (const Index f : outlined_faces(target, under, context)) {
+        for (const Index v : target.topology().face(f)) vertices.push_back(v);
+    }
     EraseOptions options;
     options.ring = 0.0;
-    return cleared_by(target, onto, under, options, context);
+    return cleared_by(target, onto, {target.shared_topology(), std::move(vertices)}, options,
+                      context);
 }
 
 }  // namespace lissom

@@ -268,14 +268,16 @@ MeshPart without_faces(const Mesh& mesh, std::span<const Index> faces, const Con
     return extract_faces(mesh, kept, context);
 }
 
+void add_face_dihedrals(const Mesh& mesh, Index f, GreatestAngle& angle) {
+    const std::span<const Index> face = mesh.topology().face(f);
+    for (std::size_t k = 0; k < face.size(); ++k) {
+        add_edge_dihedral(mesh, face[k], face[(k + 1) % face.size()], angle);
+    }
+}
+
 double greatest_turn(const Mesh& mesh, Index first_face) {
     GreatestAngle angle;
-    for (Index f = first_face; f < mesh.face_count(); ++f) {
-        const std::span<const Index> face = mesh.topology().face(f);
-        for (std::size_t k = 0; k < face.size(); ++k) {
-            add_edge_dihedral(mesh, face[k], face[(k + 1) % face.size()], angle);
-        }
-    }
+    for (Index f = first_face; f < mesh.face_count(); ++f) add_face_dihedrals(mesh, f, angle);
     return angle.value();
 }
 
@@ -340,12 +342,7 @@ Closed closed_bending(const Mesh& rest, const Path& hole, FillOptions how, doubl
 double turn_around(const Mesh& rest, const Path& hole) {
     const Region rim(rest.shared_topology(), hole.vertices());
     GreatestAngle angle;
-    for (const Index f : rim.grown(kRimRings).faces()) {
-        const std::span<const Index> face = rest.topology().face(f);
-        for (std::size_t k = 0; k < face.size(); ++k) {
-            add_edge_dihedral(rest, face[k], face[(k + 1) % face.size()], angle);
-        }
-    }
+    for (const Index f : rim.grown(kRimRings).faces()) add_face_dihedrals(rest, f, angle);
     return angle.value();
 }
 
@@ -485,6 +482,8 @@ Excision cut_around(const Mesh& mesh, const Region& region, const EraseOptions& 
 }
 
 Excision cut_along_outline(const Mesh& mesh, const Region& region, const Context& context) {
+    ErasureReach reach(mesh, region, 0.0, context);
+    require_no_islands(mesh, region, reach);
     Excision cut;
     cut.faces = outlined_faces(mesh, region, context);
     require_one_outline(mesh, cut.faces);
