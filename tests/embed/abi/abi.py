@@ -2,9 +2,9 @@
 """Compares lissom.h and liblissom with the list of the last release: bindings/c/abi.txt.
 
 A program that was compiled with the header of the last release must go on working: every function is still
-exported, every constant has its value, every field its place and size. Structs that begin with `struct_size`
-may have grown at the end, and functions, structs and constants may have come in. What is LISSOM_EXPERIMENTAL may
-change.
+exported, with the types of its parameters and result, every callback has its types, every constant its value,
+every field its place and size. Structs that begin with `struct_size` may have grown at the end, and functions,
+structs and constants may have come in. What is LISSOM_EXPERIMENTAL is listed and may change.
 
     abi.py HEADER LIST LIBRARY COMPILER           compares; also: the library exports the header's functions alone
     abi.py HEADER LIST LIBRARY COMPILER --update  writes the list, at a release
@@ -31,6 +31,43 @@ def every_function(text):
     renamed = dict(re.findall(r"#define (lissom_\w+) (lissom_\w+)", text))
     names = re.findall(r"LISSOM_API[^;(]*?\b(lissom_\w+)\s*\(", text)
     return sorted(renamed.get(name, name) for name in names)
+
+
+def without_name(parameter):
+    """The type of `const double point[3]`: `const double[3]`."""
+    bare = re.sub(r"\s+", " ", parameter.strip())
+    if bare == "void":
+        return ""
+    bare = re.sub(r"(?<=[\s*])\w+(\[\d*\])?$", r"\1", bare) if re.search(r"[\s*]", bare) else bare
+    return re.sub(r"\s*([*\[,])\s*", r"\1", bare).strip().replace(" ", "_")
+
+
+def signature(result, parameters):
+    depth, parts, start = 0, [], 0
+    for i, letter in enumerate(parameters):
+        depth += {"(": 1, ")": -1}.get(letter, 0)
+        if letter == "," and depth == 0:
+            parts.append(parameters[start:i])
+            start = i + 1
+    parts.append(parameters[start:])
+    kept = re.sub(r"\s*([*])\s*", r"\1", re.sub(r"\s+", " ", result.strip())).replace(" ", "_")
+    return kept + "(" + ",".join(without_name(part) for part in parts) + ")"
+
+
+def signatures(text):
+    """Lines of all functions and callbacks with their types."""
+    renamed = dict(re.findall(r"#define (lissom_\w+) (lissom_\w+)", text))
+    declared = r"(LISSOM_EXPERIMENTAL )?LISSOM_API\s+([^;(]*?)\b(lissom_\w+)\s*\(([^;]*)\);"
+    for experimental, result, name, parameters in re.findall(declared, text):
+        kind = "experimental" if experimental else "function"
+        yield f"{kind} {renamed.get(name, name)} {signature(result, parameters)}"
+    for result, name, parameters in re.findall(r"typedef (\w+) (lissom_\w+)\(([^;]*)\);", text):
+        yield f"callback {name} {signature(result, parameters)}"
+    for struct, body in re.findall(r"typedef struct (\w+) \{(.*?)\} \w+;", text, re.S):
+        for field in body.split(";"):
+            found = re.fullmatch(r"\s*([^(]*)\(\*(\w+)\)\((.*)\)\s*", field, re.S)
+            if found:
+                yield f"callback {struct}.{found[2]} {signature(found[1], found[3])}"
 
 
 def constants(text):
@@ -95,6 +132,10 @@ def differences(before, now):
     extensible = {name.split(".")[0] for kind, name in before if name.endswith(".struct_size")}
     for (kind, name), value in before.items():
         found = now.get((kind, name))
+        if kind == "experimental":
+            continue
+        if kind == "function" and value == "":  # Lists of old hold names alone.
+            value = found or ""
         if found is None:
             yield f"{kind} {name} is gone"
         elif kind == "struct" and name in extensible:
@@ -107,7 +148,7 @@ def differences(before, now):
 def main(header, listed, library, compiler, *flags):
     text = without_comments(header.read_text())
     declared = every_function(text)
-    lines = [f"function {name}" for name in functions(text)] + compiled(text, header, compiler)
+    lines = sorted(signatures(text)) + compiled(text, header, compiler)
     if flags == ("--update",):
         listed.write_text("\n".join(lines) + "\n")
         return 0

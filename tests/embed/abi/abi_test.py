@@ -39,6 +39,16 @@ class Header(unittest.TestCase):
         self.assertEqual(abi.constants(HEADER), ["LISSOM_ABI_VERSION", "LISSOM_ONE", "LISSOM_TWO"])
         self.assertEqual(abi.structs(HEADER), [("lissom_list", ["struct_size", "log", "m", "ids"])])
 
+    def test_signatures_hold_types_alone(self):
+        self.assertEqual(list(abi.signatures(HEADER)), [
+            "function lissom_create_abi1 lissom_kind(const_lissom_list*,int**)",
+            "function lissom_name const_char*()",
+            "experimental lissom_try int(int,int)",
+            "callback lissom_list.log void(void*,const_char*)",
+        ])
+        self.assertEqual(abi.signature("lissom_status ", "const double point[3], void (*f)(void* a, int b)"),
+                         "lissom_status(const_double[3],void_(*f)(void*a,int_b))")
+
     def test_comments_are_no_declarations(self):
         self.assertEqual(abi.functions(abi.without_comments("// LISSOM_API int lissom_no(void);\n")), [])
 
@@ -56,6 +66,14 @@ class Breaks(unittest.TestCase):
     def test_what_may_change(self):
         self.assertEqual(self.broken(function__lissom_new="", constant__LISSOM_NEW="7"), [])
         self.assertEqual(self.broken(struct__lissom_list="48", field__lissom_list__more="40 8"), [])
+
+    def test_types_of_a_function_stay(self):
+        before = abi.entries(["function lissom_a int(int)", "callback lissom_b void(int)", "function lissom_c",
+                              "experimental lissom_d int()"])
+        after = abi.entries(["function lissom_a int(long)", "callback lissom_b void()", "function lissom_c int()"])
+        self.assertEqual(list(abi.differences(before, after)),
+                         ["function lissom_a was int(int), and is int(long)",
+                          "callback lissom_b was void(int), and is void()"])
 
     def test_what_may_not(self):
         for change in (
