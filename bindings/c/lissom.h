@@ -1305,7 +1305,9 @@ LISSOM_API lissom_status lissom_sandbox_scripts(lissom_context* context,
 LISSOM_API lissom_status lissom_script_load(lissom_context* context, const char* text, size_t size,
                                             const char* name, lissom_script* script);
 /// Receives the parameters of the script as JSON: a list of {"name", "type", "default", "value",
-/// "min", "max", "step", "choices", "unit", "group", "help"}; [] if it has none.
+/// "min", "max", "step", "choices", "unit", "group", "help", "of"}; [] if it has none. Types are
+/// "number", "integer", "boolean", "string", "choice", "file", "folder", and those a host has a
+/// picker for: "mesh", "region", "boundary", "curve", "head"; their values are texts.
 LISSOM_API lissom_status lissom_script_parameters(lissom_context* context, lissom_script script,
                                                   lissom_bytes* json);
 /// Sets a parameter by its text, as a command line does. Errors: INVALID_ARGUMENT for an unknown
@@ -1336,6 +1338,22 @@ LISSOM_API lissom_status lissom_call(lissom_context* context, const char* name,
 /// Starts the call as a job, whose results are JSON.
 LISSOM_API lissom_status lissom_begin_call(lissom_context* context, const char* name,
                                            const char* arguments, lissom_job* job);
+
+// ---- Typed lists in calls: a lissom.Buffer of the Lua reference is an object that functions take
+// and return, as positions of a mesh or the weights of a basis. Here it goes in and out of the
+// host's memory without JSON, in the kernel's space. A buffer of a mesh is a view of its numbers.
+
+/// Makes a list of its own of `width` numbers an element. Errors: INVALID_ARGUMENT; NOT_FINITE;
+/// MEMORY_LIMIT; BUSY.
+LISSOM_API lissom_status lissom_numbers_create(lissom_context* context, const lissom_input* values,
+                                               int32_t width, lissom_object* numbers);
+/// Return the number of elements, and of numbers in one, or -1 for another handle.
+LISSOM_API int32_t lissom_numbers_size(lissom_context* context, lissom_object numbers);
+LISSOM_API int32_t lissom_numbers_width(lissom_context* context, lissom_object numbers);
+/// Writes all elements. Errors: INVALID_ARGUMENT for an object that is no list; TOPOLOGY_MISMATCH
+/// for a list of a mesh that was released or has another topology.
+LISSOM_API lissom_status lissom_numbers_read(lissom_context* context, lissom_object numbers,
+                                             const lissom_output* values);
 
 #ifdef __cplusplus
 }

@@ -67,4 +67,23 @@ lissom_status lissom_begin_call(lissom_context* context, const char*, const char
     return refuse(context);
 }
 
+lissom_status lissom_numbers_create(lissom_context* context, const lissom_input*, int32_t,
+                                    lissom_object*) {
+    return refuse(context);
+}
+
+int32_t lissom_numbers_size(lissom_context* context, lissom_object) {
+    refuse(context);
+    return -1;
+}
+
+int32_t lissom_numbers_width(lissom_context* context, lissom_object) {
+    refuse(context);
+    return -1;
+}
+
+lissom_status lissom_numbers_read(lissom_context* context, lissom_object, const lissom_output*) {
+    return refuse(context);
+}
+
 }  // extern "C"

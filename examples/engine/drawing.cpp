@@ -53,13 +53,17 @@ GLuint compile(GLenum kind, const std::string& text) {
     throw std::runtime_error(log);
 }
 
-GLuint make_program(const std::string& vertex, const std::string& fragment) {
+}  // namespace
+
+unsigned make_program(const std::string& vertex, const std::string& fragment) {
     const GLuint program = glCreateProgram();
     glAttachShader(program, compile(GL_VERTEX_SHADER, vertex));
     glAttachShader(program, compile(GL_FRAGMENT_SHADER, fragment));
     glLinkProgram(program);
     return program;
 }
+
+namespace {
 
 // A buffer of the vertex array that is bound: `width` floats a vertex.
 void add_attribute(GLuint location, int width, const std::vector<float>& values) {

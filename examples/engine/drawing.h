@@ -41,4 +41,7 @@ class Hair {
 
 void clear_picture();
 
+/// Returns a program of two shaders. Errors: std::runtime_error with their log.
+unsigned make_program(const std::string& vertex, const std::string& fragment);
+
 }  // namespace engine

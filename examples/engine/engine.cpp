@@ -1,6 +1,6 @@
 // A small engine with the library in it, and its own threads, log, files and frames. It loads a
 // script as a tool, lets the library work as jobs between its frames, drags handles through the
-// basis in a vertex shader, and draws strands.
+// basis in a vertex shader, bends a textured model with a seam, and draws strands.
 //
 // clang-format off
 //     engine examples/engine                         # a window: drag the cactus; Escape ends it
@@ -19,6 +19,7 @@
 #include "drawing.h"
 #include "host.h"
 #include "screen.h"
+#include "textured.h"
 
 namespace engine {
 namespace {
@@ -268,7 +269,8 @@ struct World {
         : vertex_shader(*files.find("basis.vert")),
           cactus(context, objects[0], objects[1]),
           head(context, objects[2], objects[3]),
-          ground(context.load_mesh("ground.obj"), Head::kStanding) {}
+          ground(context.load_mesh("ground.obj"), Head::kStanding),
+          chimney(context) {}
 
     // The part of the frame for the library: finished results are taken up.
     void take_up() {
@@ -285,22 +287,26 @@ struct World {
         ground.draw(view(0.4, 0.75, -0.45, -0.75), {0.55f, 0.5f, 0.42f});
         if (cactus.is_ready()) cactus.draw(cactus_view(), {0.35f, 0.6f, 0.3f});
         head.draw(view(0.5, 3.2, 0.45, 0.15));
+        chimney.draw(view(-0.4, 0.55, 0.0, -0.85));
     }
 
     std::string vertex_shader;
     Puppet cactus;
     Head head;
     Surface ground;
+    Textured chimney;
 };
 
 // Draws until the window is closed; returns whether the last frame could be saved, if asked for.
 bool play(World& world, Screen& screen, const std::string& last) {
     Drag drag;
     bool was_ready = false;
+    int frame = 0;
     for (Hand hand; !hand.has_closed; hand = screen.hand()) {
         world.take_up();
         if (world.cactus.is_ready()) drag.follow(hand, world.cactus.basis(), world.cactus_view());
         if (drag.handle) world.cactus.place(*drag.handle, drag.map());
+        world.chimney.bend(0.9 * std::sin(0.02 * ++frame));
         world.draw();
         screen.show();
         if (world.is_ready() && !was_ready) std::puts("ready");
@@ -326,9 +332,16 @@ bool draw_picture(World& world, Screen& screen, const std::string& path) {
     for (int frame = 1; frame <= 60; ++frame) {
         map = turned(-0.8 * frame / 60.0, 0.9);
         world.cactus.place(tip, map);
+        world.chimney.bend(0.9 * frame / 60.0);
         world.draw();
         screen.show();
     }
+    world.chimney.settle();
+    world.chimney.bend(0.9);
+    world.chimney.settle();
+    world.draw();
+    std::printf("%d frames of %zu render vertices on %d of the mesh\n", world.chimney.frames(),
+                world.chimney.render_vertices(), world.chimney.mesh_vertices());
     const double difference = world.cactus.difference(tip, map);
     std::printf(
         "%d frames while the library worked, 60 of a drag; difference from the library %.1e\n",

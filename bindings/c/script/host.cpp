@@ -360,6 +360,48 @@ std::uint64_t ScriptHost::handle_of(int index) {
     return add_handle(Kind::object, std::move(reference));
 }
 
+namespace {
+
+// Protected: (Holder*), an object that is not in Lua yet. Returns its userdata.
+int push_new_holder(lua_State* L) {
+    const auto* given = static_cast<const lua::Holder*>(lua_touserdata(L, 1));
+    auto* made = static_cast<lua::Holder*>(lua::new_userdata(L, sizeof(lua::Holder)));
+    new (made) lua::Holder(given->type_name);
+    luaL_getmetatable(L, given->type_name);
+    lua_setmetatable(L, -2);
+    made->object = given->object;
+    return 1;
+}
+
+}  // namespace
+
+std::uint64_t ScriptHost::add_object(const char* type, std::shared_ptr<void> object) {
+    lua_State* L = lua();
+    lua::Holder given(type);
+    given.object = std::move(object);
+    lua_pushcfunction(L, push_new_holder);
+    lua_pushlightuserdata(L, &given);
+    const bool made = lua_pcall(L, 1, 1, 0) == LUA_OK;
+    auto reference = std::make_shared<LuaReference>();
+    reference->host = weak_from_this();
+    if (made) reference->reference = reference_to(L, -1);
+    lua_pop(L, 1);
+    require(made, "there is no memory left for an object", ErrorCode::memory_limit);
+    const std::uint64_t id = context_.add(Kind::object, std::move(reference));
+    context_.objects.find(id, Kind::object)->scripted = true;
+    return id;
+}
+
+std::shared_ptr<void> ScriptHost::object_of_type(std::uint64_t id, const char* type) {
+    const auto reference = context_.share<LuaReference>(id, Kind::object);
+    lua_State* L = lua();
+    lua_rawgeti(L, LUA_REGISTRYINDEX, reference->reference);
+    const lua::Holder* found = lua::find_holder(L, -1, nullptr);
+    lua_pop(L, 1);
+    const bool fits = found && std::string_view(found->type_name) == type;
+    return fits ? found->object : nullptr;
+}
+
 std::uint64_t ScriptHost::add_handle(Kind kind, std::shared_ptr<void> content) {
     new_handles_.push_back(0);
     const std::uint64_t id = context_.add(kind, std::move(content));

@@ -134,8 +134,10 @@ Fields described(const lua::ScriptParameter& parameter) {
     if (!parameter.choices.empty()) {
         fields.add("choices", List(parameter.choices.begin(), parameter.choices.end()));
     }
-    const std::pair<const char*, const std::string*> texts[] = {
-        {"unit", &parameter.unit}, {"group", &parameter.group}, {"help", &parameter.help}};
+    const std::pair<const char*, const std::string*> texts[] = {{"unit", &parameter.unit},
+                                                                {"group", &parameter.group},
+                                                                {"help", &parameter.help},
+                                                                {"of", &parameter.of}};
     for (const auto& [name, text] : texts) {
         if (!text->empty()) fields.add(name, *text);
     }

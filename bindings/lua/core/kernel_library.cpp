@@ -263,7 +263,9 @@ std::vector<Record> kernel_records() {
         {"lissom.ParamSchema",
          "The declaration of a parameter.",
          {{"string", "name", "Its name."},
-          {"string", "type", "number, integer, boolean, string, choice, file or folder."},
+          {"string", "type",
+           "number, integer, boolean, string, choice, file, folder, mesh, region, boundary, curve "
+           "or head."},
           {"any", "default", "Its default; nil if it must be given."},
           {"any", "value", "Its present value."},
           {"number?", "min", "Smallest value."},
@@ -272,7 +274,8 @@ std::vector<Record> kernel_records() {
           {"string[]?", "choices", "The values of a choice."},
           {"string", "unit", "Its unit, or an empty string."},
           {"string", "group", "Heading that it stands under, or an empty string."},
-          {"string", "help", "Its help text, or an empty string."}}},
+          {"string", "help", "Its help text, or an empty string."},
+          {"string?", "of", "The parameter of the mesh or head that it lies on."}}},
     };
 }
 

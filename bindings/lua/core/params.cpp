@@ -80,6 +80,22 @@ void check_applicable(const Call& call, const ScriptParameter& p) {
                                               : "of type " + type + " takes no choices");
     }
     if (p.min > p.max) misdeclared(p.name, "has a min above its max");
+    if (!p.of.empty() && !lies_on_mesh(p.type)) {
+        misdeclared(p.name, "of type " + type + " takes no 'of'");
+    }
+}
+
+// Whether each region, boundary and curve lies on a parameter that names a mesh.
+void check_places(const std::vector<ScriptParameter>& list) {
+    for (const ScriptParameter& p : list) {
+        if (p.of.empty()) continue;
+        const bool found = std::any_of(list.begin(), list.end(), [&](const ScriptParameter& other) {
+            return other.name == p.of &&
+                   (other.type == ParameterType::mesh || other.type == ParameterType::head ||
+                    other.type == ParameterType::file);
+        });
+        if (!found) misdeclared(p.name, "is of '" + p.of + "', which names no mesh, head or file");
+    }
 }
 
 // One declaration, whose fields the call has at hand.
@@ -99,6 +115,7 @@ ScriptParameter declared(const Call& call, const char* name) {
     take_text(call, "declarations.unit", p.unit);
     take_text(call, "declarations.group", p.group);
     take_text(call, "declarations.help", p.help);
+    take_text(call, "declarations.of", p.of);
     check_applicable(call, p);
     try {
         if (p.default_value) p.check(*p.default_value);
@@ -151,6 +168,7 @@ int declare(Call& call) {
     auto& rest = call.hold<std::vector<std::string>>();
     const auto result = call.create<ParameterSet>();
     const bool done = call.attempt_quick([&] {
+        check_places(list);
         auto set = std::make_shared<ParameterSet>();
         set->list = std::move(list);
         set->sort();
@@ -257,7 +275,7 @@ int parameter_count(Call& call) {
 
 void push_parameter(const Call& call, const ScriptParameter& p) {
     lua_State* L = call.lua();
-    lua_createtable(L, 0, 11);
+    lua_createtable(L, 0, 12);
     call.set_field("name", call.push(std::string_view(p.name)));
     call.set_field("type", call.push(type_name(p.type)));
     call.set_field("default", push_typed_value(call, p, p.default_value));
@@ -268,6 +286,7 @@ void push_parameter(const Call& call, const ScriptParameter& p) {
     call.set_field("unit", call.push(std::string_view(p.unit)));
     call.set_field("group", call.push(std::string_view(p.group)));
     call.set_field("help", call.push(std::string_view(p.help)));
+    if (!p.of.empty()) call.set_field("of", call.push(std::string_view(p.of)));
     if (p.choices.empty()) return;
     lua_createtable(L, count_of(p.choices), 0);
     for (std::size_t i = 0; i < p.choices.size(); ++i) {
@@ -293,12 +312,16 @@ int parameters_text(Call& call) {
 }
 
 std::vector<Parameter> declaration_fields() {
-    return {choice("type", {"number", "integer", "boolean", "string", "choice", "file", "folder"},
+    return {choice("type",
+                   {"number", "integer", "boolean", "string", "choice", "file", "folder", "mesh",
+                    "region", "boundary", "curve", "head"},
                    "Type of its values. A folder is one to write to: it is made, if it is "
-                   "missing, when the parameters are declared or it is set."),
+                   "missing, when the parameters are declared or it is set. The last five are "
+                   "texts for which a host shows a picker: the file or name of a mesh or a head, "
+                   "the name of a region, the name or number of an open boundary or a curve."),
             either("default",
                    {boolean("flag", "For a boolean."), number("number", "For a number or integer."),
-                    string("text", "For a string, choice, file or folder.")},
+                    string("text", "For every other type.")},
                    "Its default; without one it must be given.")
                 .optional("required"),
             number("min", "Smallest value of a number or integer.").optional("no limit"),
@@ -307,7 +330,11 @@ std::vector<Parameter> declaration_fields() {
             strings("choices", "The values of a choice.").optional(),
             string("unit", "Shown after the value.").optional("none"),
             string("group", "Heading that it stands under.").optional("none"),
-            string("help", "Its help text, one line.").optional("none")};
+            string("help", "Its help text, one line.").optional("none"),
+            string("of",
+                   "For a region, boundary or curve: the name of the parameter with the mesh or "
+                   "head that it lies on.")
+                .optional("none")};
 }
 
 }  // namespace

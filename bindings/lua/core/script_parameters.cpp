@@ -86,9 +86,15 @@ struct Flag {
 }  // namespace
 
 std::string_view type_name(ParameterType type) {
-    constexpr std::array<std::string_view, 7> names{"number", "integer", "boolean", "string",
-                                                    "choice", "file",    "folder"};
+    constexpr std::array<std::string_view, 12> names{"number", "integer",  "boolean", "string",
+                                                     "choice", "file",     "folder",  "mesh",
+                                                     "region", "boundary", "curve",   "head"};
     return names[static_cast<std::size_t>(type)];
+}
+
+bool lies_on_mesh(ParameterType type) {
+    return type == ParameterType::region || type == ParameterType::boundary ||
+           type == ParameterType::curve;
 }
 
 std::string ScriptParameter::accepted() const {
@@ -254,7 +260,8 @@ std::size_t ParameterSet::memory_bytes() const {
         if (text) bytes += text->size();
     };
     for (const ScriptParameter& p : list) {
-        bytes += sizeof p + p.name.size() + p.unit.size() + p.group.size() + p.help.size();
+        bytes +=
+            sizeof p + p.name.size() + p.unit.size() + p.group.size() + p.help.size() + p.of.size();
         for (const std::string& choice : p.choices) bytes += sizeof choice + choice.size();
         add(p.default_value);
         add(p.value);

@@ -14,8 +14,26 @@
 
 namespace lissom::lua {
 
-/// The order of the choices of `type` in the registration.
-enum class ParameterType { number, integer, boolean, string, choice, file, folder };
+/// The order of the choices of `type` in the registration. Values of the last five are texts, which
+/// a host makes by a picker: the file or the name of a mesh or a head, the name of a region, the
+/// name or number of an open boundary or a curve.
+enum class ParameterType {
+    number,
+    integer,
+    boolean,
+    string,
+    choice,
+    file,
+    folder,
+    mesh,
+    region,
+    boundary,
+    curve,
+    head
+};
+
+/// Returns whether values lie on a mesh, which another parameter may name.
+bool lies_on_mesh(ParameterType type);
 
 struct State;
 
@@ -35,6 +53,8 @@ struct ScriptParameter {
     std::optional<double> step;
     std::vector<std::string> choices;
     std::string unit, group, help;
+    /// The parameter of the mesh or head that a region, boundary or curve lies on; "" for none.
+    std::string of = {};
 
     /// Converts the text of a flag. Throws ParameterError.
     ParameterValue from_text(const std::string& text) const;

@@ -428,10 +428,17 @@ std::vector<Given> hair_cases() {
 
 std::vector<Given> script_cases() {
     if (!lissom_has_scripts()) return {};
-    return {{"lissom_sandbox_scripts", 1, [](World& world, int, double bad) {
+    return {{"lissom_sandbox_scripts", 1,
+             [](World& world, int, double bad) {
                  auto options = lissom_default_sandbox_options();
                  options.seconds = bad;
                  return lissom_sandbox_scripts(world, &options);
+             }},
+            {"lissom_numbers_create", 4, [](World& world, int i, double bad) {
+                 const auto n = with_bad(std::array<double, 4>{}, i, bad);
+                 const lissom_input list{n.data(), 2, 0, LISSOM_FLOAT64};
+                 lissom_object made{};
+                 return lissom_numbers_create(world, &list, 2, &made);
              }}};
 }
 
@@ -515,7 +522,8 @@ TEST_CASE("that test has every function of the header that takes numbers") {
     const std::set<std::string> wanted = functions_with_numbers();
     CHECK(wanted.size() > 30);
     for (const std::string& name : wanted) {
-        if (!lissom_has_scripts() && name == "lissom_sandbox_scripts") continue;
+        const bool is_script = name == "lissom_sandbox_scripts" || name == "lissom_numbers_create";
+        if (!lissom_has_scripts() && is_script) continue;
         CHECK_MESSAGE(tested.count(name) == 1, name);
     }
     for (const std::string& name : tested) CHECK_MESSAGE(wanted.count(name) == 1, name);

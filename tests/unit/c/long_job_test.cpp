@@ -299,7 +299,8 @@ TEST_CASE("a job of a script leaves the host its meshes to read, and refuses wha
     Threads threads;
     World world(on_threads(threads));
     prepare(world);
-    const std::string mesh = "[{\"object\":" + std::to_string(world.bar.id) + "}, {\"iterations\": 2}]";
+    const std::string mesh =
+        "[{\"object\":" + std::to_string(world.bar.id) + "}, {\"iterations\": 2}]";
     std::uint64_t before = 0, now = 0;
     REQUIRE(lissom_mesh_hash(world, world.bar, &before) == LISSOM_OK);
     threads.set_shut(true);

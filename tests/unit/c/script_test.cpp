@@ -129,6 +129,81 @@ return box, worked, p.size
     CHECK(greatest[0] - least[0] == doctest::Approx(3.0));
 }
 
+TEST_CASE("calls take and return lists of numbers without JSON") {
+    const Host host;
+    const lissom_mesh mesh = host.add(make_box({}));
+    std::vector<Vec3> points = host.positions(mesh);
+    for (Vec3& point : points) point *= 2.0;
+    const lissom_input in{points.data(), points.size(), 0, LISSOM_FLOAT64};
+    lissom_object list{};
+    REQUIRE(lissom_numbers_create(host, &in, 3, &list) == LISSOM_OK);
+    CHECK(lissom_numbers_size(host, list) == 8);
+    CHECK(lissom_numbers_width(host, list) == 3);
+    // A mesh by the reference's own function.
+    const std::string call = "[{\"positions\": {\"object\": " + std::to_string(list.id) +
+                             "}, \"faces\": [[1, 3, 2], [1, 2, 4], [8, 7, 6]]}]";
+    lissom_bytes bytes{};
+    REQUIRE_MESSAGE(lissom_call(host, "mesh", call.c_str(), &bytes) == LISSOM_OK, host.message());
+    const lissom_mesh made{parsed(bytes)[0]["object"].get<std::uint64_t>()};
+    CHECK(host.positions(made) == points);
+    const std::string object = "{\"object\": " + std::to_string(made.id) + "}";
+    const std::string one = "[" + object + "]";
+    const lissom_status got = lissom_call(host, "Mesh.positions", one.c_str(), &bytes);
+    REQUIRE_MESSAGE(got == LISSOM_OK, host.message());
+    const lissom_object view{parsed(bytes)[0]["object"].get<std::uint64_t>()};
+    float read[8][4];
+    const lissom_output out{read, 8, 16, LISSOM_FLOAT32};
+    REQUIRE_MESSAGE(lissom_numbers_read(host, view, &out) == LISSOM_OK, host.message());
+    for (std::size_t i = 0; i < 8; ++i) {
+        for (int k = 0; k < 3; ++k) CHECK(read[i][k] == static_cast<float>(points[i][k]));
+    }
+    const lissom_output narrow{read, 8, 8, LISSOM_FLOAT32};
+    CHECK(lissom_numbers_read(host, view, &narrow) == LISSOM_INVALID_ARGUMENT);
+    CHECK(lissom_numbers_size(host, {mesh.id}) == -1);
+    CHECK(lissom_numbers_create(host, &in, 0, &list) == LISSOM_INVALID_ARGUMENT);
+    CHECK(lissom_object_release(host, view) == LISSOM_OK);
+    CHECK(lissom_numbers_read(host, view, &out) == LISSOM_INVALID_HANDLE);
+}
+
+TEST_CASE("parameters say which picker a host shows, and on which mesh") {
+    const Host host;
+    const lissom_script script = load(host, R"(
+local lissom = require "lissom"
+local p = lissom.params{
+    arm = { type = "mesh", default = "arm.obj" }, face = { type = "head", default = "" },
+    hand = { type = "region", default = "hand", of = "arm" },
+    rim = { type = "boundary", default = "1", of = "arm" },
+    fringe = { type = "curve", default = "", of = "face" } }
+return p.arm, p.hand, p.rim, p.fringe, p.face
+)");
+    lissom_bytes bytes{};
+    REQUIRE(lissom_script_parameters(host, script, &bytes) == LISSOM_OK);
+    const Json parameters = parsed(bytes);
+    REQUIRE(parameters.size() == 5);
+    const char* wanted[][3] = {{"arm", "mesh", ""},
+                               {"face", "head", ""},
+                               {"fringe", "curve", "face"},
+                               {"hand", "region", "arm"},
+                               {"rim", "boundary", "arm"}};
+    for (std::size_t i = 0; i < 5; ++i) {
+        CHECK(parameters[i]["name"] == wanted[i][0]);
+        CHECK(parameters[i]["type"] == wanted[i][1]);
+        CHECK(parameters[i].value("of", "") == wanted[i][2]);
+    }
+    REQUIRE(lissom_script_set(host, script, "hand", "fingers") == LISSOM_OK);
+    REQUIRE(lissom_script_set(host, script, "rim", "3") == LISSOM_OK);
+    REQUIRE(lissom_script_run(host, script, nullptr, &bytes) == LISSOM_OK);
+    CHECK(parsed(bytes) == Json({"arm.obj", "fingers", "3", "", ""}));
+    for (const char* wrong : {"{ type = 'region', of = 'b', default = '' }",
+                              "{ type = 'number', of = 'a', default = 1 }"}) {
+        const std::string text = std::string("require('lissom').params{ a = ") + wrong + " }";
+        lissom_script none{};
+        CHECK(lissom_script_load(host, text.data(), text.size(), "wrong.lua", &none) ==
+              LISSOM_SCRIPT_ERROR);
+        CHECK(host.message().find("parameter 'a'") != std::string::npos);
+    }
+}
+
 TEST_CASE("errors of scripts have file and line, and leave the state usable") {
     const Host host;
     CHECK(run(host, "local x = 1\nerror('no')") == LISSOM_SCRIPT_ERROR);
