@@ -321,4 +321,8 @@ std::string given_text(const char* text, const char* name) {
     return text;
 }
 
+std::filesystem::path path_of(const std::string& text) {
+    return std::filesystem::path(std::u8string(text.begin(), text.end()));
+}
+
 }  // namespace lissom::c

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -96,5 +97,8 @@ void write_triangles(const lissom_output* output, std::span<const Triangle> tria
 
 /// Returns a required text. Errors: INVALID_ARGUMENT, naming it, if it is NULL.
 std::string given_text(const char* text, const char* name);
+
+/// Returns a path of UTF-8.
+std::filesystem::path path_of(const std::string& text);
 
 }  // namespace lissom::c

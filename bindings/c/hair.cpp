@@ -2,7 +2,6 @@
 #include <optional>
 
 #include "bindings/c/data.h"
-#include "bindings/c/files.h"
 #include "kernel/hair/hairstyle.h"
 #include "kernel/io/strand_file.h"
 #include "kernel/io/style_file.h"

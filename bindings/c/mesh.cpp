@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "bindings/c/data.h"
-#include "bindings/c/files.h"
 #include "bindings/c/mesh_options.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/edit/transform.h"

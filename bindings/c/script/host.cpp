@@ -362,24 +362,26 @@ std::uint64_t ScriptHost::handle_of(int index) {
 
 namespace {
 
-// Protected: (Holder*), an object that is not in Lua yet. Returns its userdata.
-int push_new_holder(lua_State* L) {
-    const auto* given = static_cast<const lua::Holder*>(lua_touserdata(L, 1));
-    auto* made = static_cast<lua::Holder*>(lua::new_userdata(L, sizeof(lua::Holder)));
-    new (made) lua::Holder(given->type_name);
-    luaL_getmetatable(L, given->type_name);
-    lua_setmetatable(L, -2);
-    made->object = given->object;
+// An object that is not in Lua yet.
+struct NewObject {
+    lua::State* state;
+    const char* type;
+    const std::shared_ptr<void>* object;
+};
+
+// Protected: (NewObject*). Returns its userdata.
+int push_new_object(lua_State* L) {
+    const auto* given = static_cast<const NewObject*>(lua_touserdata(L, 1));
+    lua::push_holder(L, *given->state, given->type)->object = *given->object;
     return 1;
 }
 
 }  // namespace
 
-std::uint64_t ScriptHost::add_object(const char* type, std::shared_ptr<void> object) {
+std::uint64_t ScriptHost::add_object(const char* type, const std::shared_ptr<void>& object) {
     lua_State* L = lua();
-    lua::Holder given(type);
-    given.object = std::move(object);
-    lua_pushcfunction(L, push_new_holder);
+    NewObject given{&binding(), type, &object};
+    lua_pushcfunction(L, push_new_object);
     lua_pushlightuserdata(L, &given);
     const bool made = lua_pcall(L, 1, 1, 0) == LUA_OK;
     auto reference = std::make_shared<LuaReference>();
@@ -399,7 +401,7 @@ std::shared_ptr<void> ScriptHost::object_of_type(std::uint64_t id, const char* t
     const lua::Holder* found = lua::find_holder(L, -1, nullptr);
     lua_pop(L, 1);
     const bool fits = found && std::string_view(found->type_name) == type;
-    return fits ? found->object : nullptr;
+    return fits ? found->object.shared() : nullptr;
 }
 
 std::uint64_t ScriptHost::add_handle(Kind kind, std::shared_ptr<void> content) {

@@ -76,7 +76,7 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost>, public Messa
     /// Returns a handle for the object of a userdata at `index`: its own if it has one.
     std::uint64_t handle_of(int index);
     /// Returns a handle for an object that is new to Lua, of a type that has no handles of its own.
-    std::uint64_t add_object(const char* type, std::shared_ptr<void> object);
+    std::uint64_t add_object(const char* type, const std::shared_ptr<void>& object);
     /// Returns the object of a handle of scripts, or null if it is of another type.
     std::shared_ptr<void> object_of_type(std::uint64_t id, const char* type);
     /// Releases the handles that were made since the last call of either of these: the host gets no

@@ -1,5 +1,5 @@
 // Typed lists that functions of scripts take and return.
-#include <utility>
+#include <memory>
 
 #include "bindings/c/data.h"
 #include "bindings/c/script/host.h"
@@ -32,7 +32,7 @@ lissom_status lissom_numbers_create(lissom_context* context, const lissom_input*
         made->width = width;
         made->held = MemoryHold(context->kernel.memory(), "a list of numbers");
         made->held.resize(made->memory_bytes());
-        numbers->id = host.add_object(lua::BufferObject::kTypeName, std::move(made));
+        numbers->id = host.add_object(lua::BufferObject::kTypeName, made);
     });
 }
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "bindings/c/data.h"
-#include "bindings/c/files.h"
 #include "bindings/c/script/host.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "bindings/lua/host/script_files.h"
