@@ -64,6 +64,14 @@ if(LISSOM_LINKS_TBB)
 elseif(LISSOM_TBB)
     string(APPEND LISSOM_PC_LIBRARIES "-ldl")
 endif()
+get_property(LISSOM_LINKS_DRACO GLOBAL PROPERTY LISSOM_LINKS_DRACO)
+get_property(LISSOM_LINKS_MESHOPT GLOBAL PROPERTY LISSOM_LINKS_MESHOPT)
+if(LISSOM_LINKS_DRACO)
+    string(APPEND LISSOM_PC_LIBRARIES " -ldraco")
+endif()
+if(LISSOM_LINKS_MESHOPT)
+    string(APPEND LISSOM_PC_LIBRARIES " -lmeshoptimizer")
+endif()
 set(pc_files lissom-kernel)
 if(TARGET lissom_shared)
     list(APPEND pc_files lissom)
@@ -85,6 +93,23 @@ install(FILES ${PROJECT_BINARY_DIR}/lissom-config.cmake
         DESTINATION ${LISSOM_PACKAGE_DIR} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+# The reference of C++ and C, made of the docstrings of the public headers; that of Lua, which `lissom_call` of the C ABI
+# needs too; and the examples.
+find_package(Python3 COMPONENTS Interpreter QUIET)
+if(Python3_FOUND)
+    install(CODE "
+        execute_process(
+            COMMAND \"${Python3_EXECUTABLE}\" -B \"${PROJECT_SOURCE_DIR}/cmake/cpp_reference.py\" \"${PROJECT_SOURCE_DIR}\"
+                    \"${PROJECT_BINARY_DIR}/cpp_reference\"
+            COMMAND_ERROR_IS_FATAL ANY)" COMPONENT development)
+    install(DIRECTORY ${PROJECT_BINARY_DIR}/cpp_reference/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/cpp COMPONENT development)
+else()
+    message(STATUS "Without python3 the C++ reference is not installed")
+endif()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/lua DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development
+        PATTERN "golden" EXCLUDE)
+
 # The licences of all that is compiled in, with each binary; packages have a folder of their own for them.
 if(NOT LISSOM_PACKAGES)
     foreach(component library development program lua)

@@ -431,6 +431,13 @@ typedef enum lissom_weld {
     LISSOM_WELD_NONE = 3
 } lissom_weld;
 
+/// Compression of glTF files.
+typedef enum lissom_compression {
+    LISSOM_COMPRESSION_NONE = 0,
+    LISSOM_COMPRESSION_MESHOPT = 1,  ///< EXT_meshopt_compression
+    LISSOM_COMPRESSION_DRACO = 2     ///< KHR_draco_mesh_compression, of objects of one material
+} lissom_compression;
+
 typedef struct lissom_mesh_load_options {
     size_t struct_size;
     lissom_weld weld;
@@ -448,6 +455,11 @@ typedef struct lissom_mesh_save_options {
     double unit;
     /// Binary or text, for PLY and STL.
     bool binary;
+    /// UNSUPPORTED if the library was built without the codec, INVALID_ARGUMENT but for glTF.
+    lissom_compression compression;
+    /// Bits of positions in a compressed file, relative to the size of the object, 6 to 20; texture
+    /// coordinates have as many, directions half as many but at least 8. 0 keeps all numbers.
+    int32_t quantize;
 } lissom_mesh_save_options;
 
 LISSOM_API lissom_mesh_load_options lissom_default_mesh_load_options(void);

@@ -31,6 +31,12 @@ SaveOptions save_options(const lissom_mesh_save_options* given) {
     if (taken.z_up) options.up = UpAxis::z;
     options.unit = taken.unit;
     options.binary = taken.binary;
+    require(taken.compression >= LISSOM_COMPRESSION_NONE &&
+                taken.compression <= LISSOM_COMPRESSION_DRACO,
+            "there is no such compression");
+    if (taken.compression == LISSOM_COMPRESSION_MESHOPT) options.compression = Compression::meshopt;
+    if (taken.compression == LISSOM_COMPRESSION_DRACO) options.compression = Compression::draco;
+    options.quantize = taken.quantize;
     return options;
 }
 

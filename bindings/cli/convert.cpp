@@ -14,7 +14,7 @@ namespace lissom::cli {
 namespace {
 
 struct Request {
-    std::string in, out, in_up, up, origin;
+    std::string in, out, in_up, up, origin, compression;
     std::optional<double> in_unit;
     ManyFiles many;
     ConversionOptions options;
@@ -92,6 +92,13 @@ void declare(CLI::App& app, Request& request) {
     app.add_flag("--text", request.text, "Write text if the format has text and binary");
     app.add_flag("--normals", request.options.save.normals,
                  "Write the normals of the surface for meshes that have none");
+    app.add_option("--compression", request.compression,
+                   "Compression of .glb and .gltf: meshopt or draco (default: none)")
+        ->check(CLI::IsMember({"none", "meshopt", "draco"}));
+    app.add_option("--quantize", request.options.save.quantize,
+                   "Bits of positions in a compressed file, relative to the size of the object "
+                   "(default: all numbers are kept)")
+        ->check(CLI::Range(6, 20));
     app.add_flag("--big-endian", request.big_endian, "Byte order of a binary .ply");
     request.load_flags.declare(app);
 }
@@ -99,8 +106,8 @@ void declare(CLI::App& app, Request& request) {
 // Options that say how meshes are read and written.
 std::vector<std::string> mesh_only(const CLI::App& app) {
     std::vector<std::string> given;
-    for (const char* name :
-         {"--origin", "--text", "--normals", "--big-endian", "--weld", "--keep-unused"}) {
+    for (const char* name : {"--origin", "--text", "--normals", "--compression", "--quantize",
+                             "--big-endian", "--weld", "--keep-unused"}) {
         if (app.count(name) > 0) given.emplace_back(name);
     }
     return given;
@@ -120,6 +127,8 @@ void complete(Request& request) {
     request.options.save.up = up_axis(request.up);
     request.options.save.binary = !request.text;
     request.options.save.endianness = request.big_endian ? Endianness::big : Endianness::little;
+    if (request.compression == "meshopt") request.options.save.compression = Compression::meshopt;
+    if (request.compression == "draco") request.options.save.compression = Compression::draco;
     if (request.origin == "auto") request.options.save.origin = FileOrigin::automatic;
     request.load_flags.apply(request.options.load);
     request.options.load.unit = request.in_unit.value_or(1.0);

@@ -1,6 +1,6 @@
 // The functions of oneTBB that parallel loops call, each looked up in the shared library when it is
-// first called: a program that runs no parallel loop starts without it. They are weak, so that a
-// host may link oneTBB itself.
+// first called: a program that runs no parallel loop starts without it. The macro `tbb` puts them
+// and the headers of oneTBB into a namespace of their own, so that a host may link oneTBB itself.
 #include <dlfcn.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -36,7 +36,7 @@ namespace tbb::detail::r1 {
 
 // SYMBOL is the name that the compiler gives the function, behind that of the namespace.
 #define LISSOM_TBB(result, name, parameters, arguments, symbol)                            \
-    __attribute__((weak)) result name parameters {                                         \
+    result name parameters {                                                               \
         static auto* const function = find<result parameters>("_ZN3tbb6detail2r1" symbol); \
         return function arguments;                                                         \
     }

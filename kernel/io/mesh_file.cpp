@@ -103,6 +103,25 @@ void require_expected_content(std::string_view bytes, const Format& format) {
                                             "; rename the file");
 }
 
+void require_compressible(const Format& format, const SaveOptions& options) {
+    constexpr int kLeastBits = 6, kMostBits = 20;
+    const bool is_compressed = options.compression != Compression::none;
+    if (is_compressed && format.name != "glTF") {
+        throw Error(ErrorCode::invalid_argument,
+                    "compression is of glTF files (.glb, .gltf), and " + std::string(format.name) +
+                        " has none");
+    }
+    if (options.quantize == 0) return;
+    if (!is_compressed) {
+        throw Error(ErrorCode::invalid_argument,
+                    "numbers are quantised in compressed files only; choose a compression too");
+    }
+    if (options.quantize >= kLeastBits && options.quantize <= kMostBits) return;
+    throw Error(ErrorCode::invalid_argument, std::to_string(options.quantize) +
+                                                 " bits cannot be kept; choose 6 to 20, or 0 for "
+                                                 "all");
+}
+
 // The linear map from a file's axes and unit to the kernel's.
 Mat3 from_file(UpAxis up, double unit) {
     Mat3 turned = Mat3::Identity();
@@ -220,6 +239,7 @@ struct Encoded {
 Encoded encode(const Mesh& given, const Format& format, const SaveOptions& options,
                const std::filesystem::path& path, const Context& context) {
     require_unit(options.unit);
+    require_compressible(format, options);
     // The size of the file is not known yet, but of the order of the mesh's.
     const MemoryCharge charge = context.charge(given.memory_bytes(), "saving a mesh");
     const std::optional<Mesh> lit = with_normals(given, format, options);

@@ -3,7 +3,7 @@
 
     tests/embed/dynamic.py [--gpl] [--own-lua] KIND=FILE...
 
-KIND is `program`, `library` (the C ABI) or `module` (of Lua). Counts the shared libraries that a process loads with
+KIND is `program`, `library` (the C ABI), `module` (of Lua) or `archive`, a static library, which defines nothing of oneTBB. Counts the shared libraries that a process loads with
 FILE, those of those included, and holds them against a limit. None is under the GPL, but that with --gpl a program
 loads CHOLMOD. A library shows lissom_ functions alone, a module its entry point; with --own-lua a library has
 its Lua inside.
@@ -19,6 +19,8 @@ MOST = {"program": 11, "library": 7, "module": 6}
 CHOLMOD = re.compile(r"lib(cholmod|c?c?amd|c?colamd|suitesparseconfig|metis|GKlib|(open)?blas|lapack|gfortran|"
                      r"quadmath|gomp)[.-]")
 UNDER_THE_GPL = re.compile(r"lib(cholmod|umfpack|spqr|klu|readline|history|gmp|fftw3)[.-]")
+# Names of oneTBB that a program may have from its own.
+OF_TBB = re.compile(r"_ZNK?3tbb|_ZT.N3tbb")
 SHOWN = {"library": re.compile(r"lissom_\w+$"), "module": re.compile(r"luaopen_lissom$")}
 
 
@@ -30,6 +32,9 @@ def loaded(text):
 
 def findings(kind, libraries, symbols, gpl, own_lua=False):
     """What is wrong with a file of `kind` that loads `libraries` and shows `symbols`."""
+    if kind == "archive":
+        taken = [name for name in symbols if OF_TBB.match(name)]
+        return [f"defines {len(taken)} names of oneTBB: {' '.join(taken[:5])}"] if taken else []
     may = gpl and kind == "program"
     counted = [name for name in libraries if not (may and CHOLMOD.match(name))]
     found = []
@@ -62,8 +67,11 @@ def main():
     options = parser.parse_args([word for word in sys.argv[1:] if word])
     count = 0
     for kind, path in (word.split("=", 1) for word in options.files):
-        libraries = loaded(output_of("ldd", path))
-        symbols = [line.split()[-1].split("@")[0] for line in output_of("nm", "-D", "--defined-only", path).splitlines()]
+        is_archive = kind == "archive"
+        libraries = [] if is_archive else loaded(output_of("ldd", path))
+        options_of_nm = ["--extern-only"] if is_archive else ["-D"]
+        lines = output_of("nm", *options_of_nm, "--defined-only", path).splitlines()
+        symbols = [line.split()[-1].split("@")[0] for line in lines if line.strip()]
         found = findings(kind, libraries, symbols, options.gpl, options.own_lua)
         count += len(found)
         print(f"{path}: {len(libraries)} libraries: {' '.join(libraries)}")

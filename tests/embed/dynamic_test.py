@@ -33,6 +33,11 @@ class DynamicTest(unittest.TestCase):
         found = findings("library", [f"lib{i}.so" for i in range(8)], ["lissom_mesh_load"], False)
         self.assertIn("loads 8 libraries, at most 7", found[0])
 
+    def test_archives_define_nothing_of_tbb(self):
+        self.assertEqual(findings("archive", [], ["_ZN10lissom_tbb6detail2r15spawnEv", "_ZN6lissom4MeshE"], False), [])
+        found = findings("archive", [], ["_ZN3tbb6detail2r15spawnEv", "_ZTVN3tbb6detail2d14taskE"], False)
+        self.assertIn("defines 2 names of oneTBB", found[0])
+
     def test_names_that_show(self):
         self.assertIn("shows 1 names", findings("module", [], ["luaopen_lissom", "_ZN6lissom4MeshE"], False)[0])
         self.assertEqual(findings("library", [], [], False), ["shows nothing"])

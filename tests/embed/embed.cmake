@@ -84,6 +84,16 @@ if(NOT notices)
     message(SEND_ERROR "the licences of what is compiled in are not installed")
 endif()
 
+# The references and the examples come with the library, without the program.
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/library --component development)
+foreach(file lua/README.md lua/mesh.md lua/reference.json cpp/README.md cpp/mesh_mesh_h.md examples/hello.cpp examples/hello.c
+             examples/hello.lua)
+    file(GLOB found ${FOLDER}/library/share/doc/*/${file})
+    if(NOT found)
+        message(SEND_ERROR "${file} is not installed with the library")
+    endif()
+endforeach()
+
 # By pkg-config, without CMake.
 if(FLAGS MATCHES "-fsanitize")
     return()

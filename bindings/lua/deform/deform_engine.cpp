@@ -1,7 +1,8 @@
-// Exports of a deformation for engines: deformer:save_basis and deformer:bake.
+// Exports of a deformation for engines: deformer:save_basis, deformer:bake and deformer:skin.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "kernel/deform/deformed_surface.h"
 #include "kernel/io/basis_file.h"
 #include "kernel/io/morph_baker.h"
+#include "kernel/io/skin_baker.h"
 #include "kernel/mesh/measure/directions.h"
 
 namespace lissom::lua {
@@ -84,20 +86,28 @@ class BakedState {
     DeformSnapshot snapshot_;
 };
 
-// Everything that lives as long as one call of bake.
+// Everything that lives as long as one call of bake or skin.
 struct Baking {
-    Baking(std::shared_ptr<DeformObject> owner, BakeOptions options, const Context& context)
+    explicit Baking(std::shared_ptr<DeformObject> owner)
         : edit(std::move(owner)), before(*edit), shape(before.mesh()) {
         apply_rest(edit->deformer(), shape);
-        baker = std::make_unique<MorphBaker>(shape, edit->deformer().region(), std::move(options),
-                                             context);
+    }
+
+    void bake_morphs(BakeOptions options, const Context& context) {
+        morphs = std::make_unique<MorphBaker>(shape, edit->deformer().region(), std::move(options),
+                                              context);
+    }
+
+    void bake_skin(const SkinOptions& options, const Context& context) {
+        skin = std::make_unique<SkinBaker>(shape, edit->deformer().region(), options, context);
     }
 
     void add_pose(double time, bool is_preview, const Context& context) {
         Deformer& deformer = edit->deformer();
         deformer.solve(is_preview ? FrameQuality::preview : FrameQuality::full, context);
         deformer.apply_to(shape);
-        baker->add(time, shape);
+        if (morphs) morphs->add(time, shape);
+        if (skin) skin->add(time, shape);
     }
 
     // Whatever the script did to the deformation in the meantime.
@@ -109,7 +119,9 @@ struct Baking {
     std::shared_ptr<DeformObject> edit;
     BakedState before;
     Mesh shape;
-    std::unique_ptr<MorphBaker> baker;
+    // One of the two.
+    std::unique_ptr<MorphBaker> morphs;
+    std::unique_ptr<SkinBaker> skin;
 };
 
 // Arguments of a call of bake, as plain data.
@@ -121,9 +133,12 @@ struct BakeRequest {
     bool is_preview;
     bool done;
 
-    static BakeRequest read(Call& call) {
+    static BakeRequest read(Call& call, const char* function) {
         const bool has_times = call.has("times"), has_duration = call.has("duration");
-        if (has_times == has_duration) call.raise("'bake' needs either 'duration' or 'times'");
+        if (has_times == has_duration) {
+            call.raise(
+                (std::string("'") + function + "' needs either 'duration' or 'times'").c_str());
+        }
         BakeRequest request{&call, nullptr, nullptr, 0, call.boolean("preview"), false};
         if (has_times) {
             const auto times = call.numbers("times");
@@ -164,35 +179,112 @@ int bake_frames(lua_State* L) {
     return 0;
 }
 
+// Calls the function of the script for each frame; raises its error again. Returns false after an
+// error of ours.
+bool run_frames(Call& call, BakeRequest& request) {
+    lua_State* L = call.lua();
+    lua_pushcfunction(L, bake_frames);
+    lua_pushlightuserdata(L, &request);
+    lua_pushvalue(L, call.stack_index("pose"));
+    const int status = lua_pcall(L, 2, 0, 0);
+    const bool restored = call.attempt_quick([&] { request.baking->restore(); });
+    if (status != 0) lua_error(L);
+    return request.done && restored;
+}
+
 int bake(Call& call) {
     const auto edit = call.self<DeformObject>();
-    lua_State* L = call.lua();
-    BakeRequest request = BakeRequest::read(call);
+    BakeRequest request = BakeRequest::read(call, "bake");
     const char* name = call.string("name");
     const auto interpolation = call.choice<KeyInterpolation>("interpolation");
     const bool normals = call.boolean("normals");
     auto& baking = call.hold<std::unique_ptr<Baking>>();
     const auto result = call.create<MeshObject>();
     const bool began = call.attempt([&] {
-        baking = std::make_unique<Baking>(edit.share(), BakeOptions{name, interpolation, normals},
-                                          call.context());
+        baking = std::make_unique<Baking>(edit.share());
+        baking->bake_morphs(BakeOptions{name, interpolation, normals}, call.context());
     });
     if (!began) return call.fail();
 
     request.baking = baking.get();
-    lua_pushcfunction(L, bake_frames);
-    lua_pushlightuserdata(L, &request);
-    lua_pushvalue(L, call.stack_index("pose"));
-    const int status = lua_pcall(L, 2, 0, 0);
-    const bool restored = call.attempt_quick([&] { baking->restore(); });
-    if (status != 0) return lua_error(L);
-    if (!request.done || !restored) return call.fail();
+    if (!run_frames(call, request)) return call.fail();
     const bool done =
-        call.attempt([&] { result.set(std::make_shared<MeshObject>(baking->baker->finish())); });
+        call.attempt([&] { result.set(std::make_shared<MeshObject>(baking->morphs->finish())); });
     if (!done) return call.fail();
     call.remember(result.get());
     call.charge(result);
     return 1;
+}
+
+// ---- deformer:skin
+
+// Poses to fit a skin to without a path of the handles: each is turned about three axes, both ways.
+void add_turned_poses(Baking& baking, double angle, bool is_preview, const Context& context) {
+    Deformer& deformer = baking.edit->deformer();
+    double time = 0.0;
+    for (const HandleId handle : deformer.handles()) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const double sign : {-1.0, 1.0}) {
+                baking.before.restore(deformer);
+                deformer.rotate(handle, Vec3::Unit(axis), sign * angle);
+                baking.add_pose(time, is_preview, context);
+                time += 1.0;
+            }
+        }
+    }
+}
+
+bool add_skin_poses(Call& call, BakeRequest& request, Baking& baking) {
+    if (call.has("pose")) {
+        request.baking = &baking;
+        return run_frames(call, request);
+    }
+    const double angle = call.number("angle") * kPi / 180.0;
+    const bool is_preview = call.boolean("preview");
+    const bool added =
+        call.attempt([&] { add_turned_poses(baking, angle, is_preview, call.context()); });
+    return call.attempt_quick([&] { baking.restore(); }) && added;
+}
+
+int skin(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    SkinOptions options;
+    options.joints = call.integer("joints");
+    options.influences = call.integer("influences");
+    const char* name = call.string("name");
+    const bool has_path = call.has("pose");
+    if (!has_path && (call.has("times") || call.has("duration"))) {
+        call.raise("'duration' and 'times' are of a 'pose'; give the function too");
+    }
+    // It takes memory from the stack, and so goes before the result.
+    BakeRequest request{};
+    if (has_path) request = BakeRequest::read(call, "skin");
+    auto& baking = call.hold<std::unique_ptr<Baking>>();
+    auto& skinned = call.hold<std::unique_ptr<SkinnedMesh>>();
+    const auto result = call.create<MeshObject>();
+    const bool began = call.attempt([&] {
+        baking = std::make_unique<Baking>(edit.share());
+        baking->bake_skin(options, call.context());
+    });
+    if (!began || !add_skin_poses(call, request, *baking)) return call.fail();
+    const bool done = call.attempt([&] {
+        skinned = std::make_unique<SkinnedMesh>(baking->skin->finish(has_path ? name : ""));
+        result.set(std::make_shared<MeshObject>(skinned->mesh));
+    });
+    if (!done) return call.fail();
+    call.remember(result.get());
+    call.charge(result);
+    lua_createtable(call.lua(), 0, 3);
+    call.set_field("joints", call.push_count(at(skinned->joint_count)));
+    call.set_field("greatest_error", call.push(skinned->greatest_error));
+    call.set_field("rms_error", call.push(skinned->rms_error));
+    return 2;
+}
+
+Parameter duration_option() {
+    return number("duration", "Length of the animation; it starts at 0 and has a frame at its end.")
+        .at_least(0)
+        .in("seconds");
 }
 
 }  // namespace
@@ -269,6 +361,58 @@ local wave = deformer:bake{ duration = 1, fps = 8, pose = function(time)
 end }
 local path = os.tmpname() .. ".glb"
 assert(wave:save(path))
+os.remove(path))"},
+        {.name = "skin",
+         .body = skin,
+         .summary =
+             "Makes an ordinary skinned mesh of the deformation: joints that move rigidly, and "
+             "weights of each vertex for a few of them, fitted to poses by least squares (Le and "
+             "Deng 2012). With a function, the poses are the frames of its path and the joints "
+             "are animated along it; without, each handle is turned about three axes. mesh:save "
+             "writes the skin as .glb or .gltf. Handles, mesh and last result are restored "
+             "afterwards.",
+         .options =
+             {integer("joints",
+                      "Joints of the skin. One of them stays if the region is a part of "
+                      "the mesh.")
+                  .between(1, 250)
+                  .defaults(8),
+              integer("influences", "Joints that a vertex may follow.").between(1, 8).defaults(4),
+              function("pose", "fun(time: number, frame: integer)",
+                       "Moves handles; called for each frame with its time and its number from "
+                       "1.")
+                  .optional("each handle is turned by the angle"),
+              duration_option().optional("times are given"),
+              number("fps", "Frames a second.").above(0).defaults(24.0),
+              numbers("times", "Time of each frame in seconds, ascending, instead of a duration.")
+                  .optional("duration is given"),
+              number("angle", "Turn of each handle in the poses without a function.")
+                  .between(1, 180)
+                  .defaults(45.0)
+                  .in("degrees"),
+              boolean("preview", "Poses as preview makes them: the first system only.")
+                  .defaults(false),
+              string("name", "Name of the animation.").defaults("deformation")},
+         .results = {{"lissom.Mesh", "mesh",
+                      "The rest shape with the attributes \"joints\" and \"weights\", its "
+                      "skeleton, and the animation if there is a path."},
+                     {"table", "report",
+                      "`joints`, their number; `greatest_error` and `rms_error`, distances of the "
+                      "skinned vertices from the deformation's over all poses, in mesh units."}},
+         .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
+                    ErrorCode::not_positive_definite, ErrorCode::memory_limit,
+                    ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
+                    ErrorCode::handle_removed, ErrorCode::unsupported, ErrorCode::cancelled},
+         .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
+local deformer = lissom.deformer(bar)
+deformer:add_handle(bar:region("bottom"))
+local top = deformer:add_handle(bar:region("top"))
+local skinned, report = deformer:skin{ joints = 6, duration = 1, fps = 8, pose = function(time)
+    top:set{ rotate = { axis = "z", angle = 60 * time } }
+end }
+assert(report.greatest_error < 0.05 * bar:size())
+local path = os.tmpname() .. ".glb"
+assert(skinned:save(path))
 os.remove(path))"}};
 }
 

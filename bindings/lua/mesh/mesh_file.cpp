@@ -32,6 +32,8 @@ int save(Call& call) {
     options.endianness = call.choice<Endianness>("endianness");
     options.origin = call.choice<FileOrigin>("origin");
     options.normals = call.boolean("normals");
+    options.compression = call.choice<Compression>("compression");
+    if (call.has("quantize")) options.quantize = call.integer("quantize");
     SavedFile saved;
     const bool done = call.attempt([&] {
         saved = save_mesh(mesh->mesh, call.file(path, FileUse::write), options, call.context());
@@ -112,6 +114,18 @@ std::vector<Function> mesh_file_methods() {
                       "Write the normals of the surface, one a vertex, for a mesh without the "
                       "attribute \"normal\". STL has those of its triangles in any case.")
                   .defaults(defaults.normals),
+              choice("compression", {"none", "meshopt", "draco"},
+                     "Compression of .glb and .gltf: \"meshopt\" (EXT_meshopt_compression) of all "
+                     "vertices, morph targets and indices, \"draco\" "
+                     "(KHR_draco_mesh_compression) of objects that have one material. Vertices and "
+                     "faces keep their order.")
+                  .defaults("none"),
+              integer("quantize",
+                      "Bits of positions in a compressed file, relative to the size of the object: "
+                      "14 keep a 16000th. Texture coordinates have as many, and directions half as "
+                      "many but at least 8; so have morph targets.")
+                  .between(6, 20)
+                  .optional("all numbers are kept"),
               up_option("The up axis that the file shall have."),
               unit_option("Length of the file's unit in the unit of the mesh: positions are "
                           "divided by it."),
@@ -129,7 +143,7 @@ std::vector<Function> mesh_file_methods() {
                       "file, zero if it stayed or glTF keeps it."}},
          .errors = {ErrorCode::unknown_format, ErrorCode::file_write_failed,
                     ErrorCode::file_is_directory, ErrorCode::not_finite, ErrorCode::unsupported,
-                    ErrorCode::cancelled},
+                    ErrorCode::invalid_argument, ErrorCode::cancelled},
          .example = R"(local path = os.tmpname() .. ".obj"
 local mesh = lissom.shapes.box()
 assert(mesh:save(path))

@@ -9,6 +9,7 @@
 #include "bindings/lua/core/failure.h"
 #include "bindings/lua/core/parse/expectation.h"
 #include "bindings/lua/reference/departures.h"
+#include "bindings/lua/reference/json.h"
 
 namespace lissom::lua {
 namespace {
@@ -580,6 +581,7 @@ std::vector<Page> reference_pages(const Registry& registry) {
     pages.push_back({"codes.md", codes_page()});
     pages.push_back({"thesis.md", departures_page(departures(registry))});
     pages.push_back({"README.md", index});
+    pages.push_back({"reference.json", reference_json(registry)});
     return pages;
 }
 

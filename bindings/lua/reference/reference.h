@@ -20,7 +20,8 @@ struct Page {
 };
 
 /// The reference of all libraries as Markdown pages: README.md with conventions and contents, one
-/// for the module and for each of its tables, one a type, tables.md and codes.md.
+/// for the module and for each of its tables, one a type, tables.md and codes.md; and as
+/// reference.json (json.h).
 std::vector<Page> reference_pages(const Registry& registry);
 
 /// The LuaCATS type of a parameter: "number", "\"a\"|\"b\"", "lissom.Mesh", ...

@@ -74,23 +74,6 @@ const FaceLabels* labels_of(const Mesh& mesh, const char* kind) {
     return found == mesh.attributes().labels().end() ? nullptr : &found->second;
 }
 
-// The nodes of the objects that move.
-std::vector<std::size_t> moving_nodes(const Mesh& mesh, const std::vector<char>& moves,
-                                      GltfAsset& asset) {
-    const FaceLabels* labels = labels_of(mesh, "object");
-    std::vector<Index> pool_of_face;
-    std::vector<std::size_t> nodes;
-    for (const SurfaceObject& object :
-         divide_surface(mesh, labels, labels_of(mesh, "material"), pool_of_face)) {
-        if (!has_flag(mesh, object, moves)) continue;
-        const std::string label = object.label == kNoIndex ? "" : labels->names[object.label];
-        const auto known = asset.node_of_object.find(label);
-        nodes.push_back(known == asset.node_of_object.end() ? add_node(asset, label)
-                                                            : known->second);
-    }
-    return nodes;
-}
-
 std::size_t add_floats(GltfAsset& asset, const std::vector<float>& values) {
     std::string bytes;
     for (const float value : values) append_number(bytes, value, Endianness::little);
@@ -133,6 +116,22 @@ void add_animation(GltfAsset& asset, const std::vector<std::size_t>& nodes, cons
 
 }  // namespace
 
+std::vector<std::size_t> nodes_of_objects(const Mesh& mesh, const std::vector<char>& flags,
+                                          GltfAsset& asset) {
+    const FaceLabels* labels = labels_of(mesh, "object");
+    std::vector<Index> pool_of_face;
+    std::vector<std::size_t> nodes;
+    for (const SurfaceObject& object :
+         divide_surface(mesh, labels, labels_of(mesh, "material"), pool_of_face)) {
+        if (!has_flag(mesh, object, flags)) continue;
+        const std::string label = object.label == kNoIndex ? "" : labels->names[object.label];
+        const auto known = asset.node_of_object.find(label);
+        nodes.push_back(known == asset.node_of_object.end() ? add_node(asset, label)
+                                                            : known->second);
+    }
+    return nodes;
+}
+
 std::shared_ptr<const GltfAsset> with_morph_animation(const Mesh& mesh,
                                                       const std::vector<char>& moves,
                                                       const MorphKeys& keys) {
@@ -140,7 +139,7 @@ std::shared_ptr<const GltfAsset> with_morph_animation(const Mesh& mesh,
     auto asset = old ? std::make_shared<GltfAsset>(*old) : std::make_shared<GltfAsset>();
     asset->from_libraries = false;
     erase_old_weights(asset->json);
-    const std::vector<std::size_t> nodes = moving_nodes(mesh, moves, *asset);
+    const std::vector<std::size_t> nodes = nodes_of_objects(mesh, moves, *asset);
     if (!nodes.empty() && keys.target_count > 0) add_animation(*asset, nodes, keys);
     return asset;
 }

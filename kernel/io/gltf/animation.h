@@ -2,6 +2,7 @@
 /// installed.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +22,11 @@ struct MorphKeys {
     std::vector<Index> targets;
     Index target_count = 0;
 };
+
+/// Returns the nodes of the objects that have a vertex with a flag; nodes are added to `asset` for
+/// objects that have none.
+std::vector<std::size_t> nodes_of_objects(const Mesh& mesh, const std::vector<char>& flags,
+                                          GltfAsset& asset);
 
 /// Returns the asset of `mesh`, or a new one, without its animations of morph targets and with this
 /// one: it moves every object that has a vertex with a flag in `moves`. Nodes are added for objects

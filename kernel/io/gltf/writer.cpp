@@ -47,10 +47,12 @@ class DocumentWriter {
   public:
     DocumentWriter(SavedParts& parts, const SaveOptions& options, const Context& context)
         : parts_(parts),
+          options_(options),
           moves_origin_(options.origin == FileOrigin::automatic),
           context_(context),
           asset_(dynamic_cast<const GltfAsset*>(parts.take_asset().get())),
-          attributes_(take_attributes(parts)) {
+          attributes_(take_attributes(parts)),
+          binary_(options.compression == Compression::meshopt) {
         if (!asset_) return;
         json_ = asset_->json;
         world_ = world_transforms(json_);
@@ -66,6 +68,7 @@ class DocumentWriter {
         write_images();
         clean();
         binary_.finish(json_);
+        declare_extensions();
         return std::move(json_);
     }
 
@@ -93,6 +96,8 @@ class DocumentWriter {
         objects_ = parts_.take_labels("object");
         materials_ = parts_.take_labels("material");
         MeshWriter writer(parts_, attributes_, binary_, context_);
+        writer.uses_draco = options_.compression == Compression::draco;
+        writer.quantize = options_.quantize;
         if (mesh.face_count() == 0) {
             if (mesh.vertex_count() > 0) write_points(writer);
             return;
@@ -116,6 +121,12 @@ class DocumentWriter {
     void log_changes(const MeshWriter& writer) const {
         if (writer.lost_tangents() > 0) {
             context_.log(LogLevel::warning, "tangents were not saved because there are no normals");
+        }
+        if (writer.uncompressed() > 0) {
+            context_.log(LogLevel::warning,
+                         std::to_string(writer.uncompressed()) +
+                             " objects of several materials were not compressed by Draco; "
+                             "meshopt compresses them too");
         }
         const Mesh& mesh = parts_.mesh();
         std::size_t alone = 0;
@@ -363,22 +374,26 @@ class DocumentWriter {
                 }
             }
         }
+        for (const std::string name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+            if (std::find(used.begin(), used.end(), name) != used.end()) required.insert(name);
+        }
         json_["extensionsUsed"] = used;
         json_["extensionsRequired"] = required;
+        erase_if_empty(json_, "extensionsUsed");
+        erase_if_empty(json_, "extensionsRequired");
     }
 
     void clean() {
         clean_animations();
         clean_nodes();
-        declare_extensions();
-        for (const char* key :
-             {"animations", "cameras", "extensionsRequired", "extensionsUsed", "images",
-              "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
+        for (const char* key : {"animations", "cameras", "images", "materials", "meshes", "nodes",
+                                "samplers", "scenes", "skins", "textures"}) {
             erase_if_empty(json_, key);
         }
     }
 
     SavedParts& parts_;
+    const SaveOptions& options_;
     bool moves_origin_;
     const Context& context_;
     const GltfAsset* asset_;

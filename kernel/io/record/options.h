@@ -23,6 +23,13 @@ enum class FileOrigin {
     automatic,  ///< in the middle of a mesh that is farther from its origin than it is large
 };
 
+/// Compression of a glTF file. A build may lack either codec (CMake: LISSOM_MESHOPT, LISSOM_DRACO).
+enum class Compression {
+    none,
+    meshopt,  ///< EXT_meshopt_compression: of all vertices, morph targets and indices
+    draco,    ///< KHR_draco_mesh_compression: of objects that have one material
+};
+
 /// Conversion of the coordinates of a file to those of the mesh. Normals are turned but not scaled.
 struct LoadOptions {
     /// Vertices at the same place that become one; if absent, Weld::all for STL, which stores each
@@ -57,6 +64,12 @@ struct SaveOptions {
     /// Writes the normals of the surface (see vertex_normals) for a mesh that has none of its own.
     /// STL has those of its triangles in any case.
     bool normals = false;
+    /// glTF only. Vertices and faces keep their order.
+    Compression compression = Compression::none;
+    /// Bits of positions in a compressed file, relative to the size of the object, 6 to 20: 14 keep
+    /// a 16000th. Texture coordinates have as many, and directions half as many but at least 8; so
+    /// have morph targets. 0 keeps all numbers.
+    int quantize = 0;
 };
 
 /// Conversion of the coordinates of a file to those of the strands.

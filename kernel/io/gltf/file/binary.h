@@ -22,16 +22,33 @@ struct WrittenNumbers {
     ScalarType type = ScalarType::float32;
     bool normalized = false;
     std::vector<double> values;
+    /// Values are rounded to multiples of this power of two; 0 leaves them.
+    double step = 0.0;
 };
+
+/// Returns the numbers as packed little-endian bytes, elements `stride` bytes apart.
+std::string encoded(const WrittenNumbers& numbers, std::size_t stride);
+
+/// Rounds the values to their step. Errors: none; a step too small for 24 bits is doubled until
+/// all values fit.
+void round_to_step(WrittenNumbers& numbers);
 
 /// Use of an accessor.
 enum class BufferUse { vertices, indices };
 
 class GltfBinary {
   public:
+    /// With `compressed`, views of vertices and indices are compressed by EXT_meshopt_compression.
+    explicit GltfBinary(bool compressed = false) : compressed_(compressed) {}
+
     /// Adds numbers and returns the accessor's number. Elements of vertices start at multiples of 4
     /// bytes. `with_bounds` adds the least and largest values.
     std::size_t add(const WrittenNumbers& numbers, BufferUse use, bool with_bounds = false);
+    /// Adds an accessor of numbers that stand elsewhere, and returns its number.
+    std::size_t add_without_view(const WrittenNumbers& numbers, bool with_bounds);
+    /// Adds the numbers that are not zero, if that takes fewer bytes, and returns the accessor's
+    /// number. Compressed views hold all numbers: zeros take hardly any room there.
+    std::size_t add_sparse(const WrittenNumbers& numbers, bool with_bounds = false);
     /// Adds an accessor with given bytes; `use` is that of their view.
     std::size_t add(Json accessor, std::string_view bytes, std::optional<BufferUse> use = {});
     /// Adds bytes and returns the number of their view.
@@ -42,8 +59,14 @@ class GltfBinary {
     void finish(Json& document);
 
   private:
+    Json described(const WrittenNumbers& numbers, bool with_bounds) const;
+    std::size_t add_compressed(const WrittenNumbers& numbers, BufferUse use, std::size_t stride);
+
     Json views_ = Json::array(), accessors_ = Json::array();
     std::string bytes_;
+    bool compressed_ = false;
+    // Bytes that the compressed views have when decompressed.
+    std::size_t decompressed_bytes_ = 0;
 };
 
 }  // namespace lissom

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <new>
 
+#include "kernel/io/gltf/file/compressed.h"
 #include "kernel/io/gltf/file/container.h"
 #include "kernel/io/gltf/file/extensions.h"
 #include "kernel/io/stream/json_object.h"
@@ -309,6 +310,7 @@ GltfDocument open_gltf(const FileInput& file, Report& report, const Context& con
     Loader loader(file, document, report, context);
     loader.load_buffers(container.binary);
     document.charge = context.charge(2 * document.bytes_read, "the content of a glTF file");
+    decompress(document, context);
     document.model = parse_model(document.json);
     loader.load_images();
     return document;

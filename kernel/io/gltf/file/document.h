@@ -45,6 +45,8 @@ struct GltfDocument {
     /// Bytes of the file and of its referenced files.
     std::size_t bytes_read = 0;
     MemoryCharge charge;
+    /// Of buffers that were decompressed.
+    std::vector<MemoryCharge> decompressed;
 };
 
 /// Returns the bytes of a buffer view. Errors: file_syntax naming it if they are not in its buffer.

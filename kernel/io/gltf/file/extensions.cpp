@@ -10,10 +10,13 @@
 namespace lissom {
 namespace {
 
-constexpr std::array<std::string_view, 9> kSupported{
-    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual",
-    "EXT_texture_webp",      "KHR_texture_basisu",    "KHR_node_visibility",
-    "KHR_xmp_json_ld",       "FB_ngon_encoding",      "EXT_mesh_gpu_instancing"};
+constexpr std::array<std::string_view, 12> kSupported{
+    "KHR_mesh_quantization",   "KHR_texture_transform",
+    "KHR_lights_punctual",     "EXT_texture_webp",
+    "KHR_texture_basisu",      "KHR_node_visibility",
+    "KHR_xmp_json_ld",         "FB_ngon_encoding",
+    "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression", "KHR_meshopt_compression"};
 
 // Extensions of primitives that hold beside another surface.
 constexpr std::array<std::string_view, 2> kKeptOnPrimitives{"KHR_materials_variants",
@@ -37,37 +40,6 @@ std::string joined(const std::set<std::string>& names) {
             ", which is not known here; export it without" +
             (is_compression ? ", or decode it first, for instance with: gltf-transform copy IN OUT"
                             : ""));
-}
-
-bool has_data(const Json& document, const Json& accessor) {
-    const Json* views = member(document, "bufferViews");
-    const int view = index_member(accessor, "bufferView", "an accessor");
-    return view < 0 ? member(accessor, "sparse") != nullptr : views != nullptr;
-}
-
-// Compressed primitives may come with plain data as well.
-void require_plain_primitives(const Json& document) {
-    const Json *meshes = member(document, "meshes"), *accessors = member(document, "accessors");
-    if (!meshes || !accessors) return;
-    for_each_object(*meshes, [&](const Json& primitive) {
-        if (!extension(primitive, "KHR_draco_mesh_compression")) return;
-        const Json* attributes = member(primitive, "attributes");
-        const int position = attributes ? index_member(*attributes, "POSITION", "a primitive") : -1;
-        if (position < 0 || at(position) >= accessors->size()) return;
-        if (!has_data(document, (*accessors)[position])) {
-            refuse_extension("KHR_draco_mesh_compression");
-        }
-    });
-}
-
-void require_plain_buffers(const Json& document) {
-    const Json* buffers = member(document, "buffers");
-    if (!buffers) return;
-    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-        for (const Json& buffer : *buffers) {
-            if (extension(buffer, name) && !member(buffer, "uri")) refuse_extension(name);
-        }
-    }
 }
 
 bool refers_to_bytes(const Json& json) {
@@ -115,8 +87,6 @@ void require_supported_extensions(const Json& document) {
         }
     }
     if (!unknown.empty()) refuse_extension(joined(unknown));
-    require_plain_primitives(document);
-    require_plain_buffers(document);
 }
 
 void drop_bound_extensions(Json& document, Report& report) {

@@ -1,16 +1,20 @@
 #include "kernel/io/gltf/mesh/mesh_writer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "kernel/io/gltf/file/draco.h"
 #include "kernel/io/gltf/file/extras.h"
 #include "kernel/io/gltf/file/tiny_gltf.h"
 #include "kernel/io/gltf/mesh/fans.h"
 #include "kernel/io/gltf/mesh/told_morphs.h"
 #include "kernel/io/gltf/mesh/values.h"
 #include "kernel/io/stream/json_object.h"
+#include "kernel/io/stream/scalar.h"
 
 namespace lissom {
 namespace {
@@ -25,6 +29,9 @@ std::vector<Index> used_vertices(const std::vector<Index>& corners, std::size_t 
     }
     return list;
 }
+
+// The name of a target without offsets.
+constexpr const char* kNoOffsets = "nothing";
 
 // Accessors written before, by their contents.
 using Written = std::map<std::string, std::size_t>;
@@ -44,6 +51,13 @@ class MeshWriter::Object {
         mesh_["primitives"] = Json::array();
         find_targets();
         find_joints();
+        find_steps();
+    }
+
+    // A primitive compressed by Draco holds all vertices of the object.
+    void expect_primitives(std::size_t count) {
+        is_packed_ = writer_.uses_draco && count == 1;
+        if (writer_.uses_draco && count > 1) ++writer_.uncompressed_;
     }
 
     void add_primitive(const SurfacePrimitive& primitive, const VertexPools& pools,
@@ -61,6 +75,7 @@ class MeshWriter::Object {
             json["targets"] = std::move(targets);
         }
         json["indices"] = indices(fans.corners());
+        if (is_packed_) pack(json, fans.corners());
         mesh_["primitives"].push_back(std::move(json));
     }
 
@@ -164,19 +179,100 @@ class MeshWriter::Object {
         writer_.float_loss_.look_at(f, placed_);
     }
 
+    // The steps of positions and of directions, powers of two.
+    void find_steps() {
+        if (writer_.quantize == 0) return;
+        constexpr int kLeastBits = 8;
+        Box box;
+        for (const Index v : pool_.vertices) {
+            box.extend(place_.to_node.position(writer_.parts_.mesh().position(v)));
+        }
+        const double size = box.empty() ? 1.0 : (box.max - box.min).maxCoeff();
+        const int exponent = size > 0.0 && std::isfinite(size) ? std::ilogb(size) : 0;
+        position_step_ = std::ldexp(1.0, exponent - writer_.quantize);
+        uv_step_ = std::ldexp(1.0, -writer_.quantize);
+        direction_step_ = std::ldexp(1.0, -std::max(kLeastBits, writer_.quantize / 2));
+    }
+
+    double step_of(GltfSemantic semantic) const {
+        switch (semantic) {
+            case GltfSemantic::position:
+                return position_step_;
+            case GltfSemantic::normal:
+            case GltfSemantic::tangent:
+                return direction_step_;
+            case GltfSemantic::uv:
+                return uv_step_;
+            default:
+                return 0.0;
+        }
+    }
+
+    // Returns the accessor of the values with this name, made when first asked for.
     template <typename Make>
-    std::size_t once(const std::string& name, const Make& make, bool with_bounds = false) {
+    std::size_t once(const std::string& name, GltfSemantic semantic, const Make& make) {
         const auto known = written_.find(name);
         if (known != written_.end()) return known->second;
-        const std::size_t number = writer_.binary_.add(make(), BufferUse::vertices, with_bounds);
-        written_[name] = number;
+        WrittenNumbers numbers = make();
+        if (numbers.type == ScalarType::float32) numbers.step = step_of(semantic);
+        round_to_step(numbers);
+        return written_[name] = add_numbers(name, semantic, std::move(numbers));
+    }
+
+    std::size_t add_numbers(const std::string& name, GltfSemantic semantic,
+                            WrittenNumbers numbers) {
+        const bool with_bounds = semantic == GltfSemantic::position;
+        const bool is_target = name.starts_with("morph.") || name == kNoOffsets;
+        if (is_target) return writer_.binary_.add_sparse(numbers, with_bounds);
+        if (!is_packed_) return writer_.binary_.add(numbers, BufferUse::vertices, with_bounds);
+        const std::size_t number = writer_.binary_.add_without_view(numbers, with_bounds);
+        packed_.push_back({number, semantic, std::move(numbers)});
         return number;
+    }
+
+    // Gives a primitive the compressed form of its attributes and indices.
+    void pack(Json& json, const std::vector<Index>& corners) {
+        std::vector<std::string> bytes;
+        for (const Packed& one : packed_) {
+            bytes.push_back(encoded(one.numbers, one.numbers.width * size_of(one.numbers.type)));
+        }
+        std::vector<DracoAttribute> attributes;
+        for (std::size_t a = 0; a < packed_.size(); ++a) {
+            const WrittenNumbers& numbers = packed_[a].numbers;
+            attributes.push_back({bytes[a], numbers.width, numbers.type, numbers.normalized,
+                                  packed_[a].semantic == GltfSemantic::position,
+                                  bits_of(packed_[a])});
+        }
+        Json ids = Json::object();
+        for (const auto& item : json["attributes"].items()) {
+            for (std::size_t a = 0; a < packed_.size(); ++a) {
+                if (packed_[a].accessor == item.value()) ids[item.key()] = a;
+            }
+        }
+        const std::vector<std::uint32_t> indices(corners.begin(), corners.end());
+        const std::size_t view = writer_.binary_.add_view(encode_draco(indices, attributes));
+        Json extension = json_object({{"bufferView", view}, {"attributes", std::move(ids)}});
+        json["extensions"]["KHR_draco_mesh_compression"] = std::move(extension);
+    }
+
+    struct Packed {
+        std::size_t accessor = 0;
+        GltfSemantic semantic = GltfSemantic::position;
+        WrittenNumbers numbers;
+    };
+
+    // Draco divides the range of the numbers, which directions and positions fill.
+    int bits_of(const Packed& packed) const {
+        if (packed.numbers.step == 0.0) return 0;
+        const bool is_direction =
+            packed.semantic == GltfSemantic::normal || packed.semantic == GltfSemantic::tangent;
+        return is_direction ? 1 - std::ilogb(direction_step_) : writer_.quantize + 1;
     }
 
     Json attributes_of(const std::vector<Index>& used, Index uv_count) {
         Json json = Json::object();
-        json["POSITION"] = once(
-            "POSITION", [&] { return values_.positions(); }, true);
+        json["POSITION"] =
+            once("POSITION", GltfSemantic::position, [&] { return values_.positions(); });
         Index sets_of_uv = uv_count, sets_of_color = 0;
         bool has_normal = false;
         for (const WrittenAttribute& written : writer_.attributes_.plain) {
@@ -189,7 +285,7 @@ class MeshWriter::Object {
             }
             has_normal = has_normal || semantic == GltfSemantic::normal;
             const std::string name = gltf_attribute_name(written.name);
-            json[name] = once(name, [&] { return values_.attribute(written); });
+            json[name] = once(name, semantic, [&] { return values_.attribute(written); });
         }
         fill_sets(json, "TEXCOORD_", sets_of_uv, 2);
         fill_sets(json, "COLOR_", sets_of_color, 3);
@@ -204,7 +300,7 @@ class MeshWriter::Object {
         for (Index set = 0; set < count; ++set) {
             const std::string name = prefix + std::to_string(set);
             if (json.contains(name)) continue;
-            json[name] = once(name, [&] {
+            json[name] = once(name, GltfSemantic::color, [&] {
                 WrittenNumbers numbers = values_.zeros(width);
                 if (width > 2) std::fill(numbers.values.begin(), numbers.values.end(), 1.0);
                 return numbers;
@@ -217,8 +313,10 @@ class MeshWriter::Object {
         if (joints_.empty()) {
             const auto sets = values_.joint_sets(writer_.attributes_, place_.joint_count);
             for (const PoolValues::JointSet& set : sets) {
-                joints_.emplace_back(writer_.binary_.add(set.joints, BufferUse::vertices),
-                                     writer_.binary_.add(set.weights, BufferUse::vertices));
+                const std::string number = std::to_string(joints_.size());
+                joints_.emplace_back(
+                    once("JOINTS_" + number, GltfSemantic::color, [&] { return set.joints; }),
+                    once("WEIGHTS_" + number, GltfSemantic::color, [&] { return set.weights; }));
             }
         }
         for (std::size_t set = 0; set < joints_.size(); ++set) {
@@ -236,13 +334,12 @@ class MeshWriter::Object {
                 const std::string name =
                     gltf_attribute_name({morph->name.semantic, 0, std::string()});
                 if (!attributes.contains(name)) continue;
-                target[name] = once(
-                    morph->attribute->name, [&] { return values_.morph(*morph); },
-                    morph->name.semantic == GltfSemantic::position);
+                target[name] = once(morph->attribute->name, morph->name.semantic,
+                                    [&] { return values_.morph(*morph); });
             }
             if (target.empty()) {
-                target["POSITION"] = once(
-                    "nothing", [&] { return values_.zeros(3); }, true);
+                target["POSITION"] =
+                    once(kNoOffsets, GltfSemantic::position, [&] { return values_.zeros(3); });
             }
             targets.push_back(std::move(target));
         }
@@ -254,6 +351,7 @@ class MeshWriter::Object {
         const bool is_short = pool_.size() <= 0xffff;
         WrittenNumbers numbers{1, is_short ? ScalarType::uint16 : ScalarType::uint32, false, {}};
         numbers.values.assign(corners.begin(), corners.end());
+        if (is_packed_) return writer_.binary_.add_without_view(numbers, false);
         return writer_.binary_.add(numbers, BufferUse::indices);
     }
 
@@ -315,7 +413,9 @@ class MeshWriter::Object {
     std::vector<std::pair<std::size_t, std::size_t>> joints_;
     std::map<std::size_t, std::vector<const WrittenMorph*>> morphs_;
     std::size_t target_count_ = 0;
-    bool has_joints_ = false;
+    bool has_joints_ = false, is_packed_ = false;
+    double position_step_ = 0.0, direction_step_ = 0.0, uv_step_ = 0.0;
+    std::vector<Packed> packed_;
     // Corners of the face at hand, in the node.
     std::vector<Vec3> placed_;
     // The face of the mesh that each polygon read back will be.
@@ -341,6 +441,7 @@ MeshWriter::MeshWriter(SavedParts& parts, const WrittenAttributes& attributes, G
 Json MeshWriter::write(const SurfaceObject& object, const VertexPools& pools, Index number,
                        const ObjectPlace& place, const std::vector<PlacedMaterial>& materials) {
     Object writer(*this, pools.pool(number), place);
+    writer.expect_primitives(object.primitives.size());
     if (object.is_joined) writer.keep_objects(*parts_.take_labels("object"));
     for (std::size_t p = 0; p < object.primitives.size(); ++p) {
         context_.checkpoint();

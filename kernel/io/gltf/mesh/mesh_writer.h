@@ -51,6 +51,11 @@ class MeshWriter {
     /// Returns the mesh of a surface that has only vertices.
     Json write_points(const ObjectPlace& place);
 
+    /// Compression of primitives, and the bits that numbers keep: see SaveOptions.
+    bool uses_draco = false;
+    int quantize = 0;
+    /// Objects that were not compressed because they have several materials.
+    std::size_t uncompressed() const { return uncompressed_; }
     /// Whether the meshes state their duplicate vertices.
     bool states_copies = false;
     /// Returns the loss by rounding of the faces written so far.
@@ -68,7 +73,7 @@ class MeshWriter {
     std::vector<std::pair<std::string, const FaceLabels*>> labels_;
     std::vector<std::pair<std::string, std::vector<char>>> regions_;
     FloatLoss float_loss_;
-    std::size_t lost_tangents_ = 0;
+    std::size_t lost_tangents_ = 0, uncompressed_ = 0;
 };
 
 }  // namespace lissom
