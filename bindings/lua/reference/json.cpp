@@ -1,5 +1,6 @@
 #include "bindings/lua/reference/json.h"
 
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -24,7 +25,9 @@ std::string json_string(std::string_view text) {
     return result + '"';
 }
 
+// JSON has no infinite numbers; they are the texts "inf" and "-inf".
 std::string json_number(double value) {
+    if (!std::isfinite(value)) return value > 0.0 ? "\"inf\"" : "\"-inf\"";
     char text[32];
     std::snprintf(text, sizeof text, "%.17g", value);
     return text;
