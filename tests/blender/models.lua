@@ -33,6 +33,16 @@ save(add_seams(shapes.grid{ segments = { 7, 5 } }), "shape_grid")
 save(add_seams(shapes.torus{}), "shape_torus")
 save(shapes.cactus{ vertices = 2000 }, "cactus")
 
+-- A skin, whose joints are animated.
+local bar = shapes.bar{ across = 2, along = 10 }
+local deformer = lissom.deformer(bar)
+deformer:add_handle(bar:region("bottom"))
+local top = deformer:add_handle(bar:region("top"))
+local skinned = deformer:skin{ joints = 4, duration = 1, fps = 8, pose = function(time)
+   top:set{ rotate = { axis = "z", angle = 60 * time } }
+end }
+assert(skinned:save(params.out .. "/bar_skin.glb"))
+
 -- Models without two vertices at one place, which Blender would join.
 local names = { "camelhead.off", "fandisk_quads.off", "bunny_3k.off", "eight.off", "hand_plain.obj" }
 for _, name in ipairs(params.models ~= "" and names or {}) do
