@@ -18,6 +18,8 @@ constexpr double kAtSeam = 1.0;
 // In radii of a seam: of 33 groups of crossings in 80 merges of real models, those that cannot be
 // seen (lips, eyelids, folds of a neck) part by .005, others by .02 or not by .05.
 constexpr double kShallow = 0.01;
+// Rings of faces that the line slides over along which separate parts cross, as one of them bends.
+constexpr int kPartsSlide = 3;
 
 // The faces of the source, which is deformed, and those of the target that were made or moved.
 std::vector<Index> changed_faces(const Mesh& target, const Sewn& sewn) {
@@ -101,13 +103,27 @@ class Origins {
         return faces;
     }
 
+    bool is_source(Index f) const { return sewn_.side_of_face[at(f)] == SeamSide::source; }
+
     // Separate parts move each as a whole while the others bend; away from a seam the source bends
-    // by itself. The line along which it crosses itself slides over to the next faces.
-    bool slides(const FacePair& pair) const {
-        if (sewn_.side_of_face[at(pair.first)] == SeamSide::target) return false;
-        if (sewn_.side_of_face[at(pair.second)] == SeamSide::target) return false;
-        if (part(of(pair.first).front()) != part(of(pair.second).front())) return true;
-        return !touches(sewn_.mesh, near_, pair.first) && !touches(sewn_.mesh, near_, pair.second);
+    // by itself. The line along which it crosses itself slides over so many rings of faces.
+    int slide(const FacePair& pair) const {
+        if (!is_source(pair.first) || !is_source(pair.second)) return 0;
+        if (part(of(pair.first).front()) != part(of(pair.second).front())) return kPartsSlide;
+        const bool near =
+            touches(sewn_.mesh, near_, pair.first) || touches(sewn_.mesh, near_, pair.second);
+        return near ? 0 : 1;
+    }
+
+    // The part of the source that a face at rest belongs to.
+    Index part(Index f) const {
+        return other_.components()[at(other_.face(f - old_.face_count())[0])];
+    }
+
+    // The faces next to some, `rings` times.
+    std::vector<Index> around(std::vector<Index> faces, int rings) const {
+        for (int i = 0; i < rings; ++i) faces = around(faces);
+        return faces;
     }
 
     std::vector<Index> around(std::span<const Index> faces) const {
@@ -125,14 +141,59 @@ class Origins {
     }
 
   private:
-    Index part(Index f) const {
-        return other_.components()[at(other_.face(f - old_.face_count())[0])];
-    }
-
     const Topology& old_;
     const Topology& other_;
     const Sewn& sewn_;
     std::vector<char> near_;
+};
+
+// Parts of the source without a joined boundary that ran through another at rest, such as handles
+// stuck into a body: the target takes the place of that body, and they are stuck into it.
+class StuckParts {
+  public:
+    StuckParts(const Mesh& source, const Sewn& sewn, const Origins& origins, const Context& context)
+        : joined_(at(components_of(source)), 0), stuck_(joined_.size(), 0) {
+        for (const std::vector<Index>& seam : sewn.seams) {
+            for (const Index v : seam) {
+                for (const Index f : sewn.mesh.topology().faces_around(v)) {
+                    if (!origins.is_source(f)) continue;
+                    joined_[at(origins.part(origins.of(f).front()))] = 1;
+                }
+            }
+        }
+        note_stuck(source, context);
+    }
+
+    // Whether one face is of such a part and the other of the target.
+    bool explain(const FacePair& pair, const Origins& origins) const {
+        const bool first = origins.is_source(pair.first), second = origins.is_source(pair.second);
+        if (first == second) return false;
+        return stuck_[at(origins.part(origins.of(first ? pair.first : pair.second).front()))] != 0;
+    }
+
+  private:
+    static Index components_of(const Mesh& source) {
+        Index count = 0;
+        for (const Index c : source.topology().components()) count = std::max(count, c + 1);
+        return count;
+    }
+
+    void note_stuck(const Mesh& source, const Context& context) {
+        const std::vector<Index>& part = source.topology().components();
+        std::vector<Index> loose;
+        for (Index f = 0; f < source.face_count(); ++f) {
+            if (!joined_[at(part[at(source.topology().face(f)[0])])]) loose.push_back(f);
+        }
+        if (loose.empty()) return;
+        for (const FacePair& pair : self_intersections(source, {loose, std::nullopt}, context)) {
+            const Index a = part[at(source.topology().face(pair.first)[0])];
+            const Index b = part[at(source.topology().face(pair.second)[0])];
+            if (a == b) continue;
+            for (const Index c : {a, b}) stuck_[at(c)] = joined_[at(c)] ? 0 : 1;
+        }
+    }
+
+    std::vector<char> joined_, stuck_;
 };
 
 // The faces at rest that a pair of the merged mesh may have crossed as.
@@ -142,8 +203,10 @@ struct RestPair {
 
 RestPair rest_pair(const Origins& origins, const FacePair& pair) {
     RestPair rest{origins.of(pair.first), origins.of(pair.second)};
-    if (!origins.slides(pair)) return rest;
-    return {origins.around(rest.first), origins.around(rest.second)};
+    const int rings = origins.slide(pair);
+    if (rings == 0) return rest;
+    return {origins.around(std::move(rest.first), rings),
+            origins.around(std::move(rest.second), rings)};
 }
 
 bool is_among(const std::vector<FacePair>& known, const RestPair& rest) {
@@ -216,6 +279,10 @@ Crossings new_crossings(const Mesh& target, const Mesh& source, const Sewn& sewn
     std::vector<FacePair> fresh;
     for (std::size_t k = 0; k < rest.size(); ++k) {
         if (!is_among(before, rest[k])) fresh.push_back(found.pairs[k]);
+    }
+    if (!fresh.empty()) {
+        const StuckParts stuck(source, sewn, origins, context);
+        std::erase_if(fresh, [&](const FacePair& pair) { return stuck.explain(pair, origins); });
     }
     found.known = count_of(found.pairs) - count_of(fresh);
     found.pairs = std::move(fresh);

@@ -25,7 +25,8 @@ struct Crossings {
 /// Finds the pairs of faces of `sewn` that run through one another and come from faces of the
 /// opened target and of the source at rest that did not. If both faces are the source's and belong
 /// to separate parts of it, or lie more than one radius from every seam, the line along which the
-/// surfaces cross may slide over to the next faces: those count as known.
+/// surfaces cross may slide over to the next faces: those count as known. So do those of the target
+/// with a part of the source without a joined boundary that ran through another part at rest.
 Crossings new_crossings(const Mesh& target, const Mesh& source, const Sewn& sewn,
                         const Context& context);
 

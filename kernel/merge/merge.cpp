@@ -132,6 +132,11 @@ MergeReport report_of(const PreparationReport& prepared, const Boundaries& bound
     for (const auto* told : {&matching.warnings, &merged.warnings}) {
         report.warnings.insert(report.warnings.end(), told->begin(), told->end());
     }
+    if (!merged.intersections.empty()) {
+        report.warnings.push_back(std::to_string(merged.intersections.size()) +
+                                  " pairs of faces run through one another that did not "
+                                  "before; see the report's intersections");
+    }
     report.deform = prepared.stats;
     report.deform_seconds = moved.seconds;
     report.seam = merged.sewn.report;

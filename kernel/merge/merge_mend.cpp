@@ -1,33 +1,18 @@
 // Another way to sew, if a verdict is not good.
-#include <algorithm>
 #include <string>
 #include <utility>
 
+#include "kernel/merge/mend.h"
 #include "kernel/merge/merge_stages.h"
 
 namespace lissom {
 namespace {
 
-// Faults of the surface around a seam, which depend on how it was sewn.
-bool depends_on_sewing(const MergeReason& reason) {
-    switch (reason.fault) {
-        case MergeFault::folds:
-        case MergeFault::roughness:
-        case MergeFault::bend:
-        case MergeFault::flare:
-        case MergeFault::spike:
-        case MergeFault::seam:
-            return true;
-        default:
-            return false;
-    }
-}
-
 bool may_mend(const MergeOptions& options, const MergeReport& report) {
     const bool plain = options.seam == SeamKind::conform && !options.auto_transition &&
                        !(options.source_transition > 0.0) && !(options.target_transition > 0.0);
     return options.mend && plain && options.collar && options.smooth > 0 && !options.thesis &&
-           std::any_of(report.reasons.begin(), report.reasons.end(), depends_on_sewing);
+           has_surface_faults(report);
 }
 
 JudgedSides sewn_judged(const MergePreparation& preparation, const MergeOptions& options,
@@ -39,22 +24,24 @@ JudgedSides sewn_judged(const MergePreparation& preparation, const MergeOptions&
     return sides;
 }
 
-// Angles by which the surface turns in the bands: of two ways with as many faults the one with
-// less looks better.
-double unrest(const MergeReport& report) {
-    double sum = 0.0;
-    for (const JoinReport& join : report.joins) {
-        sum += join.band.flare + join.band.bend + join.band.roughness;
+// Takes folds and crossings beside the seams away, as far as that leaves fewer faults. Returns
+// whether it did.
+bool relax_best(const MergePreparation& preparation, const MergeOptions& options,
+                const Matching& matching, const DeformedSource& moved, JudgedSides& best,
+                const Context& context) {
+    bool better = false;
+    JudgedSides tried = best;
+    for (Index rings = 1; rings <= kRelaxRings && !tried.report.ok; rings *= 2) {
+        if (!relax_sides(preparation.boundaries, options, tried.report, rings, tried.merged,
+                         context))
+            break;
+        tried.report = report_of(preparation.report, preparation.boundaries, options, matching,
+                                 moved, tried.merged, context);
+        if (!is_better(tried.report, best.report, false)) continue;
+        best = tried;
+        better = true;
     }
-    return sum;
-}
-
-std::string fault_names(const MergeReport& report) {
-    std::string names;
-    for (const MergeReason& reason : report.reasons) {
-        names += (names.empty() ? "" : ", ") + std::string(fault_name(reason.fault));
-    }
-    return names;
+    return better;
 }
 
 }  // namespace
@@ -69,20 +56,19 @@ JudgedSides judged_sides(const MergePreparation& preparation, const Matching& ma
     fair.seam = SeamKind::fair;
     blended.auto_transition = true;
     std::string way;
+    const MergeOptions* taken = &asked;
     for (const auto& [options, name] :
          {std::pair(&fair, "the seam is fair"), std::pair(&blended, "a transition is made")}) {
         JudgedSides other = sewn_judged(preparation, *options, matching, moved, context);
-        const bool first = way.empty();
-        const std::size_t count = other.report.reasons.size(), least = best.report.reasons.size();
-        const bool calmer = !first && count == least && unrest(other.report) < unrest(best.report);
-        if (count >= least && !calmer) continue;
+        if (!is_better(other.report, best.report, !way.empty())) continue;
         best = std::move(other);
         way = name;
+        taken = options;
     }
-    if (!way.empty()) {
-        best.report.warnings.push_back("the plain seam had faults (" + faults + "): " + way +
-                                       " in its place, which has fewer");
+    if (!best.report.ok && relax_best(preparation, *taken, matching, moved, best, context)) {
+        way += (way.empty() ? "" : " and ") + std::string("the folds beside it are smoothed");
     }
+    if (!way.empty()) note_mended(faults, way, best.report);
     return best;
 }
 

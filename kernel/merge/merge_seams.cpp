@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/merge/blend/fair_seam.h"
+#include "kernel/merge/blend/relax_faults.h"
 #include "kernel/merge/creases.h"
 #include "kernel/merge/crossings.h"
 #include "kernel/merge/merge_stages.h"
@@ -200,23 +201,30 @@ MergedSides sew_well(const Boundaries& boundaries, const MergeOptions& options,
     return better ? std::move(plain) : std::move(merged);
 }
 
+void find_crossings(const Boundaries& boundaries, MergedSides& merged, const Context& context) {
+    Crossings found =
+        new_crossings(boundaries.target, boundaries.source.mesh, merged.sewn, context);
+    merged.intersections = std::move(found.pairs);
+    merged.known_intersections = found.known;
+}
+
 }  // namespace
 
 MergedSides sew_sides(const Boundaries& boundaries, const MergeOptions& options,
                       const Matching& matching, const DeformedSource& moved,
                       const Context& context) {
     MergedSides merged = sew_well(boundaries, options, matching, moved, context);
-    if (!options.find_intersections) return merged;
-    Crossings found =
-        new_crossings(boundaries.target, boundaries.source.mesh, merged.sewn, context);
-    merged.intersections = std::move(found.pairs);
-    merged.known_intersections = found.known;
-    if (!merged.intersections.empty()) {
-        merged.warnings.push_back(std::to_string(merged.intersections.size()) +
-                                  " pairs of faces run through one another that did not "
-                                  "before; see the report's intersections");
-    }
+    if (options.find_intersections) find_crossings(boundaries, merged, context);
     return merged;
+}
+
+bool relax_sides(const Boundaries& boundaries, const MergeOptions& options,
+                 const MergeReport& report, Index rings, MergedSides& merged,
+                 const Context& context) {
+    const std::vector<Index> firm = became_of(merged.sewn, creases_of(boundaries, true));
+    if (!relax_faults(merged.sewn, report.crossings, firm, rings, context)) return false;
+    if (options.find_intersections) find_crossings(boundaries, merged, context);
+    return true;
 }
 
 }  // namespace lissom

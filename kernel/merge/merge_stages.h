@@ -19,6 +19,7 @@
 #include "kernel/deform/boundary/boundary_deformer.h"
 #include "kernel/deform/stats.h"
 #include "kernel/merge/blend/overlap_transition.h"
+#include "kernel/merge/blend/relax_faults.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/loop/automatic_keys.h"
 #include "kernel/merge/loop/correspondence.h"
@@ -240,6 +241,12 @@ struct MergedSides {
 MergedSides sew_sides(const Boundaries& boundaries, const MergeOptions& options,
                       const Matching& matching, const DeformedSource& moved,
                       const Context& context);
+
+/// Smooths the places beside the seams at which the surface folds or crosses itself
+/// (relax_faults), with `rings` around them. Returns false, and changes nothing, if there are none.
+bool relax_sides(const Boundaries& boundaries, const MergeOptions& options,
+                 const MergeReport& report, Index rings, MergedSides& merged,
+                 const Context& context);
 
 MergeReport report_of(const PreparationReport& prepared, const Boundaries& boundaries,
                       const MergeOptions& options, const Matching& matching,

@@ -36,7 +36,8 @@ struct Verdict {
 ///   but for those that only touch (CrossingGroup::shallow) or lie within the body
 ///   (CrossingGroup::hidden);
 /// - source and target do not lie on the same side of their boundary;
-/// - the surface does not fold back within one radius of the seam and did not before;
+/// - the surface does not fold back within one radius of the seam and did not before, but for .15
+///   radii in all;
 /// - within half a radius it is at most 1.4 times as rough as both sides were, or turns by less
 ///   than 8 degrees an edge;
 /// - each part keeps three fifths of its volume at its scale;
@@ -53,7 +54,8 @@ struct Verdict {
 /// - a paste takes no sharp edge of its target along more than .3 of its radius, or deeper than
 ///   .15;
 /// - its place is not a toss;
-/// - no triangle at the seam has an angle under 2 degrees, or under the smallest that was there.
+/// - no triangle at the seam has an angle under 2 degrees, or under the smallest that was there or
+///   that dividing the polygons there makes.
 /// Angles of parts that fit (JoinReport::fits) are theirs. The text says which conditions hold, or
 /// all that do not.
 Verdict verdict_of(const MergeReport& report, const OpenOptions& open);

@@ -34,6 +34,7 @@ PasteMergeOptions read_paste_merge(const Call& call, const char* size) {
     options.find_intersections = call.boolean("intersections");
     options.lock_scale = call.integer(size) == 1;
     options.compare = call.boolean("compare");
+    options.mend = call.boolean("mend");
     return options;
 }
 
@@ -259,6 +260,11 @@ std::vector<Parameter> paste_merge_parameters(const char* size) {
                 "the best: ARAP iterations of the part; the outline of the region; and, once "
                 "`optimize` was called and by nearest points, a boundary that slides over the "
                 "target towards the relaxed position of the part.")
+            .defaults(true),
+        boolean("mend",
+                "If the verdict finds fault with the surface around the seam, tries a fair seam, a "
+                "transition and, with `compare`, other boundaries, and keeps the result with "
+                "fewest faults; a warning says so. Not without smoothing or collar.")
             .defaults(true)};
 }
 

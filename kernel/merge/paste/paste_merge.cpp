@@ -6,8 +6,12 @@
 
 #include "kernel/core/clock.h"
 #include "kernel/core/memory_error.h"
+#include "kernel/merge/blend/fair_seam.h"
+#include "kernel/merge/blend/relax_faults.h"
+#include "kernel/merge/blend/transition.h"
 #include "kernel/merge/creases.h"
 #include "kernel/merge/crossings.h"
+#include "kernel/merge/mend.h"
 #include "kernel/merge/paste/laid_part.h"
 #include "kernel/merge/paste/part/paste_part.h"
 #include "kernel/merge/paste/part/source_rest.h"
@@ -15,6 +19,7 @@
 #include "kernel/merge/paste/part/target_piece.h"
 #include "kernel/merge/paste/part_trial.h"
 #include "kernel/merge/paste/paste_state.h"
+#include "kernel/merge/sew/seam_collar.h"
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
 #include "kernel/merge/verdict.h"
@@ -87,6 +92,13 @@ TargetBite bite_of(std::span<const SharpEdge> edges, const LaidPart& laid, const
         context);
 }
 
+// Of the edges that the target has, or that a cleared one has left.
+TargetBite bite_on(const PartTrials& trials, const TargetPiece& target, const LaidPart& laid,
+                   const Sewn& sewn, const Context& context) {
+    return bite_of(trials.left ? *trials.left : sharp_edges(target.mesh(), context), laid, sewn,
+                   context);
+}
+
 SewnPart sewn_along(const PartTrials& trials, const TargetPiece& target, PartTrial trial,
                     const PasteMergeOptions& options, const Context& context) {
     SewnPart result{
@@ -95,8 +107,7 @@ SewnPart sewn_along(const PartTrials& trials, const TargetPiece& target, PartTri
         {}};
     result.sewn = sewn_well(result.laid, options, context);
     if (options.draft) return result;
-    const auto edges = trials.left ? *trials.left : sharp_edges(target.mesh(), context);
-    result.bite = bite_of(edges, result.laid, result.sewn, context);
+    result.bite = bite_on(trials, target, result.laid, result.sewn, context);
     return result;
 }
 
@@ -259,6 +270,153 @@ SewnPart sewn_onto(const PartTrials& trials, const TargetPiece& target, bool oth
     return better ? *std::move(on_edges) : std::move(best);
 }
 
+// Parts that a piece of the target may have; whether along another boundary than the one found.
+struct PasteTrialsOn {
+    const PartTrials& trials;
+    const TargetPiece& piece;
+    bool other_allowed = true;
+};
+
+// A part in the whole target, and its report.
+struct JudgedPart {
+    SewnPart pasted;
+    PastedOn made;
+    MergeReport report;
+};
+
+// Sews parts onto a piece of the target and judges the whole.
+class PasteJudge {
+  public:
+    PasteJudge(const Mesh& target, const Mesh& source, const PasteTrialsOn& on, double crease,
+               const PasteOrigins& origins, const PasteMergeOptions& options)
+        : target_(target),
+          source_(source),
+          on_(on),
+          crease_(crease),
+          origins_(origins),
+          options_(options) {}
+
+    // Nothing if the piece is too small for it.
+    std::optional<JudgedPart> judged(SewnPart pasted, const Context& context) const {
+        const LaidPart& laid = pasted.laid;
+        // Only ways that may be left for others are needed again.
+        Sewn sewn = options_.mend ? pasted.sewn : std::move(pasted.sewn);
+        std::optional<PastedOn> made =
+            on_.piece.put_back(laid.opened, laid.trial.part(), std::move(sewn), origins_, context);
+        if (!made) return std::nullopt;
+        MergeReport report =
+            merge_report(target_, source_, pasted, made->sewn, crease_, options_, context);
+        return JudgedPart{std::move(pasted), *std::move(made), std::move(report)};
+    }
+
+    // The part, or the same sewn another way that has fewer faults.
+    JudgedPart mended(JudgedPart best, const Context& context) const {
+        if (!may_mend(best.report)) return best;
+        const std::string faults = fault_names(best.report);
+        const SewnPart plain = best.pasted;
+        std::string taken;
+        for (const auto& [way, name] : kWays) {
+            if (best.report.ok) break;
+            std::optional<JudgedPart> other = attempt(way, plain, context);
+            if (!other || !is_better(other->report, best.report, !taken.empty())) continue;
+            best = *std::move(other);
+            taken = name;
+        }
+        if (relax(best, context)) {
+            taken += (taken.empty() ? "" : " and ") + std::string("its folds are smoothed");
+        }
+        if (!taken.empty()) note_mended(faults, taken, best.report);
+        return best;
+    }
+
+  private:
+    enum class Way { fair, transition, outline, tight };
+    static constexpr std::pair<Way, const char*> kWays[] = {
+        {Way::fair, "it is fair"},
+        {Way::transition, "a transition is made"},
+        {Way::outline, "the marked outline is taken"},
+        {Way::tight, "the feature's own outline is taken"}};
+
+    bool may_mend(const MergeReport& report) const {
+        return options_.mend && !options_.draft && options_.collar && options_.smooth > 0 &&
+               !on_.trials.options.thesis && has_surface_faults(report);
+    }
+
+    std::optional<JudgedPart> attempt(Way way, const SewnPart& plain,
+                                      const Context& context) const {
+        const bool other_boundary = way == Way::outline || way == Way::tight;
+        if (other_boundary && !(on_.other_allowed && options_.compare)) return std::nullopt;
+        try {
+            return judged(other_boundary ? along_other(way, context) : bent(way, plain, context),
+                          context);
+        } catch (const Error& error) {
+            if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::memory_limit) {
+                throw;
+            }
+            // There is no room for that way.
+            return std::nullopt;
+        }
+    }
+
+    SewnPart along_other(Way way, const Context& context) const {
+        PartTrial trial = way == Way::outline ? outline_trial(on_.trials, context)
+                                              : tight_trial(on_.trials, context);
+        return sewn_along(on_.trials, on_.piece, std::move(trial), options_, context);
+    }
+
+    SewnPart bent(Way way, SewnPart part, const Context& context) const {
+        Sewn& sewn = part.sewn;
+        const std::vector<Index> firm = became_of(sewn, kept_creases(part.laid.opened));
+        if (way == Way::fair) {
+            SeamFairing how;
+            how.firm = firm;
+            fair_seam(sewn.mesh, sewn.seams, how, context);
+            flip_near_seams(sewn, context);
+        } else {
+            TransitionOptions how;
+            how.firm = firm;
+            blend_transition(sewn, suitable_widths(sewn, context), how, context);
+        }
+        sewn.report.after = seam_quality(sewn.mesh, sewn.seams);
+        part.bite = bite_on(on_.trials, on_.piece, part.laid, sewn, context);
+        return part;
+    }
+
+    // Takes folds and crossings away, as far as that leaves fewer faults. Returns whether it did.
+    bool relax(JudgedPart& best, const Context& context) const {
+        bool better = false;
+        std::optional<JudgedPart> tried = best;
+        for (Index rings = 1; rings <= kRelaxRings && tried && !tried->report.ok; rings *= 2) {
+            tried = relaxed(*tried, rings, context);
+            if (!tried || !is_better(tried->report, best.report, false)) continue;
+            best = *tried;
+            better = true;
+        }
+        return better;
+    }
+
+    // Smoothed at folds and crossings; nothing if it has none.
+    std::optional<JudgedPart> relaxed(const JudgedPart& from, Index rings,
+                                      const Context& context) const {
+        SewnPart part = from.pasted;
+        Sewn& sewn = part.sewn;
+        const LaidPart& laid = part.laid;
+        const Crossings found =
+            new_crossings(laid.opened.mesh, laid.trial.part().mesh, sewn, context);
+        const std::vector<Index> firm = became_of(sewn, kept_creases(laid.opened));
+        const auto groups = crossing_groups(sewn, found.pairs, context);
+        if (!relax_faults(sewn, groups, firm, rings, context)) return std::nullopt;
+        part.bite = bite_on(on_.trials, on_.piece, laid, sewn, context);
+        return judged(std::move(part), context);
+    }
+
+    const Mesh &target_, &source_;
+    const PasteTrialsOn& on_;
+    double crease_;
+    const PasteOrigins& origins_;
+    const PasteMergeOptions& options_;
+};
+
 }  // namespace
 
 PasteResult Paste::merge(const PasteMergeOptions& options, const Context& context) try {
@@ -293,24 +451,26 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     // Along another boundary more of the target would go than was told.
     const bool other_allowed = state.covers(placed) && !state.bound_to_boundary();
     progress.step(0.6);
-    const TargetPiece& piece = state.target_piece(context);
-    SewnPart pasted = sewn_onto(trials, piece, other_allowed, report, options, context);
-    progress.step(0.4);
     const PasteOrigins origins{state.altered ? &*state.altered : nullptr,
                                state.as_given().topology(), !options.draft,
                                options.find_intersections && !options.draft};
-    const auto put_back = [&](const TargetPiece& onto) {
-        return onto.put_back(pasted.laid.opened, pasted.laid.trial.part(), std::move(pasted.sewn),
-                             origins, context);
+    const auto pasted_on = [&](const TargetPiece& piece) -> std::optional<JudgedPart> {
+        const PasteTrialsOn on{trials, piece, other_allowed};
+        const PasteJudge judge(state.target, state.source, on, state.options.crease, origins,
+                               options);
+        std::optional<JudgedPart> part = judge.judged(
+            sewn_onto(trials, piece, other_allowed, report, options, context), context);
+        if (part) part = judge.mended(*std::move(part), context);
+        return part;
     };
-    std::optional<PastedOn> made = put_back(piece);
-    const TargetPiece whole = TargetPiece::whole(state.target, state.used->map->target());
-    if (!made) {
-        pasted = sewn_onto(trials, whole, other_allowed, report, options, context);
-        made = put_back(whole);
+    std::optional<JudgedPart> done = pasted_on(state.target_piece(context));
+    progress.step(0.4);
+    if (!done) {
+        done = pasted_on(TargetPiece::whole(state.target, state.used->map->target()));
     }
+    const SewnPart& pasted = done->pasted;
     const PartTrial& trial = pasted.laid.trial;
-    Sewn& sewn = made->sewn;
+    Sewn& sewn = done->made.sewn;
     report.scale = trial.scale;
     report.smooth = trial.smooth;
     report.kept_outline = trial.outline;
@@ -321,10 +481,9 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.feature =
         feature_distortion(trial.part(), trial.moved.mesh, report.scale, state.regions.feature);
     PasteResult result{{}, std::move(report)};
-    result.merged.report = merge_report(state.target, state.source, pasted, sewn,
-                                        state.options.crease, options, context);
+    result.merged.report = std::move(done->report);
     result.merged.report.solve_seconds = seconds_since(start);
-    result.merged.provenance = std::move(made->provenance);
+    result.merged.provenance = std::move(done->made.provenance);
     result.report.euler_characteristic = euler_characteristic(sewn.mesh.topology());
     result.report.expected_characteristic = euler_characteristic(state.target.topology()) +
                                             euler_characteristic(trial.part().mesh.topology()) - 1;

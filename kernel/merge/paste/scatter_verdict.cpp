@@ -11,9 +11,22 @@ namespace {
 
 // The part of the places that may have no part before a scatter looks patchy.
 constexpr double kLeftOut = 0.1;
+// The part of the parts that may have a fault of the surface beside them: a scatter is seen as a
+// whole.
+constexpr double kFaultyParts = 0.1;
 
 std::string parts_text(std::size_t count) {
     return std::to_string(count) + (count == 1 ? " part" : " parts");
+}
+
+// Whether one part with a fault spoils a scatter.
+bool spoils(MergeFault fault) {
+    return fault == MergeFault::crossings || fault == MergeFault::folds ||
+           fault == MergeFault::bite;
+}
+
+bool are_few(std::size_t parts, const ScatterResult& result) {
+    return static_cast<double>(parts) <= kFaultyParts * static_cast<double>(result.placed);
 }
 
 void note_crossings(const ScatterResult& result, std::vector<MergeReason>& reasons) {
@@ -31,6 +44,7 @@ void note_parts(const ScatterResult& result, std::vector<MergeReason>& reasons) 
         for (const MergeReason& reason : place.reasons) kinds[reason.fault].push_back(&reason);
     }
     for (const auto& [fault, found] : kinds) {
+        if (!spoils(fault) && are_few(found.size(), result)) continue;
         const std::string text = parts_text(found.size()) + ": " + found.front()->text;
         reasons.push_back(
             {fault, kNoIndex, static_cast<double>(found.size()), 0.0, text, found.front()->remedy});
@@ -61,6 +75,9 @@ void note_left_out(const ScatterResult& result, Index places, std::vector<MergeR
 std::string counts_text(const ScatterResult& result) {
     std::string text = parts_text(at(result.placed)) + " stand";
     if (!result.moved.empty()) text += ", " + std::to_string(result.moved.size()) + " moved";
+    if (!result.faulty.empty()) {
+        text += ", " + std::to_string(result.faulty.size()) + " with a fault beside them";
+    }
     if (!result.shrunk.empty()) text += ", " + std::to_string(result.shrunk.size()) + " smaller";
     return text + ", " + std::to_string(result.refused.size()) + " places left out";
 }

@@ -71,6 +71,23 @@ void measure_near_edges(const Mesh& mesh, std::span<const Index> on_seam, SeamQu
     quality.greatest_near = greatest.value();
 }
 
+// The smallest angle of a polygon divided by the fan of diagonals that suits it best.
+double divided_angle(const Mesh& mesh, Index f) {
+    const std::span<const Index> face = mesh.topology().face(f);
+    const std::size_t n = face.size();
+    const auto corner = [&](std::size_t k) { return mesh.position(face[k % n]); };
+    double best = 0.0;
+    for (std::size_t from = 0; from < n; ++from) {
+        double least = kPi;
+        for (std::size_t k = 1; k + 1 < n; ++k) {
+            least = std::min(least,
+                             smallest_angle(corner(from), corner(from + k), corner(from + k + 1)));
+        }
+        best = std::max(best, least);
+    }
+    return best;
+}
+
 void measure_triangles(const Mesh& mesh, std::span<const Index> on_seam, SeamQuality& quality) {
     std::vector<Index> faces;
     for (const Index v : on_seam) {
@@ -80,7 +97,12 @@ void measure_triangles(const Mesh& mesh, std::span<const Index> on_seam, SeamQua
     sort_unique(faces);
     std::vector<double> angles;
     for (const Index f : faces) {
-        if (mesh.topology().face(f).size() == 3) angles.push_back(smallest_face_angle(mesh, f));
+        if (mesh.topology().face(f).size() == 3) {
+            angles.push_back(smallest_face_angle(mesh, f));
+        } else {
+            const double angle = divided_angle(mesh, f), least = quality.polygon_angle;
+            quality.polygon_angle = least > 0.0 ? std::min(least, angle) : angle;
+        }
     }
     if (angles.empty()) return;
     std::sort(angles.begin(), angles.end());

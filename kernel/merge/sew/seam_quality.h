@@ -33,6 +33,9 @@ struct SeamQuality {
     /// Angles of triangles with a vertex on the seam: the smallest, and the 5th percentile of each
     /// triangle's smallest.
     double smallest_angle = 0.0, low_angle = 0.0;
+    /// The smallest angle that the polygons with a vertex on the seam have once they are divided;
+    /// 0 without any.
+    double polygon_angle = 0.0;
     /// Vertices of the seams, and the mean length of their edges.
     Index vertices = 0;
     double mean_edge = 0.0;

@@ -6,6 +6,8 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/merge/merge_once.h"
+#include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/shapes.h"
 #include "tests/unit/support.h"
 
@@ -57,4 +59,30 @@ TEST_CASE("a seam is not mended that is good, was asked for, or must keep the ta
     const MergeResult good = merge(upper, lower, {}, {.mend = true});
     CHECK(good.report.ok);
     CHECK(!is_told(good.report));
+}
+
+namespace {
+
+// An upper tube with a ball in its wall or below that, on a lower tube.
+MergeResult with_ball(double height) {
+    const Mesh lower = open_tube(32, 12);
+    Mesh upper = open_tube(32, 12);
+    for (Vec3& p : upper.edit_positions()) p.y() += 2.2;
+    Mesh ball = make_sphere({.radius = 0.3, .segments = 12});
+    for (Vec3& p : ball.edit_positions()) p += Vec3(0.0, height, 1.0);
+    append(upper, ball);
+    return merge(upper, lower);
+}
+
+bool has_crossing_fault(const MergeReport& report) {
+    return std::any_of(report.reasons.begin(), report.reasons.end(),
+                       [](const MergeReason& r) { return r.fault == MergeFault::crossings; });
+}
+
+}  // namespace
+
+TEST_CASE("a separate part that was stuck into the source may be stuck into the target") {
+    CHECK(!has_crossing_fault(with_ball(1.35).report));
+    // A ball that touched nothing before is told.
+    CHECK(has_crossing_fault(with_ball(0.85).report));
 }

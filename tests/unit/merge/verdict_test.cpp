@@ -99,6 +99,10 @@ TEST_CASE("the verdict weighs the whole band, and tells each fault with its figu
     CHECK(only_reason(report_with(band)).fault == MergeFault::folds);
     band.rest_folded = 0.3;
     CHECK(verdict_of(report_with(band), {}).good);
+    // Short ones do not show.
+    band.rest_folded = 0.0;
+    band.folded = 0.13;
+    CHECK(verdict_of(report_with(band), {}).good);
 
     band = good_band();
     band.source_volume = 0.55;
@@ -287,6 +291,15 @@ TEST_CASE(
     MergeReport known = report_with(good_band());
     known.known_intersections = 53;
     CHECK(says(verdict_of(known, {}), "did not before (53 pairs did)"));
+}
+
+TEST_CASE("slivers are no fault beside polygons that are as thin once they are divided") {
+    MergeReport report = report_with(14.0, 1.2);
+    CHECK(only_reason(report).fault == MergeFault::slivers);
+    report.source_rim.polygon_angle = 1.0 * kDegree;
+    CHECK(verdict_of(report, {}).good);
+    report.source_rim.polygon_angle = 1.4 * kDegree;
+    CHECK(!verdict_of(report, {}).good);
 }
 
 TEST_CASE("slivers are no fault of parts that fit, which keep every vertex") {

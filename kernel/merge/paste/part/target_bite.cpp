@@ -41,9 +41,9 @@ class SharpLines {
     std::vector<double> length_;
 };
 
-// Calls `use` with both ends of each sharp edge.
+// Calls `use` with both ends and the angle of each edge between two faces.
 template <typename Use>
-void for_sharp_edges(const Mesh& mesh, const Context& context, const Use& use) {
+void for_inner_edges(const Mesh& mesh, const Context& context, const Use& use) {
     const Topology& topology = mesh.topology();
     for (Index f = 0; f < topology.face_count(); ++f) {
         if (f % 4096 == 0) context.checkpoint();
@@ -56,9 +56,42 @@ void for_sharp_edges(const Mesh& mesh, const Context& context, const Use& use) {
             if (other == kNoIndex) continue;
             const Vec3 across = clear_area_vector(mesh, other);
             const bool clear = normal.squaredNorm() > 0.0 && across.squaredNorm() > 0.0;
-            if (clear && angle_between(normal, across) > kSharpEdge) use(a, b);
+            if (clear) use(a, b, angle_between(normal, across));
         }
     }
+}
+
+// An edge is one of a grain, and not sharp, that turns by less than this many times as much as the
+// edges around it that are not sharp, in the mean: the ribs and wrinkles of scans have no edge that
+// a part could bite into.
+constexpr double kOfGrain = 2.5;
+
+// The grain of a surface at its vertices: the RMS turn of the edges that are not sharp.
+class Grain {
+  public:
+    explicit Grain(Index vertices) : squares_(at(vertices), 0.0), length_(at(vertices), 0.0) {}
+    void add(Index v, double length, double turn) {
+        squares_[at(v)] += length * turn * turn;
+        length_[at(v)] += length;
+    }
+    double between(Index a, Index b) const {
+        const double length = length_[at(a)] + length_[at(b)];
+        return length > 0.0 ? std::sqrt((squares_[at(a)] + squares_[at(b)]) / length) : 0.0;
+    }
+
+  private:
+    std::vector<double> squares_, length_;
+};
+
+Grain grain_of(const Mesh& mesh, const Context& context) {
+    Grain grain(mesh.vertex_count());
+    for_inner_edges(mesh, context, [&](Index a, Index b, double turn) {
+        if (turn > kSharpEdge) return;
+        const double length = (mesh.position(b) - mesh.position(a)).norm();
+        grain.add(a, length, turn);
+        grain.add(b, length, turn);
+    });
+    return grain;
 }
 
 Vec3 mean_of(std::span<const Vec3> points) {
@@ -95,7 +128,9 @@ Vec3 nearest_point_of(const SharpEdge& edge, const Vec3& point) {
 std::vector<SharpEdge> sharp_edges(const Mesh& mesh, const Context& context) {
     SharpLines lines(mesh.vertex_count());
     std::vector<std::pair<Index, Index>> ends;
-    for_sharp_edges(mesh, context, [&](Index a, Index b) {
+    const Grain grain = grain_of(mesh, context);
+    for_inner_edges(mesh, context, [&](Index a, Index b, double turn) {
+        if (!(turn > std::max(kSharpEdge, kOfGrain * grain.between(a, b)))) return;
         ends.emplace_back(a, b);
         lines.join(a, b, (mesh.position(b) - mesh.position(a)).norm());
     });

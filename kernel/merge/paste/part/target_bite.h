@@ -13,7 +13,8 @@
 
 namespace lissom {
 
-/// An edge at which a surface turns by more than kSharpEdge.
+/// An edge at which a surface turns by more than kSharpEdge, and by 2.5 times as much as at the
+/// edges around it that turn by less than that.
 struct SharpEdge {
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();
     /// Length of all of the sharp edges that hang together with it.

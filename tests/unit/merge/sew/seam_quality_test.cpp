@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -72,4 +73,14 @@ TEST_CASE(
     CHECK(twice.vertices == 8);
     CHECK(twice.mean_edge == Approx(one.mean_edge));
     CHECK(twice.rms_dihedral == Approx(one.rms_dihedral));
+}
+
+TEST_CASE("the angle of polygons at a seam is that of the triangles which they are divided into") {
+    // The walls are rectangles of 3 by 1 and squares: their diagonals leave atan(1 / 3).
+    const Mesh mesh = house();
+    const std::vector<std::vector<Index>> eaves{{0, 1, 2, 3}};
+    CHECK(seam_quality(mesh, eaves).polygon_angle == Approx(std::atan(1.0 / 3.0)));
+    // Without polygons there is none.
+    CHECK(seam_quality(make_sphere({.segments = 8, .kind = SphereKind::triangles}), {})
+              .polygon_angle == 0.0);
 }

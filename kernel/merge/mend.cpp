@@ -1,0 +1,71 @@
+#include "kernel/merge/mend.h"
+
+#include <algorithm>
+
+#include "kernel/merge/verdict.h"
+
+namespace lissom {
+namespace {
+
+bool depends_on_sewing(const MergeReason& reason) {
+    switch (reason.fault) {
+        case MergeFault::crossings:
+        case MergeFault::folds:
+        case MergeFault::roughness:
+        case MergeFault::bend:
+        case MergeFault::flare:
+        case MergeFault::spike:
+        case MergeFault::seam:
+            return true;
+        default:
+            return false;
+    }
+}
+
+// Angles by which the surface turns in the bands: of two ways with as many faults the one with
+// less looks better.
+double unrest(const MergeReport& report) {
+    double sum = 0.0;
+    for (const JoinReport& join : report.joins) {
+        sum += join.band.flare + join.band.bend + join.band.roughness;
+    }
+    return sum;
+}
+
+// How much a fault spoils a result.
+double weight_of(const MergeReason& reason) {
+    if (reason.fault == MergeFault::crossings || reason.fault == MergeFault::side) return 2.0;
+    return reason.fault == MergeFault::slivers ? 0.5 : 1.0;
+}
+
+double weight_of(const MergeReport& report) {
+    double sum = 0.0;
+    for (const MergeReason& reason : report.reasons) sum += weight_of(reason);
+    return sum;
+}
+
+}  // namespace
+
+bool has_surface_faults(const MergeReport& report) {
+    return std::any_of(report.reasons.begin(), report.reasons.end(), depends_on_sewing);
+}
+
+std::string fault_names(const MergeReport& report) {
+    std::string names;
+    for (const MergeReason& reason : report.reasons) {
+        names += (names.empty() ? "" : ", ") + std::string(fault_name(reason.fault));
+    }
+    return names;
+}
+
+bool is_better(const MergeReport& report, const MergeReport& than, bool ties) {
+    const double weight = weight_of(report), least = weight_of(than);
+    return weight < least || (ties && weight <= least && unrest(report) < unrest(than));
+}
+
+void note_mended(const std::string& faults, const std::string& way, MergeReport& report) {
+    report.warnings.push_back("the plain seam had faults (" + faults + "): " + way +
+                              " in its place, which has fewer");
+}
+
+}  // namespace lissom

@@ -1,0 +1,24 @@
+/// Choice between ways to sew a seam by their verdicts; private to kernel/merge.
+#pragma once
+
+#include <string>
+
+#include "kernel/merge/merge.h"
+
+namespace lissom {
+
+/// Whether a report has faults of the surface around its seams, which depend on how they were sewn,
+/// or crossings.
+bool has_surface_faults(const MergeReport& report);
+
+/// Returns the names of the faults of a report, as "folds, bend".
+std::string fault_names(const MergeReport& report);
+
+/// Whether a report has fewer faults than another, crossings counted twice and slivers half; or, if
+/// `ties`, as many with a surface that turns by less in the bands around the seams.
+bool is_better(const MergeReport& report, const MergeReport& than, bool ties);
+
+/// Warns that a seam had faults, and tells the way that it was sewn in its place.
+void note_mended(const std::string& faults, const std::string& way, MergeReport& report);
+
+}  // namespace lissom
