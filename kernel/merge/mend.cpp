@@ -63,6 +63,15 @@ bool is_better(const MergeReport& report, const MergeReport& than, bool ties) {
     return weight < least || (ties && weight <= least && unrest(report) < unrest(than));
 }
 
+std::vector<Index> showing_faces(std::span<const CrossingGroup> groups) {
+    std::vector<Index> faces;
+    for (const CrossingGroup& group : groups) {
+        if (group.place != CrossingPlace::seam || group.shallow || group.hidden) continue;
+        faces.insert(faces.end(), group.faces.begin(), group.faces.end());
+    }
+    return faces;
+}
+
 void note_mended(const std::string& faults, const std::string& way, MergeReport& report) {
     report.warnings.push_back("the plain seam had faults (" + faults + "): " + way +
                               " in its place, which has fewer");

@@ -1,7 +1,9 @@
 /// Choice between ways to sew a seam by their verdicts; private to kernel/merge.
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include "kernel/merge/merge.h"
 
@@ -17,6 +19,9 @@ std::string fault_names(const MergeReport& report);
 /// Whether a report has fewer faults than another, crossings counted twice and slivers half; or, if
 /// `ties`, as many with a surface that turns by less in the bands around the seams.
 bool is_better(const MergeReport& report, const MergeReport& than, bool ties);
+
+/// Returns the faces of the groups that cross at a seam and show.
+std::vector<Index> showing_faces(std::span<const CrossingGroup> groups);
 
 /// Warns that a seam had faults, and tells the way that it was sewn in its place.
 void note_mended(const std::string& faults, const std::string& way, MergeReport& report);

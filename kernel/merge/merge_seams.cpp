@@ -9,6 +9,7 @@
 #include "kernel/merge/blend/relax_faults.h"
 #include "kernel/merge/creases.h"
 #include "kernel/merge/crossings.h"
+#include "kernel/merge/mend.h"
 #include "kernel/merge/merge_stages.h"
 #include "kernel/merge/sew/seam_collar.h"
 #include "kernel/merge/sew/seam_guard.h"
@@ -222,7 +223,8 @@ bool relax_sides(const Boundaries& boundaries, const MergeOptions& options,
                  const MergeReport& report, Index rings, MergedSides& merged,
                  const Context& context) {
     const std::vector<Index> firm = became_of(merged.sewn, creases_of(boundaries, true));
-    if (!relax_faults(merged.sewn, report.crossings, firm, rings, context)) return false;
+    if (!relax_faults(merged.sewn, showing_faces(report.crossings), firm, rings, context))
+        return false;
     if (options.find_intersections) find_crossings(boundaries, merged, context);
     return true;
 }

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <vector>
 
-#include "kernel/merge/creases.h"
+#include "kernel/merge/blend/seam_core.h"
 #include "kernel/merge/loop/band_quality.h"
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/sew/seam_quality.h"
@@ -20,6 +19,8 @@ namespace {
 constexpr double kRelaxFolded = 135.0 * kDegree;
 // Steps that make a flap of some faces flat.
 constexpr Index kRelaxSteps = 30;
+// Rings beside a seam whose faces sewing changes.
+constexpr Index kSeamRings = 2;
 // More of a band is no place but a shape.
 constexpr double kMostRelaxed = 1.0 / 3.0;
 
@@ -54,24 +55,22 @@ void mark_folds(const Mesh& mesh, std::span<const char> near, std::vector<char>&
     }
 }
 
-void mark_crossings(const Mesh& mesh, std::span<const CrossingGroup> groups,
-                    std::span<const char> near, std::vector<char>& marks) {
-    for (const CrossingGroup& group : groups) {
-        if (group.place != CrossingPlace::seam || group.shallow || group.hidden) continue;
-        for (const Index f : group.faces) {
-            for (const Index v : mesh.topology().face(f)) {
-                if (near[at(v)]) marks[at(v)] = 1;
-            }
+void mark_faces(const Mesh& mesh, std::span<const Index> faces, std::span<const char> near,
+                std::vector<char>& marks) {
+    for (const Index f : faces) {
+        for (const Index v : mesh.topology().face(f)) {
+            if (near[at(v)]) marks[at(v)] = 1;
         }
     }
 }
 
 // Those of `firm` that are more than two rings from the seams, where sewing has changed no face.
 std::vector<Index> beyond_seams(const Sewn& sewn, std::span<const Index> firm) {
-    const std::vector<Index> near = vertices_near(sewn.mesh, sewn.seams);
+    const std::vector<Index> ring = seam_rings(sewn.mesh.topology(), sewn.seams, kSeamRings);
     std::vector<Index> result;
-    std::set_difference(firm.begin(), firm.end(), near.begin(), near.end(),
-                        std::back_inserter(result));
+    for (const Index v : firm) {
+        if (ring[at(v)] == kNoIndex) result.push_back(v);
+    }
     return result;
 }
 
@@ -99,12 +98,12 @@ std::vector<Index> moving_of(const Topology& topology, std::span<const char> mar
 
 }  // namespace
 
-bool relax_faults(Sewn& sewn, std::span<const CrossingGroup> groups, std::span<const Index> firm,
+bool relax_faults(Sewn& sewn, std::span<const Index> crossing, std::span<const Index> firm,
                   Index rings, const Context& context) {
     const std::vector<char> near = band_of_seams(sewn, context);
     std::vector<char> marks(near.size(), 0);
     mark_folds(sewn.mesh, near, marks);
-    mark_crossings(sewn.mesh, groups, near, marks);
+    mark_faces(sewn.mesh, crossing, near, marks);
     grow(sewn.mesh.topology(), rings, marks);
     const std::vector<Index> moving =
         moving_of(sewn.mesh.topology(), marks, beyond_seams(sewn, firm));

@@ -6,7 +6,6 @@
 
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
-#include "kernel/merge/merge.h"
 #include "kernel/merge/sew/sew.h"
 
 namespace lissom {
@@ -15,12 +14,12 @@ namespace lissom {
 inline constexpr Index kRelaxRings = 4;
 
 /// Smooths, within one radius of the seams, the vertices of edges at which the surface folds back
-/// by more than 135 degrees, and of the faces of `groups` that cross at a seam and show, with
-/// `rings` rings around them. Those of `firm`, ascending, that are more than two rings from the
-/// seams stay, and those on open boundaries. Morph targets and normals follow. The quality of the
-/// seams in the report is measured anew. Returns false, and changes nothing, if there are no such
-/// places, or if they are more than a third of the band. Errors: cancelled.
-bool relax_faults(Sewn& sewn, std::span<const CrossingGroup> groups, std::span<const Index> firm,
+/// by more than 135 degrees, and of the faces `crossing`, with `rings` rings around them. Those of
+/// `firm`, ascending, that are more than two rings from the seams stay, and those on open
+/// boundaries. Morph targets and normals follow. The quality of the seams in the report is measured
+/// anew. Returns false, and changes nothing, if there are no such places, or if they are more than
+/// a third of the band. Errors: cancelled.
+bool relax_faults(Sewn& sewn, std::span<const Index> crossing, std::span<const Index> firm,
                   Index rings, const Context& context);
 
 }  // namespace lissom

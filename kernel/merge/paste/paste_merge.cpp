@@ -405,7 +405,7 @@ class PasteJudge {
             new_crossings(laid.opened.mesh, laid.trial.part().mesh, sewn, context);
         const std::vector<Index> firm = became_of(sewn, kept_creases(laid.opened));
         const auto groups = crossing_groups(sewn, found.pairs, context);
-        if (!relax_faults(sewn, groups, firm, rings, context)) return std::nullopt;
+        if (!relax_faults(sewn, showing_faces(groups), firm, rings, context)) return std::nullopt;
         part.bite = bite_on(on_.trials, on_.piece, laid, sewn, context);
         return judged(std::move(part), context);
     }

@@ -7,6 +7,7 @@
 
 #include "kernel/merge/loop/band_quality.h"
 #include "kernel/merge/merge_once.h"
+#include "kernel/mesh/measure/measures.h"
 #include "tests/unit/shapes.h"
 #include "tests/unit/support.h"
 
