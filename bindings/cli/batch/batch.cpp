@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "bindings/cli/batch/cluster.h"
+#include "bindings/cli/batch/cluster/cluster.h"
 #include "bindings/cli/batch/driver.h"
 #include "bindings/cli/batch/job_process.h"
 #include "bindings/cli/batch/plan.h"

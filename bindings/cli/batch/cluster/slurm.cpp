@@ -1,4 +1,4 @@
-#include "bindings/cli/batch/slurm.h"
+#include "bindings/cli/batch/cluster/slurm.h"
 
 #include <algorithm>
 #include <charconv>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bindings/cli/batch/submission.h"
+#include "bindings/cli/batch/cluster/submission.h"
 
 namespace lissom::cli {
 

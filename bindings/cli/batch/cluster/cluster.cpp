@@ -1,10 +1,10 @@
-#include "bindings/cli/batch/cluster.h"
+#include "bindings/cli/batch/cluster/cluster.h"
 
 #include <chrono>
 #include <optional>
 #include <thread>
 
-#include "bindings/cli/batch/slurm.h"
+#include "bindings/cli/batch/cluster/slurm.h"
 #include "bindings/cli/json.h"
 #include "kernel/core/error.h"
 #include "kernel/io/stream/file.h"

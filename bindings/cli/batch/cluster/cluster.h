@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "bindings/cli/batch/cluster/submission.h"
 #include "bindings/cli/batch/driver.h"
-#include "bindings/cli/batch/submission.h"
 
 namespace lissom::cli {
 

@@ -1,4 +1,4 @@
-#include "bindings/cli/batch/submission.h"
+#include "bindings/cli/batch/cluster/submission.h"
 
 #include <algorithm>
 #include <cmath>
