@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/core/index.h"
 #include "kernel/merge/merge.h"
 
 namespace lissom {

@@ -19,7 +19,6 @@
 #include "kernel/deform/boundary/boundary_deformer.h"
 #include "kernel/deform/stats.h"
 #include "kernel/merge/blend/overlap_transition.h"
-#include "kernel/merge/blend/relax_faults.h"
 #include "kernel/merge/blend/transition.h"
 #include "kernel/merge/loop/automatic_keys.h"
 #include "kernel/merge/loop/correspondence.h"
