@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/merge/blend/relax_faults.h"
 #include "kernel/merge/mend.h"
 #include "kernel/merge/merge_stages.h"
 

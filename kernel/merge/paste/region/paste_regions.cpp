@@ -14,8 +14,8 @@ namespace lissom {
 namespace {
 
 // Steps by which a disk that does not close on itself is sought, down to a hundredth of its size.
-constexpr double kShrink = 0.85;
-constexpr int kShrinks = 28;
+constexpr double kDiskShrink = 0.85;
+constexpr int kDiskShrinks = 28;
 
 // Factor by which the share of a sought ring is made smaller, and the least share that is tried.
 constexpr double kNarrowerShare = 0.6, kLeastShare = 0.05;
@@ -350,7 +350,7 @@ std::vector<Index> disk_around(const Mesh& target, const SurfacePoint& point, do
                                const Context& context) {
     const std::vector<double> distance = edge_distances(target, point, radius, context);
     const Topology& topology = target.topology();
-    for (int step = 0;; ++step, radius *= kShrink) {
+    for (int step = 0;; ++step, radius *= kDiskShrink) {
         context.checkpoint();
         FaceSet set(topology, {});
         for (Index f = 0; f < topology.face_count(); ++f) {
@@ -367,7 +367,7 @@ std::vector<Index> disk_around(const Mesh& target, const SurfacePoint& point, do
         // Far faces are read only if they must be.
         if (!has_no_islands(set)) fill_islands(set, nullptr);
         if (is_disk(set)) return set.faces();
-        if (step == kShrinks) require_disk(set);
+        if (step == kDiskShrinks) require_disk(set);
     }
 }
 
