@@ -158,7 +158,7 @@
 ---The declaration of a parameter.
 ---@class lissom.ParamSchema
 ---@field name string Its name.
----@field type string number, integer, boolean, string, choice, file or folder.
+---@field type string number, integer, boolean, string, choice, file, folder, mesh, region, boundary, curve or head.
 ---@field default any Its default; nil if it must be given.
 ---@field value any Its present value.
 ---@field min number? Smallest value.
@@ -168,6 +168,7 @@
 ---@field unit string Its unit, or an empty string.
 ---@field group string Heading that it stands under, or an empty string.
 ---@field help string Its help text, or an empty string.
+---@field of string? The parameter of the mesh or head that it lies on.
 
 ---Raised by everything that fails. tostring gives the message, and so does `..`; two are equal only if they are the same.
 ---@class lissom.Error
@@ -953,6 +954,8 @@ function Mesh:distortion(rest) end
 
 ---@class lissom.Mesh.SaveOptions
 ---@field normals? boolean Write the normals of the surface, one a vertex, for a mesh without the attribute "normal". STL has those of its triangles in any case. Default: false.
+---@field compression? "none"|"meshopt"|"draco" Compression of .glb and .gltf: "meshopt" (EXT_meshopt_compression) of all vertices, morph targets and indices, "draco" (KHR_draco_mesh_compression) of objects that have one material. Vertices and faces keep their order. Default: "none".
+---@field quantize? integer Bits of positions in a compressed file, relative to the size of the object: 14 keep a 16000th. Texture coordinates have as many, and directions half as many but at least 8; so have morph targets. Default: all numbers are kept.
 ---@field up? "y"|"z" The up axis that the file shall have. Default: as it is.
 ---@field unit? number Length of the file's unit in the unit of the mesh: positions are divided by it. In mesh units. Default: 1.
 ---@field binary? boolean Binary or text, for .ply and .stl. Default: true.
@@ -1153,6 +1156,7 @@ function Mesh:erase(region, options) end
 ---@field intersections? boolean Looks for faces that run through one another and did not before. Default: true.
 ---@field size? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or the placement's scale. Default: "boundary".
 ---@field compare? boolean Tries variants that may distort the surface near the boundary less, and takes the best: ARAP iterations of the part; the outline of the region; and, once `optimize` was called and by nearest points, a boundary that slides over the target towards the relaxed position of the part. Default: true.
+---@field mend? boolean If the verdict finds fault with the surface around the seam, tries a fair seam, a transition and, with `compare`, other boundaries, and keeps the result with fewest faults; a warning says so. Not without smoothing or collar. Default: true.
 
 ---A new mesh that has a feature of this one twice: it is pasted onto another place of the same mesh, along the loop around it that fits best (lissom.paste with itself as target).
 ---@param options lissom.Mesh.CloneOptions
@@ -1502,6 +1506,23 @@ function Deformer:save_basis(path, options) end
 ---@return lissom.Mesh mesh # The rest shape with its targets and the animation.
 function Deformer:bake(options) end
 
+---@class lissom.Deformer.SkinOptions
+---@field joints? integer Joints of the skin. One of them stays if the region is a part of the mesh. Default: 8.
+---@field influences? integer Joints that a vertex may follow. Default: 4.
+---@field pose? fun(time: number, frame: integer) Moves handles; called for each frame with its time and its number from 1. Default: each handle is turned by the angle.
+---@field duration? number Length of the animation; it starts at 0 and has a frame at its end. In seconds. Default: times are given.
+---@field fps? number Frames a second. Default: 24.
+---@field times? number[] Time of each frame in seconds, ascending, instead of a duration. Default: duration is given.
+---@field angle? number Turn of each handle in the poses without a function. In degrees. Default: 45.
+---@field preview? boolean Poses as preview makes them: the first system only. Default: false.
+---@field name? string Name of the animation. Default: "deformation".
+
+---Makes an ordinary skinned mesh of the deformation: joints that move rigidly, and weights of each vertex for a few of them, fitted to poses by least squares (Le and Deng 2012). With a function, the poses are the frames of its path and the joints are animated along it; without, each handle is turned about three axes. mesh:save writes the skin as .glb or .gltf. Handles, mesh and last result are restored afterwards.
+---@param options? lissom.Deformer.SkinOptions
+---@return lissom.Mesh mesh # The rest shape with the attributes "joints" and "weights", its skeleton, and the animation if there is a path.
+---@return table report # `joints`, their number; `greatest_error` and `rms_error`, distances of the skinned vertices from the deformation's over all poses, in mesh units.
+function Deformer:skin(options) end
+
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Deformer:close() end
 
@@ -1651,6 +1672,7 @@ function Paste:optimize(options) end
 ---@field intersections? boolean Looks for faces that run through one another and did not before. Default: true.
 ---@field scale? "boundary"|"lock" Size of the part: that of its boundary on the target, which depends on the loop, or the placement's scale. Default: "boundary".
 ---@field compare? boolean Tries variants that may distort the surface near the boundary less, and takes the best: ARAP iterations of the part; the outline of the region; and, once `optimize` was called and by nearest points, a boundary that slides over the target towards the relaxed position of the part. Default: true.
+---@field mend? boolean If the verdict finds fault with the surface around the seam, tries a fair seam, a transition and, with `compare`, other boundaries, and keeps the result with fewest faults; a warning says so. Not without smoothing or collar. Default: true.
 ---@field draft? boolean For a part that is being dragged: the same place and boundary, but the part is not refined, nor does its boundary slide, the seam is sewn and no more, whatever `smooth`, `collar` and `intersections` say, and the report has no provenance. Default: false.
 
 ---Opens the target along the loop's image and pastes the part inside the loop, deformed to fit, as a new mesh. Without `optimize` the loop is the outline of the region.
@@ -2682,6 +2704,35 @@ function Strands:push_out(options) end
 ---@param options lissom.Strands.ShrinkwrapOptions
 ---@return lissom.Strands strands # The strands themselves.
 function Strands:shrinkwrap(options) end
+
+---@class lissom.Strands.Feed_braidOptions
+---@field spine lissom.Vector[] The middle of the braid.
+---@field across lissom.Vector Direction across the braid at its beginning: its widest.
+---@field radius? number Radius of each of the three tubes. In metres. Default: 0.0085.
+---@field wide? number From the spine to the middle of a tube, across. In metres. Default: 1.25 radii.
+---@field high? number The same towards the viewer. In metres. Default: 0.8 radii.
+---@field wavelength? number Length of one turn of a tube. In metres. Default: 7 radii.
+---@field reach? number A strand joins where it first comes so near to the spine, else at its nearest point within 2.5 times of it. In metres. Default: 0.01.
+---@field joined? number Part of the spine within which strands join; below 1 a ring closes that ends on its beginning. Default: 1.
+---@field blend? number Over which hair comes into its tube. In metres. Default: 0.02.
+---@field least_run? number Least length that a strand runs in the braid. In metres. Default: 0.06.
+---@field most_run? number Greatest one. In metres. Default: 0.12.
+---@field tail? number Part of the strands that run to the end. Default: 0.
+---@field begin_size? number Size at the beginning as a part of that further on. Default: 1.
+---@field end_size? number The same at the end. Default: 1.
+---@field loose? number Part of the strands that lie loosely. Default: 0.02.
+---@field step? number Between points. In metres. Default: 0.002.
+---@field drop_others? boolean Removes strands of the mask that come nowhere near the spine. Default: false.
+---@field scalp? lissom.Scalp Points are in the unit of its head, as scalp:at gives them. Default: points are in metres of the strands.
+---@field seed? integer Another seed gives another braid. Default: 1.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+
+---Braids strands that join along a spine, as in crown braids and cornrows.
+---@param options lissom.Strands.Feed_braidOptions
+---@return lissom.Strands strands # The strands themselves.
+---@return integer count # Number of strands that joined.
+function Strands:feed_braid(options) end
 
 ---@class lissom.Strands.BraidOptions
 ---@field spine lissom.Vector[] The middle of the braid, from its tie on.
@@ -3952,7 +4003,7 @@ function lissom.pick.number(options) end
 function lissom.pick.confirm(options) end
 
 ---@class lissom.ParamsOptions.Declarations
----@field type "number"|"integer"|"boolean"|"string"|"choice"|"file"|"folder" Type of its values. A folder is one to write to: it is made, if it is missing, when the parameters are declared or it is set.
+---@field type "number"|"integer"|"boolean"|"string"|"choice"|"file"|"folder"|"mesh"|"region"|"boundary"|"curve"|"head" Type of its values. A folder is one to write to: it is made, if it is missing, when the parameters are declared or it is set. The last five are texts for which a host shows a picker: the file or name of a mesh or a head, the name of a region, the name or number of an open boundary or a curve.
 ---@field default? boolean|number|string Its default; without one it must be given. Default: required.
 ---@field min? number Smallest value of a number or integer. Default: no limit.
 ---@field max? number Greatest value. Default: no limit.
@@ -3961,6 +4012,7 @@ function lissom.pick.confirm(options) end
 ---@field unit? string Shown after the value. Default: none.
 ---@field group? string Heading that it stands under. Default: none.
 ---@field help? string Its help text, one line. Default: none.
+---@field of? string For a region, boundary or curve: the name of the parameter with the mesh or head that it lies on. Default: none.
 
 ---@class lissom.ParamsOptions
 ---@field command_line? boolean They are the script's. If not, they have their defaults, and may be declared any number of times: for tools. Default: true.
