@@ -92,7 +92,7 @@ struct Inputs {
         };
         style.add({StreamCurve{{over(20, 50), over(70, 25), over(85, -15)}}});
         HairOptions hair_options = style.default_hair();
-        hair_options.roots.count = 15000;
+        hair_options.roots.count = 20000;
         hair_options.growth.length = 0.2;
         return style.grow(hair_options, context);
     }
