@@ -313,6 +313,10 @@ bool play(World& world, Screen& screen, const std::string& last) {
         was_ready = world.is_ready();
         std::fflush(stdout);
     }
+    // Upright, however many frames were drawn.
+    world.chimney.settle();
+    world.chimney.bend(0.0);
+    world.chimney.settle();
     world.draw();
     return last.empty() || save_picture(last);
 }

@@ -340,10 +340,10 @@ end)
 
 test("a verdict names each fault with its figure, its limit and what may help", function()
     -- Between loops of 6 and 400 vertices there are slivers, which collars take away.
-    local function open_tube(segments)
-        return lissom.shapes.cylinder{ height = 2, segments = segments, rings = 6, caps = false }
+    local function open_tube(segments, rings)
+        return lissom.shapes.cylinder{ height = 2, segments = segments, rings = rings, caps = false }
     end
-    local coarse, dense = open_tube(6), open_tube(400)
+    local coarse, dense = open_tube(6, 6), open_tube(400, 20)
     local function joined(collar)
         return select(2, lissom.merge{ smooth = 0, collar = collar, joins = { { source = rim(coarse),
             target = rim(dense), keys = { { extreme(rim(coarse), 1), extreme(rim(dense), 1) } } } } })
