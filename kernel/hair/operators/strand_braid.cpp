@@ -60,8 +60,8 @@ std::vector<TieCrossing> crossings_of(const Strands& strands, const TieFrame& ti
     return list;
 }
 
-std::vector<StrandEnd> ends_of(const std::vector<TieCrossing>& crossings) {
-    std::vector<StrandEnd> ends;
+std::vector<CutStrand> ends_of(const std::vector<TieCrossing>& crossings) {
+    std::vector<CutStrand> ends;
     for (const TieCrossing& crossing : crossings) ends.push_back({crossing.strand, crossing.last});
     return ends;
 }

@@ -22,7 +22,7 @@ double feed_random(std::uint64_t seed, std::uint64_t id, std::uint64_t stream) {
     return 0.5 + 0.5 * signed_random(mixed(seed, id, stream));
 }
 
-bool is_positive(double value) {
+bool is_above_zero(double value) {
     return value > 0.0 && std::isfinite(value);
 }
 bool is_part(double value) {
@@ -32,10 +32,10 @@ bool is_part(double value) {
 void require_feed(const Strands& strands, const FeedBraidOptions& options) {
     require_operator(strands, options);
     require_spine(options.spine, options.across);
-    require(is_positive(options.radius) && is_positive(options.reach) &&
-                is_positive(options.blend) && is_positive(options.step) &&
-                is_positive(options.least_run) && is_positive(options.begin) &&
-                is_positive(options.end),
+    require(is_above_zero(options.radius) && is_above_zero(options.reach) &&
+                is_above_zero(options.blend) && is_above_zero(options.step) &&
+                is_above_zero(options.least_run) && is_above_zero(options.begin) &&
+                is_above_zero(options.end),
             "'radius', 'reach', 'blend', 'run', 'begin', 'end' and 'step' of a feed-in braid must "
             "be positive and finite");
     require(options.most_run >= options.least_run && std::isfinite(options.most_run),
@@ -50,7 +50,7 @@ void require_feed(const Strands& strands, const FeedBraidOptions& options) {
 
 // A strand that joins after its point `last`, at an arc of the spine.
 struct Joint {
-    StrandEnd end;
+    CutStrand end;
     double arc;
 };
 
@@ -209,7 +209,7 @@ BraidReport feed_braid(Strands& strands, const FeedBraidOptions& options, const 
     const std::vector<Joint> joints = joints_of(strands, spine, options, context);
     require(!joints.empty(), "no strand comes near the spine; move it, or give it more reach");
     const Feeder feeder(options, spine);
-    std::vector<StrandEnd> ends;
+    std::vector<CutStrand> ends;
     for (const Joint& joint : joints) ends.push_back(joint.end);
     const BraidReport report{count_of(joints), strands.size() - count_of(joints)};
     carry_on(

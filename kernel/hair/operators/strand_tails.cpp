@@ -8,7 +8,7 @@
 
 namespace lissom {
 
-void carry_on(Strands& strands, const std::vector<StrandEnd>& ends,
+void carry_on(Strands& strands, const std::vector<CutStrand>& ends,
               const std::function<void(std::size_t, std::vector<Vec3>&)>& tail,
               const Context& context) {
     std::vector<std::vector<Vec3>> tails(ends.size());
