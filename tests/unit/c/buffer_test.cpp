@@ -483,7 +483,9 @@ TEST_CASE("colours of bytes are numbers from 0 to 1, and shapes that no mesh has
     const lissom_output bytes{back, 8, 0, LISSOM_UNORM8};
     REQUIRE(lissom_mesh_read_attribute(host, mesh, "color", &bytes) == LISSOM_OK);
     CHECK(std::memcmp(back, colors, sizeof colors) == 0);
-    CHECK(write("color", LISSOM_ON_VERTICES, 5, in) == LISSOM_INVALID_ARGUMENT);
+    const std::uint8_t five[8][5] = {};
+    CHECK(write("color", LISSOM_ON_VERTICES, 5, {five, 8, 0, LISSOM_UNORM8}) ==
+          LISSOM_INVALID_ARGUMENT);
     CHECK(write("color", LISSOM_ON_FACES, 4, in) == LISSOM_INVALID_ARGUMENT);
     CHECK(write("color", static_cast<lissom_domain>(7), 4, in) == LISSOM_INVALID_ARGUMENT);
     CHECK(write("", LISSOM_ON_VERTICES, 4, in) == LISSOM_INVALID_ARGUMENT);
