@@ -136,8 +136,9 @@ struct BakeRequest {
     static BakeRequest read(Call& call, const char* function) {
         const bool has_times = call.has("times"), has_duration = call.has("duration");
         if (has_times == has_duration) {
+            // Not a std::string: the error leaves its destructor out.
             call.raise(
-                (std::string("'") + function + "' needs either 'duration' or 'times'").c_str());
+                lua_pushfstring(call.lua(), "'%s' needs either 'duration' or 'times'", function));
         }
         BakeRequest request{&call, nullptr, nullptr, 0, call.boolean("preview"), false};
         if (has_times) {
