@@ -288,6 +288,12 @@ Parameter duration_option() {
         .in("seconds");
 }
 
+// Errors of functions that make poses of a deformation.
+const std::vector<ErrorCode> kPoseErrors = {
+    ErrorCode::unconstrained,  ErrorCode::zero_area,         ErrorCode::not_positive_definite,
+    ErrorCode::memory_limit,   ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
+    ErrorCode::handle_removed, ErrorCode::unsupported,       ErrorCode::cancelled};
+
 }  // namespace
 
 std::vector<Function> deform_engine_methods() {
@@ -349,10 +355,7 @@ os.remove(path))"},
                   .defaults(true),
               string("name", "Name of the animation.").defaults("deformation")},
          .results = {{"lissom.Mesh", "mesh", "The rest shape with its targets and the animation."}},
-         .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
-                    ErrorCode::not_positive_definite, ErrorCode::memory_limit,
-                    ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
-                    ErrorCode::handle_removed, ErrorCode::unsupported, ErrorCode::cancelled},
+         .errors = kPoseErrors,
          .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
 local deformer = lissom.deformer(bar)
 deformer:add_handle(bar:region("bottom"))
@@ -400,10 +403,7 @@ os.remove(path))"},
                      {"table", "report",
                       "`joints`, their number; `greatest_error` and `rms_error`, distances of the "
                       "skinned vertices from the deformation's over all poses, in mesh units."}},
-         .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
-                    ErrorCode::not_positive_definite, ErrorCode::memory_limit,
-                    ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
-                    ErrorCode::handle_removed, ErrorCode::unsupported, ErrorCode::cancelled},
+         .errors = kPoseErrors,
          .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
 local deformer = lissom.deformer(bar)
 deformer:add_handle(bar:region("bottom"))

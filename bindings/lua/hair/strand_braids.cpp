@@ -24,24 +24,31 @@ void read_mask(const Call& call, std::span<const float> asked, StrandOperatorOpt
     options.seed = static_cast<std::uint64_t>(call.integer("seed"));
 }
 
+// The course of a braid, and what all braids have.
+template <typename Options>
+Options read_course(Call& call, std::span<const float> asked) {
+    Options options;
+    read_mask(call, asked, options);
+    for (const Vec3& p : call.points("spine")) options.spine.push_back(metres_of(call) * p);
+    options.across = call.vector("across");
+    options.radius = call.number("radius");
+    if (call.has("wavelength")) options.wavelength = call.number("wavelength");
+    options.blend = call.number("blend");
+    options.loose = call.number("loose");
+    options.step = call.number("step");
+    return options;
+}
+
 int braid_strands(Call& call) {
     const std::span<const float> asked = ask_mask(call);
     BraidReport report;
     const bool done = call.attempt([&] {
-        BraidOptions options;
-        read_mask(call, asked, options);
-        for (const Vec3& p : call.points("spine")) options.spine.push_back(metres_of(call) * p);
-        options.across = call.vector("across");
-        options.radius = call.number("radius");
+        auto options = read_course<BraidOptions>(call, asked);
         if (call.has("reach")) options.reach = call.number("reach");
         options.length = call.number("length");
         options.tuft = call.number("tuft");
-        if (call.has("wavelength")) options.wavelength = call.number("wavelength");
         options.taper = call.number("taper");
-        options.blend = call.number("blend");
-        options.loose = call.number("loose");
         options.early = call.number("early");
-        options.step = call.number("step");
         report = braid(call.self<StrandsObject>()->strands, options, call.context());
     });
     return push_report(call, done, report);
@@ -72,24 +79,16 @@ int feed_strands(Call& call) {
     const std::span<const float> asked = ask_mask(call);
     BraidReport report;
     const bool done = call.attempt([&] {
-        FeedBraidOptions options;
-        read_mask(call, asked, options);
-        for (const Vec3& p : call.points("spine")) options.spine.push_back(metres_of(call) * p);
-        options.across = call.vector("across");
-        options.radius = call.number("radius");
+        auto options = read_course<FeedBraidOptions>(call, asked);
         if (call.has("wide")) options.wide = call.number("wide");
         if (call.has("high")) options.high = call.number("high");
-        if (call.has("wavelength")) options.wavelength = call.number("wavelength");
         options.reach = call.number("reach");
         options.joined = call.number("joined");
-        options.blend = call.number("blend");
         options.least_run = call.number("least_run");
         options.most_run = call.number("most_run");
         options.tail = call.number("tail");
         options.begin = call.number("begin_size");
         options.end = call.number("end_size");
-        options.loose = call.number("loose");
-        options.step = call.number("step");
         options.drop_others = call.boolean("drop_others");
         report = feed_braid(call.self<StrandsObject>()->strands, options, call.context());
     });
