@@ -22,7 +22,7 @@ function merge_pictures.print(name, mesh, report, parts)
     end
     local before, after = report.seam.before, report.seam.after
     print(string.format("  seam: greatest angle between faces %.1f degrees (%.1f before smoothing), "
-        .. "rms %.1f, smallest angles %.1f", after.greatest_dihedral, before.greatest_dihedral,
+        .. "rms %.1f, smallest angles %.1f", after.max_dihedral, before.max_dihedral,
         after.rms_dihedral, after.low_angle))
     print("  " .. tostring(report))
     for _, warning in ipairs(parts and parts.warnings or {}) do print("  " .. warning) end

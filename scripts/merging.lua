@@ -21,7 +21,7 @@ local vectors = require "vectors"
 
 -- A direction whose part in the plane of a boundary is less than this is ambiguous as a key: it comes within
 -- 30 degrees of the boundary's axis.
-local least_part = 0.5
+local min_part = 0.5
 
 local cross, dot, length, plus, unit = vectors.cross, vectors.dot, vectors.length, vectors.plus, vectors.unit
 
@@ -124,7 +124,7 @@ function merging.center(boundary)
 end
 
 -- The boundary of a mesh for which measure(boundary) is least.
-local function least_boundary(mesh, measure)
+local function min_boundary(mesh, measure)
     local best, least
     for _, boundary in ipairs(mesh:boundaries()) do
         local value = measure(boundary)
@@ -153,7 +153,7 @@ end
 -- Returns the warning for a key whose direction is ambiguous on a boundary.
 local function tilt_warning(number, side, boundary, direction)
     local tilt = merging.tilt(boundary, direction)
-    if math.cos(math.rad(tilt)) >= least_part then return nil end
+    if math.cos(math.rad(tilt)) >= min_part then return nil end
     return string.format("key %d: the %s's boundary is tilted, its axis %.0f degrees from the direction: the "
         .. "farthest vertex may not be the one you mean; give a direction in the boundary's plane",
         number, side, 90 - tilt)
@@ -177,12 +177,12 @@ end
 
 --- The open boundary of a mesh that comes nearest to a point, or nil.
 function merging.boundary_near(mesh, point)
-    return least_boundary(mesh, function(boundary) return boundary:nearest(point).distance end)
+    return min_boundary(mesh, function(boundary) return boundary:nearest(point).distance end)
 end
 
 --- The longest open boundary of a mesh, or nil.
 function merging.longest_boundary(mesh)
-    return least_boundary(mesh, function(boundary) return -boundary:length() end)
+    return min_boundary(mesh, function(boundary) return -boundary:length() end)
 end
 
 --- Returns the part of a mesh that a cut keeps, its new boundary, and the warnings of the cut.
@@ -221,7 +221,7 @@ end
 
 local direction_options = { "source_up", "source_front", "target_up", "target_front" }
 local merge_options = { "configuration", "place", "fixed", "reach", "frames", "seam", "smooth", "collar",
-    "transition", "trim", "greatest_turn", "subdivide", "intersections", "mend", "fidelity", "source_up",
+    "transition", "trim", "max_turn", "subdivide", "intersections", "mend", "fidelity", "source_up",
     "source_front", "target_up", "target_front" }
 
 --- The values of a recipe's parameters (`schema` as of lissom.params), those given or else the defaults,

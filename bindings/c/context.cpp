@@ -14,7 +14,7 @@ namespace lissom::c {
 namespace {
 
 // Least and greatest number of bytes of a struct of options: of any version there may be.
-constexpr std::size_t kLeastOptions = 2 * sizeof(std::size_t), kGreatestOptions = 4096;
+constexpr std::size_t kMinOptions = 2 * sizeof(std::size_t), kMaxOptions = 4096;
 
 // Ids that a context takes at a time, and the first: numbers that a host counts by itself are none.
 constexpr std::uint64_t kIdBlock = 1024, kFirstId = std::uint64_t{1} << 32;
@@ -234,7 +234,7 @@ void require_given(const void* pointer, const char* name) {
 
 void copy_options(const void* given, std::size_t given_size, void* options, std::size_t size) {
     const auto* bytes = static_cast<const unsigned char*>(given);
-    bool fits = given_size >= kLeastOptions && given_size <= kGreatestOptions;
+    bool fits = given_size >= kMinOptions && given_size <= kMaxOptions;
     // Options of a later version must not be ignored silently.
     for (std::size_t i = size; fits && i < given_size; ++i) fits = bytes[i] == 0;
     if (!fits) {

@@ -78,7 +78,7 @@ double number_at(const unsigned char* place, lissom_format format) {
 }
 
 // The greatest integer of a format for ids, or 0 if it has none.
-std::uint32_t greatest_id(lissom_format format) {
+std::uint32_t max_id(lissom_format format) {
     switch (format) {
         case LISSOM_UINT8:
             return 0xff;
@@ -94,7 +94,7 @@ std::uint32_t greatest_id(lissom_format format) {
 }
 
 void require_integers(lissom_format format, const char* name) {
-    if (greatest_id(format) == 0) refuse_format(name, "UINT8, UINT16, UINT32 or INT32");
+    if (max_id(format) == 0) refuse_format(name, "UINT8, UINT16, UINT32 or INT32");
 }
 
 void put_integer(unsigned char* place, lissom_format format, Index value) {
@@ -257,7 +257,7 @@ void write_integers(const lissom_output* output, std::span<const Index> values, 
                     std::size_t width) {
     require_room(output, values.size() / width, width, name);
     require_integers(output->format, name);
-    const std::uint32_t most = greatest_id(output->format);
+    const std::uint32_t most = max_id(output->format);
     for (const Index value : values) {
         // -1 in 32 bits is no element.
         const bool fits = size_of(output->format) == 4 || static_cast<std::uint32_t>(value) <= most;

@@ -987,7 +987,7 @@ typedef struct lissom_merge_report {
     /// Scale of the source at the first join.
     double scale;
     /// Steepest dihedral angle at the seams, in radians.
-    double greatest_dihedral;
+    double max_dihedral;
     int32_t intersections;
     /// The fault of the seams, in a line; warnings, one a line. They live until the next call.
     const char* verdict;

@@ -169,7 +169,7 @@ lissom_merge_report told_report(lissom_context& context, const MergeReport& foun
     auto told = lissom_default_merge_report();
     told.ok = found.ok;
     told.scale = found.joins.empty() ? 1.0 : found.joins.front().scale;
-    told.greatest_dihedral = found.seam.after.greatest_dihedral;
+    told.max_dihedral = found.seam.after.max_dihedral;
     told.intersections = count_of(found.intersections);
     context.text = found.verdict;
     context.more_text.clear();

@@ -173,12 +173,12 @@ Json strands_json(const std::string& file, const Strands& strands, const Context
         {"file", file},
         {"strands", measured.strands},
         {"points", measured.points},
-        {"points_per_strand", {{"min", measured.least_points}, {"max", measured.most_points}}}};
+        {"points_per_strand", {{"min", measured.min_points}, {"max", measured.max_points}}}};
     json["bounds"] = bounds_json(bounds(strands));
     json["length"] = empty ? Json(nullptr)
-                           : Json{{"min", measured.least_length},
+                           : Json{{"min", measured.min_length},
                                   {"mean", measured.mean_length},
-                                  {"max", measured.most_length}};
+                                  {"max", measured.max_length}};
     json["widths"] = widths_json(strands);
     json["zero_length"] = measured.zero_length;
     json["zero_segments"] = measured.zero_segments;

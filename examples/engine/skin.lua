@@ -29,7 +29,7 @@ end
 local skinned, report = deformer:skin{ joints = params.joints, pose = pose, duration = 2, fps = 12 }
 skinned:save(params.out .. "/cactus_skin.glb")
 print(string.format("%d joints: the greatest error is %.2f %% of the size, the mean one %.3f %%",
-    report.joints, 100 * report.greatest_error / cactus:size(), 100 * report.rms_error / cactus:size()))
+    report.joints, 100 * report.max_error / cactus:size(), 100 * report.rms_error / cactus:size()))
 
 local baked = deformer:bake{ pose = pose, duration = 2, fps = 12, name = "sway" }
 local done, problem = pcall(baked.save, baked, params.out .. "/cactus_small.glb",

@@ -20,7 +20,7 @@ end)
 
 local mesh, report, parts = merging.join(head, body, options)
 merge_script.finish(params, "figure_3_1", mesh, report, parts)
-figures.claim(report.seam.after.greatest_dihedral < 20, "the seam is hidden")
+figures.claim(report.seam.after.max_dihedral < 20, "the seam is hidden")
 figures.claim(#mesh:boundaries() == #parts.source:boundaries() + #parts.targets[1]:boundaries() - 2,
     "the two become one surface")
 

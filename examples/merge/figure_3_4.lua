@@ -74,4 +74,4 @@ merge_script.finish(params, "figure_3_4", mesh, report, parts, { view = "front" 
 
 figures.claim(mesh:genus() == source:genus() + target:genus() + 1, "two joins make a loop")
 figures.claim(#mesh:boundaries() == #source:boundaries() + #target:boundaries() - 4, "both seams are closed")
-figures.claim(report.seam.after.greatest_dihedral < 35, "the seams are hidden")
+figures.claim(report.seam.after.max_dihedral < 35, "the seams are hidden")

@@ -45,7 +45,7 @@ for i, place in ipairs(places) do
     figures.claim(math.abs(ratio * places[1].radius / place.radius - 1) < 0.02,
         "each end takes its cylinder's size")
 end
-figures.claim(report.seam.after.greatest_dihedral < 20, "the seams are hidden")
+figures.claim(report.seam.after.max_dihedral < 20, "the seams are hidden")
 local difference = merging.configuration_error(mesh, parts, 1, options)
 print(string.format("from another place, turn and size: the same to %.1e of the size", difference))
 figures.claim(difference < 1e-9, "the result is the same in every configuration")

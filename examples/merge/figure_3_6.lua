@@ -79,7 +79,7 @@ merge_script.finish(params, "figure_3_6_free", free, free_report, free_parts, vi
 merge_script.finish(params, "figure_3_6_fixed", fixed, fixed_report, fixed_parts, view)
 
 -- Held vertices by their numbers in the source, in the merged mesh.
-local function greatest_move(mesh, report)
+local function max_move(mesh, report)
     local worst = 0
     for v = #mesh - #placed + 1, #mesh do
         local origin = v > 0 and report.provenance:vertex(v) or {}
@@ -91,13 +91,13 @@ local function greatest_move(mesh, report)
     return worst
 end
 print(string.format("the held part moves by %g if it is fixed, by %.3g if all is free",
-    greatest_move(fixed, fixed_report), greatest_move(free, free_report)))
+    max_move(fixed, fixed_report), max_move(free, free_report)))
 figures.claim(#held > 0, "something is held")
-figures.claim(greatest_move(fixed, fixed_report) == 0, "the fixed part stays to the bit")
-figures.claim(given or greatest_move(free, free_report) > 0.5, "the free configuration moves the feet")
+figures.claim(max_move(fixed, fixed_report) == 0, "the fixed part stays to the bit")
+figures.claim(given or max_move(free, free_report) > 0.5, "the free configuration moves the feet")
 figures.claim(#fixed:boundaries() == #back:boundaries() + #front:boundaries() - 2, "the seam is closed")
 local limit = given and 30 or 20
-figures.claim(fixed_report.seam.after.greatest_dihedral < limit and free_report.seam.after.greatest_dihedral
+figures.claim(fixed_report.seam.after.max_dihedral < limit and free_report.seam.after.max_dihedral
     < limit, "the seams are hidden")
 
 figures.write{

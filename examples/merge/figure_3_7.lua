@@ -43,7 +43,7 @@ print(string.format("mean angle between faces within eight edges of the seam: %.
 figures.claim(#mesh:boundaries() == #plain:boundaries() and mesh:genus() == plain:genus(),
     "the seam is closed")
 figures.claim(report.transition_kept > 0.9, "the transition is made")
-figures.claim(report.seam.after.greatest_dihedral < math.max(20, plain_report.seam.after.greatest_dihedral),
+figures.claim(report.seam.after.max_dihedral < math.max(20, plain_report.seam.after.max_dihedral),
     "the seam is hidden")
 
 -- The thesis's. If the far end of the target's region is too jagged for its band of new faces, the seam is
@@ -60,7 +60,7 @@ end
 print(string.format("to the letter: %.2f degrees, %d of %d vertices without a counterpart",
     bends(literal, literal_report), literal_report.transition[1].source.unmapped,
     literal_report.transition[1].source.vertices))
-local function across(one) return one.seam.after.greatest_dihedral end
+local function across(one) return one.seam.after.max_dihedral end
 print(string.format("greatest angle across the seam: %.1f degrees without, %.1f with a transition, "
     .. "%.1f to the letter", across(plain_report), across(report), across(literal_report)))
 figures.claim(#literal:boundaries() == #plain:boundaries() and literal:genus() == plain:genus(),

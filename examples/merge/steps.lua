@@ -33,7 +33,7 @@ local mesh, report = lissom.merge{
 assert(mesh:is_closed() and mesh:is_manifold())
 print(string.format("%d vertices meet %d, scale %.3g, greatest angle at the seam %.1f degrees",
     report.joins[1].source_size, report.joins[1].target_size, report.joins[1].scale,
-    report.seam.after.greatest_dihedral))
+    report.seam.after.max_dihedral))
 
 -- Blue stays, sand is deformed. Before they meet, the head stands beside the cactus, as large as it will be.
 local function painted(part, color)

@@ -16,7 +16,7 @@ namespace {
 
 // Changed constraints from which on it is cheaper to factor again. Both costs grow with the grid,
 // and their ratio little.
-constexpr std::size_t kMostChanges = 256;
+constexpr std::size_t kMaxChanges = 256;
 
 class Common {
   public:
@@ -162,7 +162,7 @@ void UpdatedCholesky::update(const ConstraintRows& rows, const Context& context)
         matrix_.value[matrix_.begin[i]] += amount;
     }
     square_ = next;
-    const bool few = added.size() + removed.size() < kMostChanges;
+    const bool few = added.size() + removed.size() < kMaxChanges;
     try {
         context.checkpoint();
         // Added first, so that the matrix is positive definite all the time.

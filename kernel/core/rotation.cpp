@@ -6,7 +6,7 @@ namespace lissom {
 
 // By half angles, without the singular value decomposition of Eigen's FromTwoVectors, which takes
 // compilers longer than a whole room.
-Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to) {
+Eigen::Quaterniond min_rotation(const Vec3& from, const Vec3& to) {
     // Twice the cosine of half the angle below which the cross product has lost the axis.
     constexpr double kOpposite = 1e-8;
     const Vec3 a = from.normalized(), b = to.normalized();

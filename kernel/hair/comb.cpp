@@ -34,7 +34,7 @@ double hold_at(double distance, double reach) {
 }
 
 Vec3 turned_towards(const Vec3& v, const Vec3& direction, double share) {
-    return Eigen::Quaterniond::Identity().slerp(share, least_rotation(v, direction)) * v;
+    return Eigen::Quaterniond::Identity().slerp(share, min_rotation(v, direction)) * v;
 }
 
 // ---- How a style changes

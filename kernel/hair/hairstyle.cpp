@@ -54,7 +54,7 @@ void warn_of_short_hair(const GrowthReport& report, Index strands, const Context
          "left the volume of the hairstyle before they were as long as asked; enlarge the volume, "
          "or make hair shorter");
     warn(StrandEnd::segments,
-         "have as many segments as allowed before they are as long as asked; raise most_segments");
+         "have as many segments as allowed before they are as long as asked; raise max_segments");
 }
 
 // Adds the roots and the ties of strands; after an error there are no strands.

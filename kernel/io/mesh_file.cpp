@@ -104,7 +104,7 @@ void require_expected_content(std::string_view bytes, const Format& format) {
 }
 
 void require_compressible(const Format& format, const SaveOptions& options) {
-    constexpr int kLeastBits = 6, kMostBits = 20;
+    constexpr int kMinBits = 6, kMaxBits = 20;
     const bool is_compressed = options.compression != Compression::none;
     if (is_compressed && format.name != "glTF") {
         throw Error(ErrorCode::invalid_argument,
@@ -116,7 +116,7 @@ void require_compressible(const Format& format, const SaveOptions& options) {
         throw Error(ErrorCode::invalid_argument,
                     "numbers are quantised in compressed files only; choose a compression too");
     }
-    if (options.quantize >= kLeastBits && options.quantize <= kMostBits) return;
+    if (options.quantize >= kMinBits && options.quantize <= kMaxBits) return;
     throw Error(ErrorCode::invalid_argument, std::to_string(options.quantize) +
                                                  " bits cannot be kept; choose 6 to 20, or 0 for "
                                                  "all");

@@ -75,7 +75,7 @@ void SkinBaker::add(double time, const Mesh& shape) {
 SkinnedMesh SkinBaker::finish(const std::string& name) const {
     const bool still = moving_.size() < rest_.vertex_count();
     const SkinFit fit = fit_skin(points_of(rest_, moving_), poses_, still, options_, context_);
-    SkinnedMesh result{rest_, count_of(fit.centers), fit.greatest_error, fit.rms_error};
+    SkinnedMesh result{rest_, count_of(fit.centers), fit.max_error, fit.rms_error};
     set_skin(result.mesh, moving_, fit);
     result.mesh.set_asset(
         with_skin(result.mesh,

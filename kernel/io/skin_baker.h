@@ -27,7 +27,7 @@ struct SkinnedMesh {
     Mesh mesh;
     Index joint_count = 0;
     /// Greatest and RMS distance of skinned vertices from those of the shapes, over all shapes.
-    double greatest_error = 0.0, rms_error = 0.0;
+    double max_error = 0.0, rms_error = 0.0;
 };
 
 /// Collects shapes and fits a skin to them.

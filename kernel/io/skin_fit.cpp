@@ -14,7 +14,7 @@
 namespace lissom {
 namespace {
 
-constexpr Index kMostJoints = 250, kMostInfluences = 8, kGrain = 256;
+constexpr Index kMaxJoints = 250, kMaxInfluences = 8, kGrain = 256;
 // Joints whose weights are solved for before the largest are chosen, and passes of the division
 // into rigid parts that the fit starts from.
 constexpr std::size_t kCandidates = 10;
@@ -26,8 +26,8 @@ void require_skin(std::span<const Vec3> rest, const Poses& poses, const SkinOpti
     const auto refuse = [](const std::string& text) {
         throw Error(ErrorCode::invalid_argument, text);
     };
-    if (options.joints < 1 || options.joints > kMostJoints) refuse("a skin has 1 to 250 joints");
-    if (options.influences < 1 || options.influences > kMostInfluences) {
+    if (options.joints < 1 || options.joints > kMaxJoints) refuse("a skin has 1 to 250 joints");
+    if (options.influences < 1 || options.influences > kMaxInfluences) {
         refuse("a vertex follows 1 to 8 joints");
     }
     if (options.passes < 1) refuse("a skin is fitted in at least one pass");
@@ -93,12 +93,11 @@ struct WeightSystem {
 // are.
 std::vector<Index> positive_joints(const WeightSystem& system, std::vector<Index> active,
                                    std::size_t most, Eigen::VectorXd& weights) {
-    constexpr double kLeastWeight = 1e-4;
+    constexpr double kMinWeight = 1e-4;
     while (active.size() > 1) {
         const bool solved = system.solve(active, weights);
         Eigen::Index least = static_cast<Eigen::Index>(active.size()) - 1;
-        if (solved && weights.minCoeff(&least) > kLeastWeight && active.size() <= most)
-            return active;
+        if (solved && weights.minCoeff(&least) > kMinWeight && active.size() <= most) return active;
         active.erase(active.begin() + least);
     }
     weights = Eigen::VectorXd::Ones(1);
@@ -324,7 +323,7 @@ class SkinFitter {
             for (std::size_t v = 0; v < rest_.size(); ++v) {
                 const double d =
                     (fit_.position(index_of(v), rest_[v], index_of(p)) - poses_[p][v]).norm();
-                fit_.greatest_error = std::max(fit_.greatest_error, d);
+                fit_.max_error = std::max(fit_.max_error, d);
                 sum += d * d;
             }
         }

@@ -35,7 +35,7 @@ struct SkinFit {
     /// The rigid motion of each joint in each pose: motions[pose][joint].
     std::vector<std::vector<Affine>> motions;
     /// Greatest and RMS distance of the skinned vertices from those of the poses.
-    double greatest_error = 0.0, rms_error = 0.0;
+    double max_error = 0.0, rms_error = 0.0;
 
     /// Returns the place of a vertex at `rest` in a pose.
     Vec3 position(Index vertex, const Vec3& rest, Index pose) const;

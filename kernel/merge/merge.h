@@ -108,10 +108,10 @@ struct MergeOptions {
     /// Makes the thesis's transition, which `thesis` with widths asks for: literal_transition of
     /// kernel/thesis. Without it such a merge is refused as `unsupported`. Not owned.
     const OverlapTransition* overlap = nullptr;
-    /// Trims boundaries that turn at their vertices, in the mean, by `greatest_turn` radians more
+    /// Trims boundaries that turn at their vertices, in the mean, by `max_turn` radians more
     /// than a regular polygon: the seam would show every tooth of them.
     bool trim = true;
-    double greatest_turn = 20.0 * kPi / 180.0;
+    double max_turn = 20.0 * kPi / 180.0;
     /// Splits the faces at a boundary of the source once if its edges are more than 1.5 times as
     /// long as those it meets. A boundary with edges more than 3 times as long as edges inside the
     /// source is coarse (section 2.5): its faces are split until it is not, 4 times at most, and

@@ -16,7 +16,7 @@ namespace {
 constexpr double kLoopWeight = 2.83, kBendWeight = 1.24, kSymmetryWeight = 3.22, kMassWeight = 0.29;
 constexpr double kNoneScore = -3.97;
 // Misfits well below this are none.
-constexpr double kLeastMisfit = 0.003;
+constexpr double kMinMisfit = 0.003;
 // Turns within 30 degrees are one guess; offsets that differ by less than kRounding are equal, and
 // scores by less than kSameScore.
 constexpr double kEqualTurns = 30.0 / 360.0, kRounding = 1e-6, kSameScore = 0.01;
@@ -66,7 +66,7 @@ double bend_of(const Mesh& rest, const Region& region, std::span<const Vec3> now
 }
 
 double log_of(double misfit) {
-    return std::log(misfit + kLeastMisfit);
+    return std::log(misfit + kMinMisfit);
 }
 
 double score_of(const JudgedTurn& one) {

@@ -23,7 +23,7 @@ namespace {
 constexpr double kCoarse = 1.5;
 // And those this many times as long as edges of its region are few; so often it is split for them.
 constexpr double kFew = 3.0;
-constexpr int kMostLevels = 4;
+constexpr int kMaxLevels = 4;
 // Edges of a region are looked at about so many of its vertices.
 constexpr Index kSampledVertices = 1000;
 // Outlines whose lengths in widths differ by more than this factor do not suit each other.
@@ -58,7 +58,7 @@ void require_options(const MergeOptions& options, std::size_t joins, std::size_t
                 std::isfinite(options.source_transition + options.target_transition),
             "widths of transition regions must be finite and not negative");
     require(!options.reach || *options.reach > 0.0, "the reach of a merge must be above 0");
-    require(options.greatest_turn >= 0.0, "the greatest turn must not be negative");
+    require(options.max_turn >= 0.0, "the greatest turn must not be negative");
     const bool stays = options.configuration == Configuration::fixed;
     require(stays || !options.reach,
             "a reach applies to the fixed configuration; in the free one all of the source moves");
@@ -247,10 +247,10 @@ void note_absent_values(Sides& sides) {
 void trim_sides(std::span<const Join> joins, const MergeOptions& options, Sides& sides,
                 const Context& context) {
     for (MergeSide& side : sides.targets) {
-        if (options.trim) trim_jagged(side, options.greatest_turn, context);
+        if (options.trim) trim_jagged(side, options.max_turn, context);
         note_trims(side, "target", sides.found.warnings);
     }
-    if (options.trim) trim_jagged(sides.source, options.greatest_turn, context);
+    if (options.trim) trim_jagged(sides.source, options.max_turn, context);
     note_trims(sides.source, "source", sides.found.warnings);
     note_absent_values(sides);
     for (std::size_t j = 0; j < joins.size(); ++j) {
@@ -368,13 +368,13 @@ void refine_target(Boundaries& boundaries, std::size_t join, LoopMeasure measure
 // coarse.
 void refine_few(Boundaries& boundaries, std::size_t join, LoopMeasure measure,
                 const Context& context) {
-    for (int level = 0; level < kMostLevels; ++level) {
+    for (int level = 0; level < kMaxLevels; ++level) {
         const Loop& from = boundaries.source_curves[join];
         if (!(loop_edge(from) > kFew * inner_edge(boundaries.source.mesh, from))) break;
         if (inner_edge(boundaries.source.mesh, from) == 0.0) break;
         refine_source(boundaries, join, measure, context);
     }
-    for (int level = 0; boundaries.refined[join] && level < kMostLevels; ++level) {
+    for (int level = 0; boundaries.refined[join] && level < kMaxLevels; ++level) {
         const Loop &from = boundaries.source_curves[join], &to = boundaries.target_curves[join];
         if (!(loop_edge(to) > kCoarse * loop_scale(from, to) * loop_edge(from))) break;
         refine_target(boundaries, join, measure, context);

@@ -69,8 +69,8 @@ constexpr double kVisible = 20.0 * kPi / 180.0;
 // A seam without a collar must be this much better than one with it.
 constexpr double kClearlyBetter = 0.9;
 
-double greatest_angles(const SewReport& report) {
-    return report.after.greatest_dihedral + report.after.greatest_near;
+double max_angles(const SewReport& report) {
+    return report.after.max_dihedral + report.after.max_near;
 }
 
 bool makes_transition(const MergeOptions& options) {
@@ -166,8 +166,7 @@ void finish_seams(const MergeOptions& options, const Matching& matching,
         merged.transition = moved.overlap->reconstruct(sewn, context);
     } else if (blends) {
         blend(options, matching, firm, merged, context);
-    } else if (options.seam == SeamKind::fair &&
-               sewn.report.after.greatest_dihedral > kSmoothSeam) {
+    } else if (options.seam == SeamKind::fair && sewn.report.after.max_dihedral > kSmoothSeam) {
         SeamFairing how;
         how.firm = became_of(sewn, firm);
         fair_seam(sewn.mesh, worked, how, context);
@@ -195,10 +194,9 @@ MergedSides sew_well(const Boundaries& boundaries, const MergeOptions& options,
     };
     MergedSides merged = sew_with(options.collar);
     const SewReport& report = merged.sewn.report;
-    if (!(report.collar_added > 0 && report.after.greatest_dihedral > kVisible)) return merged;
+    if (!(report.collar_added > 0 && report.after.max_dihedral > kVisible)) return merged;
     MergedSides plain = sew_with(false);
-    const bool better =
-        greatest_angles(plain.sewn.report) <= kClearlyBetter * greatest_angles(report);
+    const bool better = max_angles(plain.sewn.report) <= kClearlyBetter * max_angles(report);
     return better ? std::move(plain) : std::move(merged);
 }
 

@@ -148,12 +148,12 @@ void orient(MergeSide& side, const Context& context) {
     for (std::vector<Index>& loop : side.loops) std::reverse(loop.begin(), loop.end());
 }
 
-void trim_jagged(MergeSide& side, double greatest_turn, const Context& context) {
+void trim_jagged(MergeSide& side, double max_turn, const Context& context) {
     for (std::size_t k = 0; k < side.loops.size(); ++k) {
         const Path boundary(side.mesh.shared_topology(), side.loops[k], true);
         // A loop of few vertices turns by much without being jagged.
         const double smooth = 2.0 * kPi / side.loops[k].size();
-        if (side.turns[k] - smooth <= greatest_turn) continue;
+        if (side.turns[k] - smooth <= max_turn) continue;
         if (!side.fits.empty() && side.fits[k]) continue;
         try {
             Trim trimmed = trim(side.mesh, boundary, {}, context);

@@ -42,9 +42,9 @@ MergeSide make_side(const Mesh& mesh, const std::vector<Path>& boundaries, const
 /// Turns a mesh over that is inside out: whose volume, boundaries capped, is clearly negative.
 void orient(MergeSide& side, const Context& context);
 
-/// Trims the loops that turn by `greatest_turn` radians more than a regular polygon with as many
+/// Trims the loops that turn by `max_turn` radians more than a regular polygon with as many
 /// vertices, in the mean. A loop without room for it stays as it is; see `untrimmed`.
-void trim_jagged(MergeSide& side, double greatest_turn, const Context& context);
+void trim_jagged(MergeSide& side, double max_turn, const Context& context);
 
 /// Splits the faces at one loop, once, by bisecting its edges.
 void refine_loop(MergeSide& side, std::size_t loop, const Context& context);

@@ -65,7 +65,7 @@ std::string joined_by(const std::vector<std::string>& texts, const char* separat
 }
 
 double steepest_rim(const MergeReport& report) {
-    return std::max(report.source_rim.greatest_near, report.target_rim.greatest_near);
+    return std::max(report.source_rim.max_near, report.target_rim.max_near);
 }
 
 bool all_fit(const MergeReport& report) {
@@ -75,7 +75,7 @@ bool all_fit(const MergeReport& report) {
 
 // A steep seam is good if the surface was as steep beside it, which is said.
 std::string beside_text(const MergeReport& report) {
-    if (report.seam.after.greatest_dihedral <= kSteep) return "";
+    if (report.seam.after.max_dihedral <= kSteep) return "";
     if (all_fit(report)) return "as the parts were given, ";
     return "as beside the boundaries before (" + angle_text(steepest_rim(report)) + "), ";
 }
@@ -224,11 +224,11 @@ void judge_bend(const MergeReport& report, Index j, const OpenOptions& open, Rea
     if (report.joins[at(j)].fits) return;
     const BandQuality& band = report.joins[at(j)].band;
     const double limit = std::max(kMoreBent * band.rest_bend, kBent + report.crease);
-    const double most = std::max(kMoreBent * band.rest_greatest_bend, kBentMost + report.crease);
+    const double most = std::max(kMoreBent * band.rest_max_bend, kBentMost + report.crease);
     const bool all_around = band.bend > limit;
-    if (!all_around && !(band.greatest_bend > most)) return;
-    const double value = all_around ? band.bend : band.greatest_bend;
-    const double before = all_around ? band.rest_bend : band.rest_greatest_bend;
+    if (!all_around && !(band.max_bend > most)) return;
+    const double value = all_around ? band.bend : band.max_bend;
+    const double before = all_around ? band.rest_bend : band.rest_max_bend;
     reasons.push_back(
         {MergeFault::bend, j, value, all_around ? limit : most,
          text_of("the surface bends by %s from one side of the seam%s to the other%s, "
@@ -277,7 +277,7 @@ void note_seam(double turn, double limit, const std::string& text, const OpenOpt
 // All of the seams together: at their steepest edge, else in the mean.
 void judge_seam(const MergeReport& report, const OpenOptions& open, Reasons& reasons) {
     if (all_fit(report)) return;
-    const double turn = report.seam.after.greatest_dihedral, steepest = steepest_rim(report);
+    const double turn = report.seam.after.max_dihedral, steepest = steepest_rim(report);
     const double limit = std::max(kSteep, steepest);
     if (turn > limit) {
         return note_seam(turn, limit,
@@ -422,9 +422,8 @@ Verdict verdict_of(const MergeReport& report, const OpenOptions& open) {
         return {false, "not good: " + joined_by(faults, "; "), std::move(reasons)};
     }
     return {true,
-            "good: the surface turns by at most " +
-                angle_text(report.seam.after.greatest_dihedral) + " across the seam, " +
-                beside_text(report) + "and " + crossings_text(report, open),
+            "good: the surface turns by at most " + angle_text(report.seam.after.max_dihedral) +
+                " across the seam, " + beside_text(report) + "and " + crossings_text(report, open),
             {}};
 }
 

@@ -22,7 +22,7 @@ CursorFrame::CursorFrame(const View& view, const Vec2& pixel, const PickScene::O
     backwards_ = -(object.to_local.linear * camera.forward());
 }
 
-Vec2 CursorFrame::least_pixels(const Box& box) const {
+Vec2 CursorFrame::min_pixels(const Box& box) const {
     const Vec3 center = from_ray(box.center());
     const Vec3 reach = axes_.cwiseAbs() * (0.5 * (box.max - box.min));
     const double farthest = center.z() + reach.z();

@@ -26,7 +26,7 @@ class CursorFrame {
     }
     /// Returns a lower bound for pixels to any point of the box, across and up or down; infinite if
     /// all of it is behind the camera.
-    Vec2 least_pixels(const Box& box) const;
+    Vec2 min_pixels(const Box& box) const;
 
     /// Returns the weights of corners of the given depths, all in front, for the point of the
     /// picture at which their weights are `seen`; both sum to 1.

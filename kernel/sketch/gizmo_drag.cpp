@@ -11,14 +11,14 @@ namespace lissom {
 namespace {
 
 // At the origin a part moves no faster than if it were seen at this fraction of its length.
-constexpr double kLeastSeen = 0.15;
-// Up to 1 / kLeastDepth times the depth of the origin the part stays under the cursor, and a pixel
-// is 1 / kLeastDepth^2 times as long; beyond, towards the horizon, it lags behind.
-constexpr double kLeastDepth = 0.3;
+constexpr double kMinSeen = 0.15;
+// Up to 1 / kMinDepth times the depth of the origin the part stays under the cursor, and a pixel
+// is 1 / kMinDepth^2 times as long; beyond, towards the horizon, it lags behind.
+constexpr double kMinDepth = 0.3;
 // Rings that are turned to the viewer by less than this cosine are dragged along the tangent.
 constexpr double kFromSide = 0.2;
 // A scale handle counts as at least this fraction of an axis away.
-constexpr double kLeastReach = 0.3;
+constexpr double kMinReach = 0.3;
 constexpr double kDeadPixels = 4.0;
 constexpr double kPreciseGain = 0.1;
 constexpr double kStepPixels = 10.0;
@@ -122,7 +122,7 @@ GizmoDrag::GizmoDrag(const Gizmo& gizmo, GizmoPart part, const View& view, const
     }
     read_ = anchor_read_ = read(cursor);
     const bool holds_handle = part >= GizmoPart::scale_x && part < GizmoPart::scale_all;
-    if (holds_handle) reach_ = std::max(std::abs(read_.x()), kLeastReach * length_);
+    if (holds_handle) reach_ = std::max(std::abs(read_.x()), kMinReach * length_);
     show(motion_.kind == GizmoKind::scale ? Vec2(1.0, 0.0) : Vec2::Zero());
 }
 
@@ -141,7 +141,7 @@ void GizmoDrag::set_track(const Vec3& first, const Vec3& second) {
     track_.along << first, second;
     Eigen::Matrix2d pixels;
     pixels << seen(first), seen(second);
-    track_.unproject = bounded_inverse(pixels, kLeastSeen / view_.pixel_length(depth_));
+    track_.unproject = bounded_inverse(pixels, kMinSeen / view_.pixel_length(depth_));
     if (view_.camera.is_ortho()) return;
     track_.recede = track_.along.transpose() * view_.camera.forward() / depth_;
 }
@@ -171,7 +171,7 @@ Vec2 GizmoDrag::read(const Vec2& cursor) {
         return {(from_origin.x() - from_origin.y()) / gizmo_.options().size, 0.0};
     }
     const Vec2 flat = track_.unproject * from_origin;
-    return flat / std::max(1.0 - track_.recede.dot(flat), kLeastDepth);
+    return flat / std::max(1.0 - track_.recede.dot(flat), kMinDepth);
 }
 
 double GizmoDrag::read_angle(const Vec2& from_origin) {

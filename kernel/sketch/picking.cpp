@@ -20,7 +20,7 @@ namespace {
 
 // Pixels' length that points and lines may lie behind a surface: they are drawn that much nearer.
 constexpr double kOverlaySlack = 2.0;
-constexpr int kMostLookedAt = 10000;
+constexpr int kMaxLookedAt = 10000;
 // From this many on, testing for occlusion pays.
 constexpr int kManyHidden = 16;
 // Distances that differ by less are equal: depth then decides.
@@ -152,7 +152,7 @@ const BoxTree* NearestSearch::boxes_of(const PickScene::Object& object) const {
 
 void NearestSearch::offer_node(Index object, Index node) {
     const double least =
-        frames_[at(object)].least_pixels(boxes_of(scene_.object(object))->node(node).box).norm();
+        frames_[at(object)].min_pixels(boxes_of(scene_.object(object))->node(node).box).norm();
     if (!(least <= options_.radius)) return;
     queue_.push({std::floor(least / kPixelStep), object, node, {}});
 }
@@ -254,7 +254,7 @@ std::optional<Candidate> NearestSearch::nearest_on(Index object, const Vec3& a,
 }
 
 std::optional<PickHit> NearestSearch::next() {
-    while (!queue_.empty() && hidden_ < kMostLookedAt) {
+    while (!queue_.empty() && hidden_ < kMaxLookedAt) {
         const Entry entry = queue_.top();
         queue_.pop();
         if (entry.node != kNoIndex) {

@@ -247,7 +247,7 @@ void SurfaceSelection::collect(const Shape& shape) {
     // A little more than the shape, so that rounding loses nothing.
     const Vec2 reach = shape.reach() + Vec2::Constant(1e-6);
     const auto may_meet = [&](const Box& box) {
-        return (frame.least_pixels(box).array() <= reach.array()).all();
+        return (frame.min_pixels(box).array() <= reach.array()).all();
     };
     surface_.boxes().visit(may_meet, [&](Index item) {
         if (by_vertex()) {

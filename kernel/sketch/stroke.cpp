@@ -17,7 +17,7 @@ constexpr double kClickPixels = 6.0, kClickSeconds = 0.25;
 // the angle against the rest, is a hook.
 constexpr double kHookPixels = 10.0, kHookShare = 0.25, kHookTurn = 57.0 * kPi / 180.0;
 // A shorter one is jitter.
-constexpr double kLeastHook = 3.0;
+constexpr double kMinHook = 3.0;
 
 // Corners: the angle between chords before and after, on a softened course with even steps.
 constexpr double kCornerSoftening = 3.0, kCornerStep = 2.0, kCornerTurn = kPi / 4.0;
@@ -115,7 +115,7 @@ std::size_t hook_length(const Course& course) {
     double sharpest = kHookTurn;
     for (std::size_t i = 1; i + 1 < course.points.size() && course.places[i] <= reach; ++i) {
         const Vec2 before = course.points[i] - course.points.front();
-        if (before.norm() < kLeastHook) continue;
+        if (before.norm() < kMinHook) continue;
         const Vec2 after = course.at(course.places[i] + 2.0 * kHookPixels) - course.points[i];
         const double turn = turn_between(before, after);
         if (turn > sharpest) sharpest = turn, found = i;

@@ -59,8 +59,8 @@ return styling.preset(..., {
             if #one > 0 then
                 one:feed_braid{ spine = spine_of(scalp, middle, v.tails), scalp = scalp,
                     across = scalp:left(), radius = 0.0031 * size, wide = 0.0042 * size,
-                    high = 0.0022 * size, wavelength = 0.021 * size, blend = 0.009, least_run = 0.03,
-                    most_run = 0.06, tail = 0.35, begin_size = 0.45, end_size = 0.55, step = 0.0012,
+                    high = 0.0022 * size, wavelength = 0.021 * size, blend = 0.009, min_run = 0.03,
+                    max_run = 0.06, tail = 0.35, begin_size = 0.45, end_size = 0.55, step = 0.0012,
                     seed = v.seed, drop_others = true }
             end
             braids = braids and braids:append(one) or one

@@ -99,7 +99,7 @@ void add_rows(Report& report, const RealPaste& real, const PasteResult& result, 
     }
     const bool misses = target >= 0.0 && paste.near.energy > target;
     if (paste.kept_outline) end += ", keeps the outline";
-    const double turn = result.merged.report.seam.after.greatest_dihedral * 180.0 / kPi;
+    const double turn = result.merged.report.seam.after.max_dihedral * 180.0 / kPi;
     end += ", turns by " + std::to_string(static_cast<int>(std::lround(turn)));
     char line[256];
     std::snprintf(line, sizeof line, "  %-20s %10.4f %9.2f %12.4f %9.2f %8.2f  %s%s", name_of(way),

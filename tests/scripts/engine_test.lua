@@ -170,7 +170,7 @@ end)
 -- ---- Compressed files and skins
 
 -- The greatest distance of a vertex in any shape of two baked meshes.
-local function greatest_difference(a, b)
+local function max_difference(a, b)
     local worst = 0
     for target = 1, 1000 do
         local name = "morph." .. target .. ".position"
@@ -194,7 +194,7 @@ test("bake: a quantised, compressed animation is a quarter of the plain one and 
     local saved = pcall(baked.save, baked, small, { compression = "meshopt", quantize = 12 })
     if not saved then return end -- a build without the codec
     expect.truthy(#read_bytes(small) < 0.25 * #read_bytes(plain))
-    local difference, targets = greatest_difference(lissom.load(plain), lissom.load(small))
+    local difference, targets = max_difference(lissom.load(plain), lissom.load(small))
     expect.equal(targets, 12)
     expect.truthy(difference <= 2 / 2 ^ 12)
 end)
@@ -209,15 +209,15 @@ test("skin: an ordinary skinned file of a deformation, with its error told", fun
     local skinned, report = edit:skin{ joints = 6, duration = 1, fps = 8, pose = bend }
     expect.equal(rod:hash(), hash)
     expect.equal(report.joints, 6)
-    expect.truthy(report.rms_error < report.greatest_error)
-    expect.truthy(report.greatest_error < 0.05 * rod:size())
+    expect.truthy(report.rms_error < report.max_error)
+    expect.truthy(report.max_error < 0.05 * rod:size())
     local path = test.file("skin.glb")
     skinned:save(path)
     local back = lissom.load(path)
     expect.equal(#back, #rod)
     expect.equal(back:attribute("weights"):width(), 4)
     local _, turned = edit:skin{ joints = 6, angle = 20 }
-    expect.truthy(turned.greatest_error < 0.05 * rod:size())
+    expect.truthy(turned.max_error < 0.05 * rod:size())
     expect.error(function() edit:skin{ duration = 1 } end, "'pose'")
 end)
 

@@ -87,7 +87,7 @@ test("hair of the thesis takes options of growth too, and refuses what has no ef
     local style = with_curves(style_of{ fidelity = "thesis" })
     local hair = style:grow{ count = 300 }
     expect.equal(hair:hash(), style:grow{ count = 300, roots = "steps", avoid = false, variation = 0,
-        lift = 0, greatest_turn = 180 }:hash())
+        lift = 0, max_turn = 180 }:hash())
     for _, options in ipairs{ { roots = "poisson" }, { avoid = true }, { length = 0.05 }, { lift = 0.2 } } do
         options.count = 300
         expect.truthy(style:grow(options):hash() ~= hair:hash())
@@ -147,5 +147,5 @@ test("the default is what it was, whether or not it is named", function()
     expect.equal(plain:grow{ count = 200 }:hash(), named:grow{ count = 200 }:hash())
     expect.equal(plain:grow{ count = 200 }:hash(), plain:grow{ count = 200, length = 0.25, variation = 0.1,
         roots = "poisson", avoid = true, clearance = 0.002, layer = 0.012, ramp = 0.03, lift = 0.15,
-        greatest_turn = 88 }:hash())
+        max_turn = 88 }:hash())
 end)

@@ -220,11 +220,11 @@ test("where and how long, by functions, lists and attributes", function()
         return z > 0.02 and 0.05 or 0.1
     end
     local fringed = style:grow{ count = 300, length = fringe, variation = 0 }
-    expect.near(fringed:stats().most_length, 0.1, 2e-3)
+    expect.near(fringed:stats().max_length, 0.1, 2e-3)
     local shortened = style:grow{ count = 300, length = fringe, lengths = short, variation = 0 }
-    expect.near(shortened:stats().most_length, 0.05, 1e-3)
+    expect.near(shortened:stats().max_length, 0.05, 1e-3)
     local in_front = fringed:select{ where = function(_, _, _, z) return z > 0.05 end }
-    expect.truthy(in_front:stats().most_length < 0.051)
+    expect.truthy(in_front:stats().max_length < 0.051)
     expect.error(function() style:grow{ count = 10, length = text } end, "must return a number")
     expect.error(function() style:grow{ count = 10, segment = 1e-9 } end, "0.01 to 10")
     expect.error(function() style:grow{ count = 10, length = 50 } end, "at most")
@@ -297,9 +297,9 @@ test("what the curves give the field", function()
     end
     expect.truthy(scalp_count > 10)
     style:forget_scalp()
-    expect.error(function() style:grow{ count = 10, greatest_turn = 200 } end, "greatest_turn")
-    local bent = style:grow{ count = 300, greatest_turn = 180 }:stats().mean_length
-    expect.truthy(bent > style:grow{ count = 300, greatest_turn = 5 }:stats().mean_length)
+    expect.error(function() style:grow{ count = 10, max_turn = 200 } end, "max_turn")
+    local bent = style:grow{ count = 300, max_turn = 180 }:stats().mean_length
+    expect.truthy(bent > style:grow{ count = 300, max_turn = 5 }:stats().mean_length)
 end)
 
 test("a style and its file", function()

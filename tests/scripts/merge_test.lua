@@ -71,9 +71,9 @@ test("what comes back", function()
     expect.truthy(report.free_vertices > 100 and report.displaced_vertices >= 0)
     expect.truthy(report.prepare_seconds >= 0 and report.solve_seconds >= 0)
     expect.truthy(report.first_factor_seconds >= 0 and report.second_factor_seconds >= 0)
-    expect.truthy(report.seam.after.greatest_dihedral < 25 and report.seam.after.rms_dihedral < 15)
-    expect.truthy(report.seam.before.greatest_dihedral > 0)
-    expect.truthy(report.seam.after.greatest_near >= report.seam.after.greatest_dihedral - 1e-9)
+    expect.truthy(report.seam.after.max_dihedral < 25 and report.seam.after.rms_dihedral < 15)
+    expect.truthy(report.seam.before.max_dihedral > 0)
+    expect.truthy(report.seam.after.max_near >= report.seam.after.max_dihedral - 1e-9)
     expect.equal(#mesh:self_intersections(), 0)
 end)
 
@@ -159,7 +159,7 @@ test("every option is taken, and every way to sew closes the seam", function()
     for _, options in ipairs{
         { transition = { source = 0.3, target = 0.9 } },
         { subdivide = false }, { trim = false }, { collar = false },
-        { greatest_turn = 5 }, { fidelity = "thesis" }, { fidelity = "default", smooth = 10 },
+        { max_turn = 5 }, { fidelity = "thesis" }, { fidelity = "default", smooth = 10 },
     } do
         options.joins = { join{ { from, to } } }
         expect.truthy(lissom.merge(options):is_closed())
@@ -205,8 +205,8 @@ test("a sparse side gets a collar: no slivers at the seam, and nothing worse tha
     expect.equal(of_plain.seam.collar_added, 0)
     expect.truthy(of_fine.seam.after.smallest_angle > 12 and of_plain.seam.after.smallest_angle < 10)
     for _, of_seam in ipairs{ of_fine.seam, of_plain.seam } do
-        expect.truthy(of_seam.after.greatest_dihedral <= of_seam.before.greatest_dihedral + 1e-4)
-        expect.truthy(of_seam.after.greatest_near <= of_seam.before.greatest_near + 1e-4)
+        expect.truthy(of_seam.after.max_dihedral <= of_seam.before.max_dihedral + 1e-4)
+        expect.truthy(of_seam.after.max_near <= of_seam.before.max_near + 1e-4)
     end
 end)
 
@@ -680,7 +680,7 @@ end)
 test("values that make no sense", function()
     for _, options in ipairs{
         { smooth = -1 }, { transition = { source = -1 } }, { reach = 0, configuration = "fixed" },
-        { greatest_turn = 200 },
+        { max_turn = 200 },
     } do
         options.joins = { join() }
         fails("invalid_argument", nil, function() lissom.merge(options) end)
@@ -785,7 +785,7 @@ test("loops of thousands of vertices, with faces much longer than wide, are join
             keys = { { { 2, 1.1, 0 }, { 2.2, 1.1, 0 } } } } } }
     expect.truthy(joined)
     expect.equal(#told.intersections, 0)
-    expect.truthy(told.seam.after.greatest_dihedral < 10)
+    expect.truthy(told.seam.after.max_dihedral < 10)
     local bounds = joined:bounds()
     expect.near(bounds.min[1], 0, 1e-9)
     expect.near(bounds.max[1], 4.2, 1e-9)

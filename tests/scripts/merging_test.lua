@@ -13,7 +13,7 @@ local function expect_whole(name, result, of_result, of_parts)
     if not result then error(name .. ": " .. tostring(of_result), 2) end
     expect.equal(result:components(), 1)
     expect.truthy(result:is_manifold())
-    expect.truthy(of_result.seam.after.greatest_dihedral < 30)
+    expect.truthy(of_result.seam.after.max_dihedral < 30)
     expect.truthy(#of_parts.joins == #of_result.joins)
     return result
 end
@@ -63,7 +63,7 @@ test("a join is the same from everywhere, and its options are checked", function
     expect.equal(head:hash(), head_hash)
     expect.equal(#parts.targets, 1)
     expect.truthy(rawequal(parts.source, parts.joins[1].source:mesh()))
-    expect.truthy(report.seam.after.greatest_dihedral < 25)
+    expect.truthy(report.seam.after.max_dihedral < 25)
     for number = 1, 3 do expect.truthy(merging.configuration_error(mesh, parts, number) < 1e-9) end
     expect.error(function() merging.join(head, torso, { key = "" }) end, "unknown option 'key' of 'join'")
     local reason = select(2, lissom.try(merging.join, head, torso, { source_cut = "0, 9, 0; 0, 1, 0" }))
@@ -101,7 +101,7 @@ end)
 test("recipes tell what their cuts found, and take all options of a merge", function()
     local transplant = require "recipes.transplant_head"
     local plenty = { source_cut = { point = { 0, -0.295, 0 }, normal = "y" },
-        intersections = false, greatest_turn = 30 }
+        intersections = false, max_turn = 30 }
     local _, of_plenty, plenty_parts = transplant.make(head, torso, plenty)
     expect.equal(#of_plenty.intersections, 0)
     expect.truthy(of_plenty.verdict:find("were not looked for", 1, true))
@@ -207,5 +207,5 @@ test("a mermaid of models", function()
     local folder = models.path("models/fish_oded.obj"):match("^(.*)/")
     local fish, venus, own_options = require("merge_pairs").load("mermaid", folder)
     local mermaid, of_mermaid = merging.join(fish, venus, own_options)
-    expect.truthy(mermaid:is_manifold() and of_mermaid.seam.after.greatest_dihedral < 10.8)
+    expect.truthy(mermaid:is_manifold() and of_mermaid.seam.after.max_dihedral < 10.8)
 end)

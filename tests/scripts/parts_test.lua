@@ -31,7 +31,7 @@ test("a feature is erased, and put somewhere else", function()
     expect.truthy(rawequal(report.patch:mesh(), plain) and rawequal(report.loop:mesh(), ball))
     expect.truthy(report.loop:is_closed())
     expect.truthy(report.ok and report.verdict:find("^good: the patch turns"))
-    expect.truthy(report.greatest_around > 0 and report.density == 1)
+    expect.truthy(report.max_around > 0 and report.density == 1)
     local two, merged = ball:clone{ from = horn, to = { 1, 0, 0 }, scale = 0.7 }
     expect_whole(two)
     expect.truthy(two:bounds().max[1] > 1.2 and two:bounds().max[2] > 1.7)

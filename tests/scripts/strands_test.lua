@@ -21,7 +21,7 @@ test("upright strands on a grid, with a little bend", function()
     expect.equal(hair:strand(3):count(), 12)
     expect.near({ hair:strand(3):get(1) }, { 0.012, 0, 0 }, 1e-7)
     expect.equal(hair:points():count(), 2400)
-    expect.equal(hair:stats().most_points, 12)
+    expect.equal(hair:stats().max_points, 12)
     expect.equal(hair:stats().not_finite, 0)
 end)
 
@@ -33,7 +33,7 @@ test("operators change the strands in place and return them; roots stay", functi
         expect.near({ hair:strand(s):get(1) }, { before:strand(s):get(1) }, 0)
     end
     hair:trim{ length = 0.05, plane = { point = { 0, 0.04, 0 }, normal = { 0, 1, 0 } } }
-    expect.truthy(hair:stats().most_length < 0.0501)
+    expect.truthy(hair:stats().max_length < 0.0501)
     expect.truthy(hair:bounds().max[2] < 0.0401)
     expect.equal(hair:resample{ count = 5 }:points():count(), 1000)
 end)
@@ -99,7 +99,7 @@ end)
 test("guides stay with the strands, and files that hold ids hold them", function()
     local hair = lawn(200, 12):guides{ count = 10 }
     expect.equal(hair:root(150).guide < 10, true)
-    expect.near(hair:root(3).arc, hair:stats().least_length, 1e-3)
+    expect.near(hair:root(3).arc, hair:stats().min_length, 1e-3)
 
            hair:save(path ".usda")
     local back = lissom.load_strands(path ".usda")

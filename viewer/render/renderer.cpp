@@ -29,7 +29,7 @@ std::size_t picture_bytes(const RenderOptions& options) {
            tile * (several * (kColor + kDepth) + kColor + kDepth + kOutput);
 }
 
-double least_opacity(const Snapshot& snapshot) {
+double min_opacity(const Snapshot& snapshot) {
     double least = 1.0;
     for (const DrawnMesh& drawn : snapshot.meshes) {
         const double opacity = drawn.style.opacity;
@@ -87,7 +87,7 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Image Renderer::render(const Snapshot& snapshot, const Camera& camera, const RenderOptions& options,
                        const Context& context) {
     require_valid(options);
-    const double opacity = least_opacity(snapshot);
+    const double opacity = min_opacity(snapshot);
     if (opacity == 1.0) return render_solid(snapshot, camera, options, context);
     Snapshot solid = snapshot, open = snapshot;
     solid.revision = open.revision = 0;

@@ -292,10 +292,10 @@ void SceneDrawer::draw_output(const DrawTarget& target, const gl::Program& progr
 
 namespace {
 
-double least_width(const Snapshot& snapshot) {
+double min_width(const Snapshot& snapshot) {
     Index count = 0;
     for (const DrawnStrands& drawn : snapshot.strands) count += drawn.strands->size();
-    return least_visible_width(count);
+    return min_visible_width(count);
 }
 
 // The picture without strands, which `shadow` stands for; may be null.
@@ -325,7 +325,7 @@ Image draw_scene(const SceneTools& tools, const GpuScene& scene, const Camera& c
     const Mat4& to_view = view.parameters.view;
     const StrandScene strands{view_strands(snapshot, to_view, scene.origin()),
                               view_triangles(snapshot, to_view, scene.origin()), view.parameters,
-                              least_width(snapshot)};
+                              min_width(snapshot)};
     const StrandShadow shadow(strands.strands, strands.triangles, context);
     progress.step(0.3);
     RenderOptions on_nothing = options;

@@ -93,10 +93,10 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost>, public Messa
     /// without JSON: functions, numbers that are not finite, tables that are list and record at
     /// once.
     Value value_at(int index, int depth = 0);
-    /// Returns the values from `first` to the top; at most `kMostValues` with all they hold.
+    /// Returns the values from `first` to the top; at most `kMaxValues` with all they hold.
     List values_from(int first);
 
-    static constexpr std::size_t kMostValues = 4'000'000;
+    static constexpr std::size_t kMaxValues = 4'000'000;
 
   private:
     void push_value(const Value& value);
@@ -123,7 +123,7 @@ class ScriptHost : public std::enable_shared_from_this<ScriptHost>, public Messa
     std::unique_ptr<lua::Sandbox> sandbox_;
     lua::Stoppable stoppable_;
     // Depth of the results that are being converted.
-    std::size_t values_left_ = kMostValues;
+    std::size_t values_left_ = kMaxValues;
     // The Lua object around the content of a handle, by that content.
     std::map<const void*, std::weak_ptr<void>> around_;
     // The mesh that an object was made for, by the object.

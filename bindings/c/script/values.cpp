@@ -165,7 +165,7 @@ Value ScriptHost::value_at(int index, int depth) {
     }
     // A table that stands in several places counts in each: a few can be more than memory holds.
     if (values_left_-- == 0) {
-        refuse_result("the results are more than " + std::to_string(kMostValues) + " values");
+        refuse_result("the results are more than " + std::to_string(kMaxValues) + " values");
     }
     switch (lua_type(L_, index)) {
         case LUA_TNIL:
@@ -202,7 +202,7 @@ Value ScriptHost::value_at(int index, int depth) {
 
 List ScriptHost::values_from(int first) {
     List values;
-    values_left_ = kMostValues;
+    values_left_ = kMaxValues;
     const int last = lua_gettop(L_);
     for (int i = first; i <= last; ++i) values.push_back(value_at(i));
     return values;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostValues = 1e6;
+constexpr double kMaxValues = 1e6;
 
 [[noreturn]] void refuse(const std::string& message) {
     throw Error(ErrorCode::invalid_argument, message);
@@ -44,7 +44,7 @@ std::vector<std::string> listed(const std::string& text) {
 // Numbers at equal distances; the last is `to` itself if `ends_there`.
 std::vector<std::string> spaced(double from, double to, double count, bool ends_there, double step,
                                 const std::string& text) {
-    if (count > kMostValues) refuse("'" + text + "' has more than a million values");
+    if (count > kMaxValues) refuse("'" + text + "' has more than a million values");
     std::vector<std::string> values;
     for (double i = 0.0; i < count; ++i) {
         const bool is_end = ends_there && i + 1.0 == count && count > 1.0;

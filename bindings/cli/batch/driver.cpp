@@ -25,7 +25,7 @@ constexpr double kProgressSeconds = 0.25, kWaitSeconds = 0.1;
 // A disk with less free space is full.
 constexpr std::uintmax_t kFullBytes = 1 << 20;
 // Jobs of one process at most, and bytes of their tasks, which are words of its command line.
-constexpr std::size_t kMostPacked = 64, kMostTaskBytes = 60000;
+constexpr std::size_t kMaxPacked = 64, kMaxTaskBytes = 60000;
 
 double seconds_after(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -95,7 +95,7 @@ class Driver {
     std::size_t pack_size() const {
         if (!options_.packs) return 1;
         const auto processes = static_cast<std::size_t>(options_.jobs);
-        return std::clamp<std::size_t>(waiting_.size() / (4 * processes), 1, kMostPacked);
+        return std::clamp<std::size_t>(waiting_.size() / (4 * processes), 1, kMaxPacked);
     }
 
     // The next jobs that are free. A job that has failed is tried again alone.
@@ -106,7 +106,7 @@ class Driver {
         for (std::size_t tries = waiting_.size(); tries > 0 && pack.size() < size; --tries) {
             bytes += task_bytes(*waiting_.front().job);
             const bool is_alone = waiting_.front().attempt > 1;
-            if (!pack.empty() && (is_alone || bytes > kMostTaskBytes)) break;
+            if (!pack.empty() && (is_alone || bytes > kMaxTaskBytes)) break;
             WaitingJob next = std::move(waiting_.front());
             waiting_.pop_front();
             auto attempt = std::make_unique<Attempt>(plan_, next, state_);

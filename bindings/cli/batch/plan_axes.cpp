@@ -16,7 +16,7 @@ using lua::ParameterSet;
 using lua::ParameterType;
 using lua::ScriptParameter;
 
-constexpr std::size_t kMostJobs = 1000000;
+constexpr std::size_t kMaxJobs = 1000000;
 
 std::string plain_name(std::string name) {
     std::replace(name.begin(), name.end(), '-', '_');
@@ -165,7 +165,7 @@ std::size_t job_count(const Axes& axes) {
     std::size_t count = 1;
     for (const Axis& axis : axes.list) {
         count *= axis.rows.size();
-        if (count > kMostJobs) refuse_plan("the batch has more than a million jobs");
+        if (count > kMaxJobs) refuse_plan("the batch has more than a million jobs");
     }
     return count;
 }

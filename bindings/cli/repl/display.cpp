@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kWidth = 88;
 constexpr int kDeepest = 4;
-constexpr lua_Integer kMostItems = 12;
-constexpr std::size_t kMostFields = 40;
+constexpr lua_Integer kMaxItems = 12;
+constexpr std::size_t kMaxFields = 40;
 
 // Runs inside lua_pcall: value -> text.
 int to_text(lua_State* L) {
@@ -129,12 +129,12 @@ class Display {
     std::vector<std::string> items(int index, int depth) {
         std::vector<std::string> parts;
         const auto size = static_cast<lua_Integer>(lua_rawlen(L_, index));
-        for (lua_Integer i = 1; i <= std::min(size, kMostItems); ++i) {
+        for (lua_Integer i = 1; i <= std::min(size, kMaxItems); ++i) {
             lua_rawgeti(L_, index, i);
             parts.push_back(value(-1, depth + 1));
             lua_pop(L_, 1);
         }
-        if (size > kMostItems) parts.push_back("... (# = " + std::to_string(size) + ")");
+        if (size > kMaxItems) parts.push_back("... (# = " + std::to_string(size) + ")");
         return parts;
     }
 
@@ -148,9 +148,9 @@ class Display {
             if (!listed) parts.push_back(key(-2) + " = " + value(-1, depth + 1));
         }
         std::sort(parts.begin(), parts.end());
-        if (parts.size() > kMostFields) {
-            const std::size_t more = parts.size() - kMostFields;
-            parts.resize(kMostFields);
+        if (parts.size() > kMaxFields) {
+            const std::size_t more = parts.size() - kMaxFields;
+            parts.resize(kMaxFields);
             parts.push_back("... and " + std::to_string(more) + " more");
         }
         return parts;

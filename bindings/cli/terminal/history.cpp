@@ -17,8 +17,8 @@ std::vector<std::string> lines_of(const fs::path& file) {
 }
 
 void keep_last(std::vector<std::string>& lines) {
-    if (lines.size() <= History::kMostLines) return;
-    lines.erase(lines.begin(), lines.end() - History::kMostLines);
+    if (lines.size() <= History::kMaxLines) return;
+    lines.erase(lines.begin(), lines.end() - History::kMaxLines);
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ bool History::add(const std::string& line) {
 void History::shorten_file() const {
     if (file_.empty()) return;
     std::vector<std::string> lines = lines_of(file_);
-    if (lines.size() <= kMostLines) return;
+    if (lines.size() <= kMaxLines) return;
     keep_last(lines);
     std::ofstream out(file_);
     for (const std::string& line : lines) out << line << '\n';

@@ -12,7 +12,7 @@ namespace lissom::cli {
 /// it. Lines that cannot be written are kept for this run.
 class History {
   public:
-    static constexpr std::size_t kMostLines = 1000;
+    static constexpr std::size_t kMaxLines = 1000;
 
     /// Reads the file; an empty path is no file.
     explicit History(std::filesystem::path file);

@@ -8,9 +8,9 @@ namespace lissom::cli {
 
 void push_script_place(lua_State* L, int level) {
     // Deeper, a script calls itself.
-    constexpr int kMostLevels = 100;
+    constexpr int kMaxLevels = 100;
     lua_Debug frame;
-    for (int i = level; i < kMostLevels && lua_getstack(L, i, &frame); ++i) {
+    for (int i = level; i < kMaxLevels && lua_getstack(L, i, &frame); ++i) {
         luaL_where(L, i);
         const std::string_view place = lua_tostring(L, -1);
         if (!place.empty() && !place.starts_with(lua::kOwnLuaText)) return;

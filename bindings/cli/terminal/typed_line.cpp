@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostListed = 200;
+constexpr std::size_t kMaxListed = 200;
 constexpr int kMilliseconds = 100;
 
 // Words below each other in as many columns as fit.
@@ -96,7 +96,7 @@ class EditedLines final : public TypedLines {
         editor_ = lib_.init("lissom", stdin, stdout, stderr);
         history_ = lib_.history_init();
         HistEvent event;
-        lib_.history(history_, &event, H_SETSIZE, static_cast<int>(History::kMostLines));
+        lib_.history(history_, &event, H_SETSIZE, static_cast<int>(History::kMaxLines));
         for (std::size_t i = 0; i < history.size(); ++i) remember(history.line(i));
         lib_.set(editor_, EL_CLIENTDATA, this);
         lib_.set(editor_, EL_PROMPT, shown_prompt);
@@ -221,9 +221,9 @@ class EditedLines final : public TypedLines {
 
     static void list(std::vector<std::string> words) {
         const std::size_t count = words.size();
-        if (count > kMostListed) words.resize(kMostListed);
+        if (count > kMaxListed) words.resize(kMaxListed);
         std::cout << "\n" << in_columns(words, terminal_columns());
-        if (count > kMostListed) std::cout << "... and " << count - kMostListed << " more\n";
+        if (count > kMaxListed) std::cout << "... and " << count - kMaxListed << " more\n";
         std::cout << std::flush;
     }
 

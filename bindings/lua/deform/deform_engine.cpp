@@ -277,7 +277,7 @@ int skin(Call& call) {
     call.charge(result);
     lua_createtable(call.lua(), 0, 3);
     call.set_field("joints", call.push_count(at(skinned->joint_count)));
-    call.set_field("greatest_error", call.push(skinned->greatest_error));
+    call.set_field("max_error", call.push(skinned->max_error));
     call.set_field("rms_error", call.push(skinned->rms_error));
     return 2;
 }
@@ -401,7 +401,7 @@ os.remove(path))"},
                       "The rest shape with the attributes \"joints\" and \"weights\", its "
                       "skeleton, and the animation if there is a path."},
                      {"table", "report",
-                      "`joints`, their number; `greatest_error` and `rms_error`, distances of the "
+                      "`joints`, their number; `max_error` and `rms_error`, distances of the "
                       "skinned vertices from the deformation's over all poses, in mesh units."}},
          .errors = kPoseErrors,
          .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
@@ -411,7 +411,7 @@ local top = deformer:add_handle(bar:region("top"))
 local skinned, report = deformer:skin{ joints = 6, duration = 1, fps = 8, pose = function(time)
     top:set{ rotate = { axis = "z", angle = 60 * time } }
 end }
-assert(report.greatest_error < 0.05 * bar:size())
+assert(report.max_error < 0.05 * bar:size())
 local path = os.tmpname() .. ".glb"
 assert(skinned:save(path))
 os.remove(path))"}};

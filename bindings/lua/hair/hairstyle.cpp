@@ -331,13 +331,13 @@ void read_growth(const Call& call, const Scalp& scalp, GrowthOptions& growth) {
     growth.seed = static_cast<std::uint64_t>(call.integer("seed"));
     if (call.has("variation")) growth.variation = call.number("variation");
     growth.segment = call.number("segment");
-    growth.least_speed = call.number("least_speed");
+    growth.min_speed = call.number("min_speed");
     if (call.has("lift")) growth.lift = call.number("lift");
     read_heights(call, growth);
-    if (call.has("greatest_turn")) {
-        growth.greatest_turn = call.number("greatest_turn") * kPi / 180.0;
+    if (call.has("max_turn")) {
+        growth.max_turn = call.number("max_turn") * kPi / 180.0;
     }
-    growth.most_segments = call.integer("most_segments");
+    growth.max_segments = call.integer("max_segments");
     if (call.has("cut")) {
         HairCut cut;
         cut.point = scalp.to_metres(call.vector("cut.point"));
@@ -632,20 +632,20 @@ std::vector<Parameter> growth_fields() {
             .at_least(0),
         number("segment", "Length of a segment, in steps of the grid.")
             .defaults(defaults.segment)
-            .between(kLeastSegment, kGreatestSegment),
-        number("least_speed", "A strand ends if the field is shorter than this.")
-            .defaults(defaults.least_speed)
+            .between(kMinSegment, kMaxSegment),
+        number("min_speed", "A strand ends if the field is shorter than this.")
+            .defaults(defaults.min_speed)
             .between(0, 0.99),
         number(
-            "greatest_turn",
+            "max_turn",
             "A strand ends before a segment that turns by more than this, as about a sink of the "
             "field; 180 lets strands turn as they like.")
             .in("degrees")
-            .optional(shown(std::round(defaults.greatest_turn * 180.0 / kPi)))
+            .optional(shown(std::round(defaults.max_turn * 180.0 / kPi)))
             .thesis("4.6", "180")
             .between(0, 180),
-        integer("most_segments", "A strand has no more segments.")
-            .defaults(index_of(defaults.most_segments))
+        integer("max_segments", "A strand has no more segments.")
+            .defaults(index_of(defaults.max_segments))
             .at_least(1),
         object("into", "lissom.Strands",
                "Strands whose place the new ones take. After an error they are as they were, or "

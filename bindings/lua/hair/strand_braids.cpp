@@ -84,8 +84,8 @@ int feed_strands(Call& call) {
         if (call.has("high")) options.high = call.number("high");
         options.reach = call.number("reach");
         options.joined = call.number("joined");
-        options.least_run = call.number("least_run");
-        options.most_run = call.number("most_run");
+        options.min_run = call.number("min_run");
+        options.max_run = call.number("max_run");
         options.tail = call.number("tail");
         options.begin = call.number("begin_size");
         options.end = call.number("end_size");
@@ -142,10 +142,10 @@ Function feed_braid_method() {
                  .defaults(d.joined)
                  .between(0.001, 1),
              meters("blend", "Over which hair comes into its tube.").defaults(d.blend).above(0),
-             meters("least_run", "Least length that a strand runs in the braid.")
-                 .defaults(d.least_run)
+             meters("min_run", "Least length that a strand runs in the braid.")
+                 .defaults(d.min_run)
                  .above(0),
-             meters("most_run", "Greatest one.").defaults(d.most_run).above(0),
+             meters("max_run", "Greatest one.").defaults(d.max_run).above(0),
              number("tail", "Part of the strands that run to the end.")
                  .defaults(d.tail)
                  .between(0, 1),

@@ -132,19 +132,19 @@ int strand_stats(Call& call) {
         Index value;
     } counts[] = {{"strands", found.strands},
                   {"points", found.points},
-                  {"least_points", found.least_points},
-                  {"most_points", found.most_points},
+                  {"min_points", found.min_points},
+                  {"max_points", found.max_points},
                   {"sharp", found.sharp},
                   {"zero_length", found.zero_length},
                   {"zero_segments", found.zero_segments},
                   {"not_finite", found.not_finite}};
     for (const auto& count : counts) call.set_field(count.name, call.push(count.value));
-    call.set_field("least_length", call.push(found.least_length));
+    call.set_field("min_length", call.push(found.min_length));
     call.set_field("mean_length", call.push(found.mean_length));
-    call.set_field("most_length", call.push(found.most_length));
-    call.set_field("greatest_turn", call.push(found.greatest_turn / kDegree));
-    if (found.greatest_turn_strand != kNoIndex) {
-        call.set_field("greatest_turn_strand", call.push_id(found.greatest_turn_strand));
+    call.set_field("max_length", call.push(found.max_length));
+    call.set_field("max_turn", call.push(found.max_turn / kDegree));
+    if (found.max_turn_strand != kNoIndex) {
+        call.set_field("max_turn_strand", call.push_id(found.max_turn_strand));
     }
     if (on_head) {
         call.set_field("penetrating", call.push(found.penetrating));
@@ -222,7 +222,7 @@ std::vector<Function> strand_content_methods() {
                   .optional("0.0005, as the head is larger than an average one")},
          .results = {{"lissom.StrandStats", "stats", "The measures."}},
          .errors = {ErrorCode::cancelled},
-         .example = kTwoStrands + "assert(math.abs(hair:stats().most_length - 0.2) < 1e-6)"}};
+         .example = kTwoStrands + "assert(math.abs(hair:stats().max_length - 0.2) < 1e-6)"}};
 }
 
 }  // namespace lissom::lua

@@ -182,7 +182,7 @@ Function trim_method() {
                     seed_field()},
         .results = kSelfStrands,
         .errors = kOperatorErrors,
-        .example = kTwoStrands + "assert(hair:trim{ length = 0.15 }:stats().most_length < 0.1501)"};
+        .example = kTwoStrands + "assert(hair:trim{ length = 0.15 }:stats().max_length < 0.1501)"};
 }
 
 }  // namespace

@@ -302,7 +302,7 @@ Function set_length_method() {
             .results = kSelfStrands,
             .errors = kOperatorErrors,
             .example = kTwoStrands +
-                       "assert(math.abs(hair:set_length{ length = 0.1 }:stats().most_length - 0.1) "
+                       "assert(math.abs(hair:set_length{ length = 0.1 }:stats().max_length - 0.1) "
                        "< 1e-6)"};
 }
 

@@ -139,7 +139,7 @@ std::vector<Function> mask_methods() {
                      number("value",
                             "Painted value: to 4 for the length, to 1 for the density; 1 erases.")
                          .defaults(MaskStroke{}.value)
-                         .between(0, kGreatestLengthMask),
+                         .between(0, kMaxLengthMask),
                      number("radius", "Radius of the brush.")
                          .in("metres")
                          .defaults(MaskStroke{}.radius)

@@ -20,8 +20,8 @@ void push_erase_report(const Call& call, const EraseReport& report) {
     call.set_field("limit_reached", call.push(report.patch.limit_reached));
     const bool curved = report.continuity == FairContinuity::curvature;
     call.set_field("continuity", call.push(curved ? "curvature" : "tangents"));
-    call.set_field("greatest_dihedral", call.push(report.greatest_dihedral / kDegree));
-    call.set_field("greatest_around", call.push(report.greatest_around / kDegree));
+    call.set_field("max_dihedral", call.push(report.max_dihedral / kDegree));
+    call.set_field("max_around", call.push(report.max_around / kDegree));
     call.set_field("density", call.push(report.density));
     call.set_field("ok", call.push(report.ok));
     call.set_field("verdict", call.push(report.verdict));
@@ -210,29 +210,29 @@ assert(two:is_closed() and two:bounds().min[3] < -1.2))"}};
 }
 
 std::vector<Record> erase_records() {
-    return {{"lissom.EraseReport",
-             "Report of mesh:erase.",
-             {{"lissom.Path", "loop", "The cut, on the mesh as it was."},
-              {"lissom.Region", "patch", "The patch, with its rim, on the new mesh."},
-              {"integer", "loop_size", "Vertices of the cut."},
-              {"number", "loop_cost", "Its cost; see `bend`."},
-              {"number", "ring", "Width around the region that was searched, in mesh units."},
-              {"integer", "removed_vertices", "Vertices that went."},
-              {"integer", "removed_faces", "Faces that went."},
-              {"integer", "added_faces", "Faces of the patch."},
-              {"string", "continuity", "Continuity of the patch: curvature or tangents."},
-              {"number", "greatest_dihedral",
-               "The greatest angle between neighbouring faces of which one is in the patch."},
-              {"number", "greatest_around",
-               "The same of the surface within three rings around the patch."},
-              {"number", "density",
-               "Density of the patch, over that of the surface around it: 1, or up to 4 if it "
-               "would have been too coarse to bend from a steep rim."},
-              {"boolean", "ok",
-               "The patch turns by at most 30 degrees from face to face, or no more than the "
-               "surface around it."},
-              {"string", "verdict", "The same in one line, with the reason."},
-              {"boolean", "limit_reached", "The patch has `maximum_vertices`."}}}};
+    return {
+        {"lissom.EraseReport",
+         "Report of mesh:erase.",
+         {{"lissom.Path", "loop", "The cut, on the mesh as it was."},
+          {"lissom.Region", "patch", "The patch, with its rim, on the new mesh."},
+          {"integer", "loop_size", "Vertices of the cut."},
+          {"number", "loop_cost", "Its cost; see `bend`."},
+          {"number", "ring", "Width around the region that was searched, in mesh units."},
+          {"integer", "removed_vertices", "Vertices that went."},
+          {"integer", "removed_faces", "Faces that went."},
+          {"integer", "added_faces", "Faces of the patch."},
+          {"string", "continuity", "Continuity of the patch: curvature or tangents."},
+          {"number", "max_dihedral",
+           "The greatest angle between neighbouring faces of which one is in the patch."},
+          {"number", "max_around", "The same of the surface within three rings around the patch."},
+          {"number", "density",
+           "Density of the patch, over that of the surface around it: 1, or up to 4 if it "
+           "would have been too coarse to bend from a steep rim."},
+          {"boolean", "ok",
+           "The patch turns by at most 30 degrees from face to face, or no more than the "
+           "surface around it."},
+          {"string", "verdict", "The same in one line, with the reason."},
+          {"boolean", "limit_reached", "The patch has `maximum_vertices`."}}}};
 }
 
 }  // namespace lissom::lua

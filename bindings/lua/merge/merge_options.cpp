@@ -176,14 +176,13 @@ std::vector<OptionRow> option_rows(bool slow) {
              .thesis("3.3.1", "false"),
          Bridge::refused,
          [](const Call& call, MergeOptions& to) { to.trim = call.boolean("trim"); }},
-        {number("greatest_turn",
-                "Mean turn of a boundary at its vertices above which it is trimmed.")
+        {number("max_turn", "Mean turn of a boundary at its vertices above which it is trimmed.")
              .between(0, 180)
              .in("degrees")
              .defaults(20.0),
          Bridge::taken,
          [](const Call& call, MergeOptions& to) {
-             to.greatest_turn = call.number("greatest_turn") * kPi / 180.0;
+             to.max_turn = call.number("max_turn") * kPi / 180.0;
          }},
         {boolean("subdivide",
                  "Faces of the source at a boundary are split once if its edges are more than "

@@ -17,9 +17,9 @@ constexpr double kDegrees = 180.0 / kPi;
 
 void push_quality(const Call& call, const SeamQuality& quality) {
     lua_createtable(call.lua(), 0, 5);
-    call.set_field("greatest_dihedral", call.push(kDegrees * quality.greatest_dihedral));
+    call.set_field("max_dihedral", call.push(kDegrees * quality.max_dihedral));
     call.set_field("rms_dihedral", call.push(kDegrees * quality.rms_dihedral));
-    call.set_field("greatest_near", call.push(kDegrees * quality.greatest_near));
+    call.set_field("max_near", call.push(kDegrees * quality.max_near));
     call.set_field("smallest_angle", call.push(kDegrees * quality.smallest_angle));
     call.set_field("low_angle", call.push(kDegrees * quality.low_angle));
 }
@@ -79,8 +79,8 @@ void push_band_quality(const Call& call, const BandQuality& band) {
     call.set_field("rest_roughness", call.push(kDegrees * band.rest_roughness));
     call.set_field("bend", call.push(kDegrees * band.bend));
     call.set_field("rest_bend", call.push(kDegrees * band.rest_bend));
-    call.set_field("greatest_bend", call.push(kDegrees * band.greatest_bend));
-    call.set_field("rest_greatest_bend", call.push(kDegrees * band.rest_greatest_bend));
+    call.set_field("max_bend", call.push(kDegrees * band.max_bend));
+    call.set_field("rest_max_bend", call.push(kDegrees * band.rest_max_bend));
     call.set_field("folded", call.push(band.folded));
     call.set_field("rest_folded", call.push(band.rest_folded));
     call.set_field("flare", call.push(kDegrees * band.flare));
@@ -456,9 +456,9 @@ std::vector<Record> merge_records() {
           {"number", "weight", "How much it counts."}}},
         {"lissom.SeamQuality",
          "How well seams are hidden; angles in degrees.",
-         {{"number", "greatest_dihedral", "The greatest angle between faces across a seam."},
+         {{"number", "max_dihedral", "The greatest angle between faces across a seam."},
           {"number", "rms_dihedral", "Their root mean square, weighted by edge length."},
-          {"number", "greatest_near", "The greatest angle on and next to a seam."},
+          {"number", "max_near", "The greatest angle on and next to a seam."},
           {"number", "smallest_angle",
            "The smallest angle of a triangle at a seam; 0 without any."},
           {"number", "low_angle", "The 5th percentile of the triangles' smallest angles."}}},
@@ -522,8 +522,8 @@ std::vector<Record> merge_records() {
           {"number", "rest_bend",
            "The same before on the side that bends more, from the strip at the boundary to the one "
            "behind it."},
-          {"number", "greatest_bend", "Angle that a tenth of those in `bend` exceed."},
-          {"number", "rest_greatest_bend", "Angle that a tenth of those in `rest_bend` exceed."},
+          {"number", "max_bend", "Angle that a tenth of those in `bend` exceed."},
+          {"number", "rest_max_bend", "Angle that a tenth of those in `rest_bend` exceed."},
           {"number", "folded",
            "Length of the edges within one radius at which the surface folds back by more than "
            "135 degrees, in radii of the seam."},

@@ -31,8 +31,8 @@ void push_map_quality(const Call& call, const MapQuality& map) {
     call.set_field("flipped", call.push(map.flipped));
     call.set_field("flipped_fill", call.push(map.flipped_fill));
     call.set_field("crossings", call.push(map.crossings));
-    call.set_field("least_scale", call.push(map.least_scale));
-    call.set_field("greatest_scale", call.push(map.greatest_scale));
+    call.set_field("min_scale", call.push(map.min_scale));
+    call.set_field("max_scale", call.push(map.max_scale));
 }
 
 }  // namespace
@@ -139,8 +139,8 @@ std::vector<Record> paste_records() {
           {"integer", "flipped", "Faces that are turned over."},
           {"integer", "flipped_fill", "Number of turned triangles in the hole of the feature."},
           {"integer", "crossings", "Pairs of boundary edges that cross."},
-          {"number", "least_scale", "Least factor by which it changes a length."},
-          {"number", "greatest_scale", "The greatest."}}},
+          {"number", "min_scale", "Least factor by which it changes a length."},
+          {"number", "max_scale", "The greatest."}}},
         {"lissom.PasteDistortion",
          "How much faces of the part were distorted.",
          {{"number", "anisotropy", "95th percentile of greatest over least stretch of a face."},

@@ -56,8 +56,8 @@ std::vector<Vec3> BufferObject::as_points() {
 namespace {
 
 constexpr int kMost = 16;
-constexpr double kMostBytes = 9007199254740992.0;
-constexpr int kMostStride = 65536;
+constexpr double kMaxBytes = 9007199254740992.0;
+constexpr int kMaxStride = 65536;
 
 // The numbers, or an empty span after which the call has failed.
 bool find_numbers(Call& call, std::span<double>& numbers, bool edit) {
@@ -436,14 +436,14 @@ Type buffer_type() {
                     "`data:getPointer()` and `data:getSize()`. Nothing is written after an error.",
          .arguments =
              {address("address", "Address of the first row."),
-              number("size", "Bytes that may be written from there on.").between(0, kMostBytes)},
+              number("size", "Bytes that may be written from there on.").between(0, kMaxBytes)},
          .options =
              {integer("offset", "Bytes from the address to the first row.").defaults(0).at_least(0),
               integer("stride",
                       "Bytes from one row to the next, if other data stands between them; "
                       "without it they follow each other.")
                   .optional()
-                  .between(1, kMostStride)},
+                  .between(1, kMaxStride)},
          .results = {{"lissom.Buffer", "buffer", "The buffer."}},
          .errors = {ErrorCode::invalid_argument, ErrorCode::topology_mismatch,
                     ErrorCode::unsupported},

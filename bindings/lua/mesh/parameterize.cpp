@@ -16,8 +16,8 @@ int push_map_report(const Call& call, const Parameterization& map) {
     call.set_field("energy", call.push_numbers(map.energy));
     call.set_field("flipped", call.push_ids(map.flipped));
     call.set_field("degenerate", call.push_ids(map.degenerate));
-    call.set_field("least_scale", call.push(map.least_scale));
-    call.set_field("greatest_scale", call.push(map.greatest_scale));
+    call.set_field("min_scale", call.push(map.min_scale));
+    call.set_field("max_scale", call.push(map.max_scale));
     call.set_field("crossings", call.push(map.boundary_crossings));
     call.set_field("boundaries", call.push(count_of(map.loops)));
     return 1;
@@ -79,9 +79,9 @@ std::vector<Record> parameterize_records() {
                "squared distance of the map's derivative from a rotation."},
               {"integer[]", "flipped", "Faces that are turned over."},
               {"integer[]", "degenerate", "Faces that have hardly an area on the mesh."},
-              {"number", "least_scale",
+              {"number", "min_scale",
                "Least factor by which it changes a length, in lengths of the mesh."},
-              {"number", "greatest_scale", "The greatest."},
+              {"number", "max_scale", "The greatest."},
               {"integer", "crossings", "Pairs of boundary edges that cross in the plane."},
               {"integer", "boundaries", "Boundaries of the faces."}}}};
 }

@@ -72,10 +72,10 @@ void FolderRights::check(const fs::path& path, FileUse use) {
     }
     if (reads) return;
     count_written();
-    if (most_bytes_ != 0 && bytes_ > most_bytes_) {
+    if (max_bytes_ != 0 && bytes_ > max_bytes_) {
         throw Error(ErrorCode::file_write_failed,
                     display_name(path) + ": the script has written as much as it may, " +
-                        std::to_string(most_bytes_) + " bytes");
+                        std::to_string(max_bytes_) + " bytes");
     }
     pending_ = path;
     asked_ = std::filesystem::file_time_type::clock::now() - kClockStep;
@@ -95,7 +95,7 @@ void FolderRights::count_written() {
 
 bool FolderRights::count_output(std::size_t bytes) {
     bytes_ += bytes;
-    return most_bytes_ == 0 || bytes_ <= most_bytes_;
+    return max_bytes_ == 0 || bytes_ <= max_bytes_;
 }
 
 }  // namespace lissom::lua

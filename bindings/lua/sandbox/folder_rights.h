@@ -14,11 +14,11 @@ class FolderRights {
   public:
     /// Only Lua files of the folders `modules` may be read.
     FolderRights(std::vector<std::filesystem::path> read, std::vector<std::filesystem::path> write,
-                 std::vector<std::filesystem::path> modules, std::size_t most_bytes)
+                 std::vector<std::filesystem::path> modules, std::size_t max_bytes)
         : read_(std::move(read)),
           write_(std::move(write)),
           modules_(std::move(modules)),
-          most_bytes_(most_bytes) {}
+          max_bytes_(max_bytes) {}
 
     /// Errors: file_unreadable, file_write_failed: the path is outside of the folders, or enough
     /// was written.
@@ -34,7 +34,7 @@ class FolderRights {
     // question.
     std::filesystem::path pending_;
     std::filesystem::file_time_type asked_ = {};
-    std::size_t most_bytes_, bytes_ = 0;
+    std::size_t max_bytes_, bytes_ = 0;
 };
 
 }  // namespace lissom::lua

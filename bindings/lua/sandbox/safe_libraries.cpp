@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Longest format of os.date.
-constexpr std::size_t kMostDate = 4096;
+constexpr std::size_t kMaxDate = 4096;
 
 void end_in_time(lua_State* L) {
     if (stop_of(L).asked()) raise_stopped(L);
@@ -133,7 +133,7 @@ int load_text(lua_State* L) {
 int format_date(lua_State* L) {
     std::size_t size = 0;
     luaL_optlstring(L, 1, "%c", &size);
-    if (size > kMostDate) return luaL_error(L, "too long a format for a date in a sandbox");
+    if (size > kMaxDate) return luaL_error(L, "too long a format for a date in a sandbox");
     return call_in_time(L);
 }
 

@@ -13,7 +13,7 @@ namespace {
 // Characters of a replacement that are added between two looks at the limits.
 constexpr std::size_t kPiece = 4096;
 // Longest text that %q may have.
-constexpr std::size_t kMostQuoted = std::size_t{1} << 20;
+constexpr std::size_t kMaxQuoted = std::size_t{1} << 20;
 
 std::string_view text_at(lua_State* L, int index) {
     std::size_t size = 0;
@@ -299,7 +299,7 @@ int format(lua_State* L) {
     for (int i = 2; i <= given; ++i) {
         if (lua_type(L, i) != LUA_TSTRING) continue;
         bytes += raw_length(L, i);
-        if (quotes && raw_length(L, i) > kMostQuoted) {
+        if (quotes && raw_length(L, i) > kMaxQuoted) {
             return luaL_error(L, "too long a string for '%%q' in a sandbox");
         }
     }

@@ -6,7 +6,7 @@ namespace {
 
 // Elements that one call may pass over; of a table that looks for them in a chain of others, which
 // takes no step of Lua's for each of up to 2,000.
-constexpr lua_Integer kMostElements = 10'000'000, kMostInChain = 10'000;
+constexpr lua_Integer kMaxElements = 10'000'000, kMaxInChain = 10'000;
 
 // Calls Lua's function, upvalue 1.
 int call_lua(lua_State* L) {
@@ -24,16 +24,16 @@ bool leads_on(lua_State* L, int index, const char* metamethod) {
     return leads;
 }
 
-lua_Integer most_elements(lua_State* L, int index) {
+lua_Integer max_elements(lua_State* L, int index) {
     const bool chain = leads_on(L, index, "__index") || leads_on(L, index, "__newindex");
-    return chain ? kMostInChain : kMostElements;
+    return chain ? kMaxInChain : kMaxElements;
 }
 
 // Counts the range first..last of the table at `index`.
 void require_range(lua_State* L, int index, lua_Integer first, lua_Integer last) {
     if (last < first) return;
     const auto count = static_cast<lua_Unsigned>(last) - static_cast<lua_Unsigned>(first);
-    if (count >= static_cast<lua_Unsigned>(most_elements(L, index))) {
+    if (count >= static_cast<lua_Unsigned>(max_elements(L, index))) {
         luaL_error(L, "too many elements for one call in a sandbox");
     }
     charge(L, count);

@@ -215,7 +215,7 @@ local reserved = set_of{ "and", "break", "do", "else", "elseif", "end", "false",
     "scene", "ids", "made" }
 
 -- A function has 200 local variables at most.
-local most_locals = 150
+local max_locals = 150
 
 function Writer:local_name(wanted)
     wanted = wanted:lower():gsub("[^%w_]", "_"):gsub("^%d", "_%0")
@@ -226,7 +226,7 @@ function Writer:local_name(wanted)
     end
     self.taken[name] = true
     self.count = self.count + 1
-    return self.count > most_locals and "made." .. name or name
+    return self.count > max_locals and "made." .. name or name
 end
 
 -- The statement that gives variables their value.
@@ -363,7 +363,7 @@ function Journal:told(name)
     if not done and getmetatable(trouble) ~= Untold then error(trouble, 0) end
     if not done then return { "-- " .. quoted(name) .. ": " .. trouble.text .. "; record events instead" } end
     local lines = writer.lines
-    if writer.count > most_locals then table.insert(lines, 1, "    local made = {}") end
+    if writer.count > max_locals then table.insert(lines, 1, "    local made = {}") end
     table.insert(lines, 1, "scene:step(" .. quoted(name) .. ", function()")
     table.insert(lines, "end)")
     return lines

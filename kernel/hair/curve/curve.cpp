@@ -10,13 +10,13 @@ namespace lissom {
 namespace {
 
 // More segments than this are a mistake, and would take memory and time without end.
-constexpr double kMostSegments = 1e6;
+constexpr double kMaxSegments = 1e6;
 
 void require_step(std::span<const Vec3> points, double step) {
     if (!(step > 0.0) || !std::isfinite(step)) {
         throw Error(ErrorCode::invalid_argument, "the step along a curve must be above 0");
     }
-    if (curve_length(points) <= kMostSegments * step) return;
+    if (curve_length(points) <= kMaxSegments * step) return;
     throw Error(
         ErrorCode::out_of_range,
         "the curve is more than a million steps long; its points are far outside the volume "
@@ -61,7 +61,7 @@ void require_curve(std::span<const Vec3> points) {
 }
 
 void require_curve_weight(double weight) {
-    require(weight >= kLeastConstraintWeight && weight <= kGreatestConstraintWeight,
+    require(weight >= kMinConstraintWeight && weight <= kMaxConstraintWeight,
             "the weight of a curve must be from 1e-6 to 1e9");
 }
 

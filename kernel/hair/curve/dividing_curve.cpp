@@ -22,7 +22,7 @@ constexpr double kTie = 1e-9;
 // Beyond the curve's ends points still take constraints up to this, in steps.
 constexpr double kBeyond = 0.5;
 // Sine of the least angle between the curve and the scalp's normal.
-constexpr double kLeastSine = 1e-3;
+constexpr double kMinSine = 1e-3;
 
 double default_ramp(const DividingOptions& options) {
     return options.fidelity == HairFidelity::thesis ? 0.0 : 0.87;
@@ -299,7 +299,7 @@ DividingLine::DividingLine(std::span<const Vec3> points, std::span<const Vec3> n
         const double length = normal.norm();
         normal -= normal.dot(tangents_[i]) * tangents_[i];
         if (i > 0) longest_segment_ = std::max(longest_segment_, lengths_[i] - lengths_[i - 1]);
-        require(normal.norm() > kLeastSine * length,
+        require(normal.norm() > kMinSine * length,
                 "a dividing curve runs along the scalp's normal; draw it on the scalp");
         normal.normalize();
     }

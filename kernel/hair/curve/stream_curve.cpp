@@ -10,7 +10,7 @@ namespace lissom {
 namespace {
 
 // A corner with less weight than this says nothing of its segment.
-constexpr double kLeastWeight = 1e-9;
+constexpr double kMinWeight = 1e-9;
 
 }  // namespace
 
@@ -44,7 +44,7 @@ bool VectorSplat::add(const Vec3& point, const Vec3& vector, ConstraintKind kind
             inside = inside && index[axis] >= 0 && index[axis] < layout_.counts[axis];
             weight *= up ? t : 1.0 - t;
         }
-        if (!inside || weight < kLeastWeight) continue;
+        if (!inside || weight < kMinWeight) continue;
         add_at(layout_.index(index[0], index[1], index[2]), vector, weight, kind);
         found = true;
     }

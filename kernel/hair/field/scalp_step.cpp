@@ -9,7 +9,7 @@ namespace lissom {
 namespace {
 
 // Vectors shorter than this, as a share of their length before, have no direction worth keeping.
-constexpr double kLeastLength = 1e-3;
+constexpr double kMinLength = 1e-3;
 
 bool is_positive(double x) {
     return x > 0.0 && std::isfinite(x);
@@ -53,7 +53,7 @@ Vec3 outward(const DistanceGrid& distances, const std::array<Index, 3>& point) {
 Vec3 without_inward(const Vec3& v, const Vec3& normal) {
     const double inward = std::min(0.0, v.dot(normal));
     const Vec3 rest = v - inward * normal;
-    return rest.norm() > kLeastLength * v.norm() ? rest : Vec3::Zero();
+    return rest.norm() > kMinLength * v.norm() ? rest : Vec3::Zero();
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 // Places on the surface are at most so far apart, in steps of the grid.
 constexpr double kPlaceSpacing = 0.2;
 // Along a side of a triangle at most: one as large as the grid has no need of more.
-constexpr int kMostPlaces = 2000;
+constexpr int kMaxPlaces = 2000;
 constexpr std::size_t kTrianglesPerCheckpoint = 4096;
 
 // Lowers the values at the corners of cells.
@@ -45,7 +45,7 @@ class ThinPartCorrection {
     void triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
         const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
         const double parts = std::ceil(longest / (kPlaceSpacing * layout_.step));
-        const int count = static_cast<int>(std::clamp(parts, 1.0, double{kMostPlaces}));
+        const int count = static_cast<int>(std::clamp(parts, 1.0, double{kMaxPlaces}));
         for (int i = 0; i <= count; ++i) {
             for (int j = 0; i + j <= count; ++j) {
                 place(a + static_cast<double>(i) / count * (b - a) +

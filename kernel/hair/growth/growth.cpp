@@ -23,11 +23,11 @@ static_assert(kGrowthWave % kBatchStrands == 0);
 // Strands that are copied by one thread at a time.
 constexpr Index kCopied = 256;
 
-constexpr std::size_t kMostPoints = std::numeric_limits<Index>::max();
+constexpr std::size_t kMaxPoints = std::numeric_limits<Index>::max();
 
 // The least move, as a fraction of the usual segment, and in roundings of the greatest coordinate:
 // so the ends of segments are different points.
-constexpr double kLeastMove = 1e-3, kLeastRoundings = 8.0;
+constexpr double kMinMove = 1e-3, kMinRoundings = 8.0;
 
 // Limit in diagonals of the grid's box: longer hair winds about itself, or has left the box.
 constexpr double kLongestInDiagonals = 2.0;
@@ -72,12 +72,11 @@ void require_cut(const HairCut& cut) {
 void require_lengths(const GrowthOptions& o) {
     require(is_length(o.length), "the length of hair must be 0 or more");
     require(is_share(o.variation), "variation must be from 0 to 1");
-    require(o.segment >= kLeastSegment && o.segment <= kGreatestSegment,
+    require(o.segment >= kMinSegment && o.segment <= kMaxSegment,
             "segment must be 0.01 to 10 steps of the grid");
-    require(o.least_speed >= 0.0 && o.least_speed < 1.0, "least_speed must be from 0 to below 1");
-    require(o.greatest_turn >= 0.0 && o.greatest_turn <= kPi,
-            "greatest_turn must be from 0 to 180 degrees");
-    require(o.most_segments >= 1, "most_segments must be at least 1");
+    require(o.min_speed >= 0.0 && o.min_speed < 1.0, "min_speed must be from 0 to below 1");
+    require(o.max_turn >= 0.0 && o.max_turn <= kPi, "max_turn must be from 0 to 180 degrees");
+    require(o.max_segments >= 1, "max_segments must be at least 1");
     require(is_length(o.lift), "lift must be 0 or more");
     require(is_length(o.clearance) && is_length(o.layer) && is_length(o.ramp),
             "clearance, layer and ramp must be lengths of 0 or more");
@@ -97,7 +96,7 @@ void require_options(const GrowthOptions& o, Index head_vertices) {
 }
 
 // The greatest factor of a length that the options can give.
-double greatest_factor(const GrowthOptions& o) {
+double max_factor(const GrowthOptions& o) {
     double painted = 1.0;
     for (const MaskStroke& mask : o.masks) {
         if (mask.kind == MaskKind::length) painted = std::max(painted, mask.value);
@@ -118,7 +117,7 @@ void require_fitting_lengths(const GrowthOptions& o, const GridLayout& layout) {
                         " at most, twice the diagonal of the volume of the hairstyle; make it "
                         "shorter, or enlarge the volume");
     };
-    const double factor = greatest_factor(o);
+    const double factor = max_factor(o);
     require_fitting(o.length * factor, factor == 1.0 ? "hair" : "hair with the greatest factor");
     for (const HairTie& tie : o.ties) {
         require_fitting(tie.tail_length.value_or(0.0), "the tail of a tie");
@@ -131,7 +130,7 @@ Affine placement_of_cells(const GridLayout& layout, const Affine& placement) {
 }
 
 // The least length of a segment in cells.
-double least_move(const GridLayout& layout, const GrowthOptions& options) {
+double min_move(const GridLayout& layout, const GrowthOptions& options) {
     const Affine placed = placement_of_cells(layout, options.placement);
     double farthest = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
@@ -144,7 +143,7 @@ double least_move(const GridLayout& layout, const GrowthOptions& options) {
     // At most how many cells one unit of the strands' coordinates is.
     const double cells = placed.linear.inverse().norm();
     const double rounding = farthest * std::numeric_limits<float>::epsilon() * cells;
-    return std::max(kLeastMove * options.segment, kLeastRoundings * rounding);
+    return std::max(kMinMove * options.segment, kMinRoundings * rounding);
 }
 
 // Planes across a tail at the points of its spine, with frames that do not turn along it.
@@ -205,11 +204,11 @@ CutRule cut_rule(const HairCut& cut, const GridLayout& layout) {
 GrowthRules rules_of(const GridLayout& layout, const GrowthOptions& options) {
     GrowthRules rules{};
     rules.segment = options.segment;
-    rules.least_speed = options.least_speed;
-    rules.least_move = least_move(layout, options);
+    rules.min_speed = options.min_speed;
+    rules.min_move = min_move(layout, options);
     // Cosines of rounded vectors may lie below -1.
-    rules.least_cosine =
-        options.greatest_turn < kPi ? static_cast<float>(std::cos(options.greatest_turn)) : -2.0f;
+    rules.min_cosine =
+        options.max_turn < kPi ? static_cast<float>(std::cos(options.max_turn)) : -2.0f;
     rules.lift = options.lift;
     rules.outward = options.start_outward ? 1.0f : 0.0f;
     rules.inverse_cap = options.cap_speed ? 1.0f : 0.0f;
@@ -217,7 +216,7 @@ GrowthRules rules_of(const GridLayout& layout, const GrowthOptions& options) {
     rules.inverse_step = 1.0 / layout.step;
     rules.avoid = options.avoid;
     rules.spare_tied = options.spare_tied;
-    rules.most_segments = options.most_segments;
+    rules.max_segments = options.max_segments;
     for (const HairTie& tie : options.ties) rules.ties.push_back(tie_rule(tie, layout));
     for (const HairCut& cut : options.cuts) rules.cuts.push_back(cut_rule(cut, layout));
     const Affine placed = placement_of_cells(layout, options.placement);
@@ -241,7 +240,7 @@ QuadGrid grid_of(const HairField& field) {
 GrowthOptions GrowthOptions::thesis() {
     GrowthOptions options;
     options.variation = options.lift = 0.0;
-    options.greatest_turn = kPi;
+    options.max_turn = kPi;
     options.avoid = options.start_outward = options.cap_speed = false;
     return options;
 }
@@ -326,7 +325,7 @@ Index StrandCollector::list_wave(const GrowthRoots& roots, Index first,
 void StrandCollector::number_points(Index first, Index last) {
     for (std::size_t i = first; i < at(last); ++i) {
         const std::size_t end = at(offsets_[i]) + offsets_[i + 1];
-        require(end <= kMostPoints,
+        require(end <= kMaxPoints,
                 "hair has more points than can be numbered; grow fewer or shorter strands, or "
                 "longer segments");
         offsets_[i + 1] = index_of(end);

@@ -55,7 +55,7 @@ struct HairCut {
     double ragged = 0.0;
 };
 
-inline constexpr double kLeastSegment = 0.01, kGreatestSegment = 10.0;
+inline constexpr double kMinSegment = 0.01, kMaxSegment = 10.0;
 
 /// Returns the greatest length that hair in a grid can be asked for: twice the diagonal of its box.
 double longest_hair(const GridLayout& layout);
@@ -71,17 +71,17 @@ struct GrowthOptions {
     std::vector<double> length_map = {};
     /// Multiply these factors, those of the length alone; in the coordinates of the field.
     std::vector<MaskStroke> masks = {};
-    /// l of section 4.6, in steps of the grid, kLeastSegment to kGreatestSegment: a segment is l
+    /// l of section 4.6, in steps of the grid, kMinSegment to kMaxSegment: a segment is l
     /// v(p) long, with the length of v limited to 1.
     double segment = 0.5;
     /// A strand ends if the field is shorter than this.
-    double least_speed = 0.05;
+    double min_speed = 0.05;
     /// A strand ends before a segment that turns by more than this, radians from 0 to pi, as about
     /// a sink of the field. At 88 degrees rounding of the points makes no right angle of it; pi
-    /// lets strands turn as they like, until they are long enough or have `most_segments`.
-    double greatest_turn = 88.0 * kPi / 180.0;
+    /// lets strands turn as they like, until they are long enough or have `max_segments`.
+    double max_turn = 88.0 * kPi / 180.0;
     /// Segments at most: flow lines around a ponytail may be closed.
-    Index most_segments = 400;
+    Index max_segments = 400;
     /// Share of the normal in the first segment, which never points inward unless `start_outward`
     /// is false.
     double lift = 0.15;
@@ -112,9 +112,9 @@ struct GrowthOptions {
 enum class StrandEnd {
     length,     ///< it is as long as it should be
     cut,        ///< a cut
-    slow,       ///< the field is shorter than least_speed
+    slow,       ///< the field is shorter than min_speed
     left_grid,  ///< it left the grid; its last point lies outside
-    turned,     ///< the next segment would have turned by more than greatest_turn
+    turned,     ///< the next segment would have turned by more than max_turn
     stuck,      ///< pushed back to its start
     segments,   ///< it has as many segments as allowed
 };

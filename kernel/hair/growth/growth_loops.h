@@ -67,16 +67,16 @@ struct CutRule {
 };
 
 struct GrowthRules {
-    float segment, least_speed, least_move, lift, inverse_ramp;
+    float segment, min_speed, min_move, lift, inverse_ramp;
     /// 1 or 0: whether first segments never point inward, and whether longer vectors count as of
     /// length 1.
     float outward, inverse_cap;
     /// Cosine of the greatest turn.
-    float least_cosine;
+    float min_cosine;
     /// Steps in a unit of the distances.
     float inverse_step;
     bool avoid, spare_tied;
-    Index most_segments;
+    Index max_segments;
     std::vector<TieRule> ties;
     std::vector<CutRule> cuts;
     /// From cells to the coordinates of strands.

@@ -30,7 +30,7 @@ namespace lissom::LISSOM_LANES {
 inline constexpr std::int32_t kPushes = 3;
 
 // A strand so little below its floor, in steps, is not pushed: it would have to look again.
-inline constexpr float kLeastPush = 0.02f;
+inline constexpr float kMinPush = 0.02f;
 
 inline constexpr std::size_t kFirstBuffer = 64;
 
@@ -130,7 +130,7 @@ class LaneGrower {
             const Reading here = read_all();
             const Floats missing = missing_height(here.distance, grown_);
             const Ints low =
-                growing_ & inside_ & (missing > all(kLeastPush)) & (pushes_ < all(kPushes));
+                growing_ & inside_ & (missing > all(kMinPush)) & (pushes_ < all(kPushes));
             if (any(low)) push(low, missing, read_gradients());
             pushes_ = pushes_ - low;
             Segments next = segments_of(growing_ & no(low));
@@ -340,9 +340,9 @@ class LaneGrower {
     LISSOM_INLINE void go_on(const Segments& next, const Reading& here) {
         const Floats speed = root(dot(here.vector, here.vector));
         const Floats grown = grown_ + next.length, left = length_ - grown;
-        const Ints moves = next.length > all(rules_.least_move);
+        const Ints moves = next.length > all(rules_.min_move);
         const Ints turns =
-            (dot(next.way, way_) < all(rules_.least_cosine) * next.length * way_length_) &
+            (dot(next.way, way_) < all(rules_.min_cosine) * next.length * way_length_) &
             (segments_ > all(0));
         const Ints take = next.go & moves & no(turns);
         const Ints end = next.go & ends_of(next, moves, turns, left, speed);
@@ -377,10 +377,10 @@ class LaneGrower {
     LISSOM_INLINE Ints ends_of(const Segments& next, const Ints& moves, const Ints& turns,
                                const Floats& left, const Floats& speed) const {
         Ints end = all(0);
-        mark(end, segments_ > all(rules_.most_segments - 2), StrandEnd::segments);
-        mark(end, no(speed > all(rules_.least_speed)), StrandEnd::slow);
+        mark(end, segments_ > all(rules_.max_segments - 2), StrandEnd::segments);
+        mark(end, no(speed > all(rules_.min_speed)), StrandEnd::slow);
         mark(end, no(inside_), StrandEnd::left_grid);
-        mark(end, no(left > all(rules_.least_move)), StrandEnd::length);
+        mark(end, no(left > all(rules_.min_move)), StrandEnd::length);
         mark(end, turns, StrandEnd::turned);
         mark(end, no(moves), StrandEnd::stuck);
         mark(end, next.cut & no(moves & turns), StrandEnd::cut);
@@ -416,9 +416,9 @@ class LaneGrower {
     LISSOM_INLINE Ints ends_of_roots(const Floats& speed, const Floats& lifted_speed) const {
         Ints end = all(0);
         mark(end, no(lifted_speed > all(0.0f)), StrandEnd::slow);
-        mark(end, no(speed > all(rules_.least_speed)), StrandEnd::slow);
+        mark(end, no(speed > all(rules_.min_speed)), StrandEnd::slow);
         mark(end, no(inside_), StrandEnd::left_grid);
-        mark(end, no(length_ > all(rules_.least_move)), StrandEnd::length);
+        mark(end, no(length_ > all(rules_.min_move)), StrandEnd::length);
         return end;
     }
 

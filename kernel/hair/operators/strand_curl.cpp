@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kRadiusStream = 21, kWavelengthStream = 22, kGuidePhaseStream = 23,
                         kPhaseStream = 24, kHandStream = 25;
-constexpr double kMostCurlPoints = 4096.0;
+constexpr double kMaxCurlPoints = 4096.0;
 
 bool is_measure(double x) {
     return x >= 0.0 && std::isfinite(x);
@@ -201,7 +201,7 @@ Index points_for(const Strands& strands, Index s, const CurlOptions& options, co
     const double turn = 2.0 * kPi * widest / tight;
     const double one = options.keep_length ? tight * std::sqrt(1.0 + turn * turn) : tight;
     const double wanted = std::ceil(options.points_per_turn * whole / one) + 1.0;
-    return std::max(count, static_cast<Index>(std::min(wanted, kMostCurlPoints)));
+    return std::max(count, static_cast<Index>(std::min(wanted, kMaxCurlPoints)));
 }
 
 std::vector<Index> counts_for(const Strands& strands, const CurlOptions& options,

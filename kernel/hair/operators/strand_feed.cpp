@@ -34,11 +34,11 @@ void require_feed(const Strands& strands, const FeedBraidOptions& options) {
     require_spine(options.spine, options.across);
     require(is_above_zero(options.radius) && is_above_zero(options.reach) &&
                 is_above_zero(options.blend) && is_above_zero(options.step) &&
-                is_above_zero(options.least_run) && is_above_zero(options.begin) &&
+                is_above_zero(options.min_run) && is_above_zero(options.begin) &&
                 is_above_zero(options.end),
             "'radius', 'reach', 'blend', 'run', 'begin', 'end' and 'step' of a feed-in braid must "
             "be positive and finite");
-    require(options.most_run >= options.least_run && std::isfinite(options.most_run),
+    require(options.max_run >= options.min_run && std::isfinite(options.max_run),
             "the longest run in a braid must not be below the shortest");
     require(options.wide >= 0.0 && options.high >= 0.0 && options.wavelength >= 0.0 &&
                 std::isfinite(options.wide + options.high + options.wavelength),
@@ -149,7 +149,7 @@ class Feeder {
         if (feed_random(options_.seed, id, kTailStream) < options_.tail) {
             return spine_.length() * (1.0 - 0.06 * u);
         }
-        const double run = options_.least_run + u * (options_.most_run - options_.least_run);
+        const double run = options_.min_run + u * (options_.max_run - options_.min_run);
         return std::min(spine_.length(), arc + run);
     }
 

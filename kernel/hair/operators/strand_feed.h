@@ -32,8 +32,8 @@ struct FeedBraidOptions : StrandOperatorOptions {
     double joined = 1.0;
     /// Metres over which a strand comes into its tube; positive.
     double blend = 0.02;
-    /// Metres that a strand runs in the braid, at random from `least_run` to `most_run`; positive.
-    double least_run = 0.06, most_run = 0.12;
+    /// Metres that a strand runs in the braid, at random from `min_run` to `max_run`; positive.
+    double min_run = 0.06, max_run = 0.12;
     /// Part of the strands that run to the end of the spine, 0 to 1.
     double tail = 0.0;
     /// Size of the braid at its beginning and at its end, as parts of that between; above 0.

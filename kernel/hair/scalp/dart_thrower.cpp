@@ -15,11 +15,11 @@ namespace {
 // eight.
 constexpr double kRadius = 0.60;
 // Darts are not widened below this density; there the roots are only fewer.
-constexpr double kLeastDensity = 0.1;
+constexpr double kMinDensity = 0.1;
 // If fewer darts of a round than one in this many find room, the radius shrinks by a part.
-constexpr Index kLeastShare = 64;
+constexpr Index kMinShare = 64;
 constexpr double kShrink = 0.98;
-constexpr Index kFewestDarts = 256, kMostDarts = 1 << 18;
+constexpr Index kFewestDarts = 256, kMaxDarts = 1 << 18;
 constexpr Index kNoDart = -1;
 
 // The roots so far in cells as wide as the largest dart. Cells share the slots of a hash table;
@@ -121,20 +121,20 @@ class DartThrower {
 
     void throw_round() {
         const auto known = count_of(roots_);
-        const Index darts = std::clamp(known / 2, kFewestDarts, kMostDarts);
+        const Index darts = std::clamp(known / 2, kFewestDarts, kMaxDarts);
         find_triangles(darts);
         find_room(by_triangle(darts));
         for (Index i = 0; i < darts && missing() > 0; ++i) {
             if (triangle_[i] != kNoDart) place(i);
         }
-        if (count_of(roots_) - known < darts / kLeastShare) shrink_ *= kShrink;
+        if (count_of(roots_) - known < darts / kMinShare) shrink_ *= kShrink;
         thrown_ += darts;
     }
 
     CountedRandom random_of(Index dart) const { return {options_.seed, thrown_ + dart}; }
 
     double radius_at(double density) const {
-        return radius_ / std::sqrt(std::max(density, kLeastDensity));
+        return radius_ / std::sqrt(std::max(density, kMinDensity));
     }
 
     // Finds the triangle of each dart, or kNoDart if it is lost to a lower density.

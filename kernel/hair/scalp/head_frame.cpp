@@ -19,13 +19,13 @@ constexpr double kCenterDepth = 0.65;  // of the frame's center below the top, i
 constexpr int kMirrorSamples = 300;
 // Least width of a head's slice over the root of the whole surface's area; of a body it is 0.11.
 // Narrower parts are a bump on the head, or a nose.
-constexpr double kLeastWidth = 0.07;
+constexpr double kMinWidth = 0.07;
 
 // The part of the mesh that is the head, as points and edges.
 struct Part {
     std::vector<Vec3> points;
     std::vector<std::pair<Vec3, Vec3>> edges;
-    double least_width = 0.0;
+    double min_width = 0.0;
     double area = 0.0;
 };
 
@@ -40,7 +40,7 @@ Part part_of(const Mesh& mesh, const std::vector<Index>& vertices) {
         const auto [a, b] = mesh.topology().edge(e);
         if (in[a]) part.edges.emplace_back(mesh.position(a), mesh.position(b));
     }
-    part.least_width = kLeastWidth * std::sqrt(area(mesh));
+    part.min_width = kMinWidth * std::sqrt(area(mesh));
     const std::vector<double> areas = face_areas(mesh);
     for (Index f = 0; f < mesh.face_count(); ++f) {
         if (in[mesh.topology().face(f)[0]]) part.area += areas[f];
@@ -92,7 +92,7 @@ double rough_depth(const Part& part, const Mat3& axes, double& top) {
         low = std::min(low, across);
         high = std::max(high, across);
         const double depth = down + top;
-        if (2.0 * depth >= part.least_width && high > low && high - low <= 2.0 * depth) {
+        if (2.0 * depth >= part.min_width && high > low && high - low <= 2.0 * depth) {
             return depth;
         }
     }
@@ -327,7 +327,7 @@ double lead_of(const std::vector<Candidate>& found) {
 // heads that stand aslant.
 std::vector<Mat3> slanted_axes(const Landmarks& landmarks) {
     constexpr double kAslant = 5.0 * kPi / 180.0, kOpeningAslant = 20.0 * kPi / 180.0;
-    constexpr std::size_t kMostPairs = 4;
+    constexpr std::size_t kMaxPairs = 4;
     const auto slant = [](const Vec3& v) {
         return std::acos(std::min(1.0, v.cwiseAbs().maxCoeff()));
     };
@@ -346,7 +346,7 @@ std::vector<Mat3> slanted_axes(const Landmarks& landmarks) {
     std::size_t taken = 0;
     for (const EyePair& pair : pairs) {
         const Vec3 left = (pair.one.center - pair.other.center).normalized();
-        if (slant(left) < kAslant || ++taken > kMostPairs) continue;
+        if (slant(left) < kAslant || ++taken > kMaxPairs) continue;
         for (const Vec3& rough : rough_ups) {
             const Vec3 level = rough - rough.dot(left) * left;
             if (level.norm() < 0.7) continue;

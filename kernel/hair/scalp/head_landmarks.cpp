@@ -18,12 +18,12 @@ Spot spot_of(const Mesh& mesh, std::span<const Index> vertices) {
 }
 
 // Openings are not looked at in meshes that have more of them: they are full of holes.
-constexpr std::size_t kMostSpots = 400;
+constexpr std::size_t kMaxSpots = 400;
 
 std::vector<Spot> components_beside(const Mesh& mesh, Index largest) {
     const std::vector<Index>& component = mesh.topology().components();
     const std::size_t count = mesh.topology().component_count();
-    if (count > kMostSpots) return {};
+    if (count > kMaxSpots) return {};
     std::vector<std::vector<Index>> vertices(count);
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
         if (component[v] != largest) vertices[component[v]].push_back(v);
@@ -37,7 +37,7 @@ std::vector<Spot> components_beside(const Mesh& mesh, Index largest) {
 
 void add_pairs(const std::vector<Spot>& spots, std::vector<EyePair>& pairs) {
     constexpr double kUnlike = 1.25, kNearest = 3.0, kFarthest = 9.0;
-    if (spots.size() > kMostSpots) return;
+    if (spots.size() > kMaxSpots) return;
     for (std::size_t i = 0; i < spots.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
             const double a = spots[i].radius, b = spots[j].radius;
@@ -73,7 +73,7 @@ Vec3 loop_normal(const Mesh& mesh, std::span<const Index> loop, const Vec3& side
 
 Landmarks landmarks_of(const Mesh& mesh, const std::vector<Index>& part, double part_area) {
     // A neck is about as long as this, in roots of the area.
-    constexpr double kLeastOpening = 1.0;
+    constexpr double kMinOpening = 1.0;
     Landmarks found;
     const Index component = mesh.topology().components()[part.front()];
     std::vector<Spot> openings;
@@ -84,7 +84,7 @@ Landmarks landmarks_of(const Mesh& mesh, const std::vector<Index>& part, double 
         }
         openings.push_back(spot_of(mesh, loop));
         const double size = loop_length(mesh, loop) / std::sqrt(part_area);
-        if (size <= std::max(found.opening, kLeastOpening)) continue;
+        if (size <= std::max(found.opening, kMinOpening)) continue;
         found.opening = size;
         greatest = &loop;
     }

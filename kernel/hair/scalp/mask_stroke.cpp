@@ -57,7 +57,7 @@ void require_mask(const MaskStroke& stroke) {
                     {ElementKind::row, 1, {index_of(i)}});
     }
     const bool of_length = stroke.kind == MaskKind::length;
-    require(is_within(stroke.value, 0.0, of_length ? kGreatestLengthMask : 1.0),
+    require(is_within(stroke.value, 0.0, of_length ? kMaxLengthMask : 1.0),
             of_length ? "a mask of the length has values from 0 to 4"
                       : "a mask of the density has values from 0 to 1");
     require(stroke.radius > 0.0 && std::isfinite(stroke.radius),

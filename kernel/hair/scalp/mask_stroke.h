@@ -19,7 +19,7 @@ struct MaskStroke {
     MaskKind kind = MaskKind::length;
     /// The way of the brush over the head; one point is a dab.
     std::vector<Vec3> points;
-    /// Painted value: 0 to kGreatestLengthMask, for a density to 1. 1 erases.
+    /// Painted value: 0 to kMaxLengthMask, for a density to 1. 1 erases.
     double value = 0.5;
     /// Radius of the brush, above 0.
     double radius = 0.02;
@@ -29,7 +29,7 @@ struct MaskStroke {
     bool operator==(const MaskStroke&) const = default;
 };
 
-inline constexpr double kGreatestLengthMask = 4.0;
+inline constexpr double kMaxLengthMask = 4.0;
 
 /// Errors: not_finite, naming the point; invalid_argument without points, or for options out of
 /// range.

@@ -12,7 +12,7 @@ namespace lissom {
 namespace {
 
 // Rows of the first sampling, from which the step is guessed; at most as many.
-constexpr Index kFirstRows = 64, kMostRows = 40'000;
+constexpr Index kFirstRows = 64, kMaxRows = 40'000;
 // How far a root is moved at random, in steps.
 constexpr double kJitter = 0.25;
 
@@ -81,7 +81,7 @@ class StepSampler {
 // Returns the number of rows expected to give `wanted` roots, if `rows` gave `found`.
 Index better_rows(Index rows, double found, double wanted) {
     const double factor = std::sqrt(wanted / std::max(found, 1.0));
-    return static_cast<Index>(std::min<double>(std::ceil(rows * factor), kMostRows));
+    return static_cast<Index>(std::min<double>(std::ceil(rows * factor), kMaxRows));
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ std::vector<Root> roots_in_steps(const Scalp& scalp, const RootSurface& surface,
     rows = better_rows(rows, static_cast<double>(roots.size()), wanted);
     for (roots = sampler.sample(rows); count_of(roots) < options.count;) {
         context.checkpoint();
-        if (rows >= kMostRows) {
+        if (rows >= kMaxRows) {
             throw Error(ErrorCode::region_empty,
                         "the scalp is too small a part of the directions around the center of the "
                         "head for roots in steps of angles; use the poisson pattern");

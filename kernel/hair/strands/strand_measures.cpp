@@ -59,7 +59,7 @@ class Collector {
     void add(Index s, const StrandView& strand) {
         StrandStatistics one;
         one.strands = 1;
-        one.points = one.least_points = one.most_points = index_of(strand.cols());
+        one.points = one.min_points = one.max_points = index_of(strand.cols());
         if (strand.allFinite()) {
             measure(s, strand, one);
         } else {
@@ -72,17 +72,16 @@ class Collector {
         if (b.strands == 0) return;
         StrandStatistics& a = sum_;
         const bool first = a.strands == 0, first_finite = a.strands == a.not_finite;
-        a.least_points = first ? b.least_points : std::min(a.least_points, b.least_points);
-        a.most_points = std::max(a.most_points, b.most_points);
+        a.min_points = first ? b.min_points : std::min(a.min_points, b.min_points);
+        a.max_points = std::max(a.max_points, b.max_points);
         if (b.strands > b.not_finite) {
-            a.least_length =
-                first_finite ? b.least_length : std::min(a.least_length, b.least_length);
+            a.min_length = first_finite ? b.min_length : std::min(a.min_length, b.min_length);
             a.deepest = first_finite ? b.deepest : std::max(a.deepest, b.deepest);
         }
-        a.most_length = std::max(a.most_length, b.most_length);
-        if (b.greatest_turn > a.greatest_turn) {
-            a.greatest_turn = b.greatest_turn;
-            a.greatest_turn_strand = b.greatest_turn_strand;
+        a.max_length = std::max(a.max_length, b.max_length);
+        if (b.max_turn > a.max_turn) {
+            a.max_turn = b.max_turn;
+            a.max_turn_strand = b.max_turn_strand;
         }
         a.strands += b.strands;
         a.points += b.points;
@@ -99,9 +98,9 @@ class Collector {
   private:
     void measure(Index s, const StrandView& strand, StrandStatistics& one) const {
         const Shape shape = shape_of(strand);
-        one.least_length = one.mean_length = one.most_length = shape.length;
-        one.greatest_turn = shape.turn;
-        one.greatest_turn_strand = s;
+        one.min_length = one.mean_length = one.max_length = shape.length;
+        one.max_turn = shape.turn;
+        one.max_turn_strand = s;
         one.sharp = shape.turn > options_.sharp_turn ? 1 : 0;
         one.zero_length = shape.length == 0.0 ? 1 : 0;
         one.zero_segments = shape.zero_segment ? 1 : 0;

@@ -39,12 +39,12 @@ struct StrandStatisticsOptions {
 /// not finite count in `not_finite` only.
 struct StrandStatistics {
     Index strands = 0, points = 0;
-    Index least_points = 0, most_points = 0;
+    Index min_points = 0, max_points = 0;
     /// Metres; the least length over all strands.
-    double least_length = 0.0, mean_length = 0.0, most_length = 0.0;
+    double min_length = 0.0, mean_length = 0.0, max_length = 0.0;
     /// Greatest angle between successive segments, in radians, and the strand that has it.
-    double greatest_turn = 0.0;
-    Index greatest_turn_strand = kNoIndex;
+    double max_turn = 0.0;
+    Index max_turn_strand = kNoIndex;
     /// Numbers of strands: with a sharp turn; without length; with a segment without length; with a
     /// coordinate that is NaN or infinite.
     Index sharp = 0, zero_length = 0, zero_segments = 0, not_finite = 0;

@@ -14,7 +14,7 @@ namespace lissom {
 namespace {
 
 constexpr Index kResampleGrain = 256;
-constexpr double kMostResampled = std::numeric_limits<Index>::max();
+constexpr double kMaxResampled = std::numeric_limits<Index>::max();
 
 [[noreturn]] void refuse_points() {
     throw Error(ErrorCode::invalid_argument,
@@ -155,7 +155,7 @@ std::vector<Index> all_segments(const Strands& strands, const ResampleOptions& o
         const bool is_root = strands.point_count(s) == 1;
         const double count = is_root ? 0.0 : segments_for(length(strands.strand(s)), options);
         points += count + 1.0;
-        if (points > kMostResampled) refuse_points();
+        if (points > kMaxResampled) refuse_points();
         segments.push_back(static_cast<Index>(count));
     }
     return segments;

@@ -14,7 +14,7 @@
 namespace lissom {
 namespace {
 
-constexpr std::size_t kKeptPerByte = 4, kLeastKept = std::size_t{1} << 20;
+constexpr std::size_t kKeptPerByte = 4, kMinKept = std::size_t{1} << 20;
 
 // Copies accessors out of a document.
 class AccessorKeeper {
@@ -23,7 +23,7 @@ class AccessorKeeper {
         : document_(document),
           reader_(reader),
           asset_(asset),
-          left_(std::max(kLeastKept, kKeptPerByte * document.bytes_read)) {}
+          left_(std::max(kMinKept, kKeptPerByte * document.bytes_read)) {}
 
     // Replaces the number of an accessor, if there is one, by that of its copy. Returns the copy.
     KeptAccessor* keep(Json& object, const char* key, const std::string& owner) {

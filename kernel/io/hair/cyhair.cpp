@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kHairMagic = "HAIR";
 constexpr std::size_t kHairHeaderBytes = 128, kTextBytes = 88;
-constexpr Index kMostSegments = 65535;
+constexpr Index kMaxSegments = 65535;
 
 // Bits that say which arrays follow.
 using ArrayBit = std::uint32_t;
@@ -163,7 +163,7 @@ Index common_segments(const Strands& strands) {
 void require_countable(const Strands& strands) {
     Elements beyond{ElementKind::strand, 0, {}};
     for (Index s = 0; s < strands.size(); ++s) {
-        if (strands.point_count(s) - 1 > kMostSegments) beyond.add(s);
+        if (strands.point_count(s) - 1 > kMaxSegments) beyond.add(s);
     }
     if (beyond.count == 0) return;
     const std::string names = describe(beyond);

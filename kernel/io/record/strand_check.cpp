@@ -108,12 +108,12 @@ class Checker {
 
     void check_points() {
         const auto is_long = [&](Index s) {
-            return distinct_points(now().strand(s)) >= capacity_.least_points;
+            return distinct_points(now().strand(s)) >= capacity_.min_points;
         };
         const Elements brief = find([&](Index s) { return !is_long(s); });
         if (brief.count > 0) {
             mend(StrandFindingKind::strands_too_short, brief,
-                 ": fewer than " + std::to_string(capacity_.least_points) + " different points",
+                 ": fewer than " + std::to_string(capacity_.min_points) + " different points",
                  "left out");
             keep_strands(is_long);
         }

@@ -14,7 +14,7 @@ namespace lissom {
 /// Limits of a format.
 struct StrandCapacity {
     /// Fewest points of a strand.
-    Index least_points = 2;
+    Index min_points = 2;
     bool widths = false, colors = false, transparency = false;
     bool root_uvs = false, groups = false;
     /// Ids, faces and barycentric coordinates of the roots.

@@ -272,14 +272,14 @@ void require_replaceable(const fs::path& path, const fs::file_status& status) {
 
 // Returns the names of files, or of folders only; at most the first of a very large folder.
 std::vector<std::string> names_in(const fs::path& folder, bool folders) {
-    constexpr std::size_t kMostNames = 20000;
+    constexpr std::size_t kMaxNames = 20000;
     std::vector<std::string> names;
     std::error_code error;
     for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
         std::error_code unknown;
         if (at->is_directory(unknown) != folders) continue;
         names.push_back(display_name(at->path().filename()));
-        if (names.size() == kMostNames) break;
+        if (names.size() == kMaxNames) break;
     }
     std::sort(names.begin(), names.end());
     return names;

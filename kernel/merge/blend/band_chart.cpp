@@ -20,7 +20,7 @@ constexpr double kChartReach = 1.5;
 
 // Cotangents count as at least this in the harmonic extension, whose values then stay within those
 // on the seam.
-constexpr double kLeastWeight = 0.05;
+constexpr double kMinWeight = 0.05;
 
 struct SideFaces {
     std::vector<Index> faces;
@@ -69,7 +69,7 @@ std::vector<Vec2> harmonic_extension(const Rings& rings, std::span<const double>
         if (fixed[i]) continue;
         for (Index e = rings.begin[i]; e < rings.begin[i + 1]; ++e) {
             const Index j = rings.neighbor[e];
-            const double weight = std::max(kLeastWeight, cotangent[e]);
+            const double weight = std::max(kMinWeight, cotangent[e]);
             entries.push_back({unknown[i], unknown[i], weight});
             if (!fixed[j]) entries.push_back({unknown[i], unknown[j], -weight});
             for (std::size_t k = 0; fixed[j] && k < 2; ++k) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Index kRowRings = 1;
 // Slivers along a seam would rule the energy; their angles count as at least this.
-constexpr double kLeastSeamAngle = 2.0 * kPi / 180.0;
+constexpr double kMinSeamAngle = 2.0 * kPi / 180.0;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ BandSystem::BandSystem(const Region& region, const Region& band, std::span<const
 }
 
 void BandSystem::measure() {
-    geometry_ = ring_geometry(rings_, patch_.triangles, x_, kLeastSeamAngle);
+    geometry_ = ring_geometry(rings_, patch_.triangles, x_, kMinSeamAngle);
     laplacian_ = make_laplacian(rings_, geometry_, LaplacianWeights::cotangent, true);
 }
 

@@ -25,7 +25,7 @@ constexpr double kFaintSeam = 20.0 * kDegree;
 
 SeamQuality faint_seam() {
     SeamQuality quality;
-    quality.greatest_dihedral = kFaintSeam;
+    quality.max_dihedral = kFaintSeam;
     return quality;
 }
 

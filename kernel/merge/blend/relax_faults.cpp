@@ -22,7 +22,7 @@ constexpr Index kRelaxSteps = 30;
 // Rings beside a seam whose faces sewing changes.
 constexpr Index kSeamRings = 2;
 // More of a band is no place but a shape.
-constexpr double kMostRelaxed = 1.0 / 3.0;
+constexpr double kMaxRelaxed = 1.0 / 3.0;
 
 // Marks of the vertices within one radius of a seam.
 std::vector<char> band_of_seams(const Sewn& sewn, const Context& context) {
@@ -108,7 +108,7 @@ bool relax_faults(Sewn& sewn, std::span<const Index> crossing, std::span<const I
     const std::vector<Index> moving =
         moving_of(sewn.mesh.topology(), marks, beyond_seams(sewn, firm));
     const auto band = static_cast<double>(std::count(near.begin(), near.end(), 1));
-    if (moving.empty() || static_cast<double>(moving.size()) > kMostRelaxed * band) return false;
+    if (moving.empty() || static_cast<double>(moving.size()) > kMaxRelaxed * band) return false;
     SmoothOptions how;
     how.iterations = kRelaxSteps;
     how.region = Region(sewn.mesh.shared_topology(), moving);

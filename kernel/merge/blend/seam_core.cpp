@@ -12,7 +12,7 @@ constexpr double kLongestStep = 0.25;
 
 // Cotangents count as at least this when the core is filled, which keeps its values between those
 // around it.
-constexpr double kLeastCoreWeight = 0.05;
+constexpr double kMinCoreWeight = 0.05;
 
 // Weight of each value's former one, for parts that nothing around the core holds.
 constexpr double kHold = 1e-7;
@@ -171,7 +171,7 @@ std::vector<SeamCore::Values> SeamCore::fill(const BandSystem& band, std::vector
             const Index j = band.ring(i)[e];
             // Rows on open boundaries have no mean curvature.
             if (!contains(j) && (!band.is_row(j) || band.on_boundary(j))) continue;
-            const double weight = std::max(kLeastCoreWeight, band.cotangents(i)[e]);
+            const double weight = std::max(kMinCoreWeight, band.cotangents(i)[e]);
             add(weight, j, !contains(j));
             if (contains(j)) entries.push_back({unknown_[i], unknown_[j], -weight});
         }

@@ -32,8 +32,8 @@ constexpr double kFaint = 10.0 * kDegree, kFaintFade = 20.0 * kDegree;
 
 SeamQuality faint_angles() {
     SeamQuality quality;
-    quality.greatest_dihedral = kFaintFade;
-    quality.greatest_near = kFaint;
+    quality.max_dihedral = kFaintFade;
+    quality.max_near = kFaint;
     return quality;
 }
 

@@ -35,7 +35,7 @@ constexpr int kNear = 6;
 // Halvings between two samples: the last is below the rounding of a parameter.
 constexpr int kHalvings = 50;
 // Directions whose parts in the planes of the loops have a smaller product say nothing.
-constexpr double kLeastLean = 0.01;
+constexpr double kMinLean = 0.01;
 // Weight of the user's directions if they are opposite to each other, halved.
 constexpr double kDirectionWeight = 4.0;
 // The same of the planes in which the parts are mirror images of themselves.
@@ -180,7 +180,7 @@ class DirectionCost {
         Pair pair{square_to(from, source_axis_), square_to(to, target_axis_), 0.0, weight,
                   either_way};
         pair.length = pair.source.norm() * pair.target.norm();
-        if (pair.length > kLeastLean) pairs_.push_back(pair);
+        if (pair.length > kMinLean) pairs_.push_back(pair);
     }
 
     Vec3 source_axis_, target_axis_;
@@ -241,7 +241,7 @@ double untwisted_offset(const OffsetSearch& search, const Vec3& axis) {
 }
 
 // The same of several loops, whose centres come together as well.
-double least_turned_offset(const OffsetSearch& search) {
+double min_turned_offset(const OffsetSearch& search) {
     const auto cost = [&](double u) {
         const SimilarityMap fit = search.fit(u);
         return search.others_apart(fit) + 0.25 * (3.0 - fit.rotation.trace());
@@ -256,7 +256,7 @@ struct Leans {
 
     double along(const Mat3& rotation) const {
         const double lengths = source.norm() * target.norm();
-        return lengths > kLeastLean ? (rotation * source).dot(target) / lengths : 0.0;
+        return lengths > kMinLean ? (rotation * source).dot(target) / lengths : 0.0;
     }
     double weight() const { return std::min(1.0, source.norm()) * std::min(1.0, target.norm()); }
 };
@@ -344,7 +344,7 @@ bool is_turned_over(const LoopJoin& join) {
 
 std::vector<OffsetGuess> as_placed_offsets(std::span<const LoopJoin> joins) {
     const OffsetSearch search(joins);
-    const double offset = joins.size() > 1 ? least_turned_offset(search)
+    const double offset = joins.size() > 1 ? min_turned_offset(search)
                                            : untwisted_offset(search, joins.front().target->axis());
     std::vector<OffsetGuess> guesses{{{0.0, offset}, kSureContrast}};
     search.add_others(search.fit(offset), guesses);

@@ -242,9 +242,9 @@ BandQuality band_quality(const BandSide& made_target, const BandSide& made_sourc
         bends_between(on_target.planes(0.0, kStrip), on_source.planes(0.0, kStrip));
     const Bends own[] = {old_target.own_bends(), old_source.own_bends()};
     result.bend = across.rms;
-    result.greatest_bend = across.greatest;
+    result.max_bend = across.greatest;
     result.rest_bend = std::max(own[0].rms, own[1].rms);
-    result.rest_greatest_bend = std::max(own[0].greatest, own[1].greatest);
+    result.rest_max_bend = std::max(own[0].greatest, own[1].greatest);
     const auto folds = [](const Side& side, double EdgeSum::*length) {
         return side.radius() > 0.0 ? side.edges(kFolds).*length / side.radius() : 0.0;
     };

@@ -22,7 +22,7 @@ struct BandQuality {
     /// strip a third of the radius wide: the RMS, and the angle that a tenth of them exceed. And
     /// those on either side before, from the strip next to the boundary to the one behind it, of
     /// the side that bends more.
-    double bend = 0.0, greatest_bend = 0.0, rest_bend = 0.0, rest_greatest_bend = 0.0;
+    double bend = 0.0, max_bend = 0.0, rest_bend = 0.0, rest_max_bend = 0.0;
     /// Length of the edges within one radius at which the surface folds back by more than 135
     /// degrees, in radii of the seam; and of those of both sides before that turned by more than
     /// 105, and may have become such without a face turning over.

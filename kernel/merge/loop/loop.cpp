@@ -19,8 +19,8 @@ constexpr double kLengthSigma = 0.03;
 constexpr double kTubeReach = 3.0;
 // Ignore interior vertices nearer to the boundary than this many fan radii, when the turn of its
 // normal is extrapolated; and clamp that turn to so many radians.
-constexpr double kLeastReach = 1.5;
-constexpr double kMostTurn = 0.35;
+constexpr double kMinReach = 1.5;
+constexpr double kMaxTurn = 0.35;
 // A face beyond those at the boundary goes on with their surface if it turns by less than this
 // about the boundary, radians: caps and floors do not.
 constexpr double kGoesOn = 0.6;
@@ -88,9 +88,9 @@ Vec3 boundary_normal(const Mesh& mesh, Index v, const Vec3& tangent) {
     if (count == 0.0) return at.normal;
     inner.normalize();
     const double near = at.middle.norm(), far = at.middle.normalized().dot(arm) / count;
-    if (!(far > kLeastReach * near)) return at.normal;
+    if (!(far > kMinReach * near)) return at.normal;
     const Vec3 beyond = near / (far - near) * (own - inner);
-    return (own + std::min(1.0, kMostTurn / std::max(beyond.norm(), 1e-12)) * beyond).normalized();
+    return (own + std::min(1.0, kMaxTurn / std::max(beyond.norm(), 1e-12)) * beyond).normalized();
 }
 
 std::vector<Vec3> normals_at(const Mesh& mesh, std::span<const Index> vertices,

@@ -122,7 +122,7 @@ double outward_turn(const StripPatch& a, const StripPatch& b, std::size_t when) 
     return change.dot(apart) >= 0.0 ? turn : -turn;
 }
 
-double greatest_gain(const Strips& strips, const Vec3& point, double radius, double outward) {
+double max_gain(const Strips& strips, const Vec3& point, double radius, double outward) {
     double greatest = 0.0;
     StripPatch before;
     for (std::size_t i = 0; i < strips.size(); ++i) {
@@ -145,8 +145,8 @@ double rim_flare(const MadeRim& made, std::span<const Vec3> rest, bool inside_ou
     const std::size_t step = std::max<std::size_t>(1, made.loop.size() / kFlarePoints);
     double squares = 0.0, count = 0.0;
     for (std::size_t k = 0; k < made.loop.size(); k += step) {
-        const double gain = greatest_gain(strips, made.mesh.position(made.loop[k]), made.radius,
-                                          inside_out ? -1.0 : 1.0);
+        const double gain = max_gain(strips, made.mesh.position(made.loop[k]), made.radius,
+                                     inside_out ? -1.0 : 1.0);
         squares += gain * gain;
         count += 1.0;
     }

@@ -146,7 +146,7 @@ Vec3 turned_to_steepest(const Vec3& axis, std::span<const RingPoint> rim) {
 void turn_to(const Vec3& normal, PartTrial& trial) {
     const Vec3 axis = trial.similarity.rotation * loop_axis(trial.part());
     trial.similarity.rotation =
-        least_rotation(axis, normal).toRotationMatrix() * trial.similarity.rotation;
+        min_rotation(axis, normal).toRotationMatrix() * trial.similarity.rotation;
 }
 
 // Moves the boundary to where the part's axis meets the target. False where it does not, or not

@@ -14,7 +14,7 @@ namespace {
 constexpr int kPartRefinements = 20;
 constexpr int kSettlingRounds = 12;
 // Least part of the way that a boundary slides if all of it does not serve.
-constexpr double kLeastSlide = 0.25;
+constexpr double kMinSlide = 0.25;
 
 // The thesis scales Laplacian coordinates by one factor, that of the boundary (section 3.4.4).
 BoundaryDeformOptions paste_deformation(bool thesis) {
@@ -74,7 +74,7 @@ bool PartTrials::slide(PartTrial& trial, double part, const Context& context) co
 
 void PartTrials::settle(PartTrial& trial, const Context& context) const {
     double part = 1.0;
-    for (int round = 0; round < kSettlingRounds && part >= kLeastSlide; ++round) {
+    for (int round = 0; round < kSettlingRounds && part >= kMinSlide; ++round) {
         context.checkpoint();
         if (!slide(trial, part, context)) part *= 0.5;
     }

@@ -22,7 +22,7 @@ constexpr double kClearlyBetterAngle = 0.95;
 // 1.4 times as long as the surface is wide, so that one that does not cover the ring is widened.
 constexpr double kRoom = 1.5, kMoreRoom = 2.1;
 // At corners they are longer still: such a disk is made if the feature lies outside that one.
-constexpr double kMostRoom = 3.0;
+constexpr double kMaxRoom = 3.0;
 constexpr int kClosestRounds = 4;
 constexpr Index kWarmIterations = 3;
 
@@ -353,8 +353,8 @@ void Paste::State::place_on_disk(const PastePlacement& placement, std::span<cons
     std::optional<PlacedOn> found;
     // On an edge a boundary that looks along the part reaches farther.
     const bool wide = !options.thesis && has_edges_near(placement);
-    for (const double room : {wide ? kMoreRoom : kRoom, wide ? kRoom : kMoreRoom, kMostRoom}) {
-        if (found && (covers(found->place) || room == kMostRoom)) break;
+    for (const double room : {wide ? kMoreRoom : kRoom, wide ? kRoom : kMoreRoom, kMaxRoom}) {
+        if (found && (covers(found->place) || room == kMaxRoom)) break;
         std::optional<PlacedOn> next = placed_within(placement, room, start, effort, context);
         if (next && (!found || covers(next->place))) found = std::move(next);
     }

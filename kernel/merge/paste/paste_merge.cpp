@@ -54,10 +54,10 @@ Sewn sewn_with(const LaidPart& laid, const PasteMergeOptions& options, bool coll
 
 Sewn sewn_well(const LaidPart& laid, const PasteMergeOptions& options, const Context& context) {
     const auto angles = [](const Sewn& sewn) {
-        return sewn.report.after.greatest_dihedral + sewn.report.after.greatest_near;
+        return sewn.report.after.max_dihedral + sewn.report.after.max_near;
     };
     Sewn sewn = sewn_with(laid, options, options.collar && !options.draft, context);
-    if (!(sewn.report.collar_added > 0 && sewn.report.after.greatest_dihedral > kSteepSeam)) {
+    if (!(sewn.report.collar_added > 0 && sewn.report.after.max_dihedral > kSteepSeam)) {
         return sewn;
     }
     Sewn plain = sewn_with(laid, options, false, context);
@@ -65,7 +65,7 @@ Sewn sewn_well(const LaidPart& laid, const PasteMergeOptions& options, const Con
 }
 
 double turns(const Sewn& sewn) {
-    return sewn.report.after.greatest_dihedral;
+    return sewn.report.after.max_dihedral;
 }
 // Whether a seam is so steep that its faces turn over.
 bool folds(const Sewn& sewn) {
@@ -114,10 +114,10 @@ SewnPart sewn_along(const PartTrials& trials, const TargetPiece& target, PartTri
 // Steep or rough places along the boundary on the source may be so on the target.
 void note_source(const SourceRest& rest, MergeReport& report) {
     BandQuality& band = report.joins[0].band;
-    report.source_rim.greatest_near = std::max(report.source_rim.greatest_near, rest.steepest);
+    report.source_rim.max_near = std::max(report.source_rim.max_near, rest.steepest);
     band.rest_roughness = std::max(band.rest_roughness, rest.roughness);
     band.rest_bend = std::max(band.rest_bend, rest.bend);
-    band.rest_greatest_bend = std::max(band.rest_greatest_bend, rest.greatest_bend);
+    band.rest_max_bend = std::max(band.rest_max_bend, rest.max_bend);
     band.source_volume =
         std::max(band.source_volume, std::min(1.0, band.source_volume + rest.dome));
 }

@@ -35,7 +35,7 @@ struct PastePlacement {
 /// keeps lengths would turn faces over, one onto a disk is taken, which does not.
 struct MapQuality {
     Index faces = 0, flipped = 0, flipped_fill = 0, crossings = 0;
-    double least_scale = 1.0, greatest_scale = 1.0;
+    double min_scale = 1.0, max_scale = 1.0;
     ParameterizeMethod method = ParameterizeMethod::arap;
 };
 

@@ -26,7 +26,7 @@ namespace {
 
 // Width of a place's disk over that of the ring on it, if there is room; paths along edges are up
 // to 1.4 times as long as the surface is wide.
-constexpr double kPlaceRoom = 1.5, kLeastRoom = 0.66, kSmallerDisk = 0.85;
+constexpr double kPlaceRoom = 1.5, kMinRoom = 0.66, kSmallerDisk = 0.85;
 // Edges of the target that a disk is wider than that: the collar of a seam takes up to two if the
 // part is much denser, the faces beside it must stay as they are, those that reach beyond the disk
 // are not in it, and edges grow longer on the way.
@@ -491,7 +491,7 @@ class Scatterer {
         const double radius =
             kPlaceRoom * reach + kSeamRoom * longest_edge_at(current_.mesh, point.face);
         std::vector<Index> faces =
-            free_disk(current_, point.face, radius, kLeastRoom * reach, context);
+            free_disk(current_, point.face, radius, kMinRoom * reach, context);
         if (faces.empty()) {
             refuse(i, ErrorCode::not_a_disk, "the surface around it is no disk between parts");
         }

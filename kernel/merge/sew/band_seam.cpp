@@ -44,7 +44,7 @@ class BandSeam {
         for (const Index v : join_.target) target.push_back(work_.both.position(v));
         for (const Index v : rim_) rim.push_back(work_.both.position(v));
         for (const LoopPoint& place : join_.on_target) loop.push_back(point_of(target, place));
-        for (const BandTriangle& triangle : least_area_band(rim, loop, context)) add(triangle);
+        for (const BandTriangle& triangle : min_area_band(rim, loop, context)) add(triangle);
         work_.seams.emplace_back();
         for (Index i = 0; i < count_of(loop); ++i) {
             const Index v = loop_vertex(i);

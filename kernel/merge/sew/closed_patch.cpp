@@ -155,7 +155,7 @@ void ClosedPatch::add_dihedral(Index from, Index to, const Vec3& normal,
 }
 
 // At the seams and next to them. Faces without area have none.
-ClosedPatch::Dihedrals ClosedPatch::greatest_dihedrals() const {
+ClosedPatch::Dihedrals ClosedPatch::max_dihedrals() const {
     Dihedrals greatest;
     std::unordered_set<Index> near(seam_vertices_.begin(), seam_vertices_.end());
     for (const Index v : seam_vertices_) {
@@ -243,7 +243,7 @@ std::vector<FacePair> ClosedPatch::crossings(const Context& context) const {
 }
 
 Index ClosedPatch::flip_edges(double allowed_dihedral, const Context& context) {
-    const Dihedrals greatest = greatest_dihedrals();
+    const Dihedrals greatest = max_dihedrals();
     const Dihedrals allowed{std::min(allowed_dihedral, greatest.seam),
                             std::min(allowed_dihedral, greatest.other)};
     const std::vector<FacePair> before = crossings(context);

@@ -139,7 +139,7 @@ SeamNormals::SeamNormals(Mesh& mesh, std::vector<Index> moving) : mesh_(mesh) {
 void SeamNormals::follow(std::span<const std::vector<Index>> seams) {
     if (!normals_) return;
     for (std::size_t i = 0; i < moving_.size(); ++i) {
-        const auto turn = least_rotation(before_[i], normal_at(mesh_, moving_[i]));
+        const auto turn = min_rotation(before_[i], normal_at(mesh_, moving_[i]));
         change_at(mesh_.topology(), *normals_, moving_[i],
                   [&](Eigen::Map<Vec3>& value) { value = (turn * value).normalized(); });
     }

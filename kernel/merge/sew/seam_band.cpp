@@ -104,8 +104,8 @@ class BandSearch {
 
 }  // namespace
 
-std::vector<BandTriangle> least_area_band(std::span<const Vec3> first, std::span<const Vec3> second,
-                                          const Context& context) {
+std::vector<BandTriangle> min_area_band(std::span<const Vec3> first, std::span<const Vec3> second,
+                                        const Context& context) {
     const auto n = count_of(first), m = count_of(second);
     const GridPath path = BandSearch(first, second, context).best();
     std::vector<BandTriangle> band;

@@ -20,7 +20,7 @@ struct BandTriangle {
 /// The band of least area between two closed polylines that run the same way: n + m triangles
 /// (Fuchs, Kedem and Uselton 1977, by divide and conquer over the start). The triangles follow each
 /// other around the band. Time n m log n.
-std::vector<BandTriangle> least_area_band(std::span<const Vec3> first, std::span<const Vec3> second,
-                                          const Context& context = {});
+std::vector<BandTriangle> min_area_band(std::span<const Vec3> first, std::span<const Vec3> second,
+                                        const Context& context = {});
 
 }  // namespace lissom

@@ -478,8 +478,8 @@ bool is_kept(const Sewn& old, const SeamQuality& before, Remade& remade, const C
     const SeamQuality after = seam_quality(remade.shape(), remade.seams());
     const double least = std::min(before.smallest_angle, kGoodSeamAngle);
     const auto map = [&]() -> const MeshMap& { return remade.step(); };
-    return after.greatest_dihedral <= before.greatest_dihedral + kSameQuality &&
-           after.greatest_near <= before.greatest_near + kSameQuality &&
+    return after.max_dihedral <= before.max_dihedral + kSameQuality &&
+           after.max_near <= before.max_near + kSameQuality &&
            after.smallest_angle >= least - kSameQuality &&
            !adds_crossings(old.mesh, remade.shape(), map, remade.made(), context);
 }
@@ -511,7 +511,7 @@ bool bites(const Sewn& old, std::span<const Index> faces, std::size_t seam, cons
 }
 
 // The smallest angle of the triangles made that touch a seam.
-double least_angle_beside(const Remade& remade, std::size_t seam) {
+double min_angle_beside(const Remade& remade, std::size_t seam) {
     const Mesh& mesh = remade.shape();
     const std::set<Index> on(remade.seams()[seam].begin(), remade.seams()[seam].end());
     double least = kPi;
@@ -526,7 +526,7 @@ double least_angle_beside(const Remade& remade, std::size_t seam) {
 }
 
 SheetLimits limits_of(const SeamQuality& now, double allowed) {
-    return {std::min(allowed, now.greatest_dihedral), std::min(allowed, now.greatest_near)};
+    return {std::min(allowed, now.max_dihedral), std::min(allowed, now.max_near)};
 }
 
 void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& context) {
@@ -554,7 +554,7 @@ void make_collar(Sewn& sewn, std::size_t seam, SeamSide side, const Context& con
         sheet.remesh([&](const Vec3& p) { return sizes.at(p); }, limits, flips, context);
         std::optional<Remade> remade = remade_with(sewn, {&sheet, 1}, context);
         if (!remade) continue;
-        const double angle = least_angle_beside(*remade, seam);
+        const double angle = min_angle_beside(*remade, seam);
         if (best && angle <= least + kSameQuality) continue;
         if (bites(sewn, faces, seam, *remade)) continue;
         if (!is_kept(sewn, now, *remade, context)) continue;

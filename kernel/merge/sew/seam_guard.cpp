@@ -30,8 +30,8 @@ std::vector<Index> faces_at(const Topology& topology, std::span<const Index> ver
     return faces;
 }
 
-double greatest_sum(const SeamQuality& quality) {
-    return quality.greatest_dihedral + quality.greatest_near;
+double max_sum(const SeamQuality& quality) {
+    return quality.max_dihedral + quality.max_near;
 }
 
 }  // namespace
@@ -69,11 +69,11 @@ void SeamGuard::place(std::span<const Vec3> places) {
 }
 
 double SeamGuard::seam_limit() const {
-    return std::max(now_.quality.greatest_dihedral, allowed_.greatest_dihedral);
+    return std::max(now_.quality.max_dihedral, allowed_.max_dihedral);
 }
 
 double SeamGuard::near_limit() const {
-    return std::max(now_.quality.greatest_near, allowed_.greatest_near);
+    return std::max(now_.quality.max_near, allowed_.max_near);
 }
 
 double SeamGuard::roughness() const {
@@ -85,8 +85,8 @@ bool SeamGuard::is_harmless(State& state, double rougher) {
     const SeamQuality& before = now_.quality;
     state.quality = seam_quality(shape_, seams_);
     const double least = std::min(before.smallest_angle, kGoodAngle);
-    if (state.quality.greatest_dihedral > seam_limit() + kEqualAngles ||
-        state.quality.greatest_near > near_limit() + kEqualAngles ||
+    if (state.quality.max_dihedral > seam_limit() + kEqualAngles ||
+        state.quality.max_near > near_limit() + kEqualAngles ||
         state.quality.smallest_angle < least - kEqualAngles) {
         return false;
     }
@@ -173,9 +173,9 @@ double SeamGuard::move(std::span<const Vec3> to) {
         State* best = way > 0.0 ? &all : nullptr;
         if (way < 1.0) {
             const double limit =
-                best ? greatest_sum(all.quality) : seam_limit() + near_limit() + kEqualAngles;
+                best ? max_sum(all.quality) : seam_limit() + near_limit() + kEqualAngles;
             const bool better = move_each(to, each) && each.places != before.places &&
-                                greatest_sum(each.quality) < limit;
+                                max_sum(each.quality) < limit;
             if (better) best = &each;
         }
         if (best) {

@@ -90,7 +90,7 @@ class ClosedPatch {
     bool can_flip(const Diagonal& diagonal) const;
     bool is_kept(const Diagonal& diagonal) const;
     std::vector<FacePair> crossings(const Context& context) const;
-    Dihedrals greatest_dihedrals() const;
+    Dihedrals max_dihedrals() const;
     void add_dihedral(Index from, Index to, const Vec3& normal, Dihedrals& greatest) const;
     bool improves(const Diagonal& diagonal, const Dihedrals& allowed) const;
     void flip(const Diagonal& diagonal);

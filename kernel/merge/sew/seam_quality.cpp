@@ -29,7 +29,7 @@ void measure_seam_edges(const Mesh& mesh, std::span<const std::vector<Index>> se
             }
             const double angle = edge_dihedral(mesh, a, b);
             const double edge = (mesh.position(b) - mesh.position(a)).norm();
-            quality.greatest_dihedral = std::max(quality.greatest_dihedral, angle);
+            quality.max_dihedral = std::max(quality.max_dihedral, angle);
             squares += edge * angle * angle;
             length += edge;
         }
@@ -68,7 +68,7 @@ void measure_near_edges(const Mesh& mesh, std::span<const Index> on_seam, SeamQu
     GreatestAngle greatest;
     std::vector<Vec3> normals;
     for (const Index v : near) measure_spokes(mesh, v, near, normals, greatest);
-    quality.greatest_near = greatest.value();
+    quality.max_near = greatest.value();
 }
 
 // The smallest angle of a polygon divided by the fan of diagonals that suits it best.

@@ -27,9 +27,9 @@ enum class SeamKind {
 /// Measures of seams; angles in radians. Faces without area do not count in dihedral angles.
 struct SeamQuality {
     /// Dihedral angles across the seam's edges: the greatest, and the RMS weighted by edge length.
-    double greatest_dihedral = 0.0, rms_dihedral = 0.0;
+    double max_dihedral = 0.0, rms_dihedral = 0.0;
     /// The greatest dihedral angle among edges with an end on the seam or next to it.
-    double greatest_near = 0.0;
+    double max_near = 0.0;
     /// Angles of triangles with a vertex on the seam: the smallest, and the 5th percentile of each
     /// triangle's smallest.
     double smallest_angle = 0.0, low_angle = 0.0;

@@ -340,20 +340,20 @@ Vec3 SeamSheet::normal(const Triangle& t, Index moved, const Vec3& to) const {
     return n.norm() > kFlatShape * longest ? n : Vec3(Vec3::Zero());
 }
 
-double SeamSheet::least_angle(const Triangle& t, Index moved, const Vec3& to) const {
+double SeamSheet::min_angle(const Triangle& t, Index moved, const Vec3& to) const {
     const auto at = [&](std::size_t k) -> const Vec3& { return t[k] == moved ? to : x_[t[k]]; };
     return smallest_angle(at(0), at(1), at(2));
 }
 
-double SeamSheet::least_angle_of(Index f) {
-    if (angle_[f] == kNotMeasured) angle_[f] = least_angle(triangles_[f], kNoIndex, Vec3::Zero());
+double SeamSheet::min_angle_of(Index f) {
+    if (angle_[f] == kNotMeasured) angle_[f] = min_angle(triangles_[f], kNoIndex, Vec3::Zero());
     return angle_[f];
 }
 
 // The angles of triangles that are there.
 SeamSheet::Star SeamSheet::star_of(std::span<const Index> faces) {
     facets_.clear();
-    for (const Index f : faces) facets_.push_back({triangles_[f], normal_[f], least_angle_of(f)});
+    for (const Index f : faces) facets_.push_back({triangles_[f], normal_[f], min_angle_of(f)});
     return measured(faces);
 }
 
@@ -363,7 +363,7 @@ SeamSheet::Star SeamSheet::star_with(std::span<const Triangle> triangles,
                                      const Vec3& to) {
     facets_.clear();
     for (const Triangle& t : triangles) {
-        facets_.push_back({t, normal(t, moved, to), least_angle(t, moved, to)});
+        facets_.push_back({t, normal(t, moved, to), min_angle(t, moved, to)});
     }
     return measured(instead_of);
 }

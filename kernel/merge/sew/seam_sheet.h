@@ -128,8 +128,8 @@ class SeamSheet {
     bool find_quad(Index a, Index c, Quad& quad) const;
     void separate_diagonals();
     void keep_at_first(const Quad& quad);
-    double least_angle(const Triangle& t, Index moved, const Vec3& to) const;
-    double least_angle_of(Index f);
+    double min_angle(const Triangle& t, Index moved, const Vec3& to) const;
+    double min_angle_of(Index f);
     bool is_rounder(const Quad& quad);
     void turn_diagonal(const Quad& quad);
     bool may_flip(const Quad& quad, const SheetLimits& limits);

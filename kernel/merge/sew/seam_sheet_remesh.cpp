@@ -14,7 +14,7 @@ namespace {
 constexpr int kRounds = 6, kSweeps = 12, kFlipPasses = 10;
 // Edges are split above and collapsed below these parts of the length wanted.
 constexpr double kTooLong = 4.0 / 3.0, kTooShort = 4.0 / 5.0;
-constexpr double kGreatestTurn = 45.0 * kPi / 180.0, kOver = 0.5 * kPi;
+constexpr double kMaxTurn = 45.0 * kPi / 180.0, kOver = 0.5 * kPi;
 // Angles of triangles above these may become smaller by collapses, and by moves.
 constexpr double kCollapsedAngle = 20.0 * kPi / 180.0, kMovedAngle = 25.0 * kPi / 180.0;
 constexpr double kFlipGain = 1e-6;
@@ -43,10 +43,10 @@ bool SeamSheet::find_quad(Index a, Index c, Quad& quad) const {
 
 // Whether a flip makes the smallest angle greater.
 bool SeamSheet::is_rounder(const Quad& quad) {
-    const double least = std::min(least_angle_of(quad.left), least_angle_of(quad.right));
+    const double least = std::min(min_angle_of(quad.left), min_angle_of(quad.right));
     const double wanted = least * (1.0 + kFlipGain) + kFlipGain;
     return std::all_of(quad.after.begin(), quad.after.end(), [&](const Triangle& t) {
-        return least_angle(t, kNoIndex, Vec3::Zero()) > wanted;
+        return min_angle(t, kNoIndex, Vec3::Zero()) > wanted;
     });
 }
 
@@ -141,7 +141,7 @@ bool SeamSheet::split(Index a, Index c, const SheetLimits& limits) {
         const Vec3 on_surface = nearest_at_first(middle).position;
         double flat = kPi;
         for (const Triangle& t : after) {
-            flat = std::min(flat, least_angle(t, kNoIndex, Vec3::Zero()));
+            flat = std::min(flat, min_angle(t, kNoIndex, Vec3::Zero()));
         }
         const Star now = star_of(faces), then = star_with(after, faces, m, on_surface);
         const bool holds = then.angle >= 0.5 * flat && is_allowed(now, then, limits, 0.0);
@@ -190,8 +190,7 @@ bool SeamSheet::collapse(Index gone, Index kept, const SheetLimits& limits) {
         std::replace(t.begin(), t.end(), gone, kept);
         after.push_back(t);
     }
-    if (after.empty() || turns(changing, after, kNoIndex, Vec3::Zero(), kGreatestTurn))
-        return false;
+    if (after.empty() || turns(changing, after, kNoIndex, Vec3::Zero(), kMaxTurn)) return false;
     const Star now = star_of(faces), then = star_with(after, faces, kNoIndex, Vec3::Zero());
     if (!is_allowed(now, then, limits, kCollapsedAngle)) return false;
     for (const Index f : faces) leave(f);

@@ -9,12 +9,12 @@ namespace lissom {
 namespace {
 
 // Limit of a face corner's move off its plane by a slide, as a fraction of the edge slid along.
-constexpr double kMostOffPlane = 0.06;
+constexpr double kMaxOffPlane = 0.06;
 // A face's smallest angle may be halved by a slide, but not below this one.
 constexpr double kSmallAngle = 10.0 * kPi / 180.0;
 // Crossings stay this far from the ends of their edge if those do not slide. Seams may be displaced
 // by as much.
-constexpr double kLeastFraction = 0.03;
+constexpr double kMinFraction = 0.03;
 
 double angle(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -151,7 +151,7 @@ class Slider {
         const Vec3& old = mesh_.position(c.vertex);
         const Vec3 moved = crossed_[c.crossing].point(mesh_);
         const Index toward = crossed_[c.crossing].other(c.vertex);
-        const double most = kMostOffPlane * (mesh_.position(toward) - old).norm();
+        const double most = kMaxOffPlane * (mesh_.position(toward) - old).norm();
         for (const Index f : topology_.faces_around(c.vertex)) {
             const std::span<const Index> face = topology_.face(f);
             const std::size_t n = face.size();
@@ -163,18 +163,18 @@ class Slider {
     }
 
     static bool keeps_face(const Vec3& old, const Vec3& moved, const Vec3& a, const Vec3& b,
-                           double most_off_plane) {
+                           double max_off_plane) {
         const Vec3 before = (a - old).cross(b - old), after = (a - moved).cross(b - moved);
         const double area = before.norm();
         if (!(area > 0.0)) return true;
         if (!(before.dot(after) > 0.5 * area * after.norm())) return false;
-        if (std::abs(before.dot(moved - old)) > most_off_plane * area) return false;
+        if (std::abs(before.dot(moved - old)) > max_off_plane * area) return false;
         const double least = std::min(0.5 * smallest_angle(old, a, b), kSmallAngle);
         return smallest_angle(moved, a, b) >= least;
     }
 
     bool keeps_seams(const Candidate& c) const {
-        if (c.fraction <= kLeastFraction) return true;
+        if (c.fraction <= kMinFraction) return true;
         const auto pairs = corners_along(mesh_, c.vertex, crossed_[c.crossing].other(c.vertex));
         return std::all_of(pairs.begin(), pairs.end(), [](const auto& p) { return p.has_value(); });
     }
@@ -268,7 +268,7 @@ Slides slide_vertices(const Mesh& mesh, const std::vector<ContourLine>& lines,
     for (Index i = 0; i < crossed.size(); ++i) {
         Crossing& c = crossed[i];
         if (slides.has(c.positive) || slides.has(c.negative)) continue;
-        c.t = std::clamp(c.t, kLeastFraction, 1.0 - kLeastFraction);
+        c.t = std::clamp(c.t, kMinFraction, 1.0 - kMinFraction);
     }
     return slides;
 }

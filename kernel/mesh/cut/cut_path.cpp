@@ -13,7 +13,7 @@ namespace {
 
 // The line is smoothed by a Gaussian of this many edges, but of no less than this fraction of its
 // length.
-constexpr double kSmoothedEdges = 2.0, kLeastSmoothing = 0.01;
+constexpr double kSmoothedEdges = 2.0, kMinSmoothing = 0.01;
 
 // Distances are known in a band that reaches this many edges beyond the path.
 constexpr double kBandEdges = 3.0;
@@ -100,11 +100,11 @@ std::vector<Index> loop_through(const Mesh& mesh, const Path& path, const Contex
 class SmoothLine {
   public:
     SmoothLine(const Mesh& mesh, const std::vector<Index>& loop, const std::vector<Vec3>& normals,
-               double most_smoothing, const Context& context)
+               double max_smoothing, const Context& context)
         : mesh_(mesh),
           loop_(loop),
           edge_(edge_length_at(mesh, loop)),
-          curve_(mesh, loop, normals, smoothing(most_smoothing)) {
+          curve_(mesh, loop, normals, smoothing(max_smoothing)) {
         find(context);
     }
 
@@ -114,7 +114,7 @@ class SmoothLine {
   private:
     double smoothing(double most) const {
         const double length = Path(mesh_.shared_topology(), loop_, true).length(mesh_);
-        return std::min(most, std::max(kSmoothedEdges * edge_ / length, kLeastSmoothing));
+        return std::min(most, std::max(kSmoothedEdges * edge_ / length, kMinSmoothing));
     }
 
     void find(const Context& context) {

@@ -10,7 +10,7 @@ namespace lissom {
 namespace {
 
 // Samples of a curve: two an edge, within these.
-constexpr Index kFewestSamples = 128, kMostSamples = 8192;
+constexpr Index kFewestSamples = 128, kMaxSamples = 8192;
 
 // How far along the curve, as a fraction of its length, a vertex may be from its neighbour.
 constexpr double kWindow = 0.08;
@@ -94,7 +94,7 @@ SurfaceCurve::SurfaceCurve(const Mesh& mesh, std::span<const Index> vertices,
 
 void SurfaceCurve::sample(std::span<const Vec3> points, std::span<const Vec3> normals) {
     const std::size_t n = points.size();
-    const Index count = std::clamp(2 * index_of(n), kFewestSamples, kMostSamples);
+    const Index count = std::clamp(2 * index_of(n), kFewestSamples, kMaxSamples);
     const double step = length_ / count;
     double before = 0.0;
     for (std::size_t i = 0; i < n; ++i) {

@@ -17,7 +17,7 @@ namespace {
 constexpr double kTrimBandEdges = 3.0;
 
 // Maximum number of halvings of the smoothing until a line is found.
-constexpr int kMostHalvings = 3;
+constexpr int kMaxHalvings = 3;
 
 void require_options(const TrimOptions& options) {
     if (!(options.smoothing > 0.0 && options.smoothing <= 0.1)) {
@@ -77,7 +77,7 @@ std::vector<ContourLine> new_boundary(const Mesh& mesh, const std::vector<Index>
                                       const Context& context) {
     const std::vector<Vec3> normals = vertex_normals(mesh);
     smoothing = options.smoothing;
-    for (int halved = 0; halved <= kMostHalvings; ++halved, smoothing *= 0.5) {
+    for (int halved = 0; halved <= kMaxHalvings; ++halved, smoothing *= 0.5) {
         const SurfaceCurve curve(mesh, loop, normals, smoothing);
         std::vector<ContourLine> lines = line_inside(mesh, loop, curve, options.margin, context);
         if (!lines.empty()) return lines;

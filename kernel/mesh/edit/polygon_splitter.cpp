@@ -10,7 +10,7 @@ namespace lissom {
 namespace {
 
 // The best triangles of a polygon are found in time that grows as the cube of its corners.
-constexpr std::size_t kMostCorners = 320;
+constexpr std::size_t kMaxCorners = 320;
 
 // Ways around a larger polygon that are tried.
 constexpr std::size_t kTurns = 16;
@@ -157,7 +157,7 @@ double PolygonSplitter::diagonal_cost(std::size_t polygon, Index a, Index b) con
 PolygonSplitter::Split PolygonSplitter::best_split(std::size_t polygon) const {
     const std::vector<Vec3> points = points_of(polygon);
     const std::size_t n = points.size();
-    if (n > kMostCorners) return turned_split(polygon);
+    if (n > kMaxCorners) return turned_split(polygon);
     const Vec3 area = vector_area_of(points);
     const Vec3 normal = area.isZero(0.0) ? area : Vec3(area.normalized());
     // For the corners from i to j: the cost of closing them, and the third corner of the triangle

@@ -14,7 +14,7 @@ namespace lissom {
 namespace {
 
 // Cotangents are kept above this, so that every system is positive definite.
-constexpr double kLeastWeight = 1e-3;
+constexpr double kMinWeight = 1e-3;
 // Times that the shape of least change of curvature is sought, each with the operators of the one
 // before.
 constexpr int kVariationPasses = 2;
@@ -82,10 +82,10 @@ Laplacian cotangent_laplacian(const Topology& topology, std::span<const Vec3> po
             total += area / 6.0;
         }
     }
-    const double least_area = 1e-6 * total / vertices.size();
+    const double min_area = 1e-6 * total / vertices.size();
     for (Laplacian::Row& row : result.rows) {
-        row.area = std::max(row.area, least_area);
-        for (auto& [n, weight] : row.weights) weight = std::max(weight, kLeastWeight);
+        row.area = std::max(row.area, min_area);
+        for (auto& [n, weight] : row.weights) weight = std::max(weight, kMinWeight);
     }
     return result;
 }

@@ -71,7 +71,7 @@ void DirectionCarrier::follow(Mesh& mesh) const {
         for (Index i = 0; i < attribute.size(); ++i) {
             const Index v = vertex_of(mesh, attribute, i);
             if (before_[v] == after[v] || before_[v].isZero() || after[v].isZero()) continue;
-            turn(least_rotation(before_[v], after[v]).toRotationMatrix(), unit, attribute.at(i));
+            turn(min_rotation(before_[v], after[v]).toRotationMatrix(), unit, attribute.at(i));
         }
     }
 }

@@ -8,9 +8,9 @@
 namespace lissom {
 namespace {
 
-constexpr double kLeastTutteWeight = 0.05, kGreatestTutteWeight = 20.0;
+constexpr double kMinTutteWeight = 0.05, kMaxTutteWeight = 20.0;
 // Edges of the outline are at least this long beside their mean, so that none becomes a point.
-constexpr double kLeastArc = 1e-3;
+constexpr double kMinArc = 1e-3;
 
 void require_one_loop(const Chart& chart) {
     if (chart.open_loops.size() == 1) return;
@@ -25,7 +25,7 @@ void require_one_loop(const Chart& chart) {
 }
 
 void put_on_circle(const Chart& chart, std::span<const Index> loop, std::vector<Vec2>& uv) {
-    const double least = kLeastArc * loop_length(chart, loop) / static_cast<double>(loop.size());
+    const double least = kMinArc * loop_length(chart, loop) / static_cast<double>(loop.size());
     std::vector<double> end{0.0};
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const Index next = loop[(i + 1) % loop.size()];
@@ -54,8 +54,7 @@ class TutteSystem {
         right_.assign(2 * at(count_), 0.0);
         for (Index v = 0; v < laplacian.size(); ++v) {
             for (Index e = laplacian.begin[v] + 1; e < laplacian.begin[v + 1]; ++e) {
-                const double w =
-                    std::clamp(-laplacian.value[e], kLeastTutteWeight, kGreatestTutteWeight);
+                const double w = std::clamp(-laplacian.value[e], kMinTutteWeight, kMaxTutteWeight);
                 add_edge(v, laplacian.row[e], w, uv);
                 add_edge(laplacian.row[e], v, w, uv);
             }

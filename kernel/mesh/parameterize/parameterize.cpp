@@ -75,8 +75,8 @@ class ChartLayout {
             if (shapes_[t].degenerate) add_once(result_.degenerate, chart_.face[t]);
         }
         const ScaleRange range = scale_range(chart_, shapes_, result_.uv);
-        result_.least_scale = range.least;
-        result_.greatest_scale = range.greatest;
+        result_.min_scale = range.least;
+        result_.max_scale = range.greatest;
         result_.boundary_crossings = crossing_edges(chart_.loops, result_.uv);
     }
 

@@ -72,7 +72,7 @@ struct Parameterization {
     std::vector<Index> degenerate;
     /// Least and greatest factor by which the map changes a length at a point, over all faces: the
     /// singular values of its derivative.
-    double least_scale = 1.0, greatest_scale = 1.0;
+    double min_scale = 1.0, max_scale = 1.0;
     /// Pairs of boundary edges that cross in the plane. Without these and without flips the map is
     /// one to one.
     Index boundary_crossings = 0;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kEnergyFall = 1e-6, kNoEnergy = 1e-24;
 // Part of the step to the first triangle without area that is taken, and the least useful part of
 // an iteration.
-constexpr double kWayToFlip = 0.8, kLeastWay = 0.02;
+constexpr double kWayToFlip = 0.8, kMinWay = 0.02;
 
 class RigidIteration {
   public:
@@ -126,7 +126,7 @@ RigidMap rigid_map(const Chart& chart, const std::vector<TriangleShape>& shapes,
         context.checkpoint();
         std::vector<Vec2> next = iteration.move();
         const double way = free ? 1.0 : kWayToFlip * way_to_flip(faces, at_hand, next);
-        if (way < kLeastWay) break;
+        if (way < kMinWay) break;
         for (std::size_t v = 0; v < next.size() && way < 1.0; ++v) {
             next[v] = at_hand[v] + way * (next[v] - at_hand[v]);
         }

@@ -19,8 +19,8 @@ double mean_side(const Chart& chart) {
 
 // Corners from the longest side on: the apex lies `height` above a place along it.
 void lay_out(TriangleShape& shape, int longest, double length, double along, double height) {
-    shape.degenerate = !(height >= kLeastWidth * length);
-    height = std::max(height, kLeastWidth * length);
+    shape.degenerate = !(height >= kMinWidth * length);
+    height = std::max(height, kMinWidth * length);
     shape.corner[longest] = Vec2::Zero();
     shape.corner[(longest + 1) % 3] = Vec2(length, 0.0);
     shape.corner[(longest + 2) % 3] = Vec2(along, height);
@@ -39,7 +39,7 @@ TriangleShape shape_of(const std::array<Vec3, 3>& p, double unit) {
         static_cast<int>(std::max_element(length.begin(), length.end()) - length.begin());
     TriangleShape shape;
     if (!(length[longest] > 1e-12 * unit)) {
-        lay_out(shape, 0, kLeastWidth * unit, 0.5 * kLeastWidth * unit, 0.0);
+        lay_out(shape, 0, kMinWidth * unit, 0.5 * kMinWidth * unit, 0.0);
         return shape;
     }
     const Vec3 base = p[(longest + 1) % 3] - p[longest], side = p[(longest + 2) % 3] - p[longest];

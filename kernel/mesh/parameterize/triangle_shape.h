@@ -12,9 +12,9 @@
 namespace lissom {
 
 /// Width of a triangle over its length from which on it is `degenerate`.
-inline constexpr double kLeastWidth = 1e-4;
+inline constexpr double kMinWidth = 1e-4;
 
-/// The corners of a triangle in its plane, counter-clockwise. One that is narrower than kLeastWidth
+/// The corners of a triangle in its plane, counter-clockwise. One that is narrower than kMinWidth
 /// of its length is drawn out to that width: its cotangents stay finite.
 struct TriangleShape {
     std::array<Vec2, 3> corner;

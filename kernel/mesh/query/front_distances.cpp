@@ -14,7 +14,7 @@ namespace {
 constexpr double kBehindFront = std::numeric_limits<double>::infinity();
 constexpr std::size_t kStepsBetweenChecks = 4096;
 // A smaller gain, relative to the distance, is rounding, which could loop endlessly.
-constexpr double kLeastGain = 1e-10;
+constexpr double kMinGain = 1e-10;
 
 // The distance to `corner` of a source that is as far from two points as they say, on the other
 // side of the line through them; infinity if there is none, or the way to it does not run between
@@ -90,7 +90,7 @@ void Front::reach(Index v, double distance, Index source) {
 }
 
 void Front::offer(Index v, double distance, Index source) {
-    if (distance < distance_[v] * (1.0 - kLeastGain)) reach(v, distance, source);
+    if (distance < distance_[v] * (1.0 - kMinGain)) reach(v, distance, source);
 }
 
 // The way to the other two corners of a triangle: along the side from v, and through a side at v.

@@ -274,10 +274,10 @@ std::vector<Index> Welding::doubled_edges(const FanVertices& vertices) {
 
 FanVertices Welding::number_fans() {
     // Only input made to take long needs more rounds.
-    constexpr int kMostRounds = 100;
+    constexpr int kMaxRounds = 100;
     FanVertices vertices = fans();
     for (int round = 0; !(regular_ && vertices.unchanged); ++round) {
-        if (round == kMostRounds) {
+        if (round == kMaxRounds) {
             std::fill(twin_.begin(), twin_.end(), kNoIndex);
             return fans();
         }

@@ -10,7 +10,7 @@ namespace {
 using Vectors = std::vector<Vec3>;
 
 // The preconditioner needs some 10 to 30; many more mean that it does not fit the matrix.
-constexpr int kMostIterations = 1000;
+constexpr int kMaxIterations = 1000;
 
 Vec3 sum_of(std::span<const Vec3> v) {
     Vec3 sum = Vec3::Zero();
@@ -88,7 +88,7 @@ DualSolution ProjectedCG::solve(std::span<const Vec3> g, const Vec3& total,
         solution.constant += constant;
         for (Vec3& v : r) v -= constant;
         if (greatest(r) <= enough) return solution;
-        if (iteration == kMostIterations) {
+        if (iteration == kMaxIterations) {
             throw Error(ErrorCode::not_positive_definite,
                         "the constraints of the grid did not converge; use weights that differ "
                         "less, or a greater tolerance");

@@ -9,7 +9,7 @@
 namespace lissom {
 namespace {
 
-constexpr int kMostCorrections = 300;
+constexpr int kMaxCorrections = 300;
 
 class Correction {
   public:
@@ -29,7 +29,7 @@ class Correction {
     void run(std::span<const Vec3> multipliers, double* field) {
         start(multipliers, field);
         Vec3 rz_before = Vec3::Zero(), alpha = Vec3::Zero();
-        for (int iteration = 0; iteration < kMostCorrections; ++iteration) {
+        for (int iteration = 0; iteration < kMaxCorrections; ++iteration) {
             precondition();
             if (greatest(step_.get()) <= problem_.tolerance) {
                 add(field, Vec3::Ones(), step_.get());

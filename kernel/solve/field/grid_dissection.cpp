@@ -7,7 +7,7 @@ namespace {
 
 // Planes that part two halves, and the points below which parting gains nothing.
 constexpr Index kSeparator = 2;
-constexpr Index kLeastPoints = 64;
+constexpr Index kMinPoints = 64;
 
 struct Part {
     std::array<Index, 3> begin, end;
@@ -33,7 +33,7 @@ void list(const GridSize& size, const Part& part, std::vector<Index>& order) {
 
 void dissect(const GridSize& size, const Part& part, std::vector<Index>& order) {
     const int axis = part.longest();
-    if (part.count() <= kLeastPoints || part.length(axis) <= 2 * kSeparator) {
+    if (part.count() <= kMinPoints || part.length(axis) <= 2 * kSeparator) {
         list(size, part, order);
         return;
     }

@@ -17,14 +17,14 @@
 namespace lissom {
 namespace {
 
-constexpr double kLeastTolerance = 1e-12, kGreatestTolerance = 1e-2;
+constexpr double kMinTolerance = 1e-12, kMaxTolerance = 1e-2;
 // How much more exactly multipliers are found than the field that is asked for, and the most that
 // double precision gives.
-constexpr double kInnerTolerance = 0.1, kLeastInnerTolerance = 1e-13;
+constexpr double kInnerTolerance = 0.1, kMinInnerTolerance = 1e-13;
 constexpr Index kCopyGrain = 1 << 14;
 // The dense limit balances an edit's cost: the square of the constraints below it, the points of
 // the grid at each iteration above it.
-constexpr double kDenseShare = 8.0, kLeastDenseLimit = 3000.0, kGreatestDenseLimit = 6000.0;
+constexpr double kDenseShare = 8.0, kMinDenseLimit = 3000.0, kMaxDenseLimit = 6000.0;
 
 void require_valid(const GridFieldOptions& options) {
     const auto refuse = [](const char* what) { throw Error(ErrorCode::invalid_argument, what); };
@@ -34,7 +34,7 @@ void require_valid(const GridFieldOptions& options) {
     if (options.dense_limit.value_or(0) < 0)
         refuse("the dense limit of a grid field must not be negative");
     if (options.refinements < 0) refuse("the refinements of a grid field must not be negative");
-    if (!(options.tolerance >= kLeastTolerance && options.tolerance <= kGreatestTolerance)) {
+    if (!(options.tolerance >= kMinTolerance && options.tolerance <= kMaxTolerance)) {
         refuse("the tolerance of a grid field must lie between 1e-12 and 1e-2");
     }
 }
@@ -42,7 +42,7 @@ void require_valid(const GridFieldOptions& options) {
 Index dense_limit(const GridSize& size, const GridFieldOptions& options) {
     if (options.dense_limit) return *options.dense_limit;
     const double limit = kDenseShare * std::sqrt(size.count());
-    return static_cast<Index>(std::clamp(limit, kLeastDenseLimit, kGreatestDenseLimit));
+    return static_cast<Index>(std::clamp(limit, kMinDenseLimit, kMaxDenseLimit));
 }
 
 // Whether the field is stored, and not only its multipliers.
@@ -60,7 +60,7 @@ std::size_t standing_bytes(const GridSize& size, const GridFieldOptions& options
     return bytes;
 }
 
-double greatest_component(std::span<const Vec3> vectors) {
+double max_component(std::span<const Vec3> vectors) {
     double most = 0.0;
     for (const Vec3& v : vectors) most = std::max(most, v.cwiseAbs().maxCoeff());
     return most;
@@ -89,7 +89,7 @@ struct GridField::State {
         green = std::make_unique<GridGreen>(size, options.tension, context);
         dual = std::make_unique<DualSystem>(
             *green, dense_limit(size, options),
-            std::max(kLeastInnerTolerance, kInnerTolerance * options.tolerance));
+            std::max(kMinInnerTolerance, kInnerTolerance * options.tolerance));
     }
 
     void solve_dual(std::span<const MergedConstraint> merged, const Context& context);
@@ -158,7 +158,7 @@ void GridField::State::solve_dual(std::span<const MergedConstraint> merged,
         sink.constant = result.constant;
         green->apply_at(next.point, result.multiplier, workspace.first.get(),
                         workspace.second.get(), sink, context);
-        correct_boundary({laplacian, *green, *dual, options.tolerance * greatest_component(known)},
+        correct_boundary({laplacian, *green, *dual, options.tolerance * max_component(known)},
                          result.multiplier, field.get(), workspace, context);
         stored = std::move(field);
     }

@@ -4,6 +4,6 @@
 namespace lissom {
 
 /// Their squares and the inverses of these are far from the ends of double precision.
-inline constexpr double kLeastConstraintWeight = 1e-6, kGreatestConstraintWeight = 1e9;
+inline constexpr double kMinConstraintWeight = 1e-6, kMaxConstraintWeight = 1e9;
 
 }  // namespace lissom

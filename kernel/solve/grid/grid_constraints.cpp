@@ -23,8 +23,7 @@ void require_valid(const GridConstraint& constraint, const GridSize& size) {
                     "the vector or the weight of a constraint is not finite; give numbers",
                     element);
     }
-    if (constraint.weight < kLeastConstraintWeight ||
-        constraint.weight > kGreatestConstraintWeight) {
+    if (constraint.weight < kMinConstraintWeight || constraint.weight > kMaxConstraintWeight) {
         throw Error(ErrorCode::invalid_argument,
                     "the weight of a constraint must lie between 1e-6 and 1e9", element);
     }

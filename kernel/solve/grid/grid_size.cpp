@@ -10,8 +10,8 @@ namespace lissom {
 namespace {
 
 // The bytes of larger grids overflow addresses of 32 bits.
-constexpr Index kMostPoints =
-    sizeof(std::size_t) < sizeof(std::int64_t) ? kMostGridPoints / 16 : kMostGridPoints;
+constexpr Index kMaxPoints =
+    sizeof(std::size_t) < sizeof(std::int64_t) ? kMaxGridPoints / 16 : kMaxGridPoints;
 
 }  // namespace
 
@@ -25,9 +25,9 @@ void require_valid(const GridSize& size) {
                                                          std::to_string(kLongestAxis) + " points");
         }
     }
-    if (std::int64_t{size.nx} * size.ny * size.nz > kMostPoints) {
+    if (std::int64_t{size.nx} * size.ny * size.nz > kMaxPoints) {
         throw Error(ErrorCode::invalid_argument,
-                    name + "is too large; use at most " + std::to_string(kMostPoints));
+                    name + "is too large; use at most " + std::to_string(kMaxPoints));
     }
 }
 

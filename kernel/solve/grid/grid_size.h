@@ -28,10 +28,10 @@ struct GridSize {
 /// Points that an axis has at most: the tables of an axis take the square of it.
 inline constexpr Index kLongestAxis = 2048;
 /// Points that a grid has at most, so that the entries of three components have an Index.
-inline constexpr Index kMostGridPoints = Index{1} << 28;
+inline constexpr Index kMaxGridPoints = Index{1} << 28;
 
 /// Errors: invalid_argument if an axis has no point or more than kLongestAxis, or if the grid has
-/// more than kMostGridPoints (a sixteenth of them with addresses of 32 bits).
+/// more than kMaxGridPoints (a sixteenth of them with addresses of 32 bits).
 void require_valid(const GridSize& size);
 
 }  // namespace lissom

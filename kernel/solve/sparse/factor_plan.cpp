@@ -16,7 +16,7 @@ constexpr std::size_t kBins = 8;
 constexpr double kLargestShare = 1.0 / 12.0;
 
 // Operations below which a factorisation is not worth splitting.
-constexpr double kLeastWork = 2e6;
+constexpr double kMinWork = 2e6;
 
 // Starts of groups from their sizes, which are counted at [group + 1].
 void sum_up(std::vector<Index>& first) {
@@ -78,7 +78,7 @@ void split(const Supernodes& nodes, FactorPlan& plan) {
         members[parent[s]] += members[s];
         first[parent[s]] = std::min(first[parent[s]], first[s]);
     }
-    const bool splits = postordered && total >= kLeastWork;
+    const bool splits = postordered && total >= kMinWork;
     const auto is_small = [&](Index s) { return splits && work[s] <= kLargestShare * total; };
     for (Index s = 0; s < count; ++s) {
         if (!is_small(s)) {

@@ -11,7 +11,7 @@ namespace {
 
 // Unknowns with more neighbors than this times the square root of their number come last.
 constexpr double kDenseFactor = 10.0;
-constexpr Index kLeastDense = 16;
+constexpr Index kMinDense = 16;
 
 // Pivots between two looks for a cancel.
 constexpr Index kPivotsPerCheckpoint = 1024;
@@ -67,7 +67,7 @@ class QuotientGraph {
     // 0 for an element that is gone; see measure_overlaps and merge_bucket.
     std::vector<Index> mark_;
     Index current_ = 2, widest_ = 0;
-    Index end_ = 0, least_degree_ = 0, eliminated_ = 0;
+    Index end_ = 0, min_degree_ = 0, eliminated_ = 0;
 };
 
 QuotientGraph::QuotientGraph(const Adjacency& graph)
@@ -92,7 +92,7 @@ QuotientGraph::QuotientGraph(const Adjacency& graph)
 
 // Unknowns without neighbors are eliminated at once, those with too many are left out.
 void QuotientGraph::sort_by_degree() {
-    const double bound = std::max<double>(kLeastDense, kDenseFactor * std::sqrt(size_));
+    const double bound = std::max<double>(kMinDense, kDenseFactor * std::sqrt(size_));
     const Index dense = static_cast<Index>(std::min<double>(size_, bound));
     for (Index i = 0; i < size_; ++i) {
         if (degree_[i] == 0) {
@@ -128,8 +128,8 @@ void QuotientGraph::unlink(Index i) {
 }
 
 Index QuotientGraph::take_pivot() {
-    while (head_[least_degree_] == kNoIndex) ++least_degree_;
-    const Index pivot = head_[least_degree_];
+    while (head_[min_degree_] == kNoIndex) ++min_degree_;
+    const Index pivot = head_[min_degree_];
     unlink(pivot);
     eliminated_ += weight_[pivot];
     return pivot;
@@ -330,7 +330,7 @@ void QuotientGraph::close_element(Index pivot) {
         weight_[i] = weight;
         degree_[i] = std::min(degree_[i] + degree_[pivot] - weight, left - weight);
         link(i, degree_[i]);
-        least_degree_ = std::min(least_degree_, degree_[i]);
+        min_degree_ = std::min(min_degree_, degree_[i]);
         list_[to++] = i;
     }
     weight_[pivot] = -weight_[pivot];

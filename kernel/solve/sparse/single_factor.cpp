@@ -73,7 +73,7 @@ Vec3 from_lanes(const Lanes<float>& lanes, double factor) {
     return {factor * lanes[0], factor * lanes[1], factor * lanes[2]};
 }
 
-double greatest_component(std::span<const Vec3> rows) {
+double max_component(std::span<const Vec3> rows) {
     double greatest = 0.0;
     for (const Vec3& row : rows) greatest = std::max(greatest, row.cwiseAbs().maxCoeff());
     return greatest;
@@ -177,7 +177,7 @@ void SingleFactor::solve(std::span<const Vec3> b, std::span<Vec3> x, Scratch& sc
     if (b.size() != permutation_.size() || x.size() != permutation_.size()) {
         throw Error(ErrorCode::invalid_argument, "b and x must have one row for each unknown");
     }
-    const double greatest = greatest_component(b);
+    const double greatest = max_component(b);
     if (!(greatest > 0.0)) {
         std::fill(x.begin(), x.end(), Vec3::Zero());
         return;

@@ -16,8 +16,8 @@ namespace {
 constexpr const char* kPlanning = "analysing the linear system";
 
 // Least pivot relative to its diagonal entry, and the row it belongs to.
-std::pair<double, Index> least_pivot(const Supernodes& nodes, const double* value,
-                                     const SymmetricMatrix& matrix) {
+std::pair<double, Index> min_pivot(const Supernodes& nodes, const double* value,
+                                   const SymmetricMatrix& matrix) {
     std::pair<double, Index> least{1.0, 0};
     for (Index s = 0; s < nodes.count(); ++s) {
         const std::ptrdiff_t step = nodes.height(s) + 1;
@@ -96,7 +96,7 @@ void SparseSystem::factor(const SymmetricMatrix& matrix, const Context& context)
     const Index failed =
         factor_supernodes(state.nodes, state.plan, matrix, value.get(), best_processor(), context);
     if (failed != kNoIndex) refuse_pivot(matrix, state.nodes.permutation[failed]);
-    if (const auto [ratio, row] = least_pivot(state.nodes, value.get(), matrix);
+    if (const auto [ratio, row] = min_pivot(state.nodes, value.get(), matrix);
         !(ratio > smallest_pivot(size()))) {
         refuse_pivot(matrix, row);
     }

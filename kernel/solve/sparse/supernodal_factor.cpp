@@ -17,7 +17,7 @@ static_assert(kUpdateColumns <= kPanelColumns);
 constexpr Index kRowGrain = 240;
 
 // Entries of a block times its columns below which its panels are not worth sharing out.
-constexpr double kLeastShared = 1e6;
+constexpr double kMinShared = 1e6;
 
 // One dense block: a supernode or an extension.
 struct Block {
@@ -42,9 +42,9 @@ struct Scratch {
 // Executor of a block: the calling thread alone, or all threads of a context, chunk by chunk.
 class BlockExecutor {
   public:
-    BlockExecutor(Index size, Index tallest, std::size_t most_chunks, const Context* context)
+    BlockExecutor(Index size, Index tallest, std::size_t max_chunks, const Context* context)
         : position(std::make_unique_for_overwrite<Index[]>(at(size))), context_(context) {
-        for (std::size_t i = 0; i < most_chunks; ++i) scratch_.emplace_back(tallest);
+        for (std::size_t i = 0; i < max_chunks; ++i) scratch_.emplace_back(tallest);
     }
 
     template <typename Work>
@@ -71,7 +71,7 @@ Index chunks_of(Index count, Index grain) {
 }
 
 // Most chunks that a block above the subtrees is cut into.
-std::size_t most_chunks(const FactorPlan& plan) {
+std::size_t max_chunks(const FactorPlan& plan) {
     const Index chunks =
         std::max(chunks_of(plan.widest, kUpdateColumns), chunks_of(plan.tallest, kRowGrain));
     return std::max(chunks, Index{1});
@@ -97,7 +97,7 @@ class Factorization {
     Index run(const Context& context) {
         Index failed = factor_subtrees(context);
         if (failed != kNoIndex) return failed;
-        BlockExecutor crew(nodes_.size(), plan_.tallest, most_chunks(plan_), &context);
+        BlockExecutor crew(nodes_.size(), plan_.tallest, max_chunks(plan_), &context);
         for (std::size_t i = 0; failed == kNoIndex && i < plan_.top.size(); ++i) {
             context.checkpoint();
             failed = factor_node(plan_.top[i], crew);
@@ -224,7 +224,7 @@ class Factorization {
     // Factors a block in place, panel by panel.
     Index eliminate(const Block& node, BlockExecutor& crew) const {
         const double size = static_cast<double>(node.height) * node.columns * node.columns;
-        const bool share = size >= kLeastShared;
+        const bool share = size >= kMinShared;
         for (Index first = 0; first < node.columns; first += kPanelColumns) {
             const Index columns = std::min(kPanelColumns, node.columns - first);
             if (first > 0) subtract_earlier(node, first, columns, share, crew);
@@ -279,7 +279,7 @@ std::size_t factoring_bytes(const Supernodes& nodes, const FactorPlan& plan) {
     const std::size_t size = nodes.permutation.size(), bins = plan.bins.size();
     const std::size_t chunk = (at(plan.tallest) * kUpdateColumns + kPackedSize) * sizeof(double);
     return plan.extension_bytes() + (bins + 1) * size * sizeof(Index) +
-           (bins + most_chunks(plan)) * chunk;
+           (bins + max_chunks(plan)) * chunk;
 }
 
 Index factor_supernodes(const Supernodes& nodes, const FactorPlan& plan,

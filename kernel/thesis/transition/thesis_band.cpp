@@ -21,7 +21,7 @@ namespace lissom {
 namespace {
 
 // Cotangents count as at least this, so that no triangle of the square turns over.
-constexpr double kLeastCotangent = 0.05;
+constexpr double kMinCotangent = 0.05;
 constexpr double kNotReached = std::numeric_limits<double>::infinity();
 
 using Edge = std::pair<Index, Index>;
@@ -283,7 +283,7 @@ std::vector<Vec2> Square::solve(const Context& context) const {
         if (row[v] == kNoIndex) continue;
         for (Index e = rings.begin[v]; e < rings.begin[v + 1]; ++e) {
             const Index w = rings.neighbor[e];
-            const double weight = std::max(kLeastCotangent, geometry.cotangent[e]);
+            const double weight = std::max(kMinCotangent, geometry.cotangent[e]);
             entries.push_back({row[v], row[v], weight});
             if (row[w] != kNoIndex) {
                 entries.push_back({row[v], row[w], -weight});

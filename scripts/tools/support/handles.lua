@@ -76,11 +76,11 @@ function handles.follow(one, before, motion)
 end
 
 -- Vertices that follow a drag at full quality.
-local most_exact = 60000
+local max_exact = 60000
 
 --- Preview of a deformation during a drag: "always", "never", or for "large meshes".
 function handles.preview(one, of)
-    local quick = of == "always" or of == "large meshes" and #one.deformer:region() > most_exact
+    local quick = of == "always" or of == "large meshes" and #one.deformer:region() > max_exact
     if quick then return one.deformer:preview() end
     return one.deformer:solve{ draft = true }
 end

@@ -68,7 +68,7 @@ Names of_merge() {
              target_width != t.target_transition);
     note(names, "weight", weight != t.transition_weight);
     note(names, "trim", trim != t.trim);
-    note(names, "greatest_turn", turn != t.greatest_turn);
+    note(names, "max_turn", turn != t.max_turn);
     note(names, "subdivide", refine != t.refine);
     note(names, "intersections", intersections != t.find_intersections);
     CHECK(mend == t.mend);
@@ -162,18 +162,18 @@ Names of_ponytail() {
 }
 
 Names of_growth() {
-    const auto& [length, variation, length_map, masks, segment, least_speed, greatest_turn,
-                 most_segments, lift, start_outward, cap_speed, avoid, clearance, layer, ramp, ties,
-                 cuts, spare, placement, seed] = GrowthOptions{};
+    const auto& [length, variation, length_map, masks, segment, min_speed, max_turn, max_segments,
+                 lift, start_outward, cap_speed, avoid, clearance, layer, ramp, ties, cuts, spare,
+                 placement, seed] = GrowthOptions{};
     const GrowthOptions t = GrowthOptions::thesis();
     Names names{"length", "roots"};
     note(names, "variation", variation != t.variation);
     note(names, "lengths", length_map != t.length_map);
     CHECK(masks == t.masks);
     note(names, "segment", segment != t.segment);
-    note(names, "least_speed", least_speed != t.least_speed);
-    note(names, "greatest_turn", greatest_turn != t.greatest_turn);
-    note(names, "most_segments", most_segments != t.most_segments);
+    note(names, "min_speed", min_speed != t.min_speed);
+    note(names, "max_turn", max_turn != t.max_turn);
+    note(names, "max_segments", max_segments != t.max_segments);
     note(names, "lift", lift != t.lift);
     note(names, "avoid", avoid != t.avoid);
     note(names, "clearance", clearance != t.clearance);

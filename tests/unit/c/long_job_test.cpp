@@ -251,7 +251,7 @@ TEST_CASE("a job gives what its call gives: both parts, a report, results of scr
     REQUIRE(lissom_job_finish_with(world, job, &outcome) == LISSOM_OK);
     CHECK(hash_of(outcome.objects[0]) == hash_of(merged.id));
     CHECK(told.ok == report.ok);
-    CHECK(told.greatest_dihedral == report.greatest_dihedral);
+    CHECK(told.max_dihedral == report.max_dihedral);
     CHECK(std::string(told.verdict) == verdict);
     std::int32_t origins[10000];
     const lissom_output out{origins, 10000, 0, LISSOM_INT32};

@@ -62,7 +62,7 @@ TEST_CASE(
     for (int degrees = 0; degrees <= 180; ++degrees) {
         CAPTURE(degrees);
         const Vec3 to = 5.0 * rotation(axis, degrees * kDegree, Vec3::Zero())(from);
-        const Eigen::Quaterniond turn = least_rotation(from, to);
+        const Eigen::Quaterniond turn = min_rotation(from, to);
         CHECK((turn * from.normalized() - to.normalized()).norm() < 1e-14);
         CHECK(std::abs(turn.norm() - 1.0) < 1e-14);
         CHECK(std::abs(turn.vec().dot(from)) < 1e-14);
@@ -71,7 +71,7 @@ TEST_CASE(
     for (double off = 1e-3; off > 1e-18; off *= 0.1) {
         CAPTURE(off);
         const Vec3 to = -from.normalized() + off * axis;
-        const Eigen::Quaterniond turn = least_rotation(from, to);
+        const Eigen::Quaterniond turn = min_rotation(from, to);
         CHECK((turn * from.normalized() - to.normalized()).norm() < 1e-7);
         CHECK(std::abs(turn.norm() - 1.0) < 1e-7);
     }

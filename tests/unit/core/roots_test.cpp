@@ -17,10 +17,10 @@ constexpr double kLast = std::numeric_limits<double>::epsilon();
 // Numbers of all sizes, the same on every platform.
 class Numbers {
   public:
-    double next(int greatest_exponent) {
+    double next(int max_exponent) {
         const double part = static_cast<double>(random_() >> 11) * 0x1p-53 + 0.5;
-        const int span = 2 * greatest_exponent + 1;
-        return std::ldexp(part, static_cast<int>(random_() % span) - greatest_exponent);
+        const int span = 2 * max_exponent + 1;
+        return std::ldexp(part, static_cast<int>(random_() % span) - max_exponent);
     }
 
   private:

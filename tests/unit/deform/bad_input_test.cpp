@@ -162,7 +162,7 @@ TEST_CASE("zero area: a vertex without any is named, a single collapsed face is 
     d.solve();
     CHECK(stats_of(d).zero_area_faces > 0);
     for (const Vec3& p : d.positions()) CHECK(p.allFinite());
-    CHECK(greatest_distance(d.positions(), rest_positions_of(d)) < 0.3);
+    CHECK(max_distance(d.positions(), rest_positions_of(d)) < 0.3);
 
     // All faces around one vertex are on a line.
     Mesh flat = mesh;

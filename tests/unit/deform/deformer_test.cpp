@@ -45,8 +45,8 @@ TEST_CASE("at rest: the result is the rest shape to the bit, in every formulatio
         CHECK(edit.deformer.solve() == rest_positions_of(edit.deformer));
         CHECK(solve_first_directly(edit.deformer).size() ==
               rest_positions_of(edit.deformer).size());
-        CHECK(greatest_distance(solve_first_directly(edit.deformer),
-                                rest_positions_of(edit.deformer)) < 1e-11 * scene.size);
+        CHECK(max_distance(solve_first_directly(edit.deformer), rest_positions_of(edit.deformer)) <
+              1e-11 * scene.size);
     }
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("handle basis: equal to the direct solve, and its rows reproduce the p
         d.set_transform(edit.high, bend(scene, d.handle(edit.high).center, 1.3));
         d.set_transform(edit.low, scaling({1.1, 0.9, 1.2}, {0, 1, 0}));
         const std::vector<Vec3> preview = d.solve(FrameQuality::preview);
-        CHECK(greatest_distance(preview, solve_first_directly(d)) < 1e-11 * scene.size);
+        CHECK(max_distance(preview, solve_first_directly(d)) < 1e-11 * scene.size);
 
         const HandleBasis basis = basis_of(d);
         std::vector<Vec3> evaluated = basis.fixed;
@@ -105,7 +105,7 @@ TEST_CASE("handle basis: equal to the direct solve, and its rows reproduce the p
                 evaluated[i] += t.linear * w.head<3>() + t.translation * w[3];
             }
         }
-        CHECK(greatest_distance(preview, evaluated) < 1e-11 * scene.size);
+        CHECK(max_distance(preview, evaluated) < 1e-11 * scene.size);
     }
 }
 
@@ -118,9 +118,8 @@ TEST_CASE("first system: one affine map for all handles maps the whole surface")
         Edit edit = make_edit(scene, options);
         edit.deformer.set_transform(edit.low, map);
         edit.deformer.set_transform(edit.high, map);
-        CHECK(greatest_distance(edit.deformer.solve(FrameQuality::preview),
-                                mapped(rest_positions_of(edit.deformer), map)) <
-              1e-11 * scene.size);
+        CHECK(max_distance(edit.deformer.solve(FrameQuality::preview),
+                           mapped(rest_positions_of(edit.deformer), map)) < 1e-11 * scene.size);
     }
 }
 
@@ -135,8 +134,8 @@ TEST_CASE("similarity: one rigid motion for all handles, or with scaled details 
         const Affine& map = scales ? similar : rigid;
         edit.deformer.set_transform(edit.low, map);
         edit.deformer.set_transform(edit.high, map);
-        CHECK(greatest_distance(edit.deformer.solve(),
-                                mapped(rest_positions_of(edit.deformer), map)) < 1e-9 * scene.size);
+        CHECK(max_distance(edit.deformer.solve(), mapped(rest_positions_of(edit.deformer), map)) <
+              1e-9 * scene.size);
     }
 }
 
@@ -169,7 +168,7 @@ TEST_CASE(
 
 TEST_CASE("shear: the second system leaves less stretch than the first") {
     const Scene scene = plain_bar();
-    const auto greatest_stretch = [&](const std::vector<Vec3>& x) {
+    const auto max_stretch = [&](const std::vector<Vec3>& x) {
         double greatest = 0.0;
         for (Index v = 0; v < scene.mesh.vertex_count(); ++v) {
             for (const Index n : scene.mesh.topology().neighbors(v)) {
@@ -184,8 +183,8 @@ TEST_CASE("shear: the second system leaves less stretch than the first") {
         Edit edit = make_edit(scene, options);
         Deformer& d = edit.deformer;
         d.set_transform(edit.high, rotation(Vec3::UnitY(), 2.0, d.handle(edit.high).center));
-        const double first = greatest_stretch(d.solve(FrameQuality::preview));
-        const double second = greatest_stretch(d.solve());
+        const double first = max_stretch(d.solve(FrameQuality::preview));
+        const double second = max_stretch(d.solve());
         CHECK(second < first);
     }
 }
@@ -327,7 +326,7 @@ TEST_CASE("quads deform nearly as their triangulation") {
     const Affine move = bend(scene, a.deformer.handle(a.high).center);
     a.deformer.set_transform(a.high, move);
     b.deformer.set_transform(b.high, move);
-    CHECK(greatest_distance(a.deformer.solve(), b.deformer.solve()) < 0.2 * scene.size);
+    CHECK(max_distance(a.deformer.solve(), b.deformer.solve()) < 0.2 * scene.size);
 }
 
 TEST_CASE("deformer: all of a mesh, a pin and a turned handle give the bent mesh in a few lines") {

@@ -31,7 +31,7 @@ struct FarAndNear {
 
     // Greatest distance of results, in sizes.
     double difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) const {
-        return greatest_distance(mapped(a, translation(-offset)), b) / near.size;
+        return max_distance(mapped(a, translation(-offset)), b) / near.size;
     }
 };
 

@@ -42,8 +42,7 @@ double deviation(const Scene& scene, const Affine& map, const DeformOptions& opt
     Scene other = scene;
     other.mesh = moved(scene.mesh, map);
     other.size = surface_radius(other.mesh);
-    return greatest_distance(bent(other, options, map), mapped(bent(scene, options), map)) /
-           other.size;
+    return max_distance(bent(other, options, map), mapped(bent(scene, options), map)) / other.size;
 }
 
 Affine similarity(double scale) {
@@ -101,7 +100,7 @@ TEST_CASE("mirror: left and right are treated alike") {
     }
     std::vector<Vec3> positions(scene.mesh.positions().begin(), scene.mesh.positions().end());
     other.mesh = Mesh(mapped(positions, mirror), faces);
-    CHECK(greatest_distance(bent(other, {}, mirror), mapped(bent(scene, {}), mirror)) <
+    CHECK(max_distance(bent(other, {}, mirror), mapped(bent(scene, {}), mirror)) <
           1e-9 * scene.size);
 }
 
@@ -128,6 +127,6 @@ TEST_CASE("order: renumbered vertices and faces give the same surface") {
         const std::vector<Vec3> a = bent(scene, {}), b = bent(other, {});
         std::vector<Vec3> renumbered;
         for (Index v = 0; v < n; ++v) renumbered.push_back(b[to[v]]);
-        CHECK(greatest_distance(a, renumbered) < (flat ? 1e-6 : 1e-9) * scene.size);
+        CHECK(max_distance(a, renumbered) < (flat ? 1e-6 : 1e-9) * scene.size);
     }
 }

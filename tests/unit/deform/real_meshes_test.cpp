@@ -65,7 +65,7 @@ TEST_CASE("real meshes: identity, hard handles, basis as the direct solve, and b
         CHECK(d.solve(FrameQuality::preview) == rest_positions_of(d));
         const Affine move = bend(scene, d.handle(edit.high).center);
         d.set_transform(edit.high, move);
-        CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+        CHECK(max_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
               1e-11 * scene.size);
         d.solve();
         bool held = true, finite = true;
@@ -76,7 +76,7 @@ TEST_CASE("real meshes: identity, hard handles, basis as the direct solve, and b
         for (const Vec3& p : d.positions()) finite = finite && p.allFinite();
         CHECK(held);
         CHECK(finite);
-        CHECK(greatest_distance(d.positions(), rest_positions_of(d)) < 10.0 * scene.size);
+        CHECK(max_distance(d.positions(), rest_positions_of(d)) < 10.0 * scene.size);
         const Vec3 center = d.handle(edit.high).center;
         d.set_transform(edit.high,
                         rotation({1, 2, 3}, 0.7, center) * rotation({1, 2, 3}, -0.7, center));
@@ -126,8 +126,7 @@ TEST_CASE("real meshes: a similarity of all handles is reproduced") {
         map.linear *= 1.7;
         edit.deformer.set_transform(edit.low, map);
         edit.deformer.set_transform(edit.high, map);
-        CHECK(greatest_distance(edit.deformer.solve(),
-                                mapped(rest_positions_of(edit.deformer), map)) <
+        CHECK(max_distance(edit.deformer.solve(), mapped(rest_positions_of(edit.deformer), map)) <
               tolerance(edit.deformer) * scene.size);
     });
 }
@@ -148,7 +147,7 @@ TEST_CASE("real meshes: turned, moved and scaled copies deform alike") {
             Edit b = make_edit(other);
             b.deformer.set_transform(b.high, conjugated(move, map));
             const double error =
-                greatest_distance(mapped(expected, map), b.deformer.solve()) / (scale * scene.size);
+                max_distance(mapped(expected, map), b.deformer.solve()) / (scale * scene.size);
             CHECK(error < frame_tolerance(scene, a.deformer));
         }
     });
@@ -173,7 +172,7 @@ TEST_CASE("real meshes: neither the order of vertices nor a mirror changes the s
             const std::vector<Vec3> x = mapped(edit.deformer.solve(), mirror);
             std::vector<Vec3> got;
             for (Index v = 0; v < n; ++v) got.push_back(x[to[v]]);
-            CHECK(greatest_distance(got, expected) <
+            CHECK(max_distance(got, expected) <
                   frame_tolerance(scene, plain.deformer) * scene.size);
         }
     });
@@ -216,8 +215,8 @@ TEST_CASE("real meshes: large ones, their handles hard, their basis as the direc
         Deformer& d = edit.deformer;
         const Affine move = bend(scene, d.handle(edit.high).center);
         d.set_transform(edit.high, move);
-        CHECK(greatest_distance(d.solve(FrameQuality::preview, context),
-                                solve_first_directly(d, context)) < 1e-11 * scene.size);
+        CHECK(max_distance(d.solve(FrameQuality::preview, context),
+                           solve_first_directly(d, context)) < 1e-11 * scene.size);
         d.solve(FrameQuality::full, context);
         bool held = true, finite = true;
         for (const Index v : scene.high) {
@@ -244,7 +243,7 @@ TEST_CASE("real meshes: every formulation gives a finite shape near the default 
         for (const DeformOptions& options : list) {
             Edit edit = make_edit(scene, options);
             edit.deformer.set_transform(edit.high, move);
-            CHECK(greatest_distance(edit.deformer.solve(), reference.deformer.solve()) <
+            CHECK(max_distance(edit.deformer.solve(), reference.deformer.solve()) <
                   0.35 * scene.size);
         }
     });

@@ -88,11 +88,11 @@ void compare(const Scene& scene, const DeformOptions& options, double loss = 1.0
                               held, options);
     const std::vector<Vec3> displaced = reference.first();
     const std::vector<Vec3> first = reference.pulled_back(displaced);
-    CHECK(greatest_distance(d.solve(FrameQuality::preview), first) < loss * kFirst * scene.size);
-    CHECK(greatest_distance(solve_first_directly(d), first) < loss * kFirst * scene.size);
+    CHECK(max_distance(d.solve(FrameQuality::preview), first) < loss * kFirst * scene.size);
+    CHECK(max_distance(solve_first_directly(d), first) < loss * kFirst * scene.size);
     const std::vector<Vec3> second = reference.second(displaced);
-    CHECK(greatest_distance(d.solve(), second) < kSecond * scene.size);
-    CHECK(greatest_distance(d.solve(FrameQuality::draft), second) < kDraft * scene.size);
+    CHECK(max_distance(d.solve(), second) < kSecond * scene.size);
+    CHECK(max_distance(d.solve(FrameQuality::draft), second) < kDraft * scene.size);
     const std::vector<Mat3> expected = reference.gradients(displaced), got = gradients_of(d);
     double worst = 0.0;
     for (std::size_t v = 0; v < got.size(); ++v) {
@@ -123,8 +123,8 @@ TEST_CASE("reference: with degenerate vertices, displaced and pulled back") {
     Mesh bar = make_bar({1.0, 3.0, 3, 9});
     triangulate(bar);
     const Scene scene = make_scene(bar);
-    REQUIRE(greatest_distance(displaced_rest(scene, Vec3::Zero(), {}),
-                              {bar.positions().begin(), bar.positions().end()}) > 0.01);
+    REQUIRE(max_distance(displaced_rest(scene, Vec3::Zero(), {}),
+                         {bar.positions().begin(), bar.positions().end()}) > 0.01);
     for (auto formulation : reference_formulations()) {
         CAPTURE(formulation.first);
         formulation.second.flat = FlatVertices::displaced;
@@ -168,7 +168,7 @@ TEST_CASE("reference: the thesis's own result up to a right angle, and near it u
                 // Beyond the right angle in shares of the length; a bend on the spot shears most.
                 const bool bent = axis == Vec3(Vec3::UnitX());
                 const double share = bent && degrees > 110.0 ? 0.025 : 0.01;
-                const double error = greatest_distance(d.solve(), expected);
+                const double error = max_distance(d.solve(), expected);
                 CHECK(error < (degrees < 90.0 ? kNearlyDegenerate * kSecond * scene.size
                                               : share * (high - low).norm()));
             }

@@ -167,13 +167,13 @@ TEST_CASE("handles that nearly touch: small ones keep a ring, and rigid motions 
     const HandleId high = d.add_handle(scene.region(ring));
     const Affine rigid = rotation({1, -1, 2}, 1.1, {0, 0, 1});
     for (const HandleId handle : d.handles()) d.set_transform(handle, rigid);
-    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), rigid)) < 1e-9);
+    CHECK(max_distance(d.solve(), mapped(rest_positions_of(d), rigid)) < 1e-9);
     d.set_transform(high, translation(Vec3::UnitX()) * rigid);
     const std::vector<Vec3> x = d.solve();
     for (const Index v : ring) {
         CHECK(x[v] == (translation(Vec3::UnitX()) * rigid)(scene.mesh.position(v)));
     }
-    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) < 1e-9);
+    CHECK(max_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) < 1e-9);
 }
 
 namespace {

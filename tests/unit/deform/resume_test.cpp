@@ -73,7 +73,7 @@ TEST_CASE("new rest shape: of a region, with what is around it") {
         deformer->set_transform(handle, translation({0.0, -0.3, 0.1}));
         deformer->solve();
     }
-    CHECK(greatest_distance(d.positions(), other.positions()) < 1e-12);
+    CHECK(max_distance(d.positions(), other.positions()) < 1e-12);
 }
 
 TEST_CASE("new rest shape: constraints hold where they are") {

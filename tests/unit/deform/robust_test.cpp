@@ -75,7 +75,7 @@ double mean_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-double greatest_height(const std::vector<Vec3>& points) {
+double max_height(const std::vector<Vec3>& points) {
     double greatest = 0.0;
     for (const Vec3& p : points) greatest = std::max(greatest, std::abs(p.y()));
     return greatest;
@@ -101,11 +101,11 @@ TEST_CASE("slivers: a few hardly change the shape around them") {
             edit.deformer.set_transform(edit.high, move);
             std::vector<Vec3> got = edit.deformer.solve();
             CHECK(all_finite(got));
-            CHECK(greatest_distance(edit.deformer.solve(FrameQuality::preview),
-                                    solve_first_directly(edit.deformer)) < 1e-11 * scene.size);
+            CHECK(max_distance(edit.deformer.solve(FrameQuality::preview),
+                               solve_first_directly(edit.deformer)) < 1e-11 * scene.size);
             got.resize(expected.size());
             CHECK(mean_distance(got, expected) < 0.03 * plain.size);
-            CHECK(greatest_distance(got, expected) < 0.15 * plain.size);
+            CHECK(max_distance(got, expected) < 0.15 * plain.size);
         }
     }
 }
@@ -129,7 +129,7 @@ TEST_CASE("obtuse triangles: sheared rows of them bend as regular ones do") {
             edit.deformer.set_transform(edit.high,
                                         bend(scene, edit.deformer.handle(edit.high).center));
             CHECK(all_finite(edit.deformer.solve()));
-            CHECK(greatest_distance(edit.deformer.solve(), rest_positions_of(edit.deformer)) <
+            CHECK(max_distance(edit.deformer.solve(), rest_positions_of(edit.deformer)) <
                   2.0 * scene.size);
         }
     }
@@ -149,13 +149,13 @@ TEST_CASE("planes: where every vertex is degenerate, the sheet follows in and ou
              {rotation(Vec3::UnitY(), 0.6, d.handle(edit.high).center), translation({0.5, 0, 0.3}),
               scaling({1.3, 1.3, 1.3}, d.handle(edit.high).center)}) {
             d.set_transform(edit.high, map);
-            CHECK(greatest_height(d.solve(FrameQuality::preview)) < 1e-3 * scene.size);
-            CHECK(greatest_height(d.solve()) < 1e-2 * scene.size);
+            CHECK(max_height(d.solve(FrameQuality::preview)) < 1e-3 * scene.size);
+            CHECK(max_height(d.solve()) < 1e-2 * scene.size);
         }
         d.set_transform(edit.high, translation({-0.5, 1.5, 0.0}) *
                                        rotation(Vec3::UnitZ(), 1.0, d.handle(edit.high).center));
         CHECK(all_finite(d.solve()));
-        CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+        CHECK(max_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
               1e-11 * scene.size);
     }
 }

@@ -70,7 +70,7 @@ inline Affine bend(const Scene& scene, const Vec3& center, double angle = 0.9) {
     return translation(0.3 * scene.size * scene.across) * rotation(scene.across, angle, center);
 }
 
-inline double greatest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+inline double max_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double greatest = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
     return greatest;

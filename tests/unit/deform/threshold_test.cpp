@@ -26,7 +26,7 @@ TEST_CASE("every degenerate threshold above 1 gives a result, and nearly the sam
             Edit edit = make_edit(scene, options);
             CHECK(edit.deformer.solve() == rest_positions_of(edit.deformer));
             edit.deformer.set_transform(edit.high, move);
-            CHECK(greatest_distance(edit.deformer.solve(), wanted) < 0.1 * scene.size);
+            CHECK(max_distance(edit.deformer.solve(), wanted) < 0.1 * scene.size);
         }
     }
 }

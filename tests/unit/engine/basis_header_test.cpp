@@ -40,8 +40,8 @@ double error_of_evaluators(BasisScene scene) {
     const std::vector<double> rows = rows_of(scene.transforms);
     REQUIRE(evaluate_in_c(bytes.data(), bytes.size(), rows.data(), scene.transforms.size(), 0,
                           basis.vertex_count, in_c.data()) == 0);
-    const double error = std::max(greatest_distance(in_cpp, basis.origin, wanted),
-                                  greatest_distance(in_c, basis.origin, wanted));
+    const double error = std::max(max_distance(in_cpp, basis.origin, wanted),
+                                  max_distance(in_c, basis.origin, wanted));
     return error / scene.size;
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("handles at the identity give the rest shape to the bit") {
     for (std::size_t h = 0; h < 3; ++h) lissom_basis_identity(still.data() + 12 * h);
     const std::vector<float> out = evaluated(basis, still);
     CHECK(std::memcmp(out.data(), basis.rest, out.size() * sizeof(float)) == 0);
-    CHECK(greatest_distance(out, basis.origin, rest_positions_of(scene.deformer)) <
+    CHECK(max_distance(out, basis.origin, rest_positions_of(scene.deformer)) <
           kTolerance * scene.size);
 }
 

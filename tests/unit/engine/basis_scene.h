@@ -111,8 +111,8 @@ inline std::vector<float> local_rows(const lissom_basis& basis, const std::vecto
 }
 
 /// The greatest distance between floats relative to an origin and points.
-inline double greatest_distance(const std::vector<float>& local, const double* origin,
-                                const std::vector<Vec3>& points) {
+inline double max_distance(const std::vector<float>& local, const double* origin,
+                           const std::vector<Vec3>& points) {
     double greatest = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3 p(local[3 * i], local[3 * i + 1], local[3 * i + 2]);

@@ -165,7 +165,7 @@ TEST_CASE("the example shader gives the kernel's preview, as GLSL 3.30 and GLSL 
             CAPTURE(version);
             CAPTURE(handles);
             const std::vector<float> out = run_shader(version, basis, transforms);
-            CHECK(greatest_distance(out, basis.origin, wanted) < kShaderTolerance * scene.size);
+            CHECK(max_distance(out, basis.origin, wanted) < kShaderTolerance * scene.size);
             const std::size_t half = out.size() / 2;
             CHECK(
                 std::equal(out.begin() + static_cast<std::ptrdiff_t>(half), out.end(), basis.rest));

@@ -18,7 +18,7 @@ using namespace lissom::test;
 
 namespace {
 
-double greatest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+double max_difference(const std::vector<float>& a, const std::vector<float>& b) {
     double greatest = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         greatest = std::max(greatest, std::abs(static_cast<double>(a[i]) - b[i]));
@@ -71,7 +71,7 @@ TEST_CASE("hairstyle: whatever the way of edits, the field is that of the curves
     edited.solve();
     edited.remove(gone);
     edited.enable(line, true);
-    CHECK(greatest_difference(field_of(direct), field_of(edited)) < 1e-5);
+    CHECK(max_difference(field_of(direct), field_of(edited)) < 1e-5);
 }
 
 TEST_CASE("hairstyle: a curve that is off has no effect") {
@@ -79,11 +79,11 @@ TEST_CASE("hairstyle: a curve that is off has no effect") {
     one.add(stream(side(one, 1)));
     two.add(stream(side(two, 1)));
     two.enable(two.add(tail(two)), false);
-    CHECK(greatest_difference(field_of(one), field_of(two)) < 1e-6);
+    CHECK(max_difference(field_of(one), field_of(two)) < 1e-6);
     StyleCurve off = tail(two);
     off.enabled = false;
     two.add(off);
-    CHECK(greatest_difference(field_of(one), field_of(two)) < 1e-6);
+    CHECK(max_difference(field_of(one), field_of(two)) < 1e-6);
 }
 
 TEST_CASE(
@@ -114,7 +114,7 @@ TEST_CASE("hairstyle: both solvers give the same field") {
         style->solve();
         style->add(parting(*style));
     }
-    CHECK(greatest_difference(field_of(a), field_of(b)) < 1e-5);
+    CHECK(max_difference(field_of(a), field_of(b)) < 1e-5);
 }
 
 TEST_CASE("hairstyle: a mesh that is moved, turned and scaled has its hair moved with it") {
@@ -314,7 +314,7 @@ TEST_CASE("hairstyle: the scalp step turns the field along the head, and can be 
     CHECK(deepest > -0.35);
     style.forget_scalp();
     CHECK_FALSE(style.avoids_scalp());
-    CHECK(greatest_difference(before, field_of(style)) < 1e-5);
+    CHECK(max_difference(before, field_of(style)) < 1e-5);
 }
 
 TEST_CASE("hairstyle: its constraints are listed once a point, with kind and curve") {

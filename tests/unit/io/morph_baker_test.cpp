@@ -73,7 +73,7 @@ std::vector<Vec3> blended(const Mesh& mesh, const std::string& attribute, const 
     return values;
 }
 
-double greatest_distance(const std::vector<Vec3>& a, std::span<const Vec3> b) {
+double max_distance(const std::vector<Vec3>& a, std::span<const Vec3> b) {
     REQUIRE(a.size() == b.size());
     double greatest = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
@@ -106,10 +106,10 @@ TEST_CASE("the shapes of a deformation come back at their keys, with their norma
     CHECK(file.times() == std::vector<float>{0.0f, 0.25f, 0.5f, 0.75f});
     for (std::size_t k = 0; k < shapes.size(); ++k) {
         const std::vector<float> weights = file.weights(k);
-        CHECK(greatest_distance(blended(read, "", "position", weights), shapes[k].positions()) <
+        CHECK(max_distance(blended(read, "", "position", weights), shapes[k].positions()) <
               2e-6 * size);
-        CHECK(greatest_distance(blended(read, "normal", "normal", weights),
-                                vertex_normals(shapes[k])) < 2e-6);
+        CHECK(max_distance(blended(read, "normal", "normal", weights), vertex_normals(shapes[k])) <
+              2e-6);
     }
 }
 
@@ -246,7 +246,7 @@ TEST_CASE("the nodes and materials of a file stay; its morph targets give way") 
     CHECK_FALSE(file.json["meshes"][0].contains("weights"));
     CHECK_FALSE(file.json["meshes"][0]["extras"].contains("targetNames"));
     const Mesh read = decode_mesh(file.bytes, "glb");
-    CHECK(greatest_distance(blended(read, "", "position", {1.0f}), shape.positions()) < 1e-6);
+    CHECK(max_distance(blended(read, "", "position", {1.0f}), shape.positions()) < 1e-6);
 }
 
 TEST_CASE("a mesh with a baked animation is read and saved again as it is") {

@@ -31,7 +31,7 @@ SaveOptions moved() {
     return options;
 }
 
-double greatest_offset(const Mesh& a, const Mesh& b, const Vec3& offset) {
+double max_offset(const Mesh& a, const Mesh& b, const Vec3& offset) {
     double greatest = 0.0;
     for (Index v = 0; v < a.vertex_count(); ++v) {
         greatest = std::max(greatest, (a.position(v) - b.position(v) - offset).norm());
@@ -56,7 +56,7 @@ TEST_CASE("a mesh that 32-bit numbers would collapse is refused with a way out")
     for (const char* format : {"ply", "obj", "off"}) {
         CAPTURE(format);
         const Mesh back = decode_mesh(encode_mesh(mesh, format), format);
-        CHECK(greatest_offset(mesh, back, Vec3::Zero()) == 0.0);
+        CHECK(max_offset(mesh, back, Vec3::Zero()) == 0.0);
     }
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("a moved origin keeps the shape, and glTF keeps the place in its node"
     const Mesh back = decode_mesh(glb, "glb");
     CHECK(back.face_count() == mesh.face_count());
     CHECK(zero_area_faces(back).empty());
-    CHECK(greatest_offset(mesh, back, Vec3::Zero()) < 1e-9);
+    CHECK(max_offset(mesh, back, Vec3::Zero()) < 1e-9);
     const Json node = json_of_glb(glb)["nodes"][0];
     CHECK(node["translation"][0].get<double>() == 500000.0);
     CHECK(node["translation"][1].get<double>() == 4000000.0);
@@ -86,7 +86,7 @@ TEST_CASE("formats without nodes tell the origin that was moved") {
         const Mesh back = load_mesh(folder / name);
         CHECK(back.vertex_count() == mesh.vertex_count());
         if (std::string(name) != "a.stl") {
-            CHECK(greatest_offset(mesh, back, saved.origin) < 1e-9);
+            CHECK(max_offset(mesh, back, saved.origin) < 1e-9);
         }
         Box shifted = bounds(back);
         CHECK((shifted.center() + saved.origin - bounds(mesh).center()).norm() < 1e-8);
@@ -104,7 +104,7 @@ TEST_CASE("the origin counts in the mesh's own axes and unit") {
     load.up = UpAxis::z;
     load.unit = 0.001;
     const Mesh back = load_mesh(folder / "a.ply", load);
-    CHECK(greatest_offset(mesh, back, origin) < 1e-9);
+    CHECK(max_offset(mesh, back, origin) < 1e-9);
 }
 
 TEST_CASE("a mesh at its origin is saved as it is") {
@@ -120,7 +120,7 @@ TEST_CASE("saving with a moved origin twice moves it once") {
     const Mesh once = decode_mesh(encode_mesh(mesh, "glb", moved()), "glb");
     const std::string again = encode_mesh(once, "glb", moved());
     CHECK(json_of_glb(again)["nodes"].size() == 1);
-    CHECK(greatest_offset(mesh, decode_mesh(again, "glb"), Vec3::Zero()) < 1e-9);
+    CHECK(max_offset(mesh, decode_mesh(again, "glb"), Vec3::Zero()) < 1e-9);
 }
 
 TEST_CASE("an object keeps its node, its children and its label when it is moved below it") {
@@ -141,7 +141,7 @@ TEST_CASE("an object keeps its node, its children and its label when it is moved
     CHECK(nodes[0]["children"] == Json::parse("[1]"));
     CHECK(!nodes[0].contains("mesh"));
     const Mesh back = decode_mesh(glb, "glb");
-    CHECK(greatest_offset(mesh, back, Vec3::Zero()) < 1e-9);
+    CHECK(max_offset(mesh, back, Vec3::Zero()) < 1e-9);
     CHECK(back.attributes().labels().at("object").names == std::vector<std::string>{"plate"});
 }
 
@@ -149,7 +149,7 @@ TEST_CASE("points far away are kept by a moved origin") {
     const Mesh mesh({kFarPlace, kFarPlace + Vec3(0.01, 0, 0), kFarPlace + Vec3(0, 0.01, 0)},
                     FaceList());
     const Mesh back = decode_mesh(encode_mesh(mesh, "glb", moved()), "glb");
-    CHECK(greatest_offset(mesh, back, Vec3::Zero()) < 1e-9);
+    CHECK(max_offset(mesh, back, Vec3::Zero()) < 1e-9);
 }
 
 TEST_CASE("few faces that rounding flattens are told, and no error") {

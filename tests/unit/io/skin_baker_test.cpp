@@ -123,10 +123,10 @@ TEST_CASE("a skin fitted to a bend is read back from its file and poses within t
         CAPTURE(joints);
         const SkinnedMesh skinned = skin_of(bend, {.joints = joints});
         const double size = surface_radius(bend.bar);
-        MESSAGE("joints ", joints, ": greatest ", skinned.greatest_error / size, " rms ",
+        MESSAGE("joints ", joints, ": greatest ", skinned.max_error / size, " rms ",
                 skinned.rms_error / size);
         CHECK(skinned.joint_count == joints);
-        CHECK(skinned.greatest_error < 0.1 * size);
+        CHECK(skinned.max_error < 0.1 * size);
         CHECK(skinned.rms_error < 0.5 * before * size);
         before = skinned.rms_error / size;
         const std::string bytes = encode_mesh(skinned.mesh, "glb");
@@ -140,7 +140,7 @@ TEST_CASE("a skin fitted to a bend is read back from its file and poses within t
                 greatest = std::max(greatest, (points[at(v)] - bend.shapes[f].position(v)).norm());
             }
         }
-        CHECK(greatest == doctest::Approx(skinned.greatest_error).epsilon(1e-3));
+        CHECK(greatest == doctest::Approx(skinned.max_error).epsilon(1e-3));
     }
     CHECK(before < 0.004);
 }

@@ -68,9 +68,9 @@ TEST_CASE("memory: what operations take, and what they leave, is on the account"
         CAPTURE(operation.name);
         const Memory memory = memory_of(operation);
         show(operation, memory);
-        CHECK(memory.peak + kSmall >= operation.least_peak * memory.heap_peak);
-        CHECK(memory.peak <= operation.greatest_peak * memory.heap_peak + kSmall);
-        CHECK(memory.kept + kSmall >= operation.least_kept * memory.heap_kept);
+        CHECK(memory.peak + kSmall >= operation.min_peak * memory.heap_peak);
+        CHECK(memory.peak <= operation.max_peak * memory.heap_peak + kSmall);
+        CHECK(memory.kept + kSmall >= operation.min_kept * memory.heap_kept);
     }
 }
 

@@ -261,7 +261,7 @@ std::vector<Operation> all_operations() {
                  return made(std::move(parts), value);
              },
          // The maps of the parts belong to the caller.
-         .least_kept = 0.45},
+         .min_kept = 0.45},
         {"fill",
          [&](const Context& c) {
              return changed(in.lower, c,
@@ -273,7 +273,7 @@ std::vector<Operation> all_operations() {
                  const Region half = select_plane(in.sphere, Vec3::Zero(), Vec3::UnitY());
                  return made(parameterize(in.sphere, half, {}, c), 1);
              },
-         .least_kept = 0.0},
+         .min_kept = 0.0},
         {"distances",
          [&](const Context& c) {
              HeatDistances heat(in.sphere, c);
@@ -285,10 +285,10 @@ std::vector<Operation> all_operations() {
          [&](const Context& c) { return made(self_intersections(in.sphere, {}, c), 1); }},
         {"spatial tree", [&](const Context& c) { return made(SpatialTree(in.bar, c), 1); }},
         {"deform", deformed},
-        {.name = "merge", .run = merged, .least_kept = 0.45},
+        {.name = "merge", .run = merged, .min_kept = 0.45},
         {.name = "grow hair",
          .run = [&](const Context& c) { return made(in.grown(c)); },
-         .least_peak = 0.65},
+         .min_peak = 0.65},
         {"clump",
          [&](const Context& c) {
              return changed_strands(c, [&](Strands& strands) { clump(strands, {}, c); });
@@ -312,8 +312,8 @@ std::vector<Operation> all_operations() {
         {.name = "load usda",
          .run = decode_hair(in.usda_file, "usda"),
          // Texts of short numbers; lists that have grown by doubling.
-         .greatest_peak = 7.0,
-         .least_kept = 0.55},
+         .max_peak = 7.0,
+         .min_kept = 0.55},
         {"save usda",
          [&](const Context& c) {
              const std::string bytes = encode_strands(in.hair, "usda", {}, c).bytes;

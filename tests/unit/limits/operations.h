@@ -23,7 +23,7 @@ struct Operation {
     std::function<Made(const Context&)> run;
     /// Memory on the account over that of the heap, at the peak and of what is kept: the bounds of
     /// what a test allows.
-    double least_peak = 0.75, greatest_peak = 4.0, least_kept = 0.8;
+    double min_peak = 0.75, max_peak = 4.0, min_kept = 0.8;
     /// Putting back what has failed may take more than a limit.
     bool overdraws = false;
 };

@@ -63,7 +63,7 @@ TEST_CASE("threads: the host's loop does all the work that is done in parallel")
     for (const auto& [operation, hash] : long_operations()) {
         const std::string name = operation->name;
         CAPTURE(name);
-        std::size_t loops = 0, chunks = 0, most_threads = 0;
+        std::size_t loops = 0, chunks = 0, max_threads = 0;
         ContextOptions options;
         options.threads = 8;
         options.parallel_for = [&](std::size_t count,
@@ -72,12 +72,12 @@ TEST_CASE("threads: the host's loop does all the work that is done in parallel")
             // Backwards: the order must not matter.
             for (std::size_t i = count; i-- > 0;) chunk(i);
             chunks += count;
-            most_threads = std::max(most_threads, thread_count());
+            max_threads = std::max(max_threads, thread_count());
         };
         CHECK(operation->run(Context(options)).hash == hash);
         CHECK(loops > 0);
         CHECK(chunks > loops);
-        CHECK(most_threads == before);
+        CHECK(max_threads == before);
     }
 }
 

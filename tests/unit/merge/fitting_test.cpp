@@ -105,7 +105,7 @@ Path boundary_at(const Mesh& mesh, const Vec3& point) {
 
 // How far vertices of both parts are from where they are to be: `places`, of the target and then of
 // the source. Infinite if one is gone.
-double greatest_move(const MergeResult& result, const std::vector<Vec3>& places) {
+double max_move(const MergeResult& result, const std::vector<Vec3>& places) {
     std::vector<double> moved(places.size(), kInfinity);
     for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
         for (const auto& source : result.provenance.vertices[v]) {
@@ -205,7 +205,7 @@ TEST_CASE("parts that fit: every vertex stays, whatever the rings, ends and opti
                     << text_of(options));
         const MergeResult result = Merger(given, targets, {join}, options).solve();
         CHECK(result.report.joins[0].fits);
-        CHECK(greatest_move(result, places_of(target, source)) < 1e-9);
+        CHECK(max_move(result, places_of(target, source)) < 1e-9);
         // Rims whose vertices differ may leave narrow triangles.
         CHECK((between > 0 || result.report.ok));
         CHECK(result.report.seam.collar_added == 0);
@@ -272,7 +272,7 @@ TEST_CASE("a lid on a box, a roof on a house: no corner moves, in either configu
             CHECK(result.report.joins[0].fits);
             CHECK(result.report.ok);
             CHECK(result.mesh.topology().is_closed());
-            CHECK(greatest_move(result, places_of(box, lid)) < 1e-9);
+            CHECK(max_move(result, places_of(box, lid)) < 1e-9);
         }
     }
 }
@@ -345,7 +345,7 @@ TEST_CASE("a flat lid with vertices inside fits the tube that it was laid on: al
                 const MergeResult result = joined(lid, tube, options);
                 CHECK(result.report.joins[0].fits);
                 CHECK(result.report.ok);
-                CHECK(greatest_move(result, places_of(tube, lid)) < 1e-9);
+                CHECK(max_move(result, places_of(tube, lid)) < 1e-9);
             }
         }
     }
@@ -484,7 +484,7 @@ TEST_CASE("a part that was cut off and moved comes back to the vertex") {
         const Index key = boundaries(part).front().vertices().front();
         const MergeResult result = joined(given, target, {}, {{key, part.position(key)}});
         CHECK(result.report.joins[0].fits);
-        CHECK(greatest_move(result, places_of(target, part)) < 1e-9);
+        CHECK(max_move(result, places_of(target, part)) < 1e-9);
     }
 }
 

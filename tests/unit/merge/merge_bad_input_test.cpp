@@ -201,8 +201,8 @@ TEST_CASE("merge: options out of range") {
         [](MergeOptions& o) { o.smooth = -1; },
         [](MergeOptions& o) { o.source_transition = -1.0; },
         [&](MergeOptions& o) { o.target_transition = nan; },
-        [](MergeOptions& o) { o.greatest_turn = -0.1; },
-        [&](MergeOptions& o) { o.greatest_turn = nan; },
+        [](MergeOptions& o) { o.max_turn = -0.1; },
+        [&](MergeOptions& o) { o.max_turn = nan; },
         [](MergeOptions& o) {
             o.configuration = Configuration::fixed;
             o.reach = 0.0;

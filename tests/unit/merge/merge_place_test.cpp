@@ -62,7 +62,7 @@ MergeResult placed(const Mesh& source, const Mesh& target, const MergeOptions& o
     return Merger(source, targets, {std::move(join)}, options).solve();
 }
 
-double greatest_difference(const Mesh& a, const Mesh& b) {
+double max_difference(const Mesh& a, const Mesh& b) {
     if (a.vertex_count() != b.vertex_count()) return kInfinity;
     double apart = 0.0;
     for (Index v = 0; v < a.vertex_count(); ++v) {
@@ -129,7 +129,7 @@ TEST_CASE("the key that a report names makes the same result") {
         REQUIRE(first.report.joins[0].key);
         const MergeResult again = placed(laid, bowl, {}, {*first.report.joins[0].key});
         CHECK(again.report.joins[0].placed == Placing::keys);
-        CHECK(greatest_difference(first.mesh, again.mesh) < 1e-9);
+        CHECK(max_difference(first.mesh, again.mesh) < 1e-9);
         CHECK((first.report.joins[0].turn - again.report.joins[0].turn).norm() < 1e-9);
     }
 }
@@ -143,10 +143,10 @@ TEST_CASE("as placed is the same if both move together, and if the source moves 
     for (const double scale : {0.02, 1.0, 40.0}) {
         const Affine together = similarity(random, scale);
         const Mesh both = placed(moved(laid, together), moved(bowl, together)).mesh;
-        CHECK(greatest_difference(both, moved(first, together)) < 1e-9);
+        CHECK(max_difference(both, moved(first, together)) < 1e-9);
         const Affine away =
             translation(7.0 * random.direction()) * scaling(Vec3::Constant(scale), Vec3::Zero());
-        CHECK(greatest_difference(placed(moved(laid, away), bowl).mesh, first) < 1e-9);
+        CHECK(max_difference(placed(moved(laid, away), bowl).mesh, first) < 1e-9);
     }
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("placed by shape a part is the same under any similarity of the source
     Random random(11);
     for (const double scale : {0.02, 1.0, 40.0}) {
         const Mesh elsewhere = moved(dome, similarity(random, scale));
-        CHECK(greatest_difference(placed(elsewhere, bowl, options).mesh, first.mesh) < 1e-9);
+        CHECK(max_difference(placed(elsewhere, bowl, options).mesh, first.mesh) < 1e-9);
     }
 }
 

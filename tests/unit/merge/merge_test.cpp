@@ -129,7 +129,7 @@ TEST_CASE("a dome on a bowl: closed, the dome twice as large, the report says wh
     CHECK(result.report.joins[0].scale == doctest::Approx(2.0).epsilon(0.01));
     CHECK(!result.report.joins[0].guessed);
     CHECK(result.report.warnings.empty());
-    CHECK(result.report.seam.after.greatest_dihedral < 0.3);
+    CHECK(result.report.seam.after.max_dihedral < 0.3);
     CHECK(result.side_of_face.size() == static_cast<std::size_t>(result.mesh.face_count()));
     CHECK(result.seams.size() == 1);
     // The top of the dome comes to lie where the dome, twice as large, has it.

@@ -40,7 +40,7 @@ TEST_CASE("merge within: boundaries of one mesh are joined and their seams measu
     const MergeResult result = merge_within(mesh, joins);
     CHECK(result.report.ok);
     CHECK(result.report.joins.size() == 1);
-    CHECK(result.report.seam.after.greatest_dihedral < 0.6);
+    CHECK(result.report.seam.after.max_dihedral < 0.6);
     CHECK(result.report.intersections.empty());
     CHECK(result.seams.size() == 2);
     CHECK(result.mesh.face_count() == mesh.face_count() + 24);

@@ -99,7 +99,7 @@ std::pair<double, double> differences(const std::vector<Vec3>& a, const std::vec
     return {std::sqrt(place), std::sqrt(shape)};
 }
 
-double greatest_difference(const Mesh& a, const Mesh& b) {
+double max_difference(const Mesh& a, const Mesh& b) {
     double greatest = 0.0;
     for (Index v = 0; v < a.vertex_count(); ++v) {
         greatest = std::max(greatest, (a.position(v) - b.position(v)).norm());
@@ -119,7 +119,7 @@ TEST_CASE("pairs of real models become one watertight surface whose seam is hidd
               euler_characteristic(s.topology()) + euler_characteristic(t.topology()));
         CHECK(m.topology().component_count() ==
               s.topology().component_count() + t.topology().component_count() - 1);
-        CHECK(kDegrees * result.report.seam.after.greatest_dihedral < pair.pair->dihedral);
+        CHECK(kDegrees * result.report.seam.after.max_dihedral < pair.pair->dihedral);
         CHECK(kDegrees * result.report.seam.after.low_angle > 8.0);
         CHECK(zero_area_faces(m).size() <= zero_area_faces(s).size() + zero_area_faces(t).size());
         CHECK(new_intersections(pair, result) == 0);
@@ -172,7 +172,7 @@ TEST_CASE("the result does not depend on where the source lies, how it is turned
             const Mesh result = Merger(moved.source.mesh, targets, {join}).solve().mesh;
             REQUIRE(result.vertex_count() == expected.vertex_count());
             CHECK(result.topology().faces().vertices == expected.topology().faces().vertices);
-            CHECK(greatest_difference(result, expected) < 1e-9 * size);
+            CHECK(max_difference(result, expected) < 1e-9 * size);
         }
     }
 }
@@ -195,12 +195,12 @@ TEST_CASE("a transition region hides the seam further, and moves nothing beyond 
         CHECK(moved <= static_cast<Index>(result.report.transition.moved.size()));
         // Where the seam shows less than the details that would fade across it, nothing moves.
         CHECK((moved > 0) == (result.report.transition.kept > 0.0));
-        MESSAGE(pair.pair->name << ": " << kDegrees * plain.report.seam.after.greatest_dihedral
-                                << " -> " << kDegrees * result.report.seam.after.greatest_dihedral
-                                << " near " << kDegrees * plain.report.seam.after.greatest_near
-                                << " -> " << kDegrees * result.report.seam.after.greatest_near);
+        MESSAGE(pair.pair->name << ": " << kDegrees * plain.report.seam.after.max_dihedral << " -> "
+                                << kDegrees * result.report.seam.after.max_dihedral << " near "
+                                << kDegrees * plain.report.seam.after.max_near << " -> "
+                                << kDegrees * result.report.seam.after.max_near);
         const SeamQuality &before = plain.report.seam.after, &after = result.report.seam.after;
-        CHECK(after.greatest_near < before.greatest_near + 1.0 / kDegrees);
+        CHECK(after.max_near < before.max_near + 1.0 / kDegrees);
         for (const auto& bands :
              {result.report.transition.target, result.report.transition.source}) {
             for (const TransitionBand& band : bands) CHECK(band.unmapped == 0);

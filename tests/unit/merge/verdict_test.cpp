@@ -9,11 +9,11 @@ namespace {
 MergeReport report_with(double greatest, double smallest) {
     MergeReport report;
     report.joins.resize(1);
-    report.seam.after.greatest_dihedral = greatest * kDegree;
+    report.seam.after.max_dihedral = greatest * kDegree;
     report.seam.after.smallest_angle = smallest * kDegree;
     report.seam.after.low_angle = smallest * kDegree;
-    report.source_rim.greatest_near = 12.0 * kDegree;
-    report.target_rim.greatest_near = 8.0 * kDegree;
+    report.source_rim.max_near = 12.0 * kDegree;
+    report.target_rim.max_near = 8.0 * kDegree;
     report.source_rim.smallest_angle = report.target_rim.smallest_angle = 25.0 * kDegree;
     return report;
 }
@@ -36,7 +36,7 @@ TEST_CASE("the verdict says in one line that a seam is good, or all that is not"
     CHECK(says(steep, "not good: the surface turns by 75 degrees across the seam"));
     // Parts that are as steep beside their boundaries make no better seam.
     MergeReport crude = report_with(75.0, 20.0);
-    crude.target_rim.greatest_near = 90.0 * kDegree;
+    crude.target_rim.max_near = 90.0 * kDegree;
     CHECK(verdict_of(crude, {}).good);
 
     MergeReport bad = report_with(31.0, 0.4);
@@ -64,7 +64,7 @@ BandQuality good_band() {
     BandQuality band;
     band.roughness = band.rest_roughness = 12.0 * kDegree;
     band.bend = band.rest_bend = 10.0 * kDegree;
-    band.greatest_bend = band.rest_greatest_bend = 20.0 * kDegree;
+    band.max_bend = band.rest_max_bend = 20.0 * kDegree;
     return band;
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("the verdict weighs the whole band, and tells each fault with its figu
     CHECK(reason.limit == doctest::Approx(35.0 * kDegree));
     band.rest_bend = 32.0 * kDegree;
     CHECK(verdict_of(report_with(band), {}).good);
-    band.greatest_bend = 70.0 * kDegree;
+    band.max_bend = 70.0 * kDegree;
     CHECK(only_reason(report_with(band)).limit == doctest::Approx(60.0 * kDegree));
 }
 
@@ -183,8 +183,8 @@ TEST_CASE("crossings that no view from outside shows are told, and are no reason
 
 TEST_CASE("a seam that turns all around is not good, though one edge beside it was as steep") {
     MergeReport report = report_with(good_band());
-    report.target_rim.greatest_near = 90.0 * kDegree;
-    report.seam.after.greatest_dihedral = 72.0 * kDegree;
+    report.target_rim.max_near = 90.0 * kDegree;
+    report.seam.after.max_dihedral = 72.0 * kDegree;
     report.seam.after.rms_dihedral = 15.0 * kDegree;
     CHECK(verdict_of(report, {}).good);
     report.seam.after.rms_dihedral = 40.0 * kDegree;

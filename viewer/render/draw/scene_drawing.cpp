@@ -18,7 +18,7 @@ namespace lissom {
 namespace {
 
 // Number of vertices without faces that are drawn, and their radius in pixels.
-constexpr std::size_t kMostPoints = 50000;
+constexpr std::size_t kMaxPoints = 50000;
 constexpr double kPointRadius = 2.0;
 
 Color color_of(const std::optional<Vec3>& rgb, const Color& usual) {
@@ -96,7 +96,7 @@ class SceneDraughtsman {
 
     void add_points(const NamedObject& object, const Mesh& mesh) {
         const std::span<const Vec3> positions = mesh.positions();
-        const std::size_t stride = positions.size() / kMostPoints + 1;
+        const std::size_t stride = positions.size() / kMaxPoints + 1;
         const Color color = color_of(object.look.style.color, kWireColor);
         for (std::size_t i = 0; i < positions.size(); i += stride) {
             const Vec3 place = object.look.transform(positions[i]);

@@ -25,8 +25,8 @@ constexpr double kArrowLength = 0.85;
 // Length and half width of an arrow's head, as fractions of the arrow's full length.
 constexpr double kHeadLength = 0.32, kHeadWidth = 0.14;
 // A field shorter than this has no direction to show.
-constexpr double kLeastSpeed = 0.02;
-constexpr double kMostArrows = 1e6;
+constexpr double kMinSpeed = 0.02;
+constexpr double kMaxArrows = 1e6;
 constexpr int kCirclePoints = 40;
 
 double line_share(const StyleMarks& marks) {
@@ -99,7 +99,7 @@ class MarkMaker {
     void add_constraints() {
         const double full = kArrowLength * style_.layout().step;
         for (const StyleConstraint& one : style_.constraints()) {
-            if (!(one.vector.norm() > kLeastSpeed)) continue;
+            if (!(one.vector.norm() > kMinSpeed)) continue;
             add_arrow(one.point, one.vector, across(one.vector.normalized())[0], full,
                       kKindColors[static_cast<std::size_t>(one.kind)]);
         }
@@ -111,7 +111,7 @@ class MarkMaker {
         const double reach = (box.max - box.min).norm();
         const bool good = slice.point.allFinite() && slice.normal.allFinite() &&
                           slice.normal.norm() > 0.0 && spacing > 0.0 && std::isfinite(spacing);
-        if (!good || std::pow(2.0 * reach / spacing, 2.0) > kMostArrows) {
+        if (!good || std::pow(2.0 * reach / spacing, 2.0) > kMaxArrows) {
             throw Error(ErrorCode::invalid_argument,
                         "a slice of the field needs a point and a normal that is not zero, and a "
                         "spacing that is at least a five hundredth of its volume");
@@ -134,7 +134,7 @@ class MarkMaker {
     void add_field_arrow(const Vec3& point, const Vec3& normal, double full) {
         const HairField::Sample here = style_.field().sample(point);
         const Vec3 vector = here.direction / std::max(1.0, here.direction.norm());
-        if (here.distance < 0.0 || !(vector.norm() > kLeastSpeed)) return;
+        if (here.distance < 0.0 || !(vector.norm() > kMinSpeed)) return;
         const Vec3 side = normal.cross(vector);
         if (!(side.norm() > 1e-6)) return;
         add_arrow(point, vector, side.normalized(), full, marks_.field_color);
@@ -180,7 +180,7 @@ std::vector<LegendPart> style_legend(const Hairstyle& style, const StyleMarks& m
     std::array<bool, kKindColors.size()> drawn{};
     if (marks.constraints) {
         for (const StyleConstraint& one : style.constraints()) {
-            if (one.vector.norm() > kLeastSpeed) drawn[static_cast<std::size_t>(one.kind)] = true;
+            if (one.vector.norm() > kMinSpeed) drawn[static_cast<std::size_t>(one.kind)] = true;
         }
     }
     for (const NamedKind& named : kNamedKinds) {

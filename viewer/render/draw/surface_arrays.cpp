@@ -303,7 +303,7 @@ void add_loose_vertices(const DrawnMesh& drawn, const Region& region, const Colo
 }
 
 // Normals that are drawn of one kind.
-constexpr std::size_t kMostNormals = 30000;
+constexpr std::size_t kMaxNormals = 30000;
 constexpr double kNormalWidth = 1.5;
 
 // Lines from `begins` along `normals` of the mesh.
@@ -312,7 +312,7 @@ void add_normals(const DrawnMesh& drawn, const std::vector<Vec3>& begins,
     const double length = 0.5 * mean_edge_length(*drawn.mesh) *
                           std::cbrt(std::abs(drawn.transform.linear.determinant()));
     const Mat3 turned = drawn.transform.linear.inverse().transpose();
-    const std::size_t stride = begins.size() / kMostNormals + 1;
+    const std::size_t stride = begins.size() / kMaxNormals + 1;
     for (std::size_t i = 0; i < begins.size(); i += stride) {
         const Vec3 begin = drawn.transform(begins[i]);
         const Vec3 end = begin + length * (turned * normals[i]).normalized();

@@ -64,7 +64,7 @@ GpuHair::GpuHair()
       no_hair_(upload_shade(nullptr)) {
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-    most_points_ = std::min(static_cast<Index>(most), kPagePoints);
+    max_points_ = std::min(static_cast<Index>(most), kPagePoints);
 }
 
 Index GpuHair::total(const Part& part) {
@@ -82,7 +82,7 @@ std::shared_ptr<const GpuHair::Ribbons> GpuHair::send(const PackedRibbons& packe
     for (Index first = 0; first < packed.size();) {
         const Index base = packed.offsets[at(first)];
         Index last = first + 1;
-        while (last < packed.size() && packed.offsets[at(last) + 1] - base <= most_points_) ++last;
+        while (last < packed.size() && packed.offsets[at(last) + 1] - base <= max_points_) ++last;
         const auto count = static_cast<std::size_t>(packed.offsets[at(last)] - base);
         if (count > 0) {
             const std::span points = std::span(packed.points).subspan(at(base), count);

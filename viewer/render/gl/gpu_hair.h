@@ -107,7 +107,7 @@ class GpuHair {
 
     gl::Program program_;
     gl::VertexArray no_vertices_;
-    Index most_points_ = 0;
+    Index max_points_ = 0;
     std::vector<Part> parts_;
     std::shared_ptr<const HairLight> light_;
     std::shared_ptr<const gl::Texture> volume_, for_strands_, for_meshes_;

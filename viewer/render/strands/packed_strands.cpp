@@ -81,14 +81,14 @@ class Packer {
     Packer(const ViewStrands& given, float widest) : given_(given), widest_(widest) {}
 
     // The next strand; of at most so many points.
-    void add(PackedRibbons& ribbons, Index strand, Index most_points) {
+    void add(PackedRibbons& ribbons, Index strand, Index max_points) {
         cover_widths(given_, strand, widths_);
         const StrandLook look = look_of(given_, strand);
         const auto jitter = static_cast<float>(given_.style->shift_jitter);
         const float lean = jitter > 0.0f ? look.shift / jitter : 0.0f;
         const auto shift = static_cast<std::uint8_t>(std::lround(127.5f * (1.0f + lean)));
         const auto last = count_of(widths_) - 1;
-        const Index count = std::min(most_points, last + 1);
+        const Index count = std::min(max_points, last + 1);
         bool open = false;
         for (Index i = 0; i < count && count > 1; ++i) {
             const Index place = static_cast<Index>(static_cast<long long>(i) * last / (count - 1));

@@ -20,9 +20,9 @@ constexpr float kShadowMargin = 0.14f;
 // Light is scattered on by strands more than they take away: of the area that they cover, the part
 // that counts as lost.
 constexpr float kLostShare = 0.40f;
-// In hair of any density light fades by no more than exp(-kMostDepth) a step of the grid: stronger
+// In hair of any density light fades by no more than exp(-kMaxDepth) a step of the grid: stronger
 // fading shows the grid as bands, as on tied tails.
-constexpr float kMostDepth = 0.8f;
+constexpr float kMaxDepth = 0.8f;
 // A mesh lets this little through: exp(-kMeshDepth). It counts so many steps below its surface,
 // which so does not shade itself.
 constexpr float kMeshDepth = 5.0f;
@@ -155,7 +155,7 @@ ViewGrid fit_grid(std::span<const ViewStrands> strands, std::span<const ViewTria
     const Vector3f high = (hair.high.array() + room).min(everything.high.array() + 2 * grid.step);
     const Vector3f extent = (high - low).cwiseMax(1e-30f);
     const double volume = extent.cast<double>().prod();
-    grid.step = std::max(grid.step, static_cast<float>(std::cbrt(volume / detail.most_points)));
+    grid.step = std::max(grid.step, static_cast<float>(std::cbrt(volume / detail.max_points)));
     // A long thin box has more points on its surface than its volume tells.
     grid.step = std::max(grid.step, extent.maxCoeff() / 1000.0f);
     grid.origin = low;
@@ -169,8 +169,8 @@ std::vector<float> hair_extinction(const ViewGrid& grid, std::span<const ViewStr
                                    const LightDetail& detail, const Context& context) {
     std::vector<float> sum(grid.size(), 0.0f);
     for (const ViewStrands& drawn : strands) {
-        const auto stride = static_cast<Index>(
-            std::ceil(std::max(drawn.point_count() / detail.most_segments, 1.0)));
+        const auto stride =
+            static_cast<Index>(std::ceil(std::max(drawn.point_count() / detail.max_segments, 1.0)));
         const Index grain =
             (drawn.count + kExtinctionParts - 1) / kExtinctionParts / stride * stride + stride;
         std::vector<std::vector<float>> parts(kExtinctionParts);
@@ -183,7 +183,7 @@ std::vector<float> hair_extinction(const ViewGrid& grid, std::span<const ViewStr
             for (std::size_t i = 0; i < part.size(); ++i) sum[i] += part[i];
         }
     }
-    const float most = kMostDepth / grid.step;
+    const float most = kMaxDepth / grid.step;
     for (float& extinction : sum) extinction = most * (1.0f - std::exp(-extinction / most));
     return sum;
 }

@@ -14,9 +14,9 @@ namespace lissom {
 /// Resolution of the light.
 struct LightDetail {
     /// Maximum number of points of the grid.
-    double most_points = 2.5e6;
+    double max_points = 2.5e6;
     /// Segments that are looked at; of more, every so many strands stand for all.
-    double most_segments = 3e6;
+    double max_segments = 3e6;
 };
 
 /// Light is looked up this many steps of the grid nearer to the light: the grid blurs strands into

@@ -17,7 +17,7 @@ using Eigen::Vector3f;
 // Pixels along a side of a tile; of all factors of supersampling a multiple.
 constexpr int kTile = 36;
 // Samples of the picture that are held at one time, and points of strands.
-constexpr std::size_t kMostSamples = 24'000'000;
+constexpr std::size_t kMaxSamples = 24'000'000;
 constexpr Index kBatchPoints = 400'000;
 // Strands of a batch that one thread projects.
 constexpr Index kBatchChunks = 8;
@@ -26,8 +26,8 @@ constexpr Index kBatchChunks = 8;
 
 class Screen {
   public:
-    // `least_radius`: of opaque strands, in pixels.
-    Screen(const ViewParameters& view, int width, int height, float least_radius)
+    // `min_radius`: of opaque strands, in pixels.
+    Screen(const ViewParameters& view, int width, int height, float min_radius)
         : projection_(view.projection.cast<float>()),
           perspective_(view.perspective),
           near_(static_cast<float>(view.near)),
@@ -35,7 +35,7 @@ class Screen {
           height_(static_cast<float>(height)),
           // Pixels in a view unit; at depth 1 with perspective.
           scale_(static_cast<float>(0.5 * height / view.half_extent.y())),
-          least_radius_(least_radius) {}
+          min_radius_(min_radius) {}
 
     // A point in front of the near plane.
     ScreenPoint operator()(const Vector3f& p, float width) const {
@@ -48,7 +48,7 @@ class Screen {
     // The same of a strand that is seen however thin it is.
     ScreenPoint visible(const Vector3f& p, float width) const {
         ScreenPoint point = (*this)(p, width);
-        if (width > 0.0f) point.radius = std::max(point.radius, least_radius_);
+        if (width > 0.0f) point.radius = std::max(point.radius, min_radius_);
         return point;
     }
     bool in_front(const Vector3f& p) const { return p.z() <= -near_; }
@@ -64,7 +64,7 @@ class Screen {
   private:
     Eigen::Matrix4f projection_;
     bool perspective_;
-    float near_, width_, height_, scale_, least_radius_;
+    float near_, width_, height_, scale_, min_radius_;
 };
 
 // ---- Strands by the numbers of their points: the ids of samples
@@ -452,7 +452,7 @@ void for_each_pixel(Tiles& tiles, const Context& context, const Visit& visit) {
 // Rows of fine pixels that are drawn at one time: whole tiles.
 int band_height(int width, int height) {
     const std::size_t row = at(width) * SampleTile::kSamples;
-    const int rows = index_of(std::min(kMostSamples / row, at(height)));
+    const int rows = index_of(std::min(kMaxSamples / row, at(height)));
     return std::max(rows / kTile, 1) * kTile;
 }
 
@@ -553,7 +553,7 @@ Light filtered(const std::vector<Light>& lights, int width, int height, int x, i
 
 }  // namespace
 
-double least_visible_width(Index strands) {
+double min_visible_width(Index strands) {
     constexpr double kWidth = 1.5, kFew = 50.0, kMany = 500.0;
     const double of_way = std::log(kMany / std::max<Index>(strands, 1)) / std::log(kMany / kFew);
     return kWidth * std::clamp(of_way, 0.0, 1.0);
@@ -564,7 +564,7 @@ StrandLayer draw_strands(const StrandScene& scene, const StrandShadow& shadow,
     const int fine = options.supersample;
     const int width = options.width * fine, height = options.height * fine;
     const Screen screen(scene.view, width, height,
-                        static_cast<float>(0.5 * scene.least_width * fine));
+                        static_cast<float>(0.5 * scene.min_width * fine));
     const PointNumbers numbers(scene.strands);
     const StrandShader shader(scene, shadow, screen, numbers, context);
     StrandLayer layer{options.width, options.height, {}};

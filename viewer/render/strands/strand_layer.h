@@ -36,12 +36,12 @@ struct StrandScene {
     std::vector<ViewTriangle> triangles;
     ViewParameters view;
     /// Pixels of the picture that an opaque strand is wide at least, unless it has no width.
-    double least_width = 0.0;
+    double min_width = 0.0;
 };
 
 /// Returns the least width in pixels at which all of so many strands can be seen: 1.5 for up to 50,
 /// falling to 0 for 500 and more, which are seen together.
-double least_visible_width(Index strands);
+double min_visible_width(Index strands);
 
 /// Draws the strands of `scene` into pixels of a picture with `options`; meshes only hide. The same
 /// to the bit for any number of threads. Errors: memory_limit; cancelled.

@@ -6,13 +6,13 @@ namespace lissom::window {
 namespace {
 
 // Lines that are kept for a window that does not take them.
-constexpr std::size_t kMostLines = 10000;
+constexpr std::size_t kMaxLines = 10000;
 
 }  // namespace
 
 void NewsBoard::tell(LineKind kind, const std::string& text) {
     change([&](SessionNews& news) {
-        if (news.lines.size() < kMostLines) news.lines.push_back({kind, text});
+        if (news.lines.size() < kMaxLines) news.lines.push_back({kind, text});
     });
     wake();
 }

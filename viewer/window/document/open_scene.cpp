@@ -82,8 +82,8 @@ bool OpenScene::succeeds(const cli::ScriptResult& result) {
 
 void OpenScene::recover() {
     // Somebody may go on pressing Escape.
-    constexpr int kMostTimes = 20;
-    for (int i = 0; bench_ && i < kMostTimes; ++i) {
+    constexpr int kMaxTimes = 20;
+    for (int i = 0; bench_ && i < kMaxTimes; ++i) {
         parts_.program.forget_interrupt();
         if (bench_->recover()) break;
     }

@@ -11,7 +11,7 @@ namespace lissom::window {
 namespace {
 
 // Found in a few hundredths of a second.
-constexpr LightDetail kRoughLight{.most_points = 6e4, .most_segments = 1e5};
+constexpr LightDetail kRoughLight{.max_points = 6e4, .max_segments = 1e5};
 
 bool same_strands(const DrawnStrands& a, const DrawnStrands& b) {
     return a.strands == b.strands && a.style == b.style;

@@ -11,7 +11,7 @@
 namespace lissom::window {
 namespace {
 
-constexpr double kHeight = 118.0, kLeastHeight = 60.0;
+constexpr double kHeight = 118.0, kMinHeight = 60.0;
 // The last lines of the console are drawn.
 constexpr std::size_t kShownLines = 2000;
 
@@ -82,8 +82,7 @@ void ConsoleView::drag_edge(const Canvas& above, gl::Extent window) {
     ImGui::SetCursorPos(begin);
     if (!is_held) return;
     const double wanted = (window.height - ImGui::GetIO().MousePos.y) / scale_;
-    height_ =
-        std::clamp(wanted, kLeastHeight, std::max(kLeastHeight, 0.8 * window.height / scale_));
+    height_ = std::clamp(wanted, kMinHeight, std::max(kMinHeight, 0.8 * window.height / scale_));
 }
 
 void ConsoleView::clear(PanelContent& content) {

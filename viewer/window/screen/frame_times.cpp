@@ -27,7 +27,7 @@ double thread_seconds() {
 void FrameTimes::add_turn(double all, const Turn& own) {
     longest_ = std::max(longest_, all);
     longest_own_ = std::max(longest_own_, own.seconds);
-    most_work_ = std::max(most_work_, own.busy);
+    max_work_ = std::max(max_work_, own.busy);
 }
 
 void FrameTimes::add_event(Time time) {
@@ -61,7 +61,7 @@ std::string FrameTimes::text() const {
                   "longest %.1f ms, without drawing %.1f ms, work %.1f ms, event to frame %.1f ms, "
                   "95 %% %.1f ms, %.1f "
                   "frames a second",
-                  1e3 * longest_, 1e3 * longest_own_, 1e3 * most_work_, 1e3 * latency(0.5),
+                  1e3 * longest_, 1e3 * longest_own_, 1e3 * max_work_, 1e3 * latency(0.5),
                   1e3 * latency(0.95), rate());
     return text;
 }

@@ -34,7 +34,7 @@ class FrameTimes {
     double longest() const { return longest_; }
     /// Without calls that draw: the longest by the clock, and that with most work.
     double longest_own() const { return longest_own_; }
-    double most_work() const { return most_work_; }
+    double max_work() const { return max_work_; }
     /// Seconds from an event to the frame that answers it; `part` 0.5 is the median. 0 for none.
     double latency(double part) const;
     /// Frames in a second while they follow each other within half a second.
@@ -44,7 +44,7 @@ class FrameTimes {
     std::string text() const;
 
   private:
-    double longest_ = 0.0, longest_own_ = 0.0, most_work_ = 0.0;
+    double longest_ = 0.0, longest_own_ = 0.0, max_work_ = 0.0;
     std::optional<Time> waiting_, last_frame_;
     std::vector<double> latencies_, intervals_;
 };

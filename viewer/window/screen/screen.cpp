@@ -20,7 +20,7 @@ constexpr int kFillSamples = 8;
 constexpr Index kFewestMoving = 800;
 // Strands that are drawn in any case, and pixels that they are wide while something moves: narrower
 // ones break into dots without smooth edges.
-constexpr Index kLeastStrands = 300;
+constexpr Index kMinStrands = 300;
 constexpr double kMovingWidth = 1.0;
 // With fewer samples strands are drawn that are so many pixels wide, and so many fewer.
 constexpr int kAllSamples = 8;
@@ -69,7 +69,7 @@ struct Screen::Filling {
 Screen::Screen() : moving_pace_(kMovingAim), fill_pace_(kSliceAim, kFirstSlice) {
     GLint samples = 0;
     glGetIntegerv(GL_MAX_SAMPLES, &samples);
-    most_samples_ = std::clamp(static_cast<int>(samples), 1, kFillSamples);
+    max_samples_ = std::clamp(static_cast<int>(samples), 1, kFillSamples);
 }
 
 Screen::~Screen() = default;
@@ -111,7 +111,7 @@ Index Screen::wide_strands(const SceneView& view, int height, Index most, double
     const Vec3 middle = (seen.view * (hair_.middle() - scene_.origin()).homogeneous()).head<3>();
     const double depth = seen.perspective ? std::max(-middle.z(), seen.near) : 1.0;
     const double pixels = 0.5 * height / (seen.half_extent.y() * depth);
-    while (count > kLeastStrands && hair_.width(1.0 * count / hair_.size()) * pixels < least) {
+    while (count > kMinStrands && hair_.width(1.0 * count / hair_.size()) * pixels < least) {
         count -= count / 16;
     }
     return count;
@@ -174,7 +174,7 @@ void Screen::begin_fill(const Camera& camera, const Canvas& whole, const Color& 
     filling_ = nullptr;
     if (hair_.empty()) return;
     RenderOptions options = options_of(beside_legend(whole), background, 1);
-    options.samples = most_samples_;
+    options.samples = max_samples_;
     filling_ = std::make_unique<Filling>(*this, camera, options, longest);
 }
 

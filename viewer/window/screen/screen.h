@@ -82,7 +82,7 @@ class Screen {
     SceneTools tools_;
     GpuScene scene_;
     GpuHair hair_;
-    int most_samples_ = 1;
+    int max_samples_ = 1;
     std::unique_ptr<DrawTarget> target_;
     Index moving_ = 0;
     StrandPace moving_pace_, fill_pace_;

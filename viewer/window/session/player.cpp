@@ -9,7 +9,7 @@ namespace {
 
 // Part of a passed second that is played at once, at most.
 constexpr double kLongest = 0.1;
-constexpr double kMostSpeed = 64.0;
+constexpr double kMaxSpeed = 64.0;
 constexpr double kNever = 1e9;
 
 }  // namespace
@@ -36,7 +36,7 @@ void Player::step() {
 }
 
 void Player::change_speed(double factor) {
-    speed_ = std::clamp(speed_ * factor, 1.0 / kMostSpeed, kMostSpeed);
+    speed_ = std::clamp(speed_ * factor, 1.0 / kMaxSpeed, kMaxSpeed);
 }
 
 PictureFit::PictureFit(const PictureSize& recorded, const PictureSize& now)

@@ -26,9 +26,9 @@ bool ends_word(char c) {
 
 // Returns the number at the beginning of `text`; 0 if there is none.
 int number_at(std::string_view text) {
-    constexpr std::size_t kMostDigits = 8;
+    constexpr std::size_t kMaxDigits = 8;
     int number = 0;
-    for (const char c : text.substr(0, kMostDigits)) {
+    for (const char c : text.substr(0, kMaxDigits)) {
         if (!is_digit(c)) break;
         number = 10 * number + (c - '0');
     }

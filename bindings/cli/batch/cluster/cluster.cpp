@@ -108,7 +108,7 @@ BatchProgress watch(const BatchPlan& plan, BatchState& state, const BatchOptions
 }  // namespace
 
 Submission make_submission(const BatchPlan& plan, BatchState& state, const BatchOptions& options,
-                           std::size_t most_tasks) {
+                           std::size_t max_tasks) {
     const std::unique_ptr<FileLock> lock = lock_batch(plan, state, false);
     Submission submission;
     submission.plan = plan;
@@ -118,7 +118,7 @@ Submission make_submission(const BatchPlan& plan, BatchState& state, const Batch
     for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
         if (!state.reason_to_run(plan.jobs[i]).empty()) open.push_back(i);
     }
-    submission.tasks = divide(open, mean_seconds(plan, state), options.jobs, most_tasks);
+    submission.tasks = divide(open, mean_seconds(plan, state), options.jobs, max_tasks);
     return submission;
 }
 
@@ -128,7 +128,7 @@ BatchProgress run_on_slurm(const BatchPlan& plan, BatchState& state, const Batch
         return watch(plan, state, options, *before, 0);
     }
     const std::int64_t since = now_in_milliseconds();
-    const Submission submission = make_submission(plan, state, options, most_tasks());
+    const Submission submission = make_submission(plan, state, options, max_tasks());
     if (submission.tasks.empty()) return watch(plan, state, options, {}, since);
     write_submission(submission, submission_file(state));
     const SlurmArray array = submit(submission, submission_file(state), more);
@@ -140,7 +140,7 @@ BatchProgress run_on_slurm(const BatchPlan& plan, BatchState& state, const Batch
 std::vector<std::string> export_to_slurm(const BatchPlan& plan, BatchState& state,
                                          const BatchOptions& options, const fs::path& script,
                                          const std::vector<std::string>& more) {
-    const Submission submission = make_submission(plan, state, options, most_tasks());
+    const Submission submission = make_submission(plan, state, options, max_tasks());
     const fs::path file = submission_file(state);
     write_submission(submission, file);
     write_file_atomically(script, task_script(file));

@@ -12,7 +12,7 @@ namespace lissom::cli {
 
 /// Jobs of a plan that are not done, divided among tasks. Locks the folder for that long.
 Submission make_submission(const BatchPlan& plan, BatchState& state, const BatchOptions& options,
-                           std::size_t most_tasks);
+                           std::size_t max_tasks);
 
 /// Submits the open jobs to Slurm and waits until it has ended, or watches the array that was
 /// submitted before and has not ended. `more` are words for sbatch. If `options.stopped` says so it

@@ -50,7 +50,7 @@ std::string program_line(const std::string& words) {
 
 }  // namespace
 
-std::size_t most_tasks() {
+std::size_t max_tasks() {
     constexpr std::size_t kUsual = 1000;
     const std::optional<CommandEnd> end = run_command({"scontrol", "show", "config"});
     if (!end || end->status != 0) return kUsual;

@@ -20,7 +20,7 @@ enum class SlurmState { waits_or_runs, ended, unknown };
 
 /// Returns the greatest number of tasks that an array of this cluster may have; 1000 if it does not
 /// tell.
-std::size_t most_tasks();
+std::size_t max_tasks();
 
 /// Returns the text of the script that runs task SLURM_ARRAY_TASK_ID of the submission in `file`.
 std::string task_script(const std::filesystem::path& file);

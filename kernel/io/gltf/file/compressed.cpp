@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 // Decompressed bytes of all views and primitives for each byte of the file.
-constexpr std::size_t kMostBytesPerByte = 256, kBytesAlwaysAllowed = std::size_t{1} << 24;
+constexpr std::size_t kMaxBytesPerByte = 256, kBytesAlwaysAllowed = std::size_t{1} << 24;
 
 struct NamedType {
     int number;
@@ -63,7 +63,7 @@ class Decompressor {
     Decompressor(GltfDocument& document, const Context& context)
         : document_(document),
           context_(context),
-          left_(kMostBytesPerByte * document.bytes_read + kBytesAlwaysAllowed) {}
+          left_(kMaxBytesPerByte * document.bytes_read + kBytesAlwaysAllowed) {}
 
     void decompress_views() {
         Json* views = member(document_.json, "bufferViews");

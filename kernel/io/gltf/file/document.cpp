@@ -14,7 +14,7 @@
 namespace lissom {
 namespace {
 
-constexpr std::size_t kLeastBudget = std::size_t{1} << 20;
+constexpr std::size_t kMinBudget = std::size_t{1} << 20;
 constexpr std::size_t kElementsPerByte = 16;
 
 // Some programs write whole numbers as 4.0, which JSON does not tell from 4.
@@ -270,7 +270,7 @@ tinygltf::Model parse_model(const Json& json) {
 }  // namespace
 
 GltfBudget::GltfBudget(std::size_t bytes_read)
-    : left_(std::max(kLeastBudget, kElementsPerByte * bytes_read)) {}
+    : left_(std::max(kMinBudget, kElementsPerByte * bytes_read)) {}
 
 void GltfBudget::require(std::size_t elements) const {
     if (allows(elements)) return;

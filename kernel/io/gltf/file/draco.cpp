@@ -22,7 +22,7 @@ namespace lissom {
 #ifdef LISSOM_HAS_DRACO
 namespace {
 
-constexpr std::size_t kMostFacesPerByte = 64, kFacesAlwaysAllowed = 65536;
+constexpr std::size_t kMaxFacesPerByte = 64, kFacesAlwaysAllowed = 65536;
 constexpr int kOldestMajor = 2, kOldestMinor = 2;
 
 [[noreturn]] void refuse_draco(const std::string& why) {
@@ -68,7 +68,7 @@ void require_plausible_size(std::string_view bytes) {
     if (is_edgebreaker && !buffer.Decode(&traversal)) refuse_draco("its header ends too early");
     // Faces and vertices in one order or the other.
     const std::size_t largest = std::max(read_count(buffer), read_count(buffer));
-    if (largest <= kMostFacesPerByte * bytes.size() + kFacesAlwaysAllowed) return;
+    if (largest <= kMaxFacesPerByte * bytes.size() + kFacesAlwaysAllowed) return;
     refuse(ErrorCode::file_too_large, "a compressed primitive of " + std::to_string(bytes.size()) +
                                           " bytes cannot have " + std::to_string(largest) +
                                           " elements");

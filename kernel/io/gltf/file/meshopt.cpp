@@ -16,7 +16,7 @@ namespace {
 
 // A byte of the codec of vertices holds at most 64 bytes, and one of the codecs of indices at most
 // a triangle; the rest is room for short buffers.
-constexpr std::size_t kMostPerByte = 128, kAlwaysAllowed = 65536;
+constexpr std::size_t kMaxPerByte = 128, kAlwaysAllowed = 65536;
 constexpr std::size_t kLargestStride = 256;
 
 bool is_allowed(const MeshoptView& view) {
@@ -43,7 +43,7 @@ void require_plausible(std::string_view bytes, const MeshoptView& view) {
                                            std::to_string(view.stride) +
                                            " bytes, which its mode or its filter does not allow");
     }
-    const std::size_t most = kMostPerByte * bytes.size() + kAlwaysAllowed;
+    const std::size_t most = kMaxPerByte * bytes.size() + kAlwaysAllowed;
     if (view.count <= most / view.stride) return;
     refuse(ErrorCode::file_too_large, "a compressed view of " + std::to_string(bytes.size()) +
                                           " bytes cannot hold " + std::to_string(view.count) +

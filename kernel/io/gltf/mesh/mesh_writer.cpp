@@ -182,7 +182,7 @@ class MeshWriter::Object {
     // The steps of positions and of directions, powers of two.
     void find_steps() {
         if (writer_.quantize == 0) return;
-        constexpr int kLeastBits = 8;
+        constexpr int kMinBits = 8;
         Box box;
         for (const Index v : pool_.vertices) {
             box.extend(place_.to_node.position(writer_.parts_.mesh().position(v)));
@@ -191,7 +191,7 @@ class MeshWriter::Object {
         const int exponent = size > 0.0 && std::isfinite(size) ? std::ilogb(size) : 0;
         position_step_ = std::ldexp(1.0, exponent - writer_.quantize);
         uv_step_ = std::ldexp(1.0, -writer_.quantize);
-        direction_step_ = std::ldexp(1.0, -std::max(kLeastBits, writer_.quantize / 2));
+        direction_step_ = std::ldexp(1.0, -std::max(kMinBits, writer_.quantize / 2));
     }
 
     double step_of(GltfSemantic semantic) const {

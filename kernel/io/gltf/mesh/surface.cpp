@@ -10,7 +10,7 @@
 namespace lissom {
 namespace {
 
-constexpr Index kMostTargets = 10000;
+constexpr Index kMaxTargets = 10000;
 
 bool has_width(const GltfAttributeName& name, Index width) {
     switch (name.semantic) {
@@ -109,7 +109,7 @@ WrittenAttributes take_attributes(SavedParts& parts) {
     for (const Attribute& attribute : parts.mesh().attributes().all()) {
         if (attribute.domain == Domain::face) continue;
         const MorphName morph = parse_morph_name(attribute.name);
-        if (morph.target > 0 && morph.target <= kMostTargets && attribute.width == 3) {
+        if (morph.target > 0 && morph.target <= kMaxTargets && attribute.width == 3) {
             result.morphs.push_back({&attribute, morph});
             parts.take(attribute);
             continue;

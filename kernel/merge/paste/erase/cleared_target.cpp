@@ -60,8 +60,8 @@ Region region_under_line(const Mesh& target, Index face, const PasteMap& base,
 namespace {
 
 // Height of the removed feature over the surface that took its place.
-double greatest_height(const Mesh& target, const Region& gone, const Mesh& closed,
-                       Index first_patch_face, const Context& context) {
+double max_height(const Mesh& target, const Region& gone, const Mesh& closed,
+                  Index first_patch_face, const Context& context) {
     std::vector<Index> patch;
     for (Index f = first_patch_face; f < closed.face_count(); ++f) patch.push_back(f);
     if (patch.empty()) return 0.0;
@@ -113,8 +113,7 @@ ClearedTarget cleared_by(const Mesh& target, const std::optional<Region>& onto,
         for (const Index v : target.topology().face(f)) vertices.push_back(v);
     }
     Region gone(target.shared_topology(), std::move(vertices));
-    found.height =
-        greatest_height(target, gone, erased.mesh, erased.report.patch.first_face, context);
+    found.height = max_height(target, gone, erased.mesh, erased.report.patch.first_face, context);
     std::optional<Region> next = region_after(onto, target, erased, marked);
     return {std::move(erased.mesh), std::move(erased.map), std::move(next), std::move(gone), found};
 }

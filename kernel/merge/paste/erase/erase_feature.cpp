@@ -275,7 +275,7 @@ void add_face_dihedrals(const Mesh& mesh, Index f, GreatestAngle& angle) {
     }
 }
 
-double greatest_turn(const Mesh& mesh, Index first_face) {
+double max_turn(const Mesh& mesh, Index first_face) {
     GreatestAngle angle;
     for (Index f = first_face; f < mesh.face_count(); ++f) add_face_dihedrals(mesh, f, angle);
     return angle.value();
@@ -309,7 +309,7 @@ Closed closed_by(const Mesh& rest, const Path& hole, const FillOptions& how,
                  const Context& context) {
     Closed closed{rest, {}, how.continuity, how.density, 0.0};
     closed.patch = fill(closed.mesh, hole, how, context);
-    closed.turn = greatest_turn(closed.mesh, closed.patch.first_face);
+    closed.turn = max_turn(closed.mesh, closed.patch.first_face);
     return closed;
 }
 
@@ -318,7 +318,7 @@ Closed closed_by_dome(const Mesh& rest, const Path& hole, FillOptions how, const
     Closed closed{rest, {}, FairContinuity::tangents, how.density, 0.0};
     closed.patch = fill(closed.mesh, hole, how, context);
     dome(closed.mesh, closed.patch, hole);
-    closed.turn = greatest_turn(closed.mesh, closed.patch.first_face);
+    closed.turn = max_turn(closed.mesh, closed.patch.first_face);
     return closed;
 }
 
@@ -350,22 +350,22 @@ void judge(EraseReport& report, double allowed) {
     const auto degrees = [](double angle) {
         return std::to_string(static_cast<int>(std::lround(angle / kDegree))) + " degrees";
     };
-    const std::string turns = degrees(report.greatest_dihedral);
-    report.ok = report.greatest_dihedral <= allowed;
+    const std::string turns = degrees(report.max_dihedral);
+    report.ok = report.max_dihedral <= allowed;
     report.verdict =
-        report.ok ? "good: the patch turns by at most " + turns + " from face to face"
-                  : "not good: the patch turns by " + turns +
-                        " from face to face, and the surface around it by " +
-                        degrees(report.greatest_around) +
-                        " at most; mark a region whose rim is less steep, or subdivide the mesh";
+        report.ok
+            ? "good: the patch turns by at most " + turns + " from face to face"
+            : "not good: the patch turns by " + turns +
+                  " from face to face, and the surface around it by " + degrees(report.max_around) +
+                  " at most; mark a region whose rim is less steep, or subdivide the mesh";
 }
 
 Mesh closed_rest(const MeshPart& rest, const Path& hole, const EraseOptions& options,
                  EraseReport& report, const Context& context) {
     FillOptions how;
     how.maximum_vertices = options.maximum_vertices;
-    report.greatest_around = turn_around(rest.mesh, hole);
-    const double allowed = std::max(kSteepPatch, report.greatest_around);
+    report.max_around = turn_around(rest.mesh, hole);
+    const double allowed = std::max(kSteepPatch, report.max_around);
     Closed best = closed_bending(rest.mesh, hole, how, allowed, context);
     if (options.continuity == FairContinuity::curvature && has_even_rim(rest.mesh, hole)) {
         how.continuity = FairContinuity::curvature;
@@ -375,7 +375,7 @@ Mesh closed_rest(const MeshPart& rest, const Path& hole, const EraseOptions& opt
     report.patch = best.patch;
     report.continuity = best.continuity;
     report.density = best.density;
-    report.greatest_dihedral = best.turn;
+    report.max_dihedral = best.turn;
     judge(report, allowed);
     return std::move(best.mesh);
 }

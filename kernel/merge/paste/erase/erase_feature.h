@@ -43,9 +43,9 @@ struct EraseReport {
     /// Order of continuity of the patch, and the greatest angle between neighbouring faces of which
     /// one is in the patch, in radians.
     FairContinuity continuity = FairContinuity::curvature;
-    double greatest_dihedral = 0.0;
+    double max_dihedral = 0.0;
     /// The same of the faces around the patch, within three rings of it.
-    double greatest_around = 0.0;
+    double max_around = 0.0;
     /// Density of the patch, over that of the surface around it: more than 1 if it would have been
     /// too coarse to bend as it must.
     double density = 1.0;

@@ -18,7 +18,7 @@ constexpr double kSoftness = 0.6;
 constexpr int kAround = 6;
 // Edges of the part up to this height, in radii, are lifted if they cut into the ground, so often
 // at most, and by no more than this.
-constexpr double kLowEdge = 0.3, kMostLift = 0.3, kLeastLift = 1e-4;
+constexpr double kLowEdge = 0.3, kMaxLift = 0.3, kMinLift = 1e-4;
 constexpr int kLifts = 4;
 // Ground that stands higher, in radii, is no part of a corner.
 constexpr double kHighestGround = 1.0;
@@ -198,7 +198,7 @@ Mat3 Drape::gradient_at(const Vec3& point, double step) const {
 // How far the middle of an edge lies below the ground.
 double Drape::cut_by(const Vec3& from, const Vec3& to) const {
     const double depth = sunk(0.5 * (from + to));
-    return depth < kMostLift * radius_ ? depth : 0.0;
+    return depth < kMaxLift * radius_ ? depth : 0.0;
 }
 
 // Lifts vertices until no edge between them cuts through edges of the ground.
@@ -218,7 +218,7 @@ void Drape::lift(std::vector<Vec3>& positions, const Context& context) const {
             for (const Index n : topology.neighbors(v)) {
                 if (n < v || !low[at(n)] || (on_rim[at(v)] && on_rim[at(n)])) continue;
                 const double depth = cut_by(positions[at(v)], positions[at(n)]);
-                if (!(depth > kLeastLift * radius_)) continue;
+                if (!(depth > kMinLift * radius_)) continue;
                 const double each = on_rim[at(v)] || on_rim[at(n)] ? 2.0 * depth : depth;
                 if (!on_rim[at(v)]) rise[at(v)] = std::max(rise[at(v)], each);
                 if (!on_rim[at(n)]) rise[at(n)] = std::max(rise[at(n)], each);

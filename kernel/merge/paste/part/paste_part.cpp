@@ -26,7 +26,7 @@ constexpr Index kNearRings = 3;
 constexpr double kSlide = 0.25;
 // Points of two loops meet that are this near, over the smaller distance to the next.
 constexpr double kMeeting = 0.08;
-constexpr double kLeastStep = 1e-6;
+constexpr double kMinStep = 1e-6;
 
 // Singular values of the linear map between two triangles.
 std::pair<double, double> stretches(const std::array<Vec3, 3>& from,
@@ -158,7 +158,7 @@ std::vector<Eigen::Quaterniond> tilts_of(std::span<const RingPoint> rim, const M
     for (const RingPoint& point : rim) {
         const Vec3 turned = rotation * point.normal;
         const bool known = turned.norm() > 0.0 && point.image.normal.norm() > 0.0;
-        tilts.push_back(known ? least_rotation(turned, point.image.normal)
+        tilts.push_back(known ? min_rotation(turned, point.image.normal)
                               : Eigen::Quaterniond::Identity());
     }
     return tilts;
@@ -251,7 +251,7 @@ std::vector<double> ascending_parameters(const Loop& source, const Loop& hole,
             continue;
         }
         u += std::round(parameters[last] - u);
-        if (u < parameters[last] + kLeastStep || u > parameters[0] + 1.0 - kLeastStep) continue;
+        if (u < parameters[last] + kMinStep || u > parameters[0] + 1.0 - kMinStep) continue;
         fill(k, source.parameters()[last], source.parameters()[k], parameters[last], u);
         parameters[k] = u;
         last = k;
@@ -261,7 +261,7 @@ std::vector<double> ascending_parameters(const Loop& source, const Loop& hole,
     return parameters;
 }
 
-double least_spacing(std::span<const double> u, std::size_t k) {
+double min_spacing(std::span<const double> u, std::size_t k) {
     const std::size_t n = u.size();
     const double before = u[k] - u[(k + n - 1) % n] + (k == 0 ? 1.0 : 0.0);
     const double after = u[(k + 1) % n] - u[k] + (k + 1 == n ? 1.0 : 0.0);
@@ -276,7 +276,7 @@ std::vector<Index> met_points(std::span<const double> source, std::span<const do
         const double u = source[i] - std::floor(source[i]);
         for (std::size_t j = 0; j < hole.size(); ++j) {
             const double gap = std::abs(std::remainder(hole[j] - u, 1.0));
-            const double least = std::min(least_spacing(source, i), least_spacing(hole, j));
+            const double least = std::min(min_spacing(source, i), min_spacing(hole, j));
             if (gap > kMeeting * least || taken[j] != kNoIndex) continue;
             taken[j] = index_of(i);
             met[i] = index_of(j);

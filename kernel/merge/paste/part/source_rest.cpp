@@ -81,7 +81,7 @@ void measure_bend(std::span<const Vec3> rim, std::span<const RestFace> faces, do
         }
         if (!(within.squaredNorm() > 0.0 && beyond.squaredNorm() > 0.0)) continue;
         const double angle = angle_between(within, beyond);
-        rest.greatest_bend = std::max(rest.greatest_bend, angle);
+        rest.max_bend = std::max(rest.max_bend, angle);
         squares += angle * angle;
         count += 1.0;
     }

@@ -14,7 +14,7 @@ struct SourceRest {
     double steepest = 0.0, roughness = 0.0;
     /// Between the planes of strips a third of the boundary's radius wide on either side of it: the
     /// RMS, and the greatest. 0 if the boundary is an open one of the source.
-    double bend = 0.0, greatest_bend = 0.0;
+    double bend = 0.0, max_bend = 0.0;
     /// The part of its volume that is not the part's own but that of the round surface it stands
     /// on: of a dome over the boundary as steep as the surface around that. The target has another.
     double dome = 0.0;

@@ -151,7 +151,7 @@ Index PasteChart::place_of(Index vertex) const {
 
 MapQuality PasteChart::quality() const {
     return {count_of(map.face), count_of(map.flipped), map.flipped_fill, map.boundary_crossings,
-            map.least_scale,    map.greatest_scale,    map.method};
+            map.min_scale,      map.max_scale,         map.method};
 }
 
 PasteChart source_chart(const Mesh& source, const PasteRegions& regions, ParameterizeMethod method,

@@ -18,7 +18,7 @@ constexpr double kDiskShrink = 0.85;
 constexpr int kDiskShrinks = 28;
 
 // Factor by which the share of a sought ring is made smaller, and the least share that is tried.
-constexpr double kNarrowerShare = 0.6, kLeastShare = 0.05;
+constexpr double kNarrowerShare = 0.6, kMinShare = 0.05;
 
 Elements vertices_named(std::span<const Index> vertices) {
     Elements elements{ElementKind::vertex, 0, {}};
@@ -317,7 +317,7 @@ PasteRegions paste_regions(const Mesh& source, const Region& region,
     require_same_topology(source, region.topology(), "the region");
     if (feature) require_same_topology(source, feature->topology(), "the feature");
     std::optional<Error> first;
-    for (double width = share; width >= kLeastShare || !first; width *= kNarrowerShare) {
+    for (double width = share; width >= kMinShare || !first; width *= kNarrowerShare) {
         try {
             return regions_with(source, region, feature, width, context);
         } catch (const Error& error) {

@@ -112,11 +112,11 @@ class BandGraph {
         best.cost = kKnownLimit * cost_of(known, cost);
         search.bound(starts, best.cost);
         std::stable_sort(starts.begin(), starts.end(), [&](Index a, Index b) {
-            return search.least_through(a) < search.least_through(b);
+            return search.min_through(a) < search.min_through(b);
         });
         for (const Index start : starts) {
             context.checkpoint();
-            if (!(search.least_through(start) < best.cost)) break;
+            if (!(search.min_through(start) < best.cost)) break;
             WindingLoop loop = search.through(start, {}, best.cost);
             if (!loop.vertices.empty()) best = std::move(loop);
         }

@@ -252,7 +252,7 @@ class RingDivision {
         }
     }
 
-    double least_through(Index place) const { return search_.least_through(ring_.cut_[at(place)]); }
+    double min_through(Index place) const { return search_.min_through(ring_.cut_[at(place)]); }
 
     // Seeks through vertices of the cut, given by their places in it, ascending. Only a loop that
     // is cheaper than all before is found, and divides the rest.
@@ -263,10 +263,10 @@ class RingDivision {
         Index place = kNoIndex;
         while (loop.vertices.empty()) {
             context_.checkpoint();
-            std::erase_if(candidates, [&](Index c) { return !(least_through(c) < least_); });
-            const auto next = std::min_element(
-                candidates.begin(), candidates.end(),
-                [&](Index a, Index b) { return least_through(a) < least_through(b); });
+            std::erase_if(candidates, [&](Index c) { return !(min_through(c) < least_); });
+            const auto next =
+                std::min_element(candidates.begin(), candidates.end(),
+                                 [&](Index a, Index b) { return min_through(a) < min_through(b); });
             if (next == candidates.end()) break;
             place = *next;
             candidates.erase(next);

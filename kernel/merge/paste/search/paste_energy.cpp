@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLengthWeight = 0.1;
 // Residuals below this part of a length count as that much, so that weights stay finite.
-constexpr double kLeastResidual = 1e-3;
+constexpr double kMinResidual = 1e-3;
 constexpr int kReweightings = 4;
 
 Mat3 rotation_of(const Mat3& products) {
@@ -152,13 +152,13 @@ PasteSimilarity PasteEnergy::reweighted(std::span<const Index> edges,
         const RingEdge& edge = edges_[at(e)];
         const double length = edge.edge.norm();
         const double rest = (root * (before.rotation * edge.edge) - edge.image / root).norm();
-        const double weight = 1.0 / std::max(rest, kLeastResidual * root * length);
+        const double weight = 1.0 / std::max(rest, kMinResidual * root * length);
         products += weight * edge.image * edge.edge.transpose();
         from += weight * edge.edge.squaredNorm();
         to += weight * edge.image.squaredNorm();
         if (!(mu_ > 0.0)) continue;
         const double turn = (before.rotation * edge.source_normal - edge.target_normal).norm();
-        products += mu_ * length / std::max(turn, kLeastResidual) * edge.target_normal *
+        products += mu_ * length / std::max(turn, kMinResidual) * edge.target_normal *
                     edge.source_normal.transpose();
     }
     if (!(from > 0.0 && to > 0.0)) return before;

@@ -104,7 +104,7 @@ void WindingSearch::bound(std::span<const Index> starts, double limit) {
     }
 }
 
-double WindingSearch::least_through(Index start) const {
+double WindingSearch::min_through(Index start) const {
     return bound_[bound_of(start, 1)];
 }
 

@@ -56,7 +56,7 @@ class WindingSearch {
     void bound(std::span<const Index> starts, double limit);
     /// Returns the lower bound of closed walks through one of those: infinite for the limit or
     /// more.
-    double least_through(Index start) const;
+    double min_through(Index start) const;
     /// Returns the cheapest closed walk through `start` once around the ring, counter-clockwise, or
     /// the loop in it if it visits a vertex twice: a loop with a tail to the start. `usable`, one
     /// flag an edge, may leave edges out; walks that cost `limit` or more are not found.

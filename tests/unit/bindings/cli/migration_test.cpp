@@ -153,6 +153,16 @@ TEST_CASE("migrate: broken scripts are kept to the byte") {
     }
 }
 
+TEST_CASE("migrate: fields of reports and limits of options take min_ and max_") {
+    const Migration migration = migrate(
+        "local grown = style:grow{ least_speed = 0.1, most_segments = 80 }\n"
+        "print(grown:stats().most_length, report.joins[1].quality.greatest_dihedral)\n");
+    CHECK(migration.text ==
+          "local grown = style:grow{ min_speed = 0.1, max_segments = 80 }\n"
+          "print(grown:stats().max_length, report.joins[1].quality.max_dihedral)\n");
+    CHECK(migration.undecided.empty());
+}
+
 TEST_CASE("each old name has a new one that exists, and is itself none any more") {
     const lua::Registry registry = lua::kernel_registry();
     const auto has = [&](const std::string& owner, const std::string& name) {

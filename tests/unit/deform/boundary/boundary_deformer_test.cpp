@@ -77,7 +77,7 @@ std::vector<Region> two_bumps(const Mesh& mesh) {
     return result;
 }
 
-double greatest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+double max_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double greatest = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
     return greatest;
@@ -99,7 +99,7 @@ TEST_CASE("a similarity of the boundary is one of the whole surface, in every fo
         const BoundaryDeformation result = deformer.solve(moved(mesh, held, map));
         std::vector<Vec3> expected;
         for (const Vec3& p : mesh.positions()) expected.push_back(map(p));
-        CHECK(greatest_difference(result.positions, expected) < 1e-9 * 37.0);
+        CHECK(max_difference(result.positions, expected) < 1e-9 * 37.0);
         for (const Mat3& s : result.transforms) CHECK((s - map.linear).norm() < 1e-8);
     }
 }
@@ -140,7 +140,7 @@ TEST_CASE("the result follows the boundary whatever the place, turn and size of 
         const std::vector<Vec3> result = deformer.solve(same).positions;
         // What lies far away in small steps has few digits to begin with.
         const double digits = 1e-16 * map.translation.norm() / scale;
-        CHECK(greatest_difference(result, expected) < 1e-9 + 1e3 * digits);
+        CHECK(max_difference(result, expected) < 1e-9 + 1e3 * digits);
     }
 }
 
@@ -225,7 +225,7 @@ TEST_CASE("features keep their shape, each by a similarity of its own that is an
         CHECK((turns[0] - turns[1]).norm() > 0.1);
         // Values are new, factors are not.
         const BoundaryDeformation again = deformer.solve(bent(mesh, held));
-        CHECK(greatest_difference(result.positions, again.positions) == 0.0);
+        CHECK(max_difference(result.positions, again.positions) == 0.0);
     }
     BoundaryDeformOptions wrong;
     wrong.features = {held};
@@ -330,7 +330,7 @@ TEST_CASE("refined, a similarity stays one") {
     const BoundaryDeformation same = deformer.refine(6);
     std::vector<Vec3> expected;
     for (const Vec3& p : mesh.positions()) expected.push_back(map(p));
-    CHECK(greatest_difference(same.positions, expected) < 1e-8);
+    CHECK(max_difference(same.positions, expected) < 1e-8);
     for (const Vec3& pull : same.pulls) CHECK(pull.norm() < 1e-8);
     CHECK(same.energy.front() < 1e-12);
 }

@@ -128,7 +128,7 @@ Held held_ends(const Scene& scene) {
     return {std::move(work), std::move(holding)};
 }
 
-double least_angle(const WeightedTriangles& triangles, const std::vector<Vec3>& at) {
+double min_angle(const WeightedTriangles& triangles, const std::vector<Vec3>& at) {
     double least = kPi;
     for (const Triangle& t : triangles.triangle) {
         for (int k = 0; k < 3; ++k) {
@@ -217,8 +217,8 @@ TEST_CASE("coarse borders: edges become as long as those that move, and the surf
     CHECK(patch->mesh_count() == before.mesh_count());
     CHECK(area_of(patch->triangles, patch->rest) ==
           doctest::Approx(area_of(before.triangles, before.rest)).epsilon(1e-12));
-    CHECK(least_angle(patch->triangles, patch->rest) >
-          0.49 * least_angle(before.triangles, before.rest));
+    CHECK(min_angle(patch->triangles, patch->rest) >
+          0.49 * min_angle(before.triangles, before.rest));
 
     double longest = 0.0;
     std::map<std::pair<Index, Index>, int> uses;
@@ -339,8 +339,8 @@ TEST_CASE("coarse borders: of quads, and with what is held softly, stiffly and a
     const std::vector<Vec3> solved = edit.deformer.solve();
     REQUIRE(stats_of(edit.deformer).refined_vertices > 0);
     for (const Index v : scene.high) CHECK(solved[v] == move(scene.mesh.position(v)));
-    CHECK(greatest_distance(edit.deformer.solve(FrameQuality::preview),
-                            solve_first_directly(edit.deformer)) < 1e-9 * scene.size);
+    CHECK(max_distance(edit.deformer.solve(FrameQuality::preview),
+                       solve_first_directly(edit.deformer)) < 1e-9 * scene.size);
     const Mesh fine = subdivided_mesh(edit.deformer, scene.mesh);
     CHECK(fine.vertex_count() > scene.mesh.vertex_count());
     CHECK(fine.topology().is_closed() == scene.mesh.topology().is_closed());
@@ -359,7 +359,7 @@ TEST_CASE("coarse borders: rest, rotations and threads as without them") {
     Edit both = make_edit(scene);
     both.deformer.set_transform(both.low, map);
     both.deformer.set_transform(both.high, map);
-    CHECK(greatest_distance(both.deformer.solve(), mapped(rest_positions_of(both.deformer), map)) <
+    CHECK(max_distance(both.deformer.solve(), mapped(rest_positions_of(both.deformer), map)) <
           1e-9 * scene.size);
 
     ContextOptions one, two;

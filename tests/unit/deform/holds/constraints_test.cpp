@@ -33,8 +33,8 @@ TEST_CASE("positions only: handles hold, and a similarity of all is reproduced")
     const Affine rigid = rotation({1, -1, 2}, 1.1, {0, 0, 1});
     edit.deformer.set_transform(edit.low, rigid);
     edit.deformer.set_transform(edit.high, rigid);
-    CHECK(greatest_distance(edit.deformer.solve(),
-                            mapped(rest_positions_of(edit.deformer), rigid)) < 1e-9 * scene.size);
+    CHECK(max_distance(edit.deformer.solve(), mapped(rest_positions_of(edit.deformer), rigid)) <
+          1e-9 * scene.size);
 
     edit.deformer.set_transform(edit.low, {});
     edit.deformer.set_transform(edit.high, translation({1, 0, 0}));
@@ -59,7 +59,7 @@ TEST_CASE("gradients only: the handle turns the surface and its vertices find th
     const Vec3 now = d.positions()[scene.high.back()] - d.positions()[scene.high.front()];
     CHECK(rest.norm() > 0.1);
     CHECK((now - Eigen::AngleAxisd(0.7, Vec3::UnitX()) * rest).norm() < 0.06 * rest.norm());
-    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+    CHECK(max_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
           1e-11 * scene.size);
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("vertex constraints: exact positions, and rest again when they go") {
     const Vec3 target = scene.mesh.position(tip) + Vec3(0.5, 0.2, -0.1);
     d.constrain(VertexConstraint{tip, target, {}});
     CHECK(d.solve()[tip] == target);
-    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+    CHECK(max_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
           1e-11 * scene.size);
 
     const Index count = stats_of(d).factorizations;
@@ -93,9 +93,9 @@ TEST_CASE("vertex constraints: many of them do what a handle does") {
     d.add_handle(scene.region(scene.low));
     for (const Index v : scene.high)
         d.constrain(VertexConstraint{v, move(scene.mesh.position(v)), move.linear});
-    CHECK(greatest_distance(d.solve(FrameQuality::preview),
-                            edit.deformer.solve(FrameQuality::preview)) < 1e-10 * scene.size);
-    CHECK(greatest_distance(d.solve(), edit.deformer.solve()) < 1e-10 * scene.size);
+    CHECK(max_distance(d.solve(FrameQuality::preview), edit.deformer.solve(FrameQuality::preview)) <
+          1e-10 * scene.size);
+    CHECK(max_distance(d.solve(), edit.deformer.solve()) < 1e-10 * scene.size);
 }
 
 TEST_CASE("vertex constraints: with handles that move, and with gradients alone") {
@@ -106,7 +106,7 @@ TEST_CASE("vertex constraints: with handles that move, and with gradients alone"
     d.constrain(VertexConstraint{
         middle, {}, Mat3(Eigen::AngleAxisd(0.8, Vec3::UnitY()).toRotationMatrix())});
     d.set_transform(edit.high, translation({0.4, 0, 0}));
-    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+    CHECK(max_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
           1e-11 * scene.size);
     d.solve();
     CHECK((gradients_of(d)[middle] - Mat3(Eigen::AngleAxisd(0.8, Vec3::UnitY()))).norm() < 1e-12);
@@ -129,7 +129,7 @@ TEST_CASE("vertex constraints: where the surface lies by itself they hardly bend
         held.deformer.set_transform(held.high, move);
         const std::vector<Vec3> expected = free.deformer.solve();
         held.deformer.constrain(VertexConstraint{middle, expected[middle], {}});
-        const double off = greatest_distance(held.deformer.solve(), expected) / scene.size;
+        const double off = max_distance(held.deformer.solve(), expected) / scene.size;
         CHECK(off < 0.03);
     }
 }
@@ -149,7 +149,7 @@ TEST_CASE("several handles: each holds, in any order of adding") {
             d.set_transform(d.add_handle(region), transform);
         results.push_back(d.solve());
     }
-    CHECK(greatest_distance(results[0], results[1]) < 1e-9 * scene.size);
+    CHECK(max_distance(results[0], results[1]) < 1e-9 * scene.size);
     for (const Index v : middle.vertices()) CHECK(results[0][v] == lift(scene.mesh.position(v)));
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("components: each is held by its own handle and does not feel the othe
         moved = std::max(moved, (d.positions()[v] - both.position(v)).norm());
     }
     CHECK(moved < 1e-11);
-    CHECK(greatest_distance(d.positions(), rest_positions_of(d)) > 0.9);
+    CHECK(max_distance(d.positions(), rest_positions_of(d)) > 0.9);
 }
 
 TEST_CASE("open boundaries: a sheet bends, whatever hangs over its rim") {

@@ -119,7 +119,7 @@ TEST_CASE("loose parts: they stay to the bit, and the rest moves as without them
         CHECK(x[d.speck] == d.scene.mesh.position(d.speck));
         const std::vector<Vec3> body(x.begin(), x.begin() + plain.mesh.vertex_count());
         // The surface's radius, by which a blend fades, is that of all parts.
-        CHECK(greatest_distance(body, bar) < 0.01 * d.scene.size);
+        CHECK(max_distance(body, bar) < 0.01 * d.scene.size);
     }
 }
 
@@ -137,9 +137,8 @@ TEST_CASE("loose parts: they follow as rigid pieces and keep their distance") {
                 const std::vector<Vec3>& x =
                     preview ? deformer.solve(FrameQuality::preview) : deformer.solve();
                 CHECK(strain(d, x, d.middle) < 1e-9);
-                CHECK(greatest_distance(picked(x, d.top),
-                                        mapped(picked(rest_positions_of(deformer), d.top), map)) <
-                      1e-9);
+                CHECK(max_distance(picked(x, d.top),
+                                   mapped(picked(rest_positions_of(deformer), d.top), map)) < 1e-9);
                 CHECK((x[d.middle.front()] - d.scene.mesh.position(d.middle.front())).norm() >
                       0.05);
                 if (preview) continue;
@@ -176,7 +175,7 @@ TEST_CASE("loose parts: a similarity of all handles takes them along, and rest i
     const Affine map = rotation({1, 2, 0}, 1.0, {0, 0, 1}) * scaling({2, 2, 2}, Vec3::Zero());
     deformer.set_transform(edit.low, map);
     deformer.set_transform(edit.high, map);
-    CHECK(greatest_distance(deformer.solve(), mapped(rest_positions_of(deformer), map)) < 1e-8);
+    CHECK(max_distance(deformer.solve(), mapped(rest_positions_of(deformer), map)) < 1e-8);
 }
 
 TEST_CASE("loose parts: they follow quads that share opposite corners") {
@@ -250,11 +249,11 @@ TEST_CASE("loose parts: in a basis they stay, or follow by an affine map") {
     Edit edit = make_edit(d.scene, loose(UnheldParts::follow));
     Deformer& deformer = edit.deformer;
     const HandleBasis follows = basis_of(deformer);
-    CHECK(greatest_distance(of_basis(follows, deformer), rest_positions_of(deformer)) < 1e-9);
+    CHECK(max_distance(of_basis(follows, deformer), rest_positions_of(deformer)) < 1e-9);
     const Affine map = rotation({1, 2, 0}, 1.0, {0, 0, 1}) * scaling({2, 1, 3}, Vec3::Zero());
     deformer.set_transform(edit.low, map);
     deformer.set_transform(edit.high, map);
-    CHECK(greatest_distance(of_basis(follows, deformer), mapped(rest_positions_of(deformer), map)) <
+    CHECK(max_distance(of_basis(follows, deformer), mapped(rest_positions_of(deformer), map)) <
           1e-9);
     deformer.set_transform(edit.low, {});
     deformer.set_transform(edit.high,
@@ -262,9 +261,9 @@ TEST_CASE("loose parts: in a basis they stay, or follow by an affine map") {
     const std::vector<Vec3> x = of_basis(follows, deformer),
                             shown = deformer.solve(FrameQuality::preview);
     for (const std::vector<Index>* part : {&d.middle, &d.top}) {
-        CHECK(greatest_distance(picked(x, *part), picked(shown, *part)) < 0.05 * d.scene.size);
+        CHECK(max_distance(picked(x, *part), picked(shown, *part)) < 0.05 * d.scene.size);
     }
     const std::vector<Vec3> body(x.begin(), x.begin() + d.middle.front());
     const std::vector<Vec3> body_shown(shown.begin(), shown.begin() + d.middle.front());
-    CHECK(greatest_distance(body, body_shown) < 1e-9);
+    CHECK(max_distance(body, body_shown) < 1e-9);
 }

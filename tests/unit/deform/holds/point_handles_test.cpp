@@ -67,7 +67,7 @@ TEST_CASE("face points: a constraint is met by the deformed face, in previews an
             d.constrain({point, target});
             CHECK((place_of(point, d.solve(FrameQuality::preview)) - target).norm() <
                   1e-9 * scene.size);
-            CHECK(greatest_distance(d.positions(), solve_first_directly(d)) < 1e-9 * scene.size);
+            CHECK(max_distance(d.positions(), solve_first_directly(d)) < 1e-9 * scene.size);
             CHECK((place_of(point, d.solve()) - target).norm() < 1e-9 * scene.size);
 
             const Index count = stats_of(d).factorizations;
@@ -125,14 +125,14 @@ TEST_CASE("face points: a handle of them turns the faces, and follows similariti
     const Vec3 side = scene.mesh.position(face[1]) - scene.mesh.position(face[0]);
     const Vec3 now = d.positions()[face[1]] - d.positions()[face[0]];
     CHECK((now - Eigen::AngleAxisd(0.7, Vec3::UnitY()) * side).norm() < 0.1 * side.norm());
-    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+    CHECK(max_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
           1e-11 * scene.size);
 
     Affine map = rotation({1, 2, 3}, 1.4, {5, 0, 0});
     map.linear *= 1.7;
     d.set_transform(low, map);
     d.set_transform(high, map);
-    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), map)) < 1e-9 * scene.size);
+    CHECK(max_distance(d.solve(), mapped(rest_positions_of(d), map)) < 1e-9 * scene.size);
 }
 
 TEST_CASE("face points: four of them hold a surface without any handle") {
@@ -145,9 +145,9 @@ TEST_CASE("face points: four of them hold a surface without any handle") {
             face_point(scene.mesh.topology(), f, std::array{0.1, 0.2, 0.3, 0.4});
         d.constrain({point, move(point.position(scene.mesh))});
     }
-    CHECK(greatest_distance(d.solve(FrameQuality::preview), mapped(rest_positions_of(d), move)) <
+    CHECK(max_distance(d.solve(FrameQuality::preview), mapped(rest_positions_of(d), move)) <
           1e-8 * scene.size);
-    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), move)) < 1e-8 * scene.size);
+    CHECK(max_distance(d.solve(), mapped(rest_positions_of(d), move)) < 1e-8 * scene.size);
 }
 
 TEST_CASE("face points: soft ones are drawn") {

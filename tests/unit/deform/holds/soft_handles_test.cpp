@@ -103,8 +103,8 @@ TEST_CASE("soft handles: similarities of everything are exact") {
         d.set_transform(low, map);
         d.set_transform(high, map);
         const std::vector<Vec3> expected = mapped(rest_positions_of(d), map);
-        CHECK(greatest_distance(d.solve(FrameQuality::preview), expected) < 1e-9 * scene.size);
-        CHECK(greatest_distance(d.solve(), expected) < 1e-9 * scene.size);
+        CHECK(max_distance(d.solve(FrameQuality::preview), expected) < 1e-9 * scene.size);
+        CHECK(max_distance(d.solve(), expected) < 1e-9 * scene.size);
         d.set_transform(low, {});
         d.set_transform(high, {});
         CHECK(d.solve() == rest_positions_of(d));
@@ -136,7 +136,7 @@ TEST_CASE("soft handles: the basis is the direct solution, and linear in their t
     const Affine move = bend(scene, d.handle(high).center);
     d.set_transform(high, move);
     const std::vector<Vec3> x = d.solve(FrameQuality::preview);
-    CHECK(greatest_distance(x, solve_first_directly(d)) < 1e-11 * scene.size);
+    CHECK(max_distance(x, solve_first_directly(d)) < 1e-11 * scene.size);
 
     const HandleBasis basis = basis_of(d);
     REQUIRE(basis.handles.size() == 2);
@@ -184,7 +184,7 @@ TEST_CASE("soft constraints: a vertex is drawn, and is free again when they go")
     CHECK(distance(0.1) > 0.5);
     CHECK(distance(1.0) < 0.9);
     CHECK(distance(1e6) < 1e-4);
-    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+    CHECK(max_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
           1e-11 * scene.size);
 
     // Another target of the same weight costs no factorisation; a hard one replaces it.
@@ -204,7 +204,7 @@ TEST_CASE("soft handles: they alone hold a surface") {
     d.add_handle(scene.region(scene.low), weighted(1.0));
     const Affine move = rotation(Vec3::UnitX(), 2.0, Vec3(0, 1, 0));
     d.set_transform(d.handles()[0], move);
-    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), move)) < 1e-9 * scene.size);
+    CHECK(max_distance(d.solve(), mapped(rest_positions_of(d), move)) < 1e-9 * scene.size);
 }
 
 TEST_CASE("weights: zero, negative and not finite ones are refused") {

@@ -36,7 +36,7 @@ double slack(const Scene& scene, const HandleOptions& options, double radius,
     const HandleId h = d.add_handle(select_sphere(scene.mesh, {0, 0, 0}, 0.3 * unit), options);
     const Affine move = translation({0, unit, 0}) * rotation(Vec3::UnitX(), 0.5, Vec3::Zero());
     d.set_transform(h, move);
-    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+    CHECK(max_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
           1e-9 * scene.size);
     const std::vector<Vec3>& x = d.solve();
     double sum = 0.0;
@@ -106,7 +106,7 @@ TEST_CASE("falloff: similarities of everything are exact, and so is rest") {
     map.linear *= 1.7;
     edit.deformer.set_transform(edit.low, map);
     edit.deformer.set_transform(edit.high, map);
-    CHECK(greatest_distance(edit.deformer.solve(), mapped(rest_positions_of(edit.deformer), map)) <
+    CHECK(max_distance(edit.deformer.solve(), mapped(rest_positions_of(edit.deformer), map)) <
           1e-9 * scene.size);
     edit.deformer.set_transform(edit.low, {});
     edit.deformer.set_transform(edit.high, {});
@@ -123,7 +123,7 @@ TEST_CASE("transition: the deformation fades towards the outline, and 0 is as us
         const HandleId h = d.add_handle(select_sphere(scene.mesh, {0, 0, 0}, 0.3), options);
         d.set_transform(h, translation({0, 1, 0}) * rotation(Vec3::UnitX(), 0.3, Vec3::Zero()));
         const std::vector<Vec3> x = d.solve();
-        CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+        CHECK(max_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
               1e-9 * scene.size);
         double rim = 0.0;
         for (std::size_t row = 0; row < x.size(); ++row) {

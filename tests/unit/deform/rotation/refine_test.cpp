@@ -191,7 +191,7 @@ FollowedPath follow(const Scene& scene, const HandlePath& path, int frames) {
         const double limit = std::max(1.5, stretch_of(scene.mesh, now[0]));
         result.stretch = std::max(result.stretch, stretch_of(scene.mesh, now[1]) / limit);
         for (std::size_t k = 0; k < 2; ++k) {
-            if (frame > 0) motions[k].push_back(greatest_distance(before[k], now[k]));
+            if (frame > 0) motions[k].push_back(max_distance(before[k], now[k]));
             before[k] = now[k];
         }
     }

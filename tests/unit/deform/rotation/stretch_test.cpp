@@ -88,7 +88,7 @@ TEST_CASE("scaled handle: one that draws asks for no more than one that holds") 
     edges.second = SecondSystem::poisson;
     for (const Vec3& factors : {Vec3(2.0, 2.0, 2.0), Vec3(2.0, 1.0, 0.6)}) {
         const std::vector<Vec3> exact = scaled(scene, factors, edges);
-        CHECK(greatest_distance(exact, scaled(scene, factors, edges, drawing)) < 0.01);
+        CHECK(max_distance(exact, scaled(scene, factors, edges, drawing)) < 0.01);
     }
 }
 

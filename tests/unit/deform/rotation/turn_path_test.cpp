@@ -191,8 +191,8 @@ struct TurnReport {
     Worst widening, relief;
 };
 
-double greatest_motion(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
-                       const std::vector<Index>& vertices) {
+double max_motion(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
+                  const std::vector<Index>& vertices) {
     double greatest = 0.0;
     for (const Index v : vertices) greatest = std::max(greatest, (to[v] - from[v]).norm());
     return greatest;
@@ -227,9 +227,8 @@ TurnReport follow_turns(const Scene& scene, const Way& way, const DeformOptions&
         const std::vector<Vec3> now =
             options.refine > 0 ? edit.deformer.solve(FrameQuality::draft) : edit.deformer.solve();
         if (!before.empty()) {
-            report.speed.take(
-                greatest_motion(before, now, free) / greatest_motion(before, now, scene.high),
-                degrees);
+            report.speed.take(max_motion(before, now, free) / max_motion(before, now, scene.high),
+                              degrees);
         }
         if (degrees <= monotonic) {
             const double radius = width(now), energy = rigidity(now);

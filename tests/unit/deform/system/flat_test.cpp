@@ -125,12 +125,12 @@ TEST_CASE("flat: only a part of the sheet moves, and vertices come and go") {
     d.constrain(VertexConstraint{middle, rest_positions_of(d)[part.size() / 2], {}, {}});
     CHECK(off_plane(sheet, d.solve()) < kFlat);
     d.constrain(VertexConstraint{middle, {}, {}, {}});
-    CHECK(greatest_distance(d.solve(), before) == 0.0);
+    CHECK(max_distance(d.solve(), before) == 0.0);
     d.remove_handle(handle);
     const HandleId again = d.add_handle(Region(topology, tip));
     d.set_transform(again, rotation(sheet.normal, 0.8, Vec3::Zero()));
-    CHECK(greatest_distance(d.solve(), before) == 0.0);
-    CHECK(greatest_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
+    CHECK(max_distance(d.solve(), before) == 0.0);
+    CHECK(max_distance(d.solve(FrameQuality::preview), solve_first_directly(d)) <
           1e-11 * sheet.scene.size);
 }
 
@@ -158,14 +158,13 @@ TEST_CASE("flat: similarities of the whole are exact, and the rest shape to the 
     options.local_size = LocalSize::scale;
     Edit edit = make_edit(sheet.scene, options);
     Deformer& d = edit.deformer;
-    CHECK(greatest_distance(d.solve(), rest_positions_of(d)) == 0.0);
+    CHECK(max_distance(d.solve(), rest_positions_of(d)) == 0.0);
     const Affine map = translation(Vec3(1.0, 2.0, 3.0)) *
                        rotation(Vec3::UnitX(), 1.0, Vec3::Zero()) *
                        scaling(Vec3::Constant(1.5), Vec3::Zero());
     for (const HandleId handle : d.handles()) d.set_transform(handle, map);
-    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), map)) < 1e-9);
-    CHECK(greatest_distance(d.solve(FrameQuality::preview), mapped(rest_positions_of(d), map)) <
-          1e-9);
+    CHECK(max_distance(d.solve(), mapped(rest_positions_of(d), map)) < 1e-9);
+    CHECK(max_distance(d.solve(FrameQuality::preview), mapped(rest_positions_of(d), map)) < 1e-9);
     CHECK(stats_of(d).displaced_vertices == 0);
     CHECK(stats_of(d).extended_vertices > 0);
 }

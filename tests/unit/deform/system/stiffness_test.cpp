@@ -51,8 +51,8 @@ double bent_middle(const Scene& scene, double stiffness, const DeformOptions& op
     set_stiffness(edit.deformer, middle, stiffness);
     const Affine move = bend(scene, edit.deformer.handle(edit.high).center, 1.2);
     edit.deformer.set_transform(edit.high, move);
-    CHECK(greatest_distance(edit.deformer.solve(FrameQuality::preview),
-                            solve_first_directly(edit.deformer)) < 1e-8 * scene.size);
+    CHECK(max_distance(edit.deformer.solve(FrameQuality::preview),
+                       solve_first_directly(edit.deformer)) < 1e-8 * scene.size);
     const std::vector<Vec3>& x = edit.deformer.solve();
     for (const Index v : scene.high) CHECK(x[v] == move(scene.mesh.position(v)));
     return unrigidity(rest_positions_of(edit.deformer), x, middle) / scene.size;
@@ -81,9 +81,9 @@ TEST_CASE("stiffness: of all vertices it changes nothing, and 1 is as usual") {
     plain.deformer.set_transform(plain.high, move);
     stiff.deformer.set_transform(stiff.high, move);
     set_stiffness(stiff.deformer, scene.all(), 1.0);
-    CHECK(greatest_distance(plain.deformer.solve(), stiff.deformer.solve()) < 1e-12 * scene.size);
+    CHECK(max_distance(plain.deformer.solve(), stiff.deformer.solve()) < 1e-12 * scene.size);
     set_stiffness(stiff.deformer, scene.all(), 37.0);
-    CHECK(greatest_distance(plain.deformer.solve(), stiff.deformer.solve()) < 1e-9 * scene.size);
+    CHECK(max_distance(plain.deformer.solve(), stiff.deformer.solve()) < 1e-9 * scene.size);
 }
 
 TEST_CASE(
@@ -111,8 +111,7 @@ TEST_CASE(
     stiff.deformer.set_transform(stiff.high, move);
     for (const double stiffness : {0.2, 37.0}) {
         set_stiffness(stiff.deformer, scene.all(), stiffness);
-        CHECK(greatest_distance(plain.deformer.solve(), stiff.deformer.solve()) <
-              1e-9 * scene.size);
+        CHECK(max_distance(plain.deformer.solve(), stiff.deformer.solve()) < 1e-9 * scene.size);
     }
 }
 
@@ -133,7 +132,7 @@ TEST_CASE("stiffness: similarities of everything stay exact, and changing it ref
     map.linear *= 1.7;
     d.set_transform(edit.low, map);
     d.set_transform(edit.high, map);
-    CHECK(greatest_distance(d.solve(), mapped(rest_positions_of(d), map)) < 1e-9 * scene.size);
+    CHECK(max_distance(d.solve(), mapped(rest_positions_of(d), map)) < 1e-9 * scene.size);
     const Index count = stats_of(d).factorizations;
     set_stiffness(d, scene.region(scene.low), 2.0);
     d.solve();

@@ -218,13 +218,13 @@ TEST_CASE("growth: the same to the bit with and without vector instructions") {
     }
     GrowthRules rules{};
     rules.segment = 0.5f;
-    rules.least_speed = 0.05f;
-    rules.least_move = 5e-4f;
+    rules.min_speed = 0.05f;
+    rules.min_move = 5e-4f;
     rules.lift = 0.15f;
     rules.inverse_ramp = 0.5f;
     rules.inverse_step = static_cast<float>(1.0 / layout.step);
     rules.avoid = true;
-    rules.most_segments = 150;
+    rules.max_segments = 150;
     const Eigen::Vector3f middle = Eigen::Vector3f(grid.last.data()) / 2.0f;
     rules.cuts = {{{0.0f, -1.0f, 0.0f}, -middle.y() - 1.0f, 1.0f}};
     rules.ties = {{{middle, {0.0f, 0.0f, -1.0f}, 50.0f}, 5.0f, 0.45f}};

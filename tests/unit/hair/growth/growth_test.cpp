@@ -121,7 +121,7 @@ TEST_CASE("growth: no roots, no segments, and bad options") {
     };
     CHECK(code([](auto& o) { o.segment = 0.0; }) == ErrorCode::invalid_argument);
     CHECK(code([](auto& o) { o.length = -1.0; }) == ErrorCode::invalid_argument);
-    CHECK(code([](auto& o) { o.most_segments = 0; }) == ErrorCode::invalid_argument);
+    CHECK(code([](auto& o) { o.max_segments = 0; }) == ErrorCode::invalid_argument);
     CHECK(code([](auto& o) { o.length_map = {1.0}; }) == ErrorCode::invalid_argument);
     CHECK(code([](auto& o) { o.placement.linear.setZero(); }) == ErrorCode::invalid_argument);
     CHECK(code([](auto& o) { o.cuts.push_back({.normal = Vec3::Zero()}); }) ==
@@ -170,7 +170,7 @@ TEST_CASE("growth: the greatest turn can be set, and no strand turns by more") {
     const Groomed& scene = groomed();
     const auto grown = [&](double degrees, Index& turned) {
         GrowthOptions options;
-        options.greatest_turn = degrees * kPi / 180.0;
+        options.max_turn = degrees * kPi / 180.0;
         options.avoid = false;
         Strands strands;
         const GrowthReport report = grow(scene.head, scene.field, scene.roots, options, strands);
@@ -193,7 +193,7 @@ TEST_CASE("growth: the greatest turn can be set, and no strand turns by more") {
     CHECK(many > few);
     CHECK(none == 0);
     GrowthOptions wrong;
-    wrong.greatest_turn = 4.0;
+    wrong.max_turn = 4.0;
     Strands strands;
     CHECK(test::error_of([&] {
               grow(scene.head, scene.field, scene.roots, wrong, strands);

@@ -68,8 +68,8 @@ TEST_CASE("strands run in the braid as long as asked, within its section") {
     for (Index s = 0; s < 300; ++s) {
         const StrandView strand = strands.strand(s);
         const double run = strand.col(strand.cols() - 1).x() - strand.col(0).x();
-        CHECK(run > options.least_run - 0.012);
-        CHECK(run < options.most_run + 0.012);
+        CHECK(run > options.min_run - 0.012);
+        CHECK(run < options.max_run + 0.012);
         for (Index k = 25; k < strand.cols(); ++k) {
             CHECK(std::abs(strand(1, k) - 0.06) < 2.4 * 1.15 * options.radius);
             CHECK(std::abs(strand(2, k) - 0.005) < 2.0 * options.radius);
@@ -154,7 +154,7 @@ TEST_CASE("a braid that no strand comes near, or with options out of range, chan
     refused([](auto& o) { o.radius = 0.0; });
     refused([](auto& o) { o.step = 0.0; });
     refused([](auto& o) { o.step = 1e-9; });
-    refused([](auto& o) { o.most_run = 0.01; });
+    refused([](auto& o) { o.max_run = 0.01; });
     refused([](auto& o) { o.joined = 0.0; });
     refused([](auto& o) { o.tail = 1.5; });
     refused([](auto& o) { o.wide = std::numeric_limits<double>::infinity(); });

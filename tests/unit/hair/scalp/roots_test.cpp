@@ -34,7 +34,7 @@ bool same(const Root& a, const Root& b) {
            a.position == b.position && a.normal == b.normal;
 }
 
-double least_distance(std::vector<Root> roots) {
+double min_distance(std::vector<Root> roots) {
     std::sort(roots.begin(), roots.end(),
               [](const Root& a, const Root& b) { return a.position.x() < b.position.x(); });
     double least = std::numeric_limits<double>::infinity();
@@ -70,7 +70,7 @@ TEST_CASE("roots are evenly spread, whatever their number") {
     for (const std::size_t n : {100, 1000, 5000, 20000}) {
         const std::vector<Root> roots(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n));
         const double spacing = std::sqrt(dome.area / static_cast<double>(n));
-        CHECK(least_distance(roots) >= 0.55 * spacing);
+        CHECK(min_distance(roots) >= 0.55 * spacing);
         CHECK(widest_gap(roots, probes) <= 1.5 * spacing);
     }
 }

@@ -17,13 +17,13 @@ TEST_CASE("lengths and turns of known strands") {
     const StrandStatistics found = strand_statistics(strands);
     CHECK(found.strands == 3);
     CHECK(found.points == 10);
-    CHECK(found.least_points == 3);
-    CHECK(found.most_points == 4);
-    CHECK(found.least_length == doctest::Approx(1.5));
-    CHECK(found.most_length == doctest::Approx(4.0));
+    CHECK(found.min_points == 3);
+    CHECK(found.max_points == 4);
+    CHECK(found.min_length == doctest::Approx(1.5));
+    CHECK(found.max_length == doctest::Approx(4.0));
     CHECK(found.mean_length == doctest::Approx(7.5 / 3));
-    CHECK(found.greatest_turn == doctest::Approx(kPi));
-    CHECK(found.greatest_turn_strand == 2);
+    CHECK(found.max_turn == doctest::Approx(kPi));
+    CHECK(found.max_turn_strand == 2);
     CHECK(found.sharp == 1);
     CHECK(found.zero_segments == 1);
     CHECK(found.zero_length == 0);
@@ -36,7 +36,7 @@ TEST_CASE("strands that are damaged are counted and spoil nothing else") {
     const StrandStatistics found = strand_statistics(strands);
     CHECK(found.not_finite == 1);
     CHECK(found.zero_length == 1);
-    CHECK(found.least_length == 0.0);
+    CHECK(found.min_length == 0.0);
     CHECK(found.mean_length == doctest::Approx(0.5));
     CHECK(bounds(strands).max == Vec3(3, 3, 3));
     CHECK(bounds(strands).min == Vec3(0, 0, 0));
@@ -57,7 +57,7 @@ TEST_CASE("statistics do not depend on the number of threads") {
     const StrandStatistics one = strand_statistics(strands, {}, threads(1));
     const StrandStatistics many = strand_statistics(strands, {}, threads(4));
     CHECK(one.mean_length == many.mean_length);
-    CHECK(one.greatest_turn_strand == many.greatest_turn_strand);
+    CHECK(one.max_turn_strand == many.max_turn_strand);
 }
 
 TEST_CASE("statistics of no strands are zero") {

@@ -133,7 +133,7 @@ TEST_CASE("smoothing makes turns smaller and keeps tips") {
     Strands strands = random_hair(50);
     const Strands before = strands;
     smooth(strands, {5, 0.5});
-    CHECK(strand_statistics(strands).greatest_turn < strand_statistics(before).greatest_turn);
+    CHECK(strand_statistics(strands).max_turn < strand_statistics(before).max_turn);
     for (Index s = 0; s < strands.size(); ++s) {
         const Index tip = strands.point_count(s) - 1;
         CHECK(strands.strand(s).col(tip) == before.strand(s).col(tip));

@@ -56,8 +56,8 @@ TEST_CASE("a strand rooted beyond the plane keeps its least length") {
     options.plane = StrandTrimPlane{{0, -1, 0}, {0, 1, 0}};
     options.least = 0.005;
     const Strands made = trimmed(random_hair(20), options);
-    CHECK(strand_statistics(made).least_length == doctest::Approx(0.005));
-    CHECK(strand_statistics(made).most_length == doctest::Approx(0.005));
+    CHECK(strand_statistics(made).min_length == doctest::Approx(0.005));
+    CHECK(strand_statistics(made).max_length == doctest::Approx(0.005));
 }
 
 TEST_CASE("trimming at random belongs to the id of a strand") {

@@ -33,7 +33,7 @@ SaveOptions compressed_by(Compression kind, int quantize = 0) {
     return options;
 }
 
-double greatest_distance(const Mesh& a, const Mesh& b) {
+double max_distance(const Mesh& a, const Mesh& b) {
     REQUIRE(a.vertex_count() == b.vertex_count());
     double greatest = 0.0;
     for (Index v = 0; v < a.vertex_count(); ++v) {
@@ -128,7 +128,7 @@ TEST_CASE("compressed files without quantisation hold the mesh to the bit") {
             const std::string bytes = encode_mesh(mesh, extension, compressed_by(kind));
             const Mesh back = decode_mesh(bytes, extension);
             CHECK(back.positions().size() == mesh.positions().size());
-            CHECK(greatest_distance(mesh, back) == 0.0);
+            CHECK(max_distance(mesh, back) == 0.0);
             CHECK(back.topology().faces().vertices == mesh.topology().faces().vertices);
             // Texture coordinates are turned, which rounds them.
             const Mesh plain = decode_mesh(encode_mesh(mesh, extension), extension);
@@ -156,7 +156,7 @@ TEST_CASE("quantised compressed files are small and their error is that of their
             const Mesh back = decode_mesh(bytes, "glb");
             // Half a step in each of three coordinates.
             const double step = 2.0 / (1 << bits);
-            const double error = greatest_distance(mesh, back);
+            const double error = max_distance(mesh, back);
             CHECK(error <= step);
             CHECK(error > step / 100.0);
         }
@@ -178,7 +178,7 @@ TEST_CASE("objects of several materials are compressed by meshopt, and Draco say
         const Mesh plain = decode_mesh(encode_mesh(mesh, "glb"), "glb");
         CHECK(back.attributes().labels().at("material").of_face ==
               plain.attributes().labels().at("material").of_face);
-        CHECK(greatest_distance(mesh, back) == 0.0);
+        CHECK(max_distance(mesh, back) == 0.0);
     }
 }
 

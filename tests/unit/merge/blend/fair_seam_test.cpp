@@ -94,7 +94,7 @@ TEST_CASE("the result follows a similarity of the input") {
         image.mesh = test::moved(cone.mesh, map);
         fair(cone);
         fair(image);
-        CHECK(test::greatest_move(test::moved(cone.mesh, map), image.mesh) < 1e-9 * scale);
+        CHECK(test::max_move(test::moved(cone.mesh, map), image.mesh) < 1e-9 * scale);
     }
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("a fairing does not depend on how vertices and faces are numbered") {
     fair(cone);
     for (std::size_t i = 0; i < orders.size(); ++i) {
         fair(images[i]);
-        CHECK(test::greatest_move(cone.mesh, images[i].mesh, orders[i]) < 1e-9);
+        CHECK(test::max_move(cone.mesh, images[i].mesh, orders[i]) < 1e-9);
     }
 }
 
@@ -175,7 +175,7 @@ TEST_CASE("the smallest meshes: farthest vertices hold what nothing else holds")
     CHECK(fair_seam(mesh, seams) == std::vector<Index>{0, 1, 2});
     CHECK(mesh.position(3) == before.position(3));
     CHECK(mesh.position(4) == before.position(4));
-    CHECK(test::greatest_move(mesh, before) < 2.0);
+    CHECK(test::max_move(mesh, before) < 2.0);
 
     // A seam through all vertices has nothing to move between.
     Mesh tetrahedron = test::tetrahedron();
@@ -191,7 +191,7 @@ TEST_CASE("slivers and folded edges at the seam leave the band finite and near")
         cone.mesh.edit_positions()[seam[i]] = before.position(seam[i + 1]);
     }
     fair(cone);
-    CHECK(test::greatest_move(cone.mesh, before) < 0.3);
+    CHECK(test::max_move(cone.mesh, before) < 0.3);
 }
 
 TEST_CASE("custom normals turn with the band, all others stay to the bit") {

@@ -104,7 +104,7 @@ inline std::vector<Index> shuffled_numbers(Index count, unsigned seed) {
 }
 
 /// Greatest distance between a vertex and the one that has its place in `to`.
-inline double greatest_move(const Mesh& a, const Mesh& b, const std::vector<Index>& to) {
+inline double max_move(const Mesh& a, const Mesh& b, const std::vector<Index>& to) {
     double greatest = 0.0;
     for (Index v = 0; v < a.vertex_count(); ++v) {
         greatest = std::max(greatest, (a.position(v) - b.position(to[v])).norm());
@@ -138,7 +138,7 @@ inline double seam_dihedral(const Mesh& mesh, const std::vector<std::vector<Inde
 }
 
 /// Greatest distance between equal vertices of two meshes.
-inline double greatest_move(const Mesh& a, const Mesh& b) {
+inline double max_move(const Mesh& a, const Mesh& b) {
     double greatest = 0.0;
     for (Index v = 0; v < a.vertex_count(); ++v) {
         greatest = std::max(greatest, (a.position(v) - b.position(v)).norm());

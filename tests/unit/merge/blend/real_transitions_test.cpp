@@ -32,16 +32,16 @@ TEST_CASE("real pairs: faired or blended, the seam shows less than it did, and n
         Mesh faired = merged.mesh;
         fair_seam(faired, merged.seams);
         const SeamQuality fair = seam_quality(faired, merged.seams);
-        CHECK(fair.greatest_dihedral < pair.dihedral * kDegree);
-        CHECK(fair.greatest_near < before.greatest_near + kDegree);
+        CHECK(fair.max_dihedral < pair.dihedral * kDegree);
+        CHECK(fair.max_near < before.max_near + kDegree);
 
         const double width = 0.9 * mean_radius(merged.mesh, merged.seams[0]);
         Sewn sewn{std::move(merged.mesh), {}, merged.side_of_face, merged.seams, {}};
         const std::vector<TransitionWidths> widths{{width, width}};
         const TransitionReport report = blend_transition(sewn, widths);
         const SeamQuality blended = seam_quality(sewn.mesh, sewn.seams);
-        CHECK(blended.greatest_dihedral < (pair.dihedral + 2.0) * kDegree);
-        CHECK(blended.greatest_near < before.greatest_near + kDegree);
+        CHECK(blended.max_dihedral < (pair.dihedral + 2.0) * kDegree);
+        CHECK(blended.max_near < before.max_near + kDegree);
         CHECK(report.target[0].unmapped == 0);
         CHECK(report.source[0].unmapped == 0);
     }

@@ -172,7 +172,7 @@ TEST_CASE("the seam is the same from both sides") {
     std::reverse(exchanged.seams[0].begin(), exchanged.seams[0].end());
     blend(tube, 0.9, 0.7);
     blend(exchanged, 0.7, 0.9);
-    CHECK(test::greatest_move(tube.mesh, exchanged.mesh) < 1e-9);
+    CHECK(test::max_move(tube.mesh, exchanged.mesh) < 1e-9);
 }
 
 TEST_CASE("a smooth surface stays as it is") {
@@ -211,7 +211,7 @@ TEST_CASE("the result follows a similarity of the input, and not the threads") {
         const Affine map = test::similarity(random, scale);
         image.mesh = test::moved(rest, map);
         blend(image, scale * kWidth, scale * kWidth);
-        CHECK(test::greatest_move(test::moved(tube.mesh, map), image.mesh) < 1e-9 * scale);
+        CHECK(test::max_move(test::moved(tube.mesh, map), image.mesh) < 1e-9 * scale);
     }
     Sewn threads = bumpy();
     ContextOptions options;
@@ -232,7 +232,7 @@ TEST_CASE("a transition does not depend on how vertices and faces are numbered")
     blend(tube);
     for (std::size_t i = 0; i < orders.size(); ++i) {
         blend(images[i]);
-        CHECK(test::greatest_move(tube.mesh, images[i].mesh, orders[i]) < 1e-9);
+        CHECK(test::max_move(tube.mesh, images[i].mesh, orders[i]) < 1e-9);
     }
 }
 
@@ -246,7 +246,7 @@ TEST_CASE("bands stop where the surface has no more room") {
             CHECK(band.width < 0.51 * kPi * 0.65);
             CHECK(band.width > 0.45 * kPi * 0.65);
         }
-        CHECK(test::greatest_move(ring.mesh, torus) < 0.2);
+        CHECK(test::max_move(ring.mesh, torus) < 0.2);
     }
     SUBCASE("at the open end of a tube") {
         Sewn tube = test::revolution(48, 6, [](double, double) { return 1.0; });
@@ -308,7 +308,7 @@ TEST_CASE("the smallest meshes come through") {
     const TransitionReport report = blend(sewn, 10.0, 10.0);
     CHECK(report.moved == std::vector<Index>{0, 1, 2});
     CHECK(sewn.mesh.position(3) == before.position(3));
-    CHECK(test::greatest_move(sewn.mesh, before) < 2.0);
+    CHECK(test::max_move(sewn.mesh, before) < 2.0);
 }
 
 TEST_CASE("bad widths and options, and a cancel at any step, change nothing") {

@@ -68,7 +68,7 @@ TEST_CASE("a band that is as it was is no rougher, folds nowhere and keeps both 
     CHECK(same.rest_roughness > 0.0);
     CHECK(same.roughness == doctest::Approx(same.rest_roughness));
     CHECK(same.bend < 1e-6);
-    CHECK(same.greatest_bend < 1e-6);
+    CHECK(same.max_bend < 1e-6);
     CHECK(same.folded == 0.0);
     CHECK(same.source_volume == doctest::Approx(1.0));
     CHECK(same.target_volume == doctest::Approx(1.0));
@@ -261,6 +261,6 @@ TEST_CASE("one point of a seam does not decide how much it bends, a tenth of it 
             p.z() *= in;
         }));
     };
-    CHECK(dented(0.1).greatest_bend < 30.0 * kDegree);
-    CHECK(dented(1.0).greatest_bend > 35.0 * kDegree);
+    CHECK(dented(0.1).max_bend < 30.0 * kDegree);
+    CHECK(dented(1.0).max_bend > 35.0 * kDegree);
 }

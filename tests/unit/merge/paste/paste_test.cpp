@@ -133,7 +133,7 @@ TEST_CASE("paste: a crease is at most what is allowed, and takes distortion away
         const PasteResult result = paste.merge();
         check_sound(result);
         CAPTURE(degrees);
-        CHECK(result.merged.report.seam.after.greatest_dihedral < (degrees + 25.0) * kDegree);
+        CHECK(result.merged.report.seam.after.max_dihedral < (degrees + 25.0) * kDegree);
         CHECK(result.report.near.energy > last);
         last = result.report.near.energy;
     }
@@ -313,7 +313,7 @@ TEST_CASE("paste: meshes that are both inside out are judged as the same right s
     const BandQuality inward = band_of();
     CHECK(inward.source_volume == doctest::Approx(outward.source_volume).epsilon(0.05));
     CHECK(inward.roughness == doctest::Approx(outward.roughness).epsilon(0.05));
-    CHECK(inward.greatest_bend == doctest::Approx(outward.greatest_bend).epsilon(0.1));
+    CHECK(inward.max_bend == doctest::Approx(outward.max_bend).epsilon(0.1));
 }
 
 TEST_CASE("paste: of a part and a target that look to different sides the inverted one is told") {

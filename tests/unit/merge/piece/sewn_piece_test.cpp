@@ -72,7 +72,7 @@ void check_same(const SewScene& scene, const SewOptions& options) {
     CHECK(piece->report.flipped == whole.report.flipped);
     CHECK(piece->report.smoothed == whole.report.smoothed);
     CHECK(piece->report.collar_added == whole.report.collar_added);
-    CHECK(piece->report.after.greatest_dihedral == whole.report.after.greatest_dihedral);
+    CHECK(piece->report.after.max_dihedral == whole.report.after.max_dihedral);
 }
 
 // Long tubes that meet at an angle.

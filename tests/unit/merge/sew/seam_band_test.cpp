@@ -43,8 +43,8 @@ double area_of(const std::vector<BandTriangle>& band, const std::vector<Vec3>& f
 
 // The least area over all bands that begin with the edge between point `start` of the first loop
 // and point 0 of the second.
-double least_area(const std::vector<Vec3>& first, const std::vector<Vec3>& second,
-                  std::size_t start) {
+double min_area(const std::vector<Vec3>& first, const std::vector<Vec3>& second,
+                std::size_t start) {
     const std::size_t n = first.size(), m = second.size();
     std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, 1e300));
     for (std::size_t i = 0; i <= n; ++i) {
@@ -69,11 +69,11 @@ TEST_CASE("band: the least area of all starts, on random loops") {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const auto first = noisy_circle(3 + seed, 0.0, seed);
         const auto second = noisy_circle(3 + (7 * seed) % 11, 1.0, seed + 100);
-        const std::vector<BandTriangle> band = least_area_band(first, second);
+        const std::vector<BandTriangle> band = min_area_band(first, second);
         CHECK(band.size() == first.size() + second.size());
         double best = 1e300;
         for (std::size_t start = 0; start < first.size(); ++start) {
-            best = std::min(best, least_area(first, second, start));
+            best = std::min(best, min_area(first, second, start));
         }
         CHECK(area_of(band, first, second) == doctest::Approx(best).epsilon(1e-12));
     }

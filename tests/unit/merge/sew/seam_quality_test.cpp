@@ -51,10 +51,10 @@ TEST_CASE("seam quality: angles and lengths of a roof's eaves") {
             seam_quality(mesh, std::vector<std::vector<Index>>{{0, 1, 2, 3}});
         CHECK(quality.vertices == 4);
         CHECK(quality.mean_edge == Approx(0.5 * (kLong + kShort) * scale));
-        CHECK(quality.greatest_dihedral == Approx(at_short));
+        CHECK(quality.max_dihedral == Approx(at_short));
         CHECK(quality.rms_dihedral == Approx(std::sqrt(squares / (kLong + kShort))));
         // The corners of the walls are next to it.
-        CHECK(quality.greatest_near == Approx(0.5 * kPi));
+        CHECK(quality.max_near == Approx(0.5 * kPi));
         const double rafter = Vec3(0.5 * kLong, 0.5 * kShort, kHeight).norm();
         CHECK(quality.smallest_angle == Approx(std::acos(0.5 * kLong / rafter)));
         CHECK(quality.low_angle == quality.smallest_angle);
@@ -67,7 +67,7 @@ TEST_CASE(
     const SeamQuality one = seam_quality(mesh, std::vector<std::vector<Index>>{{0, 1, 2, 3}});
     const SeamQuality other = seam_quality(mesh, std::vector<std::vector<Index>>{{2, 1, 0, 3}});
     CHECK(other.rms_dihedral == Approx(one.rms_dihedral));
-    CHECK(other.greatest_near == one.greatest_near);
+    CHECK(other.max_near == one.max_near);
     const SeamQuality twice =
         seam_quality(mesh, std::vector<std::vector<Index>>{{0, 1, 2, 3}, {3, 0, 1, 2}});
     CHECK(twice.vertices == 8);

@@ -58,7 +58,7 @@ Vec3 area_vector(const SeamSheet& sheet, const Triangle& t) {
     return 0.5 * (sheet.position(t[1]) - a).cross(sheet.position(t[2]) - a);
 }
 
-double least_angle(const std::array<Vec3, 3>& p) {
+double min_angle(const std::array<Vec3, 3>& p) {
     double least = kPi;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 u = p[(k + 1) % 3] - p[k], v = p[(k + 2) % 3] - p[k];
@@ -67,8 +67,8 @@ double least_angle(const std::array<Vec3, 3>& p) {
     return least;
 }
 
-double least_angle(const SeamSheet& sheet, Index a, Index b, Index c) {
-    return least_angle({sheet.position(a), sheet.position(b), sheet.position(c)});
+double min_angle(const SeamSheet& sheet, Index a, Index b, Index c) {
+    return min_angle({sheet.position(a), sheet.position(b), sheet.position(c)});
 }
 
 // Calls with the two triangles at every inner edge a-c, and their other corners.
@@ -91,7 +91,7 @@ void for_each_quad(
     }
 }
 
-double greatest_dihedral(const SeamSheet& sheet) {
+double max_dihedral(const SeamSheet& sheet) {
     double greatest = 0.0;
     for_each_quad(sheet, [&](const Triangle& s, const Triangle& t, Index, Index) {
         const Vec3 n = area_vector(sheet, s), m = area_vector(sheet, t);
@@ -133,9 +133,9 @@ TEST_CASE("seam sheet: flips end where none makes the smallest angle greater") {
             const bool convex =
                 area_vector(sheet, first).z() > 0.0 && area_vector(sheet, second).z() > 0.0;
             if (!convex) return;
-            const double now = std::min(least_angle(sheet, s[0], s[1], s[2]),
-                                        least_angle(sheet, t[0], t[1], t[2]));
-            const double then = std::min(least_angle(sheet, p, a, q), least_angle(sheet, p, q, c));
+            const double now =
+                std::min(min_angle(sheet, s[0], s[1], s[2]), min_angle(sheet, t[0], t[1], t[2]));
+            const double then = std::min(min_angle(sheet, p, a, q), min_angle(sheet, p, q, c));
             CHECK(then < now + 1e-5);
         });
     }
@@ -146,9 +146,9 @@ TEST_CASE("seam sheet: flips make no dihedral angle greater than the limits and 
     for (const double limit : {0.0, 0.1, 0.3}) {
         const Mesh mesh = jittered_square(4, 0.3, ridge);
         SeamSheet sheet = sheet_of(mesh, kPi);
-        const double before = greatest_dihedral(sheet);
+        const double before = max_dihedral(sheet);
         CHECK(sheet.flip_edges({limit, limit}, {}) > 0);
-        CHECK(greatest_dihedral(sheet) <= std::max(before, limit) + 1e-6);
+        CHECK(max_dihedral(sheet) <= std::max(before, limit) + 1e-6);
     }
 }
 

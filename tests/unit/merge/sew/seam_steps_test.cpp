@@ -55,8 +55,8 @@ Sewn sewn_tubes(const SewScene& scene, const SewOptions& options) {
 }
 
 void check_no_worse(const SeamQuality& before, const SeamQuality& after) {
-    CHECK(after.greatest_dihedral <= before.greatest_dihedral + 1e-5);
-    CHECK(after.greatest_near <= before.greatest_near + 1e-5);
+    CHECK(after.max_dihedral <= before.max_dihedral + 1e-5);
+    CHECK(after.max_near <= before.max_near + 1e-5);
 }
 
 // The smallest angle of the triangles of one side that touch the seam, in degrees.
@@ -152,8 +152,8 @@ TEST_CASE("a transition turns no seam more than smoothing left it, up to angles 
             blend_transition(blended, widths);
             const SeamQuality before = seam_quality(sewn.mesh, sewn.seams),
                               after = seam_quality(blended.mesh, blended.seams);
-            CHECK(after.greatest_dihedral <= std::max(before.greatest_dihedral, faint_seam) + 1e-5);
-            CHECK(after.greatest_near <= std::max(before.greatest_near, faint) + 1e-5);
+            CHECK(after.max_dihedral <= std::max(before.max_dihedral, faint_seam) + 1e-5);
+            CHECK(after.max_near <= std::max(before.max_near, faint) + 1e-5);
         }
     }
 }
@@ -496,7 +496,7 @@ TEST_CASE("steps without a guard are made whole, and as many as are asked for") 
     plain.guard = false;
     const Sewn kept = sewn_tubes(scene, guarded), folded = sewn_tubes(scene, plain);
     CHECK(folded.report.smoothed == 4);
-    CHECK(folded.report.after.greatest_dihedral > 2.0 * kept.report.after.greatest_dihedral);
+    CHECK(folded.report.after.max_dihedral > 2.0 * kept.report.after.max_dihedral);
     // One step: half of the way to the mean of the neighbours on the seam, a quarter beside it.
     plain.smooth = 0;
     const Mesh before = sewn_tubes(scene, plain).mesh;

@@ -95,7 +95,7 @@ std::optional<LoadedPart> load_slice(const Slice& slice) {
     return LoadedPart{std::move(parts.kept.mesh), parts.lines.front().kept};
 }
 
-double least_triangle_angle(const Mesh& mesh, Index f) {
+double min_triangle_angle(const Mesh& mesh, Index f) {
     const std::span<const Index> face = mesh.topology().face(f);
     double least = kPi;
     for (std::size_t k = 0; k < face.size(); ++k) {
@@ -108,14 +108,14 @@ double least_triangle_angle(const Mesh& mesh, Index f) {
 }
 
 // The smallest angle of a part's faces, and that of the faces of one side at the seam.
-double least_angle_of(const Mesh& mesh) {
+double min_angle_of(const Mesh& mesh) {
     double least = kPi;
     for (Index f = 0; f < mesh.face_count(); ++f)
-        least = std::min(least, least_triangle_angle(mesh, f));
+        least = std::min(least, min_triangle_angle(mesh, f));
     return least;
 }
 
-double least_angle_at_seam(const MergeResult& result, SeamSide side) {
+double min_angle_at_seam(const MergeResult& result, SeamSide side) {
     const std::set<Index> on(result.seams[0].begin(), result.seams[0].end());
     double least = kPi;
     for (Index f = 0; f < result.mesh.face_count(); ++f) {
@@ -123,7 +123,7 @@ double least_angle_at_seam(const MergeResult& result, SeamSide side) {
         const bool at =
             std::any_of(face.begin(), face.end(), [&](Index v) { return on.contains(v); });
         if (at && result.side_of_face[f] == side)
-            least = std::min(least, least_triangle_angle(result.mesh, f));
+            least = std::min(least, min_triangle_angle(result.mesh, f));
     }
     return least;
 }
@@ -157,8 +157,8 @@ TEST_CASE("on twelve unlike pairs no step leaves a seam worse, with and without 
         const SeamQuality &plain = smoothed.report.seam.after, &across = faded.report.seam.after;
         // A transition and a fair seam may turn so far, if that smooths the surface beside them.
         const double faint = 20.0 * kPairDegree + 1e-4;
-        CHECK(across.greatest_dihedral <= std::max(plain.greatest_dihedral + 1e-4, faint));
-        CHECK(across.greatest_near <= std::max(plain.greatest_near + 1e-4, faint));
+        CHECK(across.max_dihedral <= std::max(plain.max_dihedral + 1e-4, faint));
+        CHECK(across.max_near <= std::max(plain.max_near + 1e-4, faint));
         CHECK(faded.report.intersections.size() <= crossings);
         for (const SeamKind kind : {SeamKind::conform, SeamKind::fair}) {
             for (const bool collar : {true, false}) {
@@ -172,10 +172,10 @@ TEST_CASE("on twelve unlike pairs no step leaves a seam worse, with and without 
                                   << std::string(collar ? ", collar" : "") << ": "
                                   << result.report.joins[0].source_size << ":"
                                   << result.report.joins[0].target_size << " seam "
-                                  << before.greatest_dihedral / kPairDegree << " -> "
-                                  << after.greatest_dihedral / kPairDegree << ", near "
-                                  << before.greatest_near / kPairDegree << " -> "
-                                  << after.greatest_near / kPairDegree << ", least "
+                                  << before.max_dihedral / kPairDegree << " -> "
+                                  << after.max_dihedral / kPairDegree << ", near "
+                                  << before.max_near / kPairDegree << " -> "
+                                  << after.max_near / kPairDegree << ", least "
                                   << before.smallest_angle / kPairDegree << " -> "
                                   << after.smallest_angle / kPairDegree << ", crossings "
                                   << crossings << " -> " << result.report.intersections.size()
@@ -183,9 +183,8 @@ TEST_CASE("on twelve unlike pairs no step leaves a seam worse, with and without 
                                   << result.report.seam.collar_added << ", "
                                   << result.report.solve_seconds << " s");
                 const double allowed = kind == SeamKind::fair ? faint : 0.0;
-                CHECK(after.greatest_dihedral <=
-                      std::max(before.greatest_dihedral + 1e-4, allowed));
-                CHECK(after.greatest_near <= before.greatest_near + 1e-4);
+                CHECK(after.max_dihedral <= std::max(before.max_dihedral + 1e-4, allowed));
+                CHECK(after.max_near <= before.max_near + 1e-4);
                 CHECK(result.report.intersections.size() <= crossings);
                 CHECK(result.mesh.topology().boundary_loops().size() + 2 ==
                       source->mesh.topology().boundary_loops().size() +
@@ -193,8 +192,8 @@ TEST_CASE("on twelve unlike pairs no step leaves a seam worse, with and without 
                 if (!collar || result.report.seam.collar_added == 0) continue;
                 for (const SeamSide side : {SeamSide::target, SeamSide::source}) {
                     const Mesh& own = side == SeamSide::target ? target->mesh : source->mesh;
-                    CHECK(least_angle_at_seam(result, side) >=
-                          std::min(15.0 * kPairDegree, least_angle_of(own)) - 1e-6);
+                    CHECK(min_angle_at_seam(result, side) >=
+                          std::min(15.0 * kPairDegree, min_angle_of(own)) - 1e-6);
                 }
             }
         }

@@ -27,17 +27,17 @@ double area_of(std::span<const Vec3> loop, std::span<const Triangle> triangles) 
 }
 
 // The least area of all triangulations of the part from i to k, by trying all.
-double least_area(std::span<const Vec3> loop, std::size_t i, std::size_t k) {
+double min_area(std::span<const Vec3> loop, std::size_t i, std::size_t k) {
     double least = k - i < 2 ? 0.0 : kInfinity;
     for (std::size_t m = i + 1; m < k; ++m) {
-        least = std::min(least, least_area(loop, i, m) + least_area(loop, m, k) +
+        least = std::min(least, min_area(loop, i, m) + min_area(loop, m, k) +
                                     triangle_area(loop[i], loop[m], loop[k]));
     }
     return least;
 }
 
 // The same by a table.
-double least_area_by_table(std::span<const Vec3> loop) {
+double min_area_by_table(std::span<const Vec3> loop) {
     const std::size_t n = loop.size();
     std::vector<double> cost(n * n, 0.0);
     for (std::size_t length = 2; length < n; ++length) {
@@ -89,8 +89,7 @@ TEST_CASE("the least area of all triangulations is found") {
         for (Vec3& p : loop) p = random.in_box({Vec3(0, 0, 0), Vec3(1, 1, 1)});
         const std::vector<Triangle> triangles = minimum_area_triangles(loop);
         check_closes(triangles, count_of(loop));
-        CHECK(area_of(loop, triangles) ==
-              Approx(least_area(loop, 0, loop.size() - 1)).epsilon(1e-3));
+        CHECK(area_of(loop, triangles) == Approx(min_area(loop, 0, loop.size() - 1)).epsilon(1e-3));
     }
 }
 
@@ -114,7 +113,7 @@ TEST_CASE("a long loop is closed with about the least area") {
             const std::vector<Vec3> loop = wavy_loop(n, height);
             const std::vector<Triangle> triangles = minimum_area_triangles(loop);
             check_closes(triangles, n);
-            const double least = least_area_by_table(loop);
+            const double least = min_area_by_table(loop);
             CHECK(area_of(loop, triangles) < 1.01 * least);
         }
     }

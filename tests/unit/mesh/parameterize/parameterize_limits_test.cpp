@@ -148,8 +148,8 @@ TEST_CASE("faces without an area do no harm") {
             CHECK(std::binary_search(map.degenerate.begin(), map.degenerate.end(), f));
         }
         if (method == ParameterizeMethod::tutte) continue;
-        CHECK(map.least_scale == Approx(1.0).epsilon(0.01));
-        CHECK(map.greatest_scale == Approx(1.0).epsilon(0.01));
+        CHECK(map.min_scale == Approx(1.0).epsilon(0.01));
+        CHECK(map.max_scale == Approx(1.0).epsilon(0.01));
     }
 }
 

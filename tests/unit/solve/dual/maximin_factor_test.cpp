@@ -56,7 +56,7 @@ TEST_CASE("maximin factor: where all rows are neighbours it is the inverse") {
     MaximinFactor factor;
     factor.update(green, rows, {});
     const Field x = random_vectors(rows.size());
-    CHECK(test::greatest_difference(applied(factor, multiplied(green, rows, x)), x) < 1e-10);
+    CHECK(test::max_difference(applied(factor, multiplied(green, rows, x)), x) < 1e-10);
 }
 
 TEST_CASE("maximin factor: it comes close to the inverse for many rows") {
@@ -75,7 +75,7 @@ TEST_CASE("maximin factor: it comes close to the inverse for many rows") {
         const Field more = applied(factor, residual);
         for (std::size_t i = 0; i < x.size(); ++i) x[i] += more[i];
     }
-    CHECK(test::greatest_difference(x, wanted) < 1e-2);
+    CHECK(test::max_difference(x, wanted) < 1e-2);
 }
 
 TEST_CASE("maximin factor: after edits it is what it would be from nothing, to the bit") {
@@ -95,7 +95,7 @@ TEST_CASE("maximin factor: after edits it is what it would be from nothing, to t
         MaximinFactor fresh;
         fresh.update(green, rows, {});
         const Field x = random_vectors(rows.size());
-        CHECK(test::greatest_difference(applied(edited, x), applied(fresh, x)) == 0.0);
+        CHECK(test::max_difference(applied(edited, x), applied(fresh, x)) == 0.0);
     }
 }
 
@@ -113,12 +113,12 @@ TEST_CASE("maximin factor: without the memory it needs, or cancelled, it stays w
     limits.memory_limit = 20 * 12 * many.size();
     CHECK(test::error_of([&] { factor.update(green, many, Context(limits)); }).code() ==
           ErrorCode::memory_limit);
-    CHECK(test::greatest_difference(applied(factor, x), before) == 0.0);
+    CHECK(test::max_difference(applied(factor, x), before) == 0.0);
     const Context cancelled;
     cancelled.cancel();
     CHECK(test::error_of([&] { factor.update(green, many, cancelled); }).code() ==
           ErrorCode::cancelled);
-    CHECK(test::greatest_difference(applied(factor, x), before) == 0.0);
+    CHECK(test::max_difference(applied(factor, x), before) == 0.0);
     limits.memory_limit = 200 * 12 * many.size();
     CHECK_NOTHROW(factor.update(green, many, Context(limits)));
 }

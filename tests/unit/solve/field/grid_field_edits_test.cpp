@@ -7,7 +7,7 @@
 
 using namespace lissom;
 using test::Field;
-using test::greatest_difference;
+using test::max_difference;
 using test::solved_field;
 
 namespace {
@@ -81,7 +81,7 @@ TEST_CASE("grid field edits: the order of edits does not matter, nor what was in
             field.set_constraints(owner, curves[owner]);
             field.solve();
         }
-        CHECK(greatest_difference(solved_field(field), direct) < 1e-9);
+        CHECK(max_difference(solved_field(field), direct) < 1e-9);
     }
 }
 
@@ -95,14 +95,14 @@ TEST_CASE("grid field edits: removing an owner returns to before") {
         field.set_constraints(1, curves[1]);
         const Field before = solved_field(field);
         field.set_constraints(2, curves[2]);
-        CHECK(greatest_difference(solved_field(field), before) > 1e-2);
+        CHECK(max_difference(solved_field(field), before) > 1e-2);
         field.set_constraints(2, {});
-        CHECK(greatest_difference(solved_field(field), before) < 1e-9);
+        CHECK(max_difference(solved_field(field), before) < 1e-9);
         field.clear();
-        CHECK(greatest_difference(solved_field(field), Field(before.size(), Vec3::Zero())) == 0.0);
+        CHECK(max_difference(solved_field(field), Field(before.size(), Vec3::Zero())) == 0.0);
         field.set_constraints(0, curves[0]);
         field.set_constraints(1, curves[1]);
-        CHECK(greatest_difference(solved_field(field), before) < 1e-9);
+        CHECK(max_difference(solved_field(field), before) < 1e-9);
     }
 }
 
@@ -119,13 +119,13 @@ TEST_CASE("grid field edits: after 200 random edits the dual and cholesky solver
             a.set_constraints(static_cast<ConstraintOwner>(i), curves[i]);
             b.set_constraints(static_cast<ConstraintOwner>(i), curves[i]);
         }
-        double worst = greatest_difference(solved_field(a), solved_field(b));
+        double worst = max_difference(solved_field(a), solved_field(b));
         for (int step = 0; step < 200; ++step) {
             const auto owner = std::uniform_int_distribution<std::size_t>(0, 5)(random);
             edit(curves[owner], random);
             a.set_constraints(static_cast<ConstraintOwner>(owner), curves[owner]);
             b.set_constraints(static_cast<ConstraintOwner>(owner), curves[owner]);
-            worst = std::max(worst, greatest_difference(solved_field(a), solved_field(b)));
+            worst = std::max(worst, max_difference(solved_field(a), solved_field(b)));
         }
         MESSAGE("greatest difference " << worst);
         CHECK(worst < 1e-8);
@@ -143,12 +143,12 @@ TEST_CASE("grid field edits: the dual system grows past the dense limit and come
     for (const auto& curve : curves) {
         soFar.push_back(curve);
         field.set_constraints(static_cast<ConstraintOwner>(soFar.size()) - 1, curve);
-        CHECK(greatest_difference(solved_field(field), field_of(soFar, {})) < 1e-9);
+        CHECK(max_difference(solved_field(field), field_of(soFar, {})) < 1e-9);
     }
     field.set_constraints(3, {});
     field.set_constraints(2, {});
     field.set_constraints(1, {});
-    CHECK(greatest_difference(solved_field(field), field_of({curves[0]}, {})) < 1e-9);
+    CHECK(max_difference(solved_field(field), field_of({curves[0]}, {})) < 1e-9);
 }
 
 TEST_CASE("grid field edits: a cancelled solve leaves the field of the last one") {
@@ -187,9 +187,9 @@ TEST_CASE("grid field edits: a cancelled solve leaves the field of the last one"
             CHECK_FALSE(field.solved());
             Field now(before.size());
             field.evaluate(std::span<Vec3>(now));
-            CHECK(greatest_difference(now, before) == 0.0);
-            CHECK(greatest_difference(solved_field(field),
-                                      field_of({curves[1], curves[2]}, options)) < 1e-9);
+            CHECK(max_difference(now, before) == 0.0);
+            CHECK(max_difference(solved_field(field), field_of({curves[1], curves[2]}, options)) <
+                  1e-9);
         }
     }
 }

@@ -10,7 +10,7 @@
 
 using namespace lissom;
 using test::Field;
-using test::greatest_difference;
+using test::max_difference;
 using test::solved_field;
 
 namespace {
@@ -71,8 +71,7 @@ TEST_CASE("grid field: every solver and boundary gives the minimiser of the ener
                     CAPTURE(size.nx);
                     CAPTURE(tension);
                     CAPTURE(options.dense_limit.value_or(kNoIndex));
-                    CHECK(greatest_difference(solved_field(size, constraints, options), oracle) <
-                          1e-9);
+                    CHECK(max_difference(solved_field(size, constraints, options), oracle) < 1e-9);
                 }
             }
         }
@@ -87,7 +86,7 @@ TEST_CASE("grid field: weights from soft to nearly hard give the minimiser") {
         constraints[3].weight = 10.0;
         const Field oracle = test::dense_solution(size, constraints, GridBoundary::zero_flux, 0.0);
         for (const GridFieldOptions& options : {dense(), iterative()}) {
-            CHECK(greatest_difference(solved_field(size, constraints, options), oracle) < 1e-8);
+            CHECK(max_difference(solved_field(size, constraints, options), oracle) < 1e-8);
         }
     }
 }
@@ -95,18 +94,17 @@ TEST_CASE("grid field: weights from soft to nearly hard give the minimiser") {
 TEST_CASE("grid field: without a constraint the field is zero") {
     for (const GridFieldOptions& options : {dense(), iterative(), thesis(), cholesky_solve()}) {
         const Field field = solved_field({4, 3, 5}, {}, options);
-        CHECK(greatest_difference(field, Field(60, Vec3::Zero())) == 0.0);
+        CHECK(max_difference(field, Field(60, Vec3::Zero())) == 0.0);
     }
 }
 
 TEST_CASE("grid field: one constraint, or equal ones, give a constant field") {
     const Vec3 v(0.3, -0.7, 0.2);
     for (const GridFieldOptions& options : {dense(), iterative(), thesis(), cholesky_solve()}) {
-        CHECK(greatest_difference(solved_field({4, 3, 5}, {{17, v}}, options), Field(60, v)) <
-              1e-9);
-        CHECK(greatest_difference(solved_field({4, 3, 5}, {{17, v}, {3, v, 2.0}, {50, v}}, options),
-                                  Field(60, v)) < 1e-9);
-        CHECK(greatest_difference(solved_field({1, 1, 1}, {{0, v}}, options), Field(1, v)) < 1e-12);
+        CHECK(max_difference(solved_field({4, 3, 5}, {{17, v}}, options), Field(60, v)) < 1e-9);
+        CHECK(max_difference(solved_field({4, 3, 5}, {{17, v}, {3, v, 2.0}, {50, v}}, options),
+                             Field(60, v)) < 1e-9);
+        CHECK(max_difference(solved_field({1, 1, 1}, {{0, v}}, options), Field(1, v)) < 1e-12);
     }
 }
 
@@ -116,7 +114,7 @@ TEST_CASE("grid field: all points may be constrained") {
     const auto constraints = test::random_constraints(size, size.count(), random);
     for (const GridFieldOptions& options : {dense(), iterative(), thesis(), cholesky_solve()}) {
         const Field oracle = test::dense_solution(size, constraints, options.boundary, 0.0);
-        CHECK(greatest_difference(solved_field(size, constraints, options), oracle) < 1e-9);
+        CHECK(max_difference(solved_field(size, constraints, options), oracle) < 1e-9);
     }
 }
 
@@ -125,7 +123,7 @@ TEST_CASE("grid field: owners that contradict each other give the average by squ
         GridField field({4, 3, 5}, options);
         field.set_constraints(1, {{17, Vec3(1.0, 0.0, 0.0), 100.0}});
         field.set_constraints(2, {{17, Vec3(-1.0, 1.0, 0.0), 200.0}});
-        CHECK(greatest_difference(solved_field(field), Field(60, Vec3(-0.6, 0.8, 0.0))) < 1e-9);
+        CHECK(max_difference(solved_field(field), Field(60, Vec3(-0.6, 0.8, 0.0))) < 1e-9);
         CHECK(field.constraint_count() == 1);
     }
 }
@@ -246,7 +244,7 @@ TEST_CASE("grid field: dense and iterative dual agree on a larger grid") {
             a.set_constraints(owner, curve);
             b.set_constraints(owner, curve);
         }
-        CHECK(greatest_difference(solved_field(a), solved_field(b)) < 1e-8);
+        CHECK(max_difference(solved_field(a), solved_field(b)) < 1e-8);
     }
 }
 
@@ -259,7 +257,7 @@ TEST_CASE("grid field: threads change no bit") {
     for (const GridFieldOptions& options : {dense(), loose, thesis(), cholesky_solve()}) {
         const Field one = solved_field(size, constraints, options);
         const Field two = solved_field(size, constraints, options, two_threads());
-        CHECK(greatest_difference(one, two) == 0.0);
+        CHECK(max_difference(one, two) == 0.0);
     }
 }
 

@@ -21,7 +21,7 @@ std::vector<double> random_fields(const GridSize& size) {
     return fields;
 }
 
-double greatest_gap(const std::vector<double>& a, const std::vector<double>& b) {
+double max_gap(const std::vector<double>& a, const std::vector<double>& b) {
     double worst = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
     return worst;
@@ -41,7 +41,7 @@ TEST_CASE("cosine transform: there and back is the same field, for even and odd 
         FieldSink sink;
         sink.components = c.data();
         transform.inverse(b.data(), a.data(), sink, {});
-        CHECK(greatest_gap(c, fields) < 1e-13);
+        CHECK(max_gap(c, fields) < 1e-13);
     }
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("cosine transform: a few points give what a whole field gives") {
     const CosineTransform transform(size);
     transform.forward(a.data(), b.data(), {});
     transform.forward_at(points, values, scratch.data(), few.data(), {});
-    CHECK(greatest_gap(b, few) < 1e-13);
+    CHECK(max_gap(b, few) < 1e-13);
 }
 
 TEST_CASE("cosine transform: quads keep their fourth number") {
@@ -121,7 +121,7 @@ TEST_CASE("grid green: it inverts the operator on fields without a mean") {
             }
             // The longest axis has the least eigenvalue, which says how much rounding grows.
             const double longest = std::max({size.nx, size.ny, size.nz});
-            CHECK(greatest_gap(a, b) < 1e-15 * std::pow(longest, 4.0) + 1e-13);
+            CHECK(max_gap(a, b) < 1e-15 * std::pow(longest, 4.0) + 1e-13);
         }
     }
 }

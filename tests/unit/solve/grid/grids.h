@@ -14,7 +14,7 @@ namespace lissom::test {
 
 using Field = std::vector<Vec3>;
 
-inline double greatest_difference(const Field& a, const Field& b) {
+inline double max_difference(const Field& a, const Field& b) {
     double worst = a.size() == b.size() ? 0.0 : 1e300;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
         if (!a[i].allFinite() || !b[i].allFinite()) return 1e300;

@@ -54,7 +54,7 @@ double defect(const Factored& f, const SymmetricMatrix& a) {
     return worst;
 }
 
-double greatest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+double max_difference(const std::vector<double>& a, const std::vector<double>& b) {
     double worst = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
     return worst;
@@ -107,7 +107,7 @@ TEST_CASE("supernodal factor: the paths for two processors agree") {
         CAPTURE(named.name);
         const Factored plain = supernodal_factored(a, Processor::any),
                        best = supernodal_factored(a, best_processor());
-        CHECK(greatest_difference(plain.value, best.value) < 1e-12);
+        CHECK(max_difference(plain.value, best.value) < 1e-12);
     }
 }
 

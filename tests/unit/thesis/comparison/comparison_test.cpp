@@ -65,7 +65,7 @@ void for_each_edit(const Methods& methods, const Check& check) {
     });
 }
 
-double greatest_turn(const std::vector<Mat3>& gradients) {
+double max_turn(const std::vector<Mat3>& gradients) {
     double greatest = 0.0;
     for (const Mat3& m : gradients) {
         greatest = std::max(greatest, Eigen::AngleAxisd(nearest_rotation(m)).angle());
@@ -77,7 +77,7 @@ double greatest_turn(const std::vector<Mat3>& gradients) {
 double miss(const Scene& scene, Edit& edit, const Affine& map) {
     edit.deformer.set_transform(edit.low, map);
     edit.deformer.set_transform(edit.high, map);
-    return greatest_distance(edit.deformer.solve(), mapped(rest_positions_of(edit.deformer), map)) /
+    return max_distance(edit.deformer.solve(), mapped(rest_positions_of(edit.deformer), map)) /
            scene.size;
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("comparison: held vertices to the bit, finite, back to rest to the bit
             for (const Vec3& p : d.positions()) finite = finite && p.allFinite();
             CHECK(held);
             CHECK(finite);
-            CHECK(greatest_distance(d.positions(), rest_positions_of(d)) < 5.0 * scene.size);
+            CHECK(max_distance(d.positions(), rest_positions_of(d)) < 5.0 * scene.size);
         }
         d.set_transform(edit.high, {});
         CHECK(d.solve() == rest_positions_of(d));
@@ -154,7 +154,7 @@ TEST_CASE(
             Edit edit = make_edit(scene, options_of(method));
             edit.deformer.set_transform(edit.high, translation(1.5 * scene.size * scene.across));
             edit.deformer.solve();
-            return greatest_turn(gradients_of(edit.deformer));
+            return max_turn(gradients_of(edit.deformer));
         };
         CHECK(turn(DeformMethod::naive) == 0.0);
         for (const DeformMethod method : kExplicit) CHECK(turn(method) < 1e-12);
@@ -185,7 +185,7 @@ TEST_CASE("comparison: a turned copy deforms alike where no rotation is linearis
         const Affine move = bend(scene, a.deformer.handle(a.high).center);
         a.deformer.set_transform(a.high, move);
         b.deformer.set_transform(b.high, conjugated(move, map));
-        CHECK(greatest_distance(mapped(a.deformer.solve(), map), b.deformer.solve()) <
+        CHECK(max_distance(mapped(a.deformer.solve(), map), b.deformer.solve()) <
               1e-8 * scene.size);
     }
 }
@@ -203,7 +203,7 @@ TEST_CASE("comparison: small and large copies deform alike") {
             const Affine move = bend(scene, a.deformer.handle(a.high).center);
             a.deformer.set_transform(a.high, move);
             b.deformer.set_transform(b.high, conjugated(move, map));
-            CHECK(greatest_distance(mapped(a.deformer.solve(), map), b.deformer.solve()) <
+            CHECK(max_distance(mapped(a.deformer.solve(), map), b.deformer.solve()) <
                   1e-7 * scale * scene.size);
         }
     }

@@ -166,7 +166,7 @@ TEST_CASE("keys on the target's boundary go to the far end along the cut, whatev
     const KeyPair given = tubes.join.keys[0];
     const Vec3 place = tubes.target.position(std::get<Index>(given.target));
     tubes.join.keys = {{given.source, place}};
-    CHECK(test::greatest_move(tubes.merged().mesh, plain) < 1e-9);
+    CHECK(test::max_move(tubes.merged().mesh, plain) < 1e-9);
     // A quarter of a turn on turns the source.
     const Index quarter = test::farthest(tubes.target, tubes.join.target, Vec3::UnitZ());
     tubes.join.keys = {{given.source, quarter}};
@@ -187,7 +187,7 @@ TEST_CASE("the weight counts") {
     double last = 1e-3;
     for (const double weight : {0.1, 10.0}) {
         tubes.options.transition_weight = weight;
-        const double move = test::greatest_move(tubes.merged().mesh, none);
+        const double move = test::max_move(tubes.merged().mesh, none);
         CHECK(move > last);
         last = move;
     }
@@ -196,7 +196,7 @@ TEST_CASE("the weight counts") {
 TEST_CASE("the result does not depend on where the source lies and how large it is") {
     const Mesh plain = Tubes(0.1).merged().mesh;
     for (const double scale : {0.01, 50.0}) {
-        CHECK(test::greatest_move(Tubes(0.1, scale).merged().mesh, plain) < 1e-8);
+        CHECK(test::max_move(Tubes(0.1, scale).merged().mesh, plain) < 1e-8);
     }
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("a target that is moved takes the result with it") {
     Tubes tubes(0.1);
     const Affine map{rotation(Vec3::UnitZ(), 0.7, Vec3::Zero()).linear, Vec3(5.0, 6.0, -7.0)};
     for (Vec3& p : tubes.target.edit_positions()) p = map(p);
-    CHECK(test::greatest_move(tubes.merged().mesh, test::moved(plain, map)) < 1e-8);
+    CHECK(test::max_move(tubes.merged().mesh, test::moved(plain, map)) < 1e-8);
 }
 
 TEST_CASE("in the fixed configuration what is held stays") {
@@ -292,9 +292,9 @@ TEST_CASE(
         CHECK(result.mesh.face_count() < before.mesh.face_count());
         CHECK(result.mesh.topology().boundary_loops().size() ==
               before.mesh.topology().boundary_loops().size());
-        CHECK(result.report.seam.after.greatest_dihedral < (pair.dihedral + 2.0) * kPi / 180.0);
-        CHECK(result.report.seam.after.greatest_near <
-              before.report.seam.after.greatest_near + 7.0 * kPi / 180.0);
+        CHECK(result.report.seam.after.max_dihedral < (pair.dihedral + 2.0) * kPi / 180.0);
+        CHECK(result.report.seam.after.max_near <
+              before.report.seam.after.max_near + 7.0 * kPi / 180.0);
         CHECK(result.report.transition.target[0].unmapped == 0);
         CHECK(result.report.transition.source[0].unmapped == 0);
         ++pairs;

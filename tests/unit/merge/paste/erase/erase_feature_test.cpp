@@ -21,7 +21,7 @@ bool outside(const ErasedFeature& erased, Index v) {
 }
 
 // What is farthest from the unit sphere, of the vertices that are new or old.
-double greatest_offset(const ErasedFeature& erased, bool old) {
+double max_offset(const ErasedFeature& erased, bool old) {
     double most = 0.0;
     for (Index v = 0; v < erased.mesh.vertex_count(); ++v) {
         if (outside(erased, v) != old) continue;
@@ -62,7 +62,7 @@ TEST_CASE("erase: a horn goes, and the ball is round where it was") {
     CHECK(euler_characteristic(erased.mesh.topology()) == 2);
     CHECK(erased.report.removed_faces > 100);
     CHECK(erased.report.patch.vertex_count > 20);
-    CHECK(greatest_offset(erased, false) < 0.03);
+    CHECK(max_offset(erased, false) < 0.03);
 }
 
 TEST_CASE("erase: a patch continues the curvature around it where that is even") {
@@ -73,9 +73,9 @@ TEST_CASE("erase: a patch continues the curvature around it where that is even")
     const ErasedFeature round = erase_feature(ball, cap), flat = erase_feature(ball, cap, plate);
     CHECK(round.report.continuity == FairContinuity::curvature);
     CHECK(flat.report.continuity == FairContinuity::tangents);
-    CHECK(greatest_offset(round, false) < 0.03);
-    CHECK(greatest_offset(round, false) < 0.5 * greatest_offset(flat, false));
-    CHECK(round.report.greatest_dihedral < flat.report.greatest_dihedral);
+    CHECK(max_offset(round, false) < 0.03);
+    CHECK(max_offset(round, false) < 0.5 * max_offset(flat, false));
+    CHECK(round.report.max_dihedral < flat.report.max_dihedral);
     // Around a horn it is not.
     const Mesh horn = horned_ball();
     CHECK(erase_feature(horn, around_horn(horn, 0.6)).report.continuity ==
@@ -98,9 +98,9 @@ TEST_CASE("erase: on a coarse column the patch is a dome, and says how much it t
     CHECK(highest - rim > 0.7);
     CHECK(highest - rim < 1.1);
     // A lid would turn by 90 degrees; a ball as coarse as the column by 26.
-    CHECK(erased.report.greatest_dihedral < 35.0 * kDegree);
-    CHECK(erased.report.greatest_around == doctest::Approx(2.0 * kPi / 14.0));
-    CHECK(erased.report.ok == (erased.report.greatest_dihedral <= 30.0 * kDegree));
+    CHECK(erased.report.max_dihedral < 35.0 * kDegree);
+    CHECK(erased.report.max_around == doctest::Approx(2.0 * kPi / 14.0));
+    CHECK(erased.report.ok == (erased.report.max_dihedral <= 30.0 * kDegree));
     CHECK(erased.report.density > 1.0);
     CHECK(erased.mesh.topology().is_closed());
 }
@@ -113,7 +113,7 @@ TEST_CASE("erase: a patch that stays steep is told") {
     const EraseReport flat =
         erase_feature(column, select_plane(column, {0, 1, 0}, {0, 1, 0}), lid).report;
     CHECK(!flat.ok);
-    CHECK(flat.greatest_dihedral > 70.0 * kDegree);
+    CHECK(flat.max_dihedral > 70.0 * kDegree);
     CHECK(flat.verdict.starts_with("not good: the patch turns by "));
     CHECK(erase_feature(column, select_plane(column, {0, 1, 0}, {0, 1, 0})).report.ok);
     // Where the surface is even all is well.

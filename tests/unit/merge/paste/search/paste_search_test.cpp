@@ -271,7 +271,7 @@ TEST_CASE("winding search: bounds leave nothing out, whether edges cross one ano
         double found = std::numeric_limits<double>::infinity();
         for (const Index start : starts) {
             const double cheapest = plain.through(start).cost;
-            const double bound = bounded.least_through(start);
+            const double bound = bounded.min_through(start);
             CHECK((bound <= cheapest * (1.0 + 1e-12) || cheapest > least));
             found = std::min(found, bounded.through(start, {}, least * 1.0001).cost);
         }

@@ -66,11 +66,11 @@ TEST_CASE("strand layer: a strand covers its length times its width") {
 }
 
 TEST_CASE("strand layer: a few strands are as wide as can be seen, but for transparent ones") {
-    CHECK(least_visible_width(1) == Approx(1.5));
-    CHECK(least_visible_width(50) == Approx(1.5));
-    CHECK(least_visible_width(160) == Approx(0.75).epsilon(0.02));
-    CHECK(least_visible_width(500) == 0.0);
-    CHECK(least_visible_width(100000) == 0.0);
+    CHECK(min_visible_width(1) == Approx(1.5));
+    CHECK(min_visible_width(50) == Approx(1.5));
+    CHECK(min_visible_width(160) == Approx(0.75).epsilon(0.02));
+    CHECK(min_visible_width(500) == 0.0);
+    CHECK(min_visible_width(100000) == 0.0);
     Strands strands = test::strands_of({{Vec3(-0.5, -0.3, 0), Vec3(0.5, 0.3, 0)}}, 1e-5);
     const double length = 48.0 * std::hypot(1.0, 0.6);
     for (const int fine : {1, 3}) {

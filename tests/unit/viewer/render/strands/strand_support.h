@@ -56,12 +56,12 @@ inline Snapshot drawing_of(const Strands& strands, const StrandStyle& style = {}
 }
 
 /// Strands of an opaque drawing are at least so many pixels wide.
-inline StrandLayer layer_of_least(double least_width, const Snapshot& drawing,
+inline StrandLayer layer_of_least(double min_width, const Snapshot& drawing,
                                   const ViewParameters& view,
                                   const RenderOptions& options = small_options(),
                                   const Context& context = {}) {
     const StrandScene scene{view_strands(drawing, view.view, Vec3::Zero()),
-                            view_triangles(drawing, view.view, Vec3::Zero()), view, least_width};
+                            view_triangles(drawing, view.view, Vec3::Zero()), view, min_width};
     const StrandShadow shadow(scene.strands, scene.triangles, context);
     return draw_strands(scene, shadow, options, context);
 }

@@ -14,7 +14,7 @@ TEST_CASE("frame times: the longest turn, events and frames") {
     times.add_turn(0.020, {0.010, 0.002});
     CHECK(times.longest() == 0.030);
     CHECK(times.longest_own() == 0.010);
-    CHECK(times.most_work() == 0.002);
+    CHECK(times.max_work() == 0.002);
     CHECK(times.latency(0.95) == 0.0);
     CHECK(times.rate() == 0.0);
     CHECK(thread_seconds() >= 0.0);
