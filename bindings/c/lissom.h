@@ -245,6 +245,50 @@ LISSOM_API size_t lissom_memory_peak(const lissom_context* context);
 /// Returns the number of objects that were not released.
 LISSOM_API size_t lissom_object_count(const lissom_context* context);
 
+// ---- Memory of the process
+
+/// Blocks for which Linux is asked for pages of 2 MiB (madvise, where the system has transparent
+/// huge pages). Other systems have none of this.
+typedef enum lissom_large_pages {
+    /// Matrices and factors of deformations, which are written at large.
+    LISSOM_LARGE_PAGES_AUTOMATIC = 0,
+    LISSOM_LARGE_PAGES_NEVER = 1,
+    /// Every block of 4 MiB or more.
+    LISSOM_LARGE_PAGES_ALWAYS = 2
+} lissom_large_pages;
+
+/// Memory of the library in this process, for all contexts: objects move between them, threads
+/// share them, and one may free the blocks of another.
+typedef struct lissom_memory_options {
+    size_t struct_size;
+    void* user;
+    /// Returns `size` bytes at a multiple of `alignment`, a power of two, or NULL if there are
+    /// none: the call then ends with MEMORY_LIMIT. NULL: the C runtime's malloc. [any thread]
+    void* (*allocate)(void* user, size_t size, size_t alignment);
+    /// Takes back a block of that function, with the same size and alignment. Neither function may
+    /// call the library or throw. [any thread]
+    void (*release)(void* user, void* block, size_t size, size_t alignment);
+    /// Smaller blocks come from the C runtime; 0: all come from `allocate`.
+    size_t min_bytes;
+    lissom_large_pages large_pages;
+} lissom_memory_options;
+
+/// Returns the C runtime's memory and automatic large pages. [any thread]
+LISSOM_API lissom_memory_options lissom_default_memory_options(void);
+/// Sets where memory comes from, from now on; NULL: the defaults. Best called before the first
+/// context is made. A block always goes back to the `release` that came with the `allocate` that
+/// made it: both functions and `user` must work until all contexts are destroyed. Then no block is
+/// left with them, as tables that the process keeps are in memory of the C runtime.
+///
+/// All that the library takes by new, malloc and Lua comes from the host: meshes, matrices and
+/// factors, strands, states of Lua. Not so buffers of files that are open, stacks of
+/// threads, and oneTBB's own memory. Only the shared library on Linux takes an allocator or
+/// LARGE_PAGES_ALWAYS. In a program that links the static library, its own operator new and malloc
+/// are used, and may be replaced as C++ has it. [any thread]
+/// Errors: BAD_STRUCT; INVALID_ARGUMENT for one function without the other or unknown large_pages;
+/// UNSUPPORTED; OUT_OF_RANGE for the 256th different allocator of a process.
+LISSOM_API lissom_status lissom_set_memory(const lissom_memory_options* options);
+
 // ---- Data of the host
 
 typedef enum lissom_format {

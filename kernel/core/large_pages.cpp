@@ -1,5 +1,6 @@
 #include "kernel/core/large_pages.h"
 
+#include <atomic>
 #include <cstdint>
 
 #ifdef __linux__
@@ -7,9 +8,23 @@
 #endif
 
 namespace lissom {
+namespace {
+
+std::atomic<LargePages> used_pages{LargePages::automatic};
+
+}  // namespace
+
+void use_large_pages(LargePages pages) noexcept {
+    used_pages = pages;
+}
+
+LargePages large_pages() noexcept {
+    return used_pages.load(std::memory_order_relaxed);
+}
 
 void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
+    if (large_pages() == LargePages::never) return;
     constexpr std::uintptr_t kLargePage = std::uintptr_t{2} << 20;
     const auto begin = reinterpret_cast<std::uintptr_t>(memory);
     const std::uintptr_t skipped = (kLargePage - begin % kLargePage) % kLargePage;

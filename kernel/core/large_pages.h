@@ -2,14 +2,28 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace lissom {
 
+/// Memory for which the system is asked for large pages.
+enum class LargePages : std::uint8_t {
+    /// Matrices and factors, which are written at large.
+    automatic,
+    never,
+    /// All large blocks, of libraries that see each.
+    always,
+};
+
+/// Sets that for this process; `automatic` at first. Thread-safe.
+void use_large_pages(LargePages pages) noexcept;
+LargePages large_pages() noexcept;
+
 /// Asks the system for large pages in [memory, memory + bytes). Call it before the first write:
 /// page faults can take longer than computing the contents. A hint without any other effect;
-/// ignored by systems without large pages and for short ranges.
+/// ignored by systems without large pages, for short ranges, and with LargePages::never.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
 /// An array that has not been written, with them.

@@ -16,12 +16,13 @@ void __libc_free(void* block);
 namespace {
 
 constexpr long kNever = -1;
-std::atomic<long> left{kNever}, live{0}, made{0};
+std::atomic<long> left{kNever}, live{0}, made{0}, bytes{0};
 std::atomic<bool> fails_on{false}, has_failed{false};
 
-// Whether this allocation fails.
-bool fails() {
+// Whether this allocation of so many bytes fails.
+bool fails(std::size_t size) {
     made.fetch_add(1, std::memory_order_relaxed);
+    bytes.fetch_add(static_cast<long>(size), std::memory_order_relaxed);
     if (left.load(std::memory_order_relaxed) == kNever) return false;
     const long before = left.fetch_sub(1);
     if (before > 0) return false;
@@ -49,15 +50,15 @@ void* no_memory() {
 extern "C" {
 
 void* malloc(std::size_t size) {
-    return fails() ? no_memory() : counted(__libc_malloc(size));
+    return fails(size) ? no_memory() : counted(__libc_malloc(size));
 }
 
 void* calloc(std::size_t count, std::size_t size) {
-    return fails() ? no_memory() : counted(__libc_calloc(count, size));
+    return fails(count * size) ? no_memory() : counted(__libc_calloc(count, size));
 }
 
 void* realloc(void* block, std::size_t size) {
-    if (fails()) return no_memory();
+    if (fails(size)) return no_memory();
     if (!block) return counted(__libc_realloc(nullptr, size));
     void* moved = __libc_realloc(block, size);
     if (!moved && size == 0) live.fetch_sub(1, std::memory_order_relaxed);
@@ -65,7 +66,7 @@ void* realloc(void* block, std::size_t size) {
 }
 
 void* memalign(std::size_t alignment, std::size_t size) {
-    return fails() ? no_memory() : counted(__libc_memalign(alignment, size));
+    return fails(size) ? no_memory() : counted(__libc_memalign(alignment, size));
 }
 
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
@@ -105,6 +106,18 @@ long allocations() {
 
 long live_blocks() {
     return live;
+}
+
+long allocated_bytes() {
+    return bytes;
+}
+
+void* block_aside(std::size_t alignment, std::size_t size) {
+    return __libc_memalign(alignment, size);
+}
+
+void free_aside(void* block) {
+    __libc_free(block);
 }
 
 }  // namespace lissom::test

@@ -1,6 +1,5 @@
 // Memory that runs out at any allocation of any call: a status, nothing leaked, all objects as
 // before.
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -16,7 +15,7 @@
 namespace lissom::test {
 namespace {
 
-// Allocations of a call that fail in turn; a quarter as many random ones beyond fail too.
+// Allocations of a call that fail in turn; a quarter as many random ones of those beyond fail too.
 long every_allocation() {
     const char* given = std::getenv("LISSOM_TRIALS");
     return given ? std::atol(given) : 60;
@@ -862,21 +861,28 @@ bool fail_once(World& world, const MemoryCase& one, long n, bool all) {
     return failed;
 }
 
+// Allocations of a call that succeeds, which is undone.
+long allocations_of(World& world, const MemoryCase& one) {
+    one.prepare(world);
+    const long before = allocations();
+    CHECK(one.call(world) == LISSOM_OK);
+    const long taken = allocations() - before;
+    undo(world, true);
+    return taken;
+}
+
 void fail_everywhere(World& world, const MemoryCase& one) {
     CAPTURE(std::string(one.function));
-    long n = 0;
-    while (n < every_allocation() && fail_once(world, one, n, false)) ++n;
-    if (n == every_allocation()) {
-        std::mt19937 random(7);
-        for (long i = 0; i < every_allocation() / 4; ++i) {
-            fail_once(world, one, n + static_cast<long>(random() % 4000), false);
-        }
+    const long count = allocations_of(world, one), first = every_allocation();
+    for (long n = 0; n < first && fail_once(world, one, n, false); ++n) continue;
+    std::mt19937 random(7);
+    for (long i = 0; i < first / 4 && first < count; ++i) {
+        fail_once(world, one, first + static_cast<long>(random() % at(index_of(count - first))),
+                  false);
     }
     for (long all = 0; all < 5; ++all) fail_once(world, one, all, true);
     // And then it works.
-    one.prepare(world);
-    CHECK(one.call(world) == LISSOM_OK);
-    undo(world, true);
+    allocations_of(world, one);
 }
 
 // Blocks that a process keeps: messages and tables that are made when they are first needed.
@@ -949,45 +955,17 @@ TEST_CASE("memory that runs out while a context is made is a status") {
     }
 }
 
-// Allocations of a call that succeeds.
-template <typename Call>
-long taken_by(const Call& call) {
-    const long before = allocations();
-    const lissom_status status = call();
-    const long after = allocations();
-    CHECK(status == LISSOM_OK);
-    return after - before;
-}
-
-void turn_handle(lissom_transform& map, double turn) {
-    map.m[0] = map.m[10] = std::cos(turn);
-    map.m[2] = std::sin(turn);
-    map.m[8] = -std::sin(turn);
-    map.m[3] = turn;
-}
-
-TEST_CASE("functions of a frame take no memory after two calls") {
-    for (const lissom_quality quality : {LISSOM_PREVIEW, LISSOM_DRAFT, LISSOM_FULL}) {
-        World world(host_options(1));
-        fresh_deformer(world);
-        const lissom_output out = doubles_out();
-        for (int frame = 0; frame < 6; ++frame) {
-            CAPTURE(quality);
-            CAPTURE(frame);
-            lissom_transform map = lissom_identity();
-            turn_handle(map, 0.3 + 0.05 * frame);
-            const long taken[] = {
-                taken_by([&] {
-                    return lissom_deformer_set_transform(world, world.deformer, world.handle, &map);
-                }),
-                taken_by([&] { return lissom_deformer_solve(world, world.deformer, quality); }),
-                taken_by(
-                    [&] { return lissom_deformer_read_positions(world, world.deformer, &out); }),
-                taken_by([&] { return lissom_deformer_read_normals(world, world.deformer, &out); }),
-                taken_by([&] { return lissom_mesh_read_positions(world, world.bar, &out); })};
-            for (const long each : taken) CHECK((frame < 2 || each == 0));
-        }
-    }
+TEST_CASE("the static library uses the program's own memory: it takes no allocator, and says so") {
+    lissom_memory_options options = lissom_default_memory_options();
+    CHECK(lissom_set_memory(&options) == LISSOM_OK);
+    options.large_pages = LISSOM_LARGE_PAGES_ALWAYS;
+    CHECK(lissom_set_memory(&options) == LISSOM_UNSUPPORTED);
+    options.large_pages = LISSOM_LARGE_PAGES_NEVER;
+    CHECK(lissom_set_memory(&options) == LISSOM_OK);
+    options.allocate = [](void*, std::size_t, std::size_t) -> void* { return nullptr; };
+    options.release = [](void*, void*, std::size_t, std::size_t) {};
+    CHECK(lissom_set_memory(&options) == LISSOM_UNSUPPORTED);
+    CHECK(lissom_set_memory(nullptr) == LISSOM_OK);
 }
 
 TEST_CASE("those tests have every function of the header that may take memory") {
@@ -999,7 +977,8 @@ TEST_CASE("those tests have every function of the header that may take memory") 
                      add_deform_cases, add_merge_cases, add_hair_cases, add_script_cases}) {
         add(all);
     }
-    std::set<std::string> tested{"lissom_context_create", "lissom_sandbox_scripts"};
+    std::set<std::string> tested{"lissom_context_create", "lissom_sandbox_scripts",
+                                 "lissom_set_memory"};
     for (const MemoryCase& one : all) tested.insert(one.function);
     static const std::regex declaration(R"((lissom_status|int32_t)\s+(lissom_\w+)\()");
     static const std::regex free_of_memory(R"(lissom_\w+_release|lissom_version)");
