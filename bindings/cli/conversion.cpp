@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "bindings/cli/scene_input.h"
-#include "bindings/lua/core/failure.h"
 #include "kernel/io/record/file_rules.h"
 #include "kernel/io/stream/file.h"
 
@@ -28,13 +27,13 @@ bool is_loss(FindingKind kind) {
 // Takes the program's log for as long as it lives.
 class LogFilter {
   public:
-    LogFilter(Program& program, bool shows_warnings) : program_(program) {
-        program.log_filter = [this, shows_warnings](LogLevel level, std::string_view message) {
+    explicit LogFilter(Program& program) : program_(program), before_(program.log_filter) {
+        program.log_filter = [this](LogLevel level, std::string_view message) {
             if (is_saving && level == LogLevel::warning) warnings.emplace_back(message);
-            return shows_warnings || program_.debug;
+            return !before_ || before_(level, message);
         };
     }
-    ~LogFilter() { program_.log_filter = nullptr; }
+    ~LogFilter() { program_.log_filter = before_; }
     LogFilter(const LogFilter&) = delete;
     LogFilter& operator=(const LogFilter&) = delete;
 
@@ -43,16 +42,8 @@ class LogFilter {
 
   private:
     Program& program_;
+    std::function<bool(LogLevel, std::string_view)> before_;
 };
-
-// The message without the path of the input, which stands beside it.
-std::string short_message(const Conversion& conversion) {
-    std::string message = lua::lua_message(*conversion.error);
-    const std::string path = display_name(conversion.in) + ":";
-    if (!message.starts_with(path)) return message;
-    message.erase(0, path.size());
-    return message.starts_with(' ') ? message.substr(1) : "line " + message;
-}
 
 bool is_repair(const StrandFinding& finding) {
     return finding.kind < StrandFindingKind::content_dropped;
@@ -112,10 +103,22 @@ void write_file(const Strands& strands, Conversion& conversion, const Conversion
     conversion.points = strands.point_count();
 }
 
+// Repairs and losses in a few words.
+std::string notes_of(const Conversion& conversion) {
+    std::string notes;
+    const auto add = [&](const std::string& note) { notes += (notes.empty() ? "" : "; ") + note; };
+    for (const Finding& finding : conversion.report.findings()) {
+        if (is_repair(finding.kind)) add(describe(finding));
+        if (is_loss(finding.kind)) add(describe(finding) + ": " + finding.message);
+    }
+    if (conversion.is_hair) add(std::to_string(conversion.strands) + " strands");
+    for (const std::string& lost : conversion.lost) add(lost);
+    return notes;
+}
+
 }  // namespace
 
 const char* Conversion::outcome() const {
-    if (error) return "failed";
     const auto& of_hair = hair_report.findings;
     const auto is_changed = [](const StrandFinding& finding) { return is_repair(finding); };
     if (std::any_of(of_hair.begin(), of_hair.end(), is_changed)) return "repaired";
@@ -139,7 +142,7 @@ Conversion convert_file(Program& program, const fs::path& in, const fs::path& ou
     Conversion conversion;
     conversion.in = in;
     conversion.out = out;
-    LogFilter log(program, options.shows_warnings);
+    LogFilter log(program);
     const Clock::time_point start = Clock::now();
     make_folder(out.parent_path());
     // A scene's warnings name the objects that are left out.
@@ -156,11 +159,8 @@ Conversion convert_file(Program& program, const fs::path& in, const fs::path& ou
 Json conversion_json(const Conversion& conversion) {
     Json json = {{"file", display_name(conversion.in)},
                  {"out", display_name(conversion.out)},
-                 {"outcome", conversion.outcome()}};
-    if (conversion.error) {
-        json["error"] = error_json(*conversion.error);
-        return json;
-    }
+                 {"outcome", conversion.outcome()},
+                 {"notes", notes_of(conversion)}};
     json["seconds"] = conversion.seconds;
     json["lost"] = conversion.lost;
     if (conversion.is_hair) {
@@ -174,21 +174,6 @@ Json conversion_json(const Conversion& conversion) {
     json["origin"] = {origin.x(), origin.y(), origin.z()};
     json["report"] = report_json(conversion.report);
     return json;
-}
-
-std::string conversion_notes(const Conversion& conversion) {
-    if (conversion.error) {
-        return std::string(code_name(conversion.error->code())) + ": " + short_message(conversion);
-    }
-    std::string notes;
-    const auto add = [&](const std::string& note) { notes += (notes.empty() ? "" : "; ") + note; };
-    for (const Finding& finding : conversion.report.findings()) {
-        if (is_repair(finding.kind)) add(describe(finding));
-        if (is_loss(finding.kind)) add(describe(finding) + ": " + finding.message);
-    }
-    if (conversion.is_hair) add(std::to_string(conversion.strands) + " strands");
-    for (const std::string& lost : conversion.lost) add(lost);
-    return notes;
 }
 
 }  // namespace lissom::cli

@@ -23,8 +23,6 @@ struct ConversionOptions {
     std::vector<std::string> mesh_only;
     /// Allow the output to replace an input.
     bool force = false;
-    /// Write warnings to the standard error too.
-    bool shows_warnings = true;
 };
 
 /// Outcome of one file.
@@ -41,11 +39,9 @@ struct Conversion {
     Vec3 origin = Vec3::Zero();
     /// Notes on parts of the mesh that the output does not hold.
     std::vector<std::string> lost;
-    /// Error message, if it failed.
-    std::optional<Error> error;
 
-    /// Returns "converted", "repaired" (the surface differs from the file's, by more than welding)
-    /// or "failed".
+    /// Returns "converted" or "repaired" (the surface differs from the file's, by more than
+    /// welding).
     const char* outcome() const;
 };
 
@@ -57,13 +53,10 @@ struct Conversion {
 Conversion convert_file(Program& program, const std::filesystem::path& in,
                         const std::filesystem::path& out, const ConversionOptions& options);
 
-/// Returns {"file", "out", "outcome", "vertices", "faces", "seconds", "origin", "report", "lost"};
-/// of hair with "strands" and "points" for "vertices", "faces", "origin" and "report"; or with
-/// "error" in place of the fields of a success.
+/// Returns {"file", "out", "outcome", "notes", "vertices", "faces", "seconds", "origin", "report",
+/// "lost"}; of hair with "strands" and "points" for "vertices", "faces", "origin" and "report". The
+/// notes are repairs and losses in a few words.
 Json conversion_json(const Conversion& conversion);
-
-/// Returns the reason of a failure, or the repairs and losses, in a few words.
-std::string conversion_notes(const Conversion& conversion);
 
 /// Returns whether both name the same existing file.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);

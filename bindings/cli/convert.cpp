@@ -1,11 +1,11 @@
 // lissom convert IN OUT, and lissom convert --in PATTERN... --out FOLDER
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <iostream>
 #include <optional>
 
+#include "bindings/cli/batch/files/files_verb.h"
 #include "bindings/cli/conversion.h"
-#include "bindings/cli/convert_many.h"
+#include "bindings/cli/json.h"
 #include "bindings/cli/load_flags.h"
 #include "bindings/cli/scene_input.h"
 #include "bindings/cli/verbs.h"
@@ -14,15 +14,16 @@ namespace lissom::cli {
 namespace {
 
 struct Request {
+    FilesVerb many{"convert"};
     std::string in, out, in_up, up, origin, compression;
     std::optional<double> in_unit;
-    ManyFiles many;
     ConversionOptions options;
     LoadFlags load_flags;
     bool text = false, big_endian = false;
 
     bool is_for_many() const {
-        return !many.in.empty() || !many.out_folder.empty() || !many.to.empty();
+        const ManyFiles& files = many.files;
+        return many.is_for_many() || !files.out_folder.empty() || !files.extension.empty();
     }
 };
 
@@ -34,9 +35,11 @@ const char* const kDescription =
     "  lissom convert IN OUT                                    one file\n"
     "  lissom convert --in 'a/*.obj' --out b/ --to glb          many files\n"
     "  lissom convert --in 'a/**/*.ply' other/ --out b/         with their folders\n\n"
-    "A failure does not stop the other files; a table lists the results of all. An output "
-    "replaces an older file of its name, but not one of the files to read (unless --force), and "
-    "not the output of another input. Exit status: 0 all done, 1 some failed, 2 called wrongly.";
+    "Many files are converted several at a time. A failure does not stop the others; a table lists "
+    "the results of all, and index.html in the output folder too. The same command again converts "
+    "only files that have changed or failed. An output replaces an older file of its name, but not "
+    "one of the files to read (unless --force), and not the output of another input. Exit status: "
+    "0 all done, 1 some failed, 2 called wrongly.";
 
 UpAxis up_axis(const std::string& name) {
     if (name.empty()) return UpAxis::none;
@@ -58,13 +61,9 @@ std::vector<std::string> known_extensions() {
 void declare_files(CLI::App& app, Request& request) {
     app.add_option("IN", request.in, "The mesh file, hair file or scene to read");
     app.add_option("OUT", request.out, "The file to write; its extension names the format");
-    app.add_option("--in", request.many.in,
-                   "Files to read: names, folders (the mesh and hair files in them that can become "
-                   "the format of --to) or patterns in quotes, with * and ? in names and ** for "
-                   "any folders");
-    app.add_option("--out", request.many.out_folder,
+    app.add_option("--out", request.many.files.out_folder,
                    "Folder to write to, created if it is missing; sub-folders are kept");
-    app.add_option("--to", request.many.to,
+    app.add_option("--to", request.many.files.extension,
                    "Format of the files in --out, by its extension (default: each as it was)")
         ->transform(normalized)
         ->check(CLI::IsMember(known_extensions()));
@@ -101,6 +100,7 @@ void declare(CLI::App& app, Request& request) {
         ->check(CLI::Range(6, 20));
     app.add_flag("--big-endian", request.big_endian, "Byte order of a binary .ply");
     request.load_flags.declare(app);
+    request.many.declare(app);
 }
 
 // Options that say how meshes are read and written.
@@ -136,19 +136,46 @@ void complete(Request& request) {
 }
 
 // Returns the defect of the choice of files; empty if there is none.
-std::string misuse(const Request& request) {
+std::string misuse(const CLI::App& app, const Request& request) {
+    const std::string stray = request.many.stray_option(app);
+    if (!stray.empty()) return stray + " is for many files, which --in names";
     if (!request.is_for_many()) {
         return request.out.empty() ? "IN and OUT are required, or --in and --out" : "";
     }
     if (!request.in.empty()) return "IN and OUT do not go with --in, --out and --to";
-    if (request.many.in.empty()) return "--in is missing: the files to read";
-    return request.many.out_folder.empty() ? "--out is missing: the folder to write to" : "";
+    if (!request.many.is_for_many()) return "--in is missing: the files to read";
+    return request.many.files.out_folder.empty() ? "--out is missing: the folder to write to" : "";
+}
+
+bool is_among(const std::vector<std::string>& extensions, const std::string& extension) {
+    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+// Folders name the files that can become the format of --to.
+int convert_files(Program& program, const CLI::App& app, Request& request) {
+    ManyFiles& files = request.many.files;
+    files.force = request.options.force;
+    const std::string& to = files.extension;
+    if (!to.empty()) {
+        files.kinds = {is_among(writable_extensions(), to),
+                       is_among(writable_strand_extensions(), to)};
+        files.kinds_text = " that can become ." + to;
+    }
+    const FileColumn vertices{"vertices", 9, [](const Json& answer) {
+                                  const char* const name =
+                                      answer.contains("points") ? "points" : "vertices";
+                                  return number_column(name, 9).text(answer);
+                              }};
+    return request.many.run(
+        program, app, {"--out", "--to", "--force"}, "",
+        {{"converted", "repaired"},
+         {vertices, number_column("faces", 9), number_column("seconds", 8, 2)}});
 }
 
 int convert_one(Program& program, const Request& request) {
     const Conversion done = convert_file(program, request.in, request.out, request.options);
     program.clear_progress();
-    if (program.json()) std::cout << json_text(conversion_json(done)) << std::endl;
+    if (program.json()) program.answer(json_text(conversion_json(done)));
     return kSuccess;
 }
 
@@ -159,16 +186,15 @@ int convert(Program& program, const std::vector<std::string>& words) {
     Request request;
     declare(app, request);
     int status = kSuccess;
-    if (!program.parse(app, words, status)) return status;
-    const std::string wrong = misuse(request);
+    if (!request.many.parse(program, app, words, status)) return status;
+    const std::string wrong = misuse(app, request);
     if (!wrong.empty()) {
         return program.fail("lissom convert: " + wrong + " (see lissom convert --help)", kUsage);
     }
     complete(request);
     request.options.mesh_only = mesh_only(app);
-    if (!request.is_for_many()) return convert_one(program, request);
-    request.options.shows_warnings = false;
-    return convert_many(program, request.many, request.options);
+    if (request.is_for_many()) return convert_files(program, app, request);
+    return convert_one(program, request);
 }
 
 }  // namespace lissom::cli

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "bindings/cli/batch/files/files_verb.h"
 #include "bindings/cli/json.h"
 #include "bindings/cli/load_flags.h"
 #include "bindings/cli/scene_input.h"
@@ -15,6 +16,7 @@
 #include "kernel/io/animation_list.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/io/strand_file.h"
+#include "kernel/io/stream/file.h"
 #include "kernel/io/stream/read_error.h"
 #include "kernel/mesh/edit/label_adder.h"
 #include "kernel/mesh/measure/measures.h"
@@ -320,14 +322,15 @@ void print_strands(const Json& hair) {
 // Describes one file after the other.
 class Inspector {
   public:
-    Inspector(Program& program, const LoadOptions& options) : program_(program), options_(options) {
+    Inspector(Program& program, const LoadOptions& options)
+        : program_(program), options_(options), before_(program.log_filter) {
         // Findings are part of the answer.
         program.log_filter = [this](LogLevel level, std::string_view message) {
             if (level == LogLevel::warning) warnings_.emplace_back(message);
-            return program_.debug;
+            return (!before_ || before_(level, message)) && program_.debug;
         };
     }
-    ~Inspector() { program_.log_filter = nullptr; }
+    ~Inspector() { program_.log_filter = before_; }
     Inspector(const Inspector&) = delete;
     Inspector& operator=(const Inspector&) = delete;
 
@@ -407,44 +410,139 @@ class Inspector {
 
     Program& program_;
     const LoadOptions& options_;
+    std::function<bool(LogLevel, std::string_view)> before_;
     std::vector<std::string> warnings_;
 };
 
-}  // namespace
+// ---- The verb
 
-int inspect(Program& program, const std::vector<std::string>& words) {
-    CLI::App app("Describes the contents of mesh files, hair files and scenes.", "lissom inspect");
+struct InspectRequest {
+    FilesVerb many{"inspect"};
     std::vector<std::string> files;
     LoadFlags flags;
-    app.add_option("FILE", files,
-                   "Mesh files, hair files (.hair, .data, .usda) and scenes (.lissom)")
-        ->required();
-    flags.declare(app);
+};
+
+void declare_inspect(CLI::App& app, InspectRequest& request) {
+    app.add_option("FILE", request.files,
+                   "Mesh files, hair files (.hair, .data, .usda) and scenes (.lissom)");
+    app.add_option("--out", request.many.files.out_folder,
+                   "Write the answer as JSON to this file; with --in a folder, which gets a file "
+                   "NAME.json for each, and a table");
+    request.flags.declare(app);
+    request.many.declare(app);
+}
+
+std::string inspect_misuse(const CLI::App& app, const InspectRequest& request) {
+    const std::string stray = request.many.stray_option(app);
+    if (!stray.empty()) return stray + " is for many files, which --in names";
+    if (!request.many.is_for_many()) return request.files.empty() ? "FILE is required" : "";
+    if (!request.files.empty()) return "FILE does not go with --in";
+    return request.many.files.out_folder.empty() ? "--out is missing: the folder to write to" : "";
+}
+
+std::string report_notes(const Json& report) {
+    std::string notes;
+    for (const Json& finding : report) {
+        auto kind = finding.at("kind").get<std::string>();
+        std::replace(kind.begin(), kind.end(), '_', ' ');
+        notes += (notes.empty() ? "" : "; ") + finding.at("count").dump() + " " + kind;
+    }
+    return notes;
+}
+
+// The fields of one value in the description of a mesh, of hair, or of a scene.
+Json brief_json(const Json& description) {
+    Json brief = Json::object();
+    for (const auto& [name, value] : description.items()) {
+        if (value.is_primitive()) brief[name] = value;
+        if (name == "boundaries" || name == "objects") brief[name] = value.size();
+    }
+    if (description.contains("report")) brief["notes"] = report_notes(description.at("report"));
+    return brief;
+}
+
+Json answer_json(Inspector& inspector) {
+    Json answer = {{"meshes", std::move(inspector.meshes)}};
+    if (!inspector.hair.empty()) answer["hair"] = std::move(inspector.hair);
+    if (!inspector.scenes.empty()) answer["scenes"] = std::move(inspector.scenes);
+    return answer;
+}
+
+// Adds the error of a file to the list of its kind.
+void add_error(Inspector& inspector, const std::string& file, const Error& error) {
+    Json& list = is_scene_path(file)  ? inspector.scenes
+                 : is_hair_path(file) ? inspector.hair
+                                      : inspector.meshes;
+    list.push_back({{"file", file}, {"error", error_json(error)}});
+}
+
+// The first description in an answer.
+const Json& first_of(const Json& answer) {
+    for (const auto& [name, list] : answer.items()) {
+        if (!list.empty()) return list.front();
+    }
+    return answer;
+}
+
+// The answer goes to the file, and in brief to a listener.
+void write_answer(const Program& program, const Json& answer, const std::string& out) {
+    const std::string text = json_text(answer);
+    if (!out.empty()) write_file_atomically(out, text + "\n", {});
+    if (out.empty()) return program.answer(text);
+    if (program.json()) program.answer(json_text(brief_json(first_of(answer))));
+}
+
+int inspect_files(Program& program, const std::vector<std::string>& files, const std::string& out,
+                  const LoadOptions& options) {
     int status = kSuccess;
-    if (!program.parse(app, words, status)) return status;
-    LoadOptions options;
-    flags.apply(options);
     Inspector inspector(program, options);
     for (const std::string& file : files) {
         try {
             inspector.inspect_file(file);
         } catch (const Error& error) {
             status = kFailure;
-            Json& list = is_scene_path(file)  ? inspector.scenes
-                         : is_hair_path(file) ? inspector.hair
-                                              : inspector.meshes;
-            list.push_back({{"file", file}, {"error", error_json(error)}});
+            // Nothing is written of a file alone that cannot be read.
+            if (!out.empty() && files.size() == 1) return program.fail(error);
+            add_error(inspector, file, error);
             if (!program.json()) program.fail(error);
             if (error.code() == ErrorCode::cancelled) break;
         }
     }
     program.clear_progress();
-    if (!program.json()) return status;
-    Json answer = {{"meshes", std::move(inspector.meshes)}};
-    if (!inspector.hair.empty()) answer["hair"] = std::move(inspector.hair);
-    if (!inspector.scenes.empty()) answer["scenes"] = std::move(inspector.scenes);
-    std::cout << json_text(answer) << std::endl;
+    if (program.json() || !out.empty()) write_answer(program, answer_json(inspector), out);
     return status;
+}
+
+int inspect_many(Program& program, const CLI::App& app, InspectRequest& request) {
+    request.many.files.extension = "json";
+    request.many.files.adds_extension = true;
+    return request.many.run(
+        program, app, {"--out"}, "out",
+        {{"inspected"},
+         {number_column("vertices", 9), number_column("faces", 9), number_column("components", 10),
+          number_column("boundaries", 10), number_column("genus", 6), number_column("points", 9)}});
+}
+
+}  // namespace
+
+int inspect(Program& program, const std::vector<std::string>& words) {
+    CLI::App app(
+        "Describes the contents of mesh files, hair files and scenes.\n\n"
+        "  lissom inspect FILE...                            on the terminal, or as JSON\n"
+        "  lissom inspect --in 'a/**/*.obj' --out FOLDER     many files, and a table of them",
+        "lissom inspect");
+    InspectRequest request;
+    declare_inspect(app, request);
+    int status = kSuccess;
+    if (!request.many.parse(program, app, words, status)) return status;
+    const std::string wrong = inspect_misuse(app, request);
+    if (!wrong.empty()) {
+        return program.fail("lissom inspect: " + wrong + " (see lissom inspect --help)", kUsage);
+    }
+    if (request.many.is_for_many()) return inspect_many(program, app, request);
+    LoadOptions options;
+    request.flags.apply(options);
+    return inspect_files(program, request.files, request.many.files.out_folder, options);
 }
 
 }  // namespace lissom::cli

@@ -17,6 +17,15 @@
 
 namespace lissom::cli {
 
+namespace {
+
+void fail_by_json(const Json& error, bool is_answer, const Program& program) {
+    if (is_answer) return program.answer(json_text(error));
+    std::cerr << json_text(error, -1) << std::endl;
+}
+
+}  // namespace
+
 struct Program::Parts {
     ProgressBar bar{std::cerr};
     bool shows_progress = error_is_terminal();
@@ -120,6 +129,11 @@ void Program::clear_progress() {
     own_->bar.clear();
 }
 
+void Program::answer(const std::string& json) const {
+    if (answer_listener) return answer_listener(json);
+    std::cout << json << std::endl;
+}
+
 int Program::fail(const Error& error) {
     clear_progress();
     if (!json()) {
@@ -127,9 +141,7 @@ int Program::fail(const Error& error) {
                   << std::endl;
         return kFailure;
     }
-    const bool to_output = output == Output::json;
-    (to_output ? std::cout : std::cerr)
-        << json_text({{"error", error_json(error)}}, to_output ? 2 : -1) << std::endl;
+    fail_by_json({{"error", error_json(error)}}, output == Output::json, *this);
     return kFailure;
 }
 
@@ -139,10 +151,8 @@ int Program::fail(const std::string& message, int status) {
         std::cerr << message << std::endl;
         return status;
     }
-    const bool to_output = output == Output::json;
     const Json error = {{"message", message}, {"code", status == kUsage ? "usage" : "failure"}};
-    (to_output ? std::cout : std::cerr)
-        << json_text({{"error", error}}, to_output ? 2 : -1) << std::endl;
+    fail_by_json({{"error", error}}, output == Output::json, *this);
     return status;
 }
 
@@ -199,18 +209,6 @@ int refuse_verb(Program& program, const std::string& word) {
     return program.fail("lissom: no verb '" + word + "'" + hint, kUsage);
 }
 
-int run_verb(Program& program, const Verb& verb, const std::vector<std::string>& words) {
-    try {
-        return verb.run(program, words);
-    } catch (const Error& error) {
-        return program.fail(error);
-    } catch (const std::bad_alloc&) {
-        return program.fail("lissom: there is not enough memory");
-    } catch (const std::exception& error) {
-        return program.fail(std::string("lissom: ") + error.what());
-    }
-}
-
 int run_words(Program& program, const ProgramParts& parts, const std::vector<std::string>& words) {
     if (words.empty()) {
         print_help(parts);
@@ -223,9 +221,7 @@ int run_words(Program& program, const ProgramParts& parts, const std::vector<std
         return kSuccess;
     }
     if (first == "--version") return print_version(parts, json);
-    const Verb* verb = find_verb(parts, first);
-    if (!verb) return refuse_verb(program, first);
-    const int status = run_verb(program, *verb, {words.begin() + 1, words.end()});
+    const int status = run_verb(program, words);
     return status != kSuccess && program.interrupted() ? kInterrupted : status;
 }
 
@@ -236,6 +232,20 @@ bool output_is_written() {
 }
 
 }  // namespace
+
+int run_verb(Program& program, const std::vector<std::string>& words) {
+    const Verb* verb = find_verb(program.parts(), words.at(0));
+    if (!verb) return refuse_verb(program, words[0]);
+    try {
+        return verb->run(program, {words.begin() + 1, words.end()});
+    } catch (const Error& error) {
+        return program.fail(error);
+    } catch (const std::bad_alloc&) {
+        return program.fail("lissom: there is not enough memory");
+    } catch (const std::exception& error) {
+        return program.fail(std::string("lissom: ") + error.what());
+    }
+}
 
 int run_program(int argc, char** argv, const ProgramParts& parts) {
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);

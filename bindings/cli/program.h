@@ -61,6 +61,10 @@ ProgramParts kernel_parts();
 /// kInterrupted if Ctrl-C stopped it, kFailure if the standard output could not be written.
 int run_program(int argc, char** argv, const ProgramParts& parts);
 
+/// Runs the verb that the first word names with the words behind it, and writes its error if it
+/// has one. Returns its exit status.
+int run_verb(Program& program, const std::vector<std::string>& words);
+
 /// Form of a verb's answer and its errors.
 enum class Output {
     /// For people: the answer to the standard output, errors to the standard error.
@@ -96,6 +100,9 @@ class Program {
     std::function<bool(LogLevel, std::string_view)> log_filter;
     /// Receives progress instead of the terminal, if it is set.
     std::function<void(std::string_view label, double fraction)> progress_listener;
+    /// Receives answers in the form of JSON, and errors, instead of the standard output, if it is
+    /// set.
+    std::function<void(const std::string& json)> answer_listener;
     /// Hears of each file that a script opens by the library, if it is set.
     std::function<void(const std::filesystem::path& file, lua::FileUse use)> file_used;
     /// Threads of the kernel's loops; 0 for as many as there are cores.
@@ -121,6 +128,8 @@ class Program {
     /// Takes the progress bar away; before anything is written.
     void clear_progress();
 
+    /// Writes the answer of a verb as JSON, a line of text.
+    void answer(const std::string& json) const;
     /// Writes an error, with ids from 1, and returns kFailure.
     int fail(const Error& error);
     /// Writes a message of a kind that has no code and returns `status`.

@@ -46,6 +46,15 @@ if p.mode == "orphan" then os.execute("sleep 2 >/dev/null 2>&1 &") end
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 
+def children_of(process):
+    """Processes that it has started."""
+    try:
+        with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
+            return [int(word) for word in file.read().split()]
+    except OSError:
+        return []
+
+
 class Folder(unittest.TestCase):
     """A test with a folder of its own, in which the program runs."""
 
@@ -305,23 +314,120 @@ class Runs(Folder):
         self.assertEqual((last["all"], last["done"], last["failed"]), (3, 3, 0))
 
 
+class Files(Folder):
+    """Verbs over many files: they run as jobs of a batch."""
+
+    def setUp(self):
+        super().setUp()
+        for name in ("in/a.obj", "in/deep/b c.obj", "in/\u00fc.obj"):
+            self.write(name, TRIANGLE)
+        self.write("in/twisted.obj", TRIANGLE + "v 0 -1 0\nf 1 2 4\n")
+        self.write("in/bad.obj", "v 0 0 0\nf 1 2 3\n")
+
+    def run_verb(self, *words, status=0, environment=None):
+        run = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=300,
+                             check=False, env=environment)
+        self.assertEqual(run.returncode, status, run.stdout + run.stderr)
+        return run
+
+    def convert(self, *words, status=0, **more):
+        return self.run_verb("convert", "--in", "in/**/*.obj", "--out", "out", "--to", "ply", *words, status=status, **more)
+
+    def table(self, name="out"):
+        with open(self.path(name, "summary.csv"), encoding="utf-8", newline="") as file:
+            return {row["file"]: row for row in csv.DictReader(file)}
+
+    def test_convert_resumes_and_keeps_a_table(self):
+        run = self.convert(status=1)
+        self.assertIn("3 converted, 1 repaired, 1 failed; ", run.stdout)
+        self.assertEqual([line.split("  ")[0] for line in run.stdout.splitlines()],
+                         ["file", "in/a.obj", "in/bad.obj", "in/deep/b c.obj", "in/twisted.obj", "in/\u00fc.obj",
+                          "3 converted, 1 repaired, 1 failed; out/index.html"])
+        self.assertEqual(sorted(self.outputs()), ["a.ply", "deep/b c.ply", "twisted.ply", "\u00fc.ply"])
+        rows = self.table()
+        self.assertEqual(rows["in/twisted.obj"]["result.outcome"], "repaired")
+        self.assertEqual(rows["in/a.obj"]["result.vertices"], "3")
+        self.assertEqual((rows["in/bad.obj"]["outcome"], rows["in/bad.obj"]["attempts"]), ("failed", "1"))
+        self.assertIn("vertex 3 does not exist", rows["in/bad.obj"]["message"])
+        self.assertIn("in/twisted.obj", self.read("out", "index.html"))
+        first = self.outputs()
+        self.write("in/bad.obj", TRIANGLE)
+        os.remove(self.path("out", "a.ply"))
+        again = json.loads(self.convert("--json").stdout)
+        self.assertEqual({row["file"]: row["kept"] for row in again["files"]},
+                         {"in/a.obj": False, "in/bad.obj": False, "in/deep/b c.obj": True, "in/twisted.obj": True,
+                          "in/\u00fc.obj": True})
+        self.assertEqual((again["converted"], again["repaired"], again["failed"], again["kept"]), (4, 1, 0, 3))
+        self.assertEqual(self.outputs()["a.ply"], first["a.ply"])
+        # Other options make other files.
+        self.assertEqual({line.split("[")[1] for line in self.convert("--text", "--list").stdout.splitlines()},
+                         {"options is given now]"})
+        self.convert("--text")
+        self.assertIn(b"format ascii", self.outputs()["a.ply"])
+
+    def test_convert_makes_what_it_makes_of_one_file(self):
+        self.convert("--up", "z", "--in-up", "y", status=1)
+        self.run_verb("convert", "in/a.obj", "one.ply", "--up", "z", "--in-up", "y")
+        with open(self.path("one.ply"), "rb") as file:
+            self.assertEqual(self.outputs()["a.ply"], file.read())
+
+    def test_names_that_begin_as_options_do_are_files(self):
+        self.write("-x.obj", TRIANGLE)
+        self.run_verb("convert", "--in", "./*.obj", "--out", "out", "--to", "off")
+        self.run_verb("convert", "--in=-x.obj", "--out", "out2", "--to", "off")
+        self.assertEqual(self.outputs(), self.outputs("out2"))
+        self.assertEqual(list(self.outputs()), ["-x.off"])
+
+    def test_a_crash_costs_one_file(self):
+        environment = dict(os.environ, LISSOM_THREADS="1")
+        for n in range(30):
+            self.write(f"in/{n}.obj", TRIANGLE)
+        process = subprocess.Popen([PROGRAM, "convert", "--in", "in", "--out", "out", "--to", "ply", "--jobs", "2"],
+                                   cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                   env=environment)
+        # Workers are killed as soon as they are seen.
+        for _ in range(3):
+            time.sleep(0.02)
+            for child in children_of(process):
+                try:
+                    os.kill(child, signal.SIGKILL)
+                except ProcessLookupError:
+                    pass
+        text = process.communicate(timeout=120)[0]
+        self.run_verb("convert", "--in", "in", "--out", "out", "--to", "ply", "--jobs", "2", status=1)
+        self.assertEqual(len(self.outputs()), 33, text)
+
+    def test_inspect_makes_a_table_of_a_folder(self):
+        run = self.run_verb("inspect", "--in", "in/**/*.obj", "--out", "out", status=1)
+        self.assertIn("4 inspected, 1 failed", run.stdout)
+        self.assertEqual(sorted(self.outputs()), ["a.obj.json", "deep/b c.obj.json", "twisted.obj.json", "\u00fc.obj.json"])
+        one = json.loads(self.run_verb("inspect", "in/twisted.obj", "--json").stdout)
+        self.assertEqual(json.loads(self.outputs()["twisted.obj.json"]), one)
+        row = self.table()["in/twisted.obj"]
+        self.assertEqual((row["result.faces"], row["result.boundaries"], row["result.closed"]), ("2", "1", "false"))
+        self.assertIn("1 faces flipped", row["result.notes"])
+        self.assertIn("4 of them before",
+                      self.run_verb("inspect", "--in", "in/**/*.obj", "--out", "out", status=1).stdout)
+
+    def test_wrong_words_are_told_before_the_first_job(self):
+        for text, *words in (("--out is missing", "inspect", "--in", "in"),
+                             ("--jobs is for many files", "inspect", "in/a.obj", "--jobs", "2"),
+                             ("belong to --slurm", "inspect", "--in", "in", "--out", "out", "--", "--mem=2G"),
+                             ("FILE does not go with --in", "inspect", "in/a.obj", "--in", "in", "--out", "out"),
+                             ("--to", "convert", "--in", "in", "--out", "out", "--to", "doc")):
+            self.assertIn(text, self.run_verb(*words, status=2).stderr)
+        self.assertFalse(os.path.exists(self.path("out")))
+
+
 class Kills(Folder):
     """After any kills the outputs are those of an undisturbed run."""
 
     WORDS = ("make.lua", "--sweep", "number=1:25:1", "--jobs", "3", "--out")
 
-    def group_of(self, process):
-        """Processes that the driver has started."""
-        try:
-            with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
-                return [int(word) for word in file.read().split()]
-        except OSError:
-            return []
-
     def kill_at_random(self, rng, process):
         time.sleep(rng.uniform(0.0, 0.25))
         victims = rng.choice((["driver"], ["driver"], ["worker"], ["driver", "worker"]))
-        children = self.group_of(process)
+        children = children_of(process)
         if "driver" in victims:
             process.kill()
         if "worker" in victims and children:
@@ -444,6 +550,17 @@ class Slurm(Folder):
         if not shutil.which("sbatch"):
             self.assertIn("sbatch is not installed", self.submit(*self.WORDS, status=1).stderr)
         self.assertIn("belong to --slurm", self.batch(*self.WORDS[:-1], "--", "--mem=2G", status=2).stderr)
+
+    def test_a_verb_over_many_files_runs_on_the_cluster(self):
+        for n in range(6):
+            self.write(f"in/{n}.obj", TRIANGLE)
+        environment = dict(os.environ, PATH=self.path("bin") + ":" + os.environ["PATH"], FAKE_SLURM=self.path("slurm"))
+        run = subprocess.run([PROGRAM, "convert", "--in", "in", "--out", "out", "--to", "off", "--slurm", "--", "--mem=2G"],
+                             cwd=self.folder, capture_output=True, text=True, timeout=300, check=False, env=environment)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.assertIn("6 converted, 0 repaired, 0 failed", run.stdout)
+        self.assertEqual(sorted(self.outputs()), [f"{n}.off" for n in range(6)])
+        self.assertIn("--mem=2G", self.calls()[0].split())
 
     def test_a_submission_is_exported_for_sites_that_change_it(self):
         run = self.submit(*self.WORDS[:-1], "--export", "task.sh", "--", "--account=me")

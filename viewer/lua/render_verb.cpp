@@ -9,6 +9,7 @@
 #include <iterator>
 #include <memory>
 
+#include "bindings/cli/batch/files/files_verb.h"
 #include "bindings/cli/json.h"
 #include "bindings/cli/scene_input.h"
 #include "kernel/io/mesh_file.h"
@@ -22,6 +23,7 @@ namespace lissom::cli {
 namespace {
 
 struct Request {
+    FilesVerb many{"render"};
     std::vector<std::string> files;
     std::string out, size = "1280x960", view = "three-quarter", up = "y", shading = "smooth",
                      fit = "all";
@@ -173,15 +175,16 @@ void options_of(Request& request) {
 // Messages about a file begin with its name.
 class FileNamedLog {
   public:
-    explicit FileNamedLog(Program& program) : program_(program) {
+    explicit FileNamedLog(Program& program) : program_(program), before_(program.log_filter) {
         program.log_filter = [this](LogLevel level, std::string_view message) {
+            if (before_ && !before_(level, message)) return false;
             if (file.empty() || level != LogLevel::warning) return true;
             program_.clear_progress();
             std::cerr << "warning: " << file << ": " << message << std::endl;
             return false;
         };
     }
-    ~FileNamedLog() { program_.log_filter = nullptr; }
+    ~FileNamedLog() { program_.log_filter = before_; }
     FileNamedLog(const FileNamedLog&) = delete;
     FileNamedLog& operator=(const FileNamedLog&) = delete;
 
@@ -189,6 +192,7 @@ class FileNamedLog {
 
   private:
     Program& program_;
+    std::function<bool(LogLevel, std::string_view)> before_;
 };
 
 void add_scene(Request& request, const std::string& path, const Context& context) {
@@ -229,20 +233,36 @@ void add_files(Program& program, Request& request) {
     if (!request.scalars.empty()) paint_values(request.picture, request.scalars);
 }
 
-}  // namespace
-
-int render(Program& program, const std::vector<std::string>& words) {
-    CLI::App app("Draws meshes, hair and scenes into a picture.", "lissom render");
-    Request request;
+void declare(CLI::App& app, Request& request) {
     app.add_option("FILE", request.files,
-                   "Mesh files, hair files (.hair, .data, .usda) and scenes (.lissom) to draw")
+                   "Mesh files, hair files (.hair, .data, .usda) and scenes (.lissom) to draw");
+    app.add_option("-o,--out", request.out,
+                   "The picture to write, a .png file; with --in a folder, which gets a picture "
+                   "NAME.png of each file, and a page of all")
         ->required();
-    app.add_option("-o,--out", request.out, "The picture to write, a .png file")->required();
     declare_view(app, request);
     declare_content(app, request);
     declare_quality(app, request);
-    int status = kSuccess;
-    if (!program.parse(app, words, status)) return status;
+    request.many.declare(app);
+}
+
+// Returns the defect of the choice of files; empty if there is none.
+std::string misuse(const CLI::App& app, const Request& request) {
+    const std::string stray = request.many.stray_option(app);
+    if (!stray.empty()) return stray + " is for many files, which --in names";
+    if (request.many.is_for_many()) return request.files.empty() ? "" : "FILE goes without --in";
+    return request.files.empty() ? "FILE is required" : "";
+}
+
+int render_many(Program& program, const CLI::App& app, Request& request) {
+    request.many.files.out_folder = request.out;
+    request.many.files.extension = "png";
+    request.many.files.adds_extension = true;
+    return request.many.run(program, app, {"--out"}, "out",
+                            {{"drawn"}, {number_column("width", 6), number_column("height", 6)}});
+}
+
+int render_one(Program& program, const CLI::App& app, Request& request) {
     require_picture_path(request.out);
     make_folder(std::filesystem::path(request.out).parent_path());
     options_of(request);
@@ -255,13 +275,32 @@ int render(Program& program, const std::vector<std::string>& words) {
     save_picture(image, request.out, program.context());
     program.clear_progress();
     if (program.json()) {
-        std::cout << json_text({{"file", request.out},
-                                {"width", image.width},
-                                {"height", image.height},
-                                {"driver", renderer.driver()}})
-                  << std::endl;
+        program.answer(json_text({{"file", request.out},
+                                  {"width", image.width},
+                                  {"height", image.height},
+                                  {"driver", renderer.driver()}}));
     }
     return kSuccess;
+}
+
+}  // namespace
+
+int render(Program& program, const std::vector<std::string>& words) {
+    CLI::App app(
+        "Draws meshes, hair and scenes.\n\n"
+        "  lissom render FILE... -o PICTURE                 all in one picture\n"
+        "  lissom render --in 'a/**/*.obj' -o FOLDER        a picture of each, and a page of all",
+        "lissom render");
+    Request request;
+    declare(app, request);
+    int status = kSuccess;
+    if (!request.many.parse(program, app, words, status)) return status;
+    const std::string wrong = misuse(app, request);
+    if (!wrong.empty()) {
+        return program.fail("lissom render: " + wrong + " (see lissom render --help)", kUsage);
+    }
+    return request.many.is_for_many() ? render_many(program, app, request)
+                                      : render_one(program, app, request);
 }
 
 }  // namespace lissom::cli

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <utility>
 
+#include "bindings/cli/json.h"
 #include "bindings/cli/process/process_number.h"
 #include "kernel/core/error.h"
 
@@ -21,6 +22,18 @@ std::int64_t milliseconds_since_1970() {
 
 std::string job_key(const BatchJob& job) {
     return text_digest(job.output.string()).substr(0, 16);
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+        text.replace(at, from.size(), to);
+    }
+}
+
+// A path as it stands within a text of JSON; most are as they are.
+std::string json_words(const fs::path& path) {
+    const std::string text = json_text(path.string(), -1);
+    return text.substr(1, text.size() - 2);
 }
 
 double rounded_seconds(double seconds) {
@@ -48,7 +61,7 @@ JobTask Attempt::prepare() {
     // A process that outlives its driver keeps its own folder.
     const std::string work = job_key(job()) + "." + std::to_string(process_number());
     staging_.emplace(folder_ / "work" / work, job().output, plan_.makes_folders);
-    return {plan_.script, script_words(plan_, job(), staging_->output()), log_.string()};
+    return {plan_.script, job_words(plan_, job(), staging_->output()), log_.string()};
 }
 
 void Attempt::end(const ProcessEnd& end, double timeout) {
@@ -78,7 +91,8 @@ JobRecord Attempt::ended_record(const BatchState& state) const {
                                                : "failed";
     record.message = is_late          ? "it took longer than " + number_text(timeout_) + " s"
                      : end_.by_signal ? end_.text()
-                                      : news_.message.substr(0, kMessageLength);
+                                      : with_place(news_.message).substr(0, kMessageLength);
+    if (!is_late && !end_.by_signal) record.result = with_place(news_.result);
     record.log = log_.lexically_relative(folder_.parent_path()).string();
     record.attempts = waiting_.attempt;
     record.warnings = news_.warnings;
@@ -88,6 +102,14 @@ JobRecord Attempt::ended_record(const BatchState& state) const {
     record.time = milliseconds_since_1970();
     record.program = state.program();
     return record;
+}
+
+// The text with the place of the output instead of that in the work folder.
+std::string Attempt::with_place(std::string text) const {
+    const fs::path work = staging_->output();
+    replace_all(text, work.string(), job().output.string());
+    replace_all(text, json_words(work), json_words(job().output));
+    return text;
 }
 
 void Attempt::publish(JobRecord& record, BatchState& state, std::set<fs::path>& folders) {

@@ -51,6 +51,7 @@ class Attempt {
     using Clock = std::chrono::steady_clock;
 
     JobRecord ended_record(const BatchState& state) const;
+    std::string with_place(std::string text) const;
     void publish(JobRecord& record, BatchState& state, std::set<std::filesystem::path>& folders);
     std::vector<FileStamp> read_stamps(FileDigests& digests) const;
 

@@ -10,6 +10,7 @@
 
 #include "bindings/cli/batch/durable_files.h"
 #include "bindings/cli/batch/job_pack.h"
+#include "bindings/cli/json.h"
 #include "bindings/cli/process/child_process.h"
 #include "kernel/core/error.h"
 #include "kernel/core/version.h"
@@ -38,8 +39,9 @@ bool is_full(const fs::path& folder) {
 }
 
 bool is_tried_again(const JobRecord& record, const BatchOptions& options) {
-    const bool was_called_wrongly = record.outcome == "failed" && record.status == kUsage;
-    return !record.is_done() && !was_called_wrongly && record.attempts <= options.retries;
+    const bool is_certain =
+        record.outcome == "failed" && (record.status == kUsage || !record.result.empty());
+    return !record.is_done() && !is_certain && record.attempts <= options.retries;
 }
 
 class Driver {
@@ -68,13 +70,23 @@ class Driver {
     void find_work() {
         for (const BatchJob& job : plan_.jobs) {
             if (options_.stopped()) return;
+            if (job.refused) {
+                ++progress_.failed;
+                if (options_.ended) options_.ended(job, refused_record(job));
+                continue;
+            }
             std::string reason = state_.reason_to_run(job);
             if (reason.empty()) {
-                ++progress_.kept;
+                keep(job);
             } else {
                 waiting_.push_back({&job, 1, std::move(reason)});
             }
         }
+    }
+
+    void keep(const BatchJob& job) {
+        ++progress_.kept;
+        if (options_.kept) options_.kept(job, *state_.record(job));
     }
 
     void start_jobs() {
@@ -115,7 +127,7 @@ class Driver {
                 continue;
             }
             if (options_.shares_folder && next.attempt == 1 && is_done_elsewhere(*next.job)) {
-                ++progress_.kept;
+                keep(*next.job);
                 continue;
             }
             pack.push_back(std::move(attempt));
@@ -125,7 +137,7 @@ class Driver {
     }
 
     std::size_t task_bytes(const BatchJob& job) const {
-        std::size_t bytes = plan_.script.size() + 2 * plan_.folder.string().size() + 200;
+        std::size_t bytes = plan_.name().size() + 2 * plan_.folder.string().size() + 200;
         for (const auto& [name, value] : job.arguments) bytes += name.size() + 2 * value.size() + 8;
         return bytes;
     }
@@ -265,6 +277,17 @@ std::string BatchState::reason_to_run(const BatchJob& job) {
         if (now.digest != stamp.digest) return stamp.path + " is not as it was written";
     }
     return "";
+}
+
+JobRecord refused_record(const BatchJob& job) {
+    JobRecord record;
+    record.output = job.output.string();
+    record.arguments = job.arguments;
+    record.outcome = "failed";
+    record.status = kFailure;
+    record.message = job.refused->message();
+    record.result = json_text({{"error", error_json(*job.refused)}}, -1);
+    return record;
 }
 
 std::unique_ptr<FileLock> lock_batch(const BatchPlan& plan, const BatchState& state, bool shares) {

@@ -26,9 +26,10 @@ struct BatchProgress {
 };
 
 struct BatchOptions {
-    /// Processes at a time, threads of each.
-    int jobs = 1, threads = 1;
-    /// Attempts after the first of a job that failed, but not of one that was called wrongly.
+    /// Processes at a time, 0 for as many as there are cores (see `complete_run`); threads of each.
+    int jobs = 0, threads = 1;
+    /// Attempts after the first of a job that failed, but not of one that was called wrongly, or
+    /// of a verb that told its error.
     int retries = 1;
     /// Seconds that an attempt may take; 0: any.
     double timeout = 0.0;
@@ -37,9 +38,11 @@ struct BatchOptions {
     bool packs = false;
     /// Returns whether the batch shall stop; asked often.
     std::function<bool()> stopped;
-    /// Hears of each job that starts, with the reason, and of each that ends.
+    /// Hears of each job that starts, with the reason, of each that ends, and of each that was done
+    /// before.
     std::function<void(const BatchJob& job, const std::string& reason)> started;
     std::function<void(const BatchJob& job, const JobRecord& record)> ended;
+    std::function<void(const BatchJob& job, const JobRecord& record)> kept;
     /// Hears of the state a few times each second.
     std::function<void(const BatchProgress&)> progress;
     /// Other processes may work on other jobs of the folder, as the tasks of a cluster do.
@@ -57,8 +60,10 @@ class BatchState {
     /// Returns the reason to run a job: "new", "in/cow.obj has changed"; "" for one that is done:
     /// program, script, arguments and inputs are as they were, and outputs as they were written.
     std::string reason_to_run(const BatchJob& job);
-    /// Returns the last record of a job, or null.
-    const JobRecord* record(const BatchJob& job) const { return ledger_.find(job.output.string()); }
+    /// Returns the last record of a job, or null; also for one that is refused.
+    const JobRecord* record(const BatchJob& job) const {
+        return job.refused ? nullptr : ledger_.find(job.output.string());
+    }
     void add(const std::vector<JobRecord>& records) { ledger_.add(records); }
 
     /// Reads the records that other processes have added.
@@ -76,6 +81,9 @@ class BatchState {
     FileDigests digests_;
     Ledger ledger_;
 };
+
+/// Returns the record of the failure of a job that is refused.
+JobRecord refused_record(const BatchJob& job);
 
 /// Takes the lock of the folder of a batch, or a part of it, after making the folder. Errors:
 /// file_write_failed, also if another process has it.

@@ -18,15 +18,10 @@ JobTask read_task(const Json& json) {
     return task;
 }
 
-JobNews run_task_alone(Program& program, const JobTask& task) {
+void run_script_task(Program& program, const JobTask& task, JobNews& news) {
     std::set<std::string> reads = {task.script};
-    JobNews news;
     program.file_used = [&reads](const std::filesystem::path& file, lua::FileUse use) {
         if (use == lua::FileUse::read) reads.insert(file.string());
-    };
-    program.log_filter = [&news](LogLevel level, std::string_view) {
-        news.warnings += level == LogLevel::warning;
-        return true;
     };
     Script script(program, {task.script, task.words});
     const ScriptResult result = script.run_file(task.script);
@@ -34,7 +29,32 @@ JobNews run_task_alone(Program& program, const JobTask& task) {
     news.reads.assign(reads.begin(), reads.end());
     news.status = result.status;
     news.message = result.message;
-    if (!result.message.empty()) std::cerr << result.message << std::endl;
+}
+
+// The message of an answer that is an error.
+std::string error_message(const Json& answer) {
+    if (!answer.is_object() || !answer.contains("error")) return {};
+    return answer.at("error").value("message", std::string());
+}
+
+void run_verb_task(Program& program, const JobTask& task, JobNews& news) {
+    program.answer_listener = [&news](const std::string& json) {
+        const Json answer = Json::parse(json);
+        news.result = json_text(answer, -1);
+        news.message = error_message(answer);
+    };
+    news.status = run_verb(program, task.words);
+    program.answer_listener = nullptr;
+}
+
+JobNews run_task_alone(Program& program, const JobTask& task) {
+    JobNews news;
+    program.log_filter = [&news](LogLevel level, std::string_view) {
+        news.warnings += level == LogLevel::warning;
+        return true;
+    };
+    (task.script.empty() ? run_verb_task : run_script_task)(program, task, news);
+    if (!news.message.empty()) std::cerr << news.message << std::endl;
     return news;
 }
 
@@ -54,7 +74,8 @@ std::string news_line(const JobNews& news) {
                       {"memory", news.memory},
                       {"reads", news.reads},
                       {"warnings", news.warnings},
-                      {"message", news.message}},
+                      {"message", news.message},
+                      {"result", news.result}},
                      -1);
 }
 
@@ -67,6 +88,7 @@ JobNews read_news(const std::string& line) {
     for (const Json& file : json.at("reads")) news.reads.push_back(file);
     news.warnings = json.at("warnings");
     news.message = json.at("message");
+    news.result = json.at("result");
     return news;
 }
 

@@ -11,6 +11,7 @@ namespace lissom::cli {
 
 /// Work of the process.
 struct JobTask {
+    /// Script to run with the words; empty if they are a verb of the program and its words.
     std::string script;
     std::vector<std::string> words;
     /// File that takes the outputs of the job.
@@ -29,6 +30,8 @@ struct JobNews {
     int warnings = 0;
     /// Error message, or "".
     std::string message;
+    /// Answer of a verb as JSON, or "".
+    std::string result;
 };
 
 /// Returns tasks or news as one line of JSON, and the news of a line. Throws on other lines.
@@ -36,8 +39,9 @@ std::string tasks_line(const std::vector<JobTask>& tasks);
 std::string news_line(const JobNews& news);
 JobNews read_news(const std::string& line);
 
-/// Runs the tasks of a line in this process, which ChildProcess has started, each in a Lua state of
-/// its own, and tells the news of each to its parent. Returns the exit status of the last one.
+/// Runs the tasks of a line in this process, which ChildProcess has started, each script in a Lua
+/// state of its own, and tells the news of each to its parent. Returns the exit status of the last
+/// one.
 int run_jobs(Program& program, const std::string& line);
 
 }  // namespace lissom::cli

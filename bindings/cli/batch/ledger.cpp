@@ -36,6 +36,7 @@ std::string record_line(const JobRecord& record) {
                       {"outcome", record.outcome},
                       {"status", record.status},
                       {"message", record.message},
+                      {"result", record.result},
                       {"log", record.log},
                       {"attempts", record.attempts},
                       {"warnings", record.warnings},
@@ -59,6 +60,7 @@ JobRecord read_record(const std::string& line) {
     record.outcome = json.at("outcome");
     record.status = json.at("status");
     record.message = json.at("message");
+    record.result = json.value("result", std::string());
     record.log = json.at("log");
     record.attempts = json.at("attempts");
     record.warnings = json.at("warnings");

@@ -24,6 +24,8 @@ struct JobRecord {
     int status = 0;
     /// Last line of the error, or "".
     std::string message;
+    /// Answer of a verb as JSON, or "".
+    std::string result;
     /// Log of the last attempt, below the folder of the batch.
     std::string log;
     int attempts = 1, warnings = 0;

@@ -178,8 +178,26 @@ BatchPlan make_plan(const lua::ParameterSet& parameters, const BatchWords& words
     return plan;
 }
 
-std::vector<std::string> script_words(const BatchPlan& plan, const BatchJob& job,
-                                      const fs::path& output) {
+namespace {
+
+std::vector<std::string> verb_words(const BatchPlan& plan, const BatchJob& job,
+                                    const fs::path& output) {
+    std::vector<std::string> words = plan.verb;
+    words.emplace_back("--json");
+    const bool is_option = !plan.out_parameter.empty();
+    if (is_option) words.push_back("--" + plan.out_parameter + "=" + output.string());
+    // A file's name may begin as an option does.
+    words.emplace_back("--");
+    for (const fs::path& input : job.inputs) words.push_back(input.string());
+    if (!is_option) words.push_back(output.string());
+    return words;
+}
+
+}  // namespace
+
+std::vector<std::string> job_words(const BatchPlan& plan, const BatchJob& job,
+                                   const fs::path& output) {
+    if (!plan.verb.empty()) return verb_words(plan, job, output);
     std::vector<std::string> words;
     for (const auto& [name, value] : job.arguments) words.push_back("--" + name + "=" + value);
     words.push_back("--" + plan.out_parameter + "=" + output.string());

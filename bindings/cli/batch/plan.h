@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "bindings/cli/batch/output_name.h"
 #include "bindings/cli/program.h"
 #include "bindings/lua/core/script_parameters.h"
+#include "kernel/core/error.h"
 
 namespace lissom::cli {
 
@@ -24,7 +26,7 @@ struct BatchWords {
     std::string out;
 };
 
-/// One run of the script.
+/// One run of the script, or of a verb for one file.
 struct BatchJob {
     /// Place in the plan, from 1.
     std::size_t number = 0;
@@ -34,16 +36,25 @@ struct BatchJob {
     std::vector<std::filesystem::path> inputs;
     /// The file or folder that it makes.
     std::filesystem::path output;
+    /// Reason not to start it: it fails by this error.
+    std::optional<Error> refused;
 };
 
 struct BatchPlan {
+    /// Script that the jobs run; empty if they run a verb.
     std::string script;
-    /// Parameter of the script that takes the output, and whether it takes a folder.
+    /// The verb and its options, which are followed by the input of a job.
+    std::vector<std::string> verb;
+    /// Parameter or option that takes the output, and whether it takes a folder; empty for a verb
+    /// that takes the output behind the input.
     std::string out_parameter;
     bool makes_folders = false;
     /// Folder of all outputs; the state of the batch and its summary are there too.
     std::filesystem::path folder;
     std::vector<BatchJob> jobs;
+
+    /// Returns the file of the script, or "lissom VERB".
+    std::string name() const { return verb.empty() ? script : "lissom " + verb[0]; }
 };
 
 /// Returns the parameters that a script declares by lissom.params, without running it further.
@@ -56,8 +67,9 @@ lua::ParameterSet script_parameters(Program& program, const std::string& script)
 /// pattern that matches nothing and for inputs that do not exist.
 BatchPlan make_plan(const lua::ParameterSet& parameters, const BatchWords& words);
 
-/// Returns the words that run a job: "--name=value" each, with `output` as its output.
-std::vector<std::string> script_words(const BatchPlan& plan, const BatchJob& job,
-                                      const std::filesystem::path& output);
+/// Returns the words that run a job with `output` as its output: "--name=value" each for a script,
+/// the words of a verb that answers by JSON.
+std::vector<std::string> job_words(const BatchPlan& plan, const BatchJob& job,
+                                   const std::filesystem::path& output);
 
 }  // namespace lissom::cli

@@ -22,6 +22,18 @@ bool is_picture(const fs::path& file) {
     return std::find(std::begin(kPictures), std::end(kPictures), extension) != std::end(kPictures);
 }
 
+// The fields of one value in the answer of a verb, but for those that the job has itself.
+Json result_json(const JobRecord& record) {
+    Json fields = Json::object();
+    const Json answer = Json::parse(record.result, nullptr, false);
+    if (!answer.is_object()) return fields;
+    for (const auto& [name, value] : answer.items()) {
+        const bool is_own = name == "file" || name == "out" || name == "seconds";
+        if (value.is_primitive() && !is_own) fields[name] = value;
+    }
+    return fields;
+}
+
 std::string below(const fs::path& folder, const fs::path& file) {
     return file.lexically_relative(folder).generic_string();
 }
@@ -43,6 +55,7 @@ Json job_json(const BatchPlan& plan, const BatchJob& job, const JobRecord* recor
     json["warnings"] = known.warnings;
     json["message"] = known.message;
     json["log"] = known.log;
+    json["result"] = result_json(known);
     json["files"] = Json::array();
     json["pictures"] = Json::array();
     for (const FileStamp& stamp : known.outputs) {
@@ -64,12 +77,16 @@ std::string cell(const Json& value) {
     return value.is_string() ? table_text(value.get<std::string>()) : value.dump();
 }
 
-std::vector<std::string> parameter_names(const Json& summary) {
-    std::set<std::string> names;
+// Names of the fields of a member of all jobs, in the order in which they come.
+std::vector<std::string> field_names(const Json& summary, const char* member) {
+    std::vector<std::string> names;
+    std::set<std::string> known;
     for (const Json& job : summary.at("jobs")) {
-        for (const auto& [name, value] : job.at("arguments").items()) names.insert(name);
+        for (const auto& [name, value] : job.at(member).items()) {
+            if (known.insert(name).second) names.push_back(name);
+        }
     }
-    return {names.begin(), names.end()};
+    return names;
 }
 
 std::string job_counts_text(const Json& summary) {
@@ -96,12 +113,13 @@ Json summary_json(const BatchPlan& plan, const BatchState& state) {
     Json jobs = Json::array();
     std::size_t done = 0, waiting = 0;
     for (const BatchJob& job : plan.jobs) {
-        const JobRecord* const record = state.record(job);
+        const JobRecord refused = job.refused ? refused_record(job) : JobRecord();
+        const JobRecord* const record = job.refused ? &refused : state.record(job);
         done += record && record->is_done();
         waiting += !record;
         jobs.push_back(job_json(plan, job, record));
     }
-    return {{"script", plan.script}, {"folder", plan.folder.generic_string()},
+    return {{"script", plan.name()}, {"folder", plan.folder.generic_string()},
             {"done", done},          {"failed", plan.jobs.size() - done - waiting},
             {"waiting", waiting},    {"jobs", jobs}};
 }
@@ -110,10 +128,12 @@ std::string summary_table(const Json& summary) {
     constexpr const char* kColumns[] = {"outcome",     "status",     "attempts", "seconds",
                                         "cpu_seconds", "memory_mib", "warnings", "message",
                                         "log",         "output"};
-    const std::vector<std::string> parameters = parameter_names(summary);
+    const std::vector<std::string> parameters = field_names(summary, "arguments");
+    const std::vector<std::string> results = field_names(summary, "result");
     std::string text = "number";
     for (const std::string& name : parameters) text += "," + table_text(name);
     for (const char* name : kColumns) text += std::string(",") + name;
+    for (const std::string& name : results) text += ",result." + table_text(name);
     text += "\n";
     for (const Json& job : summary.at("jobs")) {
         text += cell(job.at("number"));
@@ -121,6 +141,9 @@ std::string summary_table(const Json& summary) {
             text += "," + cell(job.at("arguments").value(name, Json()));
         }
         for (const char* name : kColumns) text += "," + cell(job.at(name));
+        for (const std::string& name : results) {
+            text += "," + cell(job.at("result").value(name, Json()));
+        }
         text += "\n";
     }
     return text;
@@ -129,7 +152,8 @@ std::string summary_table(const Json& summary) {
 std::string summary_page(const Json& summary) {
     const Json data = {{"title", fs::path(summary.at("script").get<std::string>()).filename()},
                        {"counts", job_counts_text(summary)},
-                       {"parameters", parameter_names(summary)},
+                       {"parameters", field_names(summary, "arguments")},
+                       {"results", field_names(summary, "result")},
                        {"jobs", summary.at("jobs")}};
     std::string text = page_template();
     const std::string_view mark = "@DATA@";

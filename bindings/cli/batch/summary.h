@@ -11,7 +11,8 @@ namespace lissom::cli {
 
 /// Returns {"script", "folder", "jobs": [{"number", "output", "arguments", "outcome", ...}],
 /// "done", "failed", "waiting"}: the last record of each job, "waiting" without one. Paths are
-/// below the folder of the batch.
+/// below the folder of the batch. "result" of a job holds the numbers and words that a verb has
+/// answered.
 Json summary_json(const BatchPlan& plan, const BatchState& state);
 
 /// Returns the same as comma-separated values, a line for each job.

@@ -57,17 +57,22 @@ class Watch {
   public:
     Watch(const BatchPlan& plan, BatchState& state, const BatchOptions& options, std::int64_t since)
         : plan_(plan), state_(state), options_(options), since_(since) {
-        for (const BatchJob& job : plan.jobs) {
-            if (state.reason_to_run(job).empty()) continue;
-            watched_.push_back(&job);
-        }
         progress_.all = plan.jobs.size();
-        progress_.kept = plan.jobs.size() - watched_.size();
+        for (const BatchJob& job : plan.jobs) {
+            if (job.refused) {
+                ++refused_;
+            } else if (state.reason_to_run(job).empty()) {
+                ++progress_.kept;
+            } else {
+                watched_.push_back(&job);
+            }
+        }
     }
 
     void look() {
         state_.refresh();
-        progress_.done = progress_.failed = 0;
+        progress_.done = 0;
+        progress_.failed = refused_;
         for (const BatchJob* job : watched_) {
             const JobRecord* const record = state_.record(*job);
             if (!record || record->time < since_) continue;
@@ -86,6 +91,7 @@ class Watch {
     const BatchOptions& options_;
     std::int64_t since_;
     std::vector<const BatchJob*> watched_;
+    std::size_t refused_ = 0;
     BatchProgress progress_;
     Clock::time_point start_ = Clock::now();
 };
@@ -116,7 +122,8 @@ Submission make_submission(const BatchPlan& plan, BatchState& state, const Batch
     submission.directory = fs::current_path();
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
-        if (!state.reason_to_run(plan.jobs[i]).empty()) open.push_back(i);
+        const BatchJob& job = plan.jobs[i];
+        if (!job.refused && !state.reason_to_run(job).empty()) open.push_back(i);
     }
     submission.tasks = divide(open, mean_seconds(plan, state), options.jobs, max_tasks);
     return submission;

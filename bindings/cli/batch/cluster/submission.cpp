@@ -38,6 +38,7 @@ BatchJob read_job(const Json& json) {
 Submission read_json(const Json& json) {
     Submission submission;
     submission.plan.script = json.at("script");
+    submission.plan.verb = json.at("verb").get<std::vector<std::string>>();
     submission.plan.out_parameter = json.at("out_parameter");
     submission.plan.makes_folders = json.at("makes_folders");
     submission.plan.folder = json.at("folder").get<std::string>();
@@ -74,6 +75,7 @@ void write_submission(const Submission& submission, const fs::path& file) {
     Json jobs = Json::array();
     for (const BatchJob& job : submission.plan.jobs) jobs.push_back(job_json(job));
     const Json json = {{"script", submission.plan.script},
+                       {"verb", submission.plan.verb},
                        {"out_parameter", submission.plan.out_parameter},
                        {"makes_folders", submission.plan.makes_folders},
                        {"folder", submission.plan.folder.string()},

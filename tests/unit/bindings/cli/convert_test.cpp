@@ -6,6 +6,11 @@
 #include "tests/unit/support.h"
 
 namespace lissom::test {
+
+int run_tested_program(int argc, char** argv) {
+    return cli::run_program(argc, argv, cli::kernel_parts());
+}
+
 namespace {
 
 using ConvertJson = nlohmann::json;

@@ -18,6 +18,12 @@ namespace {
 
 using test::PictureFolder;
 
+ProgramParts parts_with_render() {
+    ProgramParts parts = kernel_parts();
+    parts.verbs.push_back({"render", "", "", render});
+    return parts;
+}
+
 struct Ended {
     int status;
     std::string out, err;
@@ -31,9 +37,7 @@ Ended run(std::vector<std::string> words) {
     std::ostringstream out, err;
     std::streambuf* const old_out = std::cout.rdbuf(out.rdbuf());
     std::streambuf* const old_err = std::cerr.rdbuf(err.rdbuf());
-    ProgramParts parts = kernel_parts();
-    parts.verbs.push_back({"render", "", "", render});
-    const int status = run_program(static_cast<int>(argv.size()), argv.data(), parts);
+    const int status = run_program(static_cast<int>(argv.size()), argv.data(), parts_with_render());
     std::cout.rdbuf(old_out);
     std::cerr.rdbuf(old_err);
     return {status, out.str(), err.str()};
@@ -156,5 +160,41 @@ TEST_CASE("wrong calls of render end with status 2, faults with status 1") {
     CHECK(folder.names() == std::vector<std::string>{"box.obj"});
 }
 
+TEST_CASE("render draws a picture of each of many files, and a page") {
+    const PictureFolder folder;
+    if (!test::can_draw()) return;
+    const std::string box = box_in(folder), out = folder.path("pictures");
+    std::filesystem::copy_file(box, folder.path("other box.obj"));
+    std::ofstream(folder.path("bad.obj")) << "v 0 0 0\nf 1 2 3\n";
+    const std::vector<std::string> words{
+        "--in",  folder.path("*.obj"), "-o",           out,     "--size", "64x48", "--view",
+        "front", "--camera",           "-3,4,5,0,0,0", "--json"};
+    std::vector<std::string> without = words;
+    without.erase(without.begin() + 6, without.begin() + 8);
+    const Ended ended = run(without);
+    CHECK(ended.status == kFailure);
+    CHECK(ended.out.find("\"drawn\": 2") != std::string::npos);
+    CHECK(ended.out.find("\"failed\": 1") != std::string::npos);
+    CHECK(folder.read("pictures/box.obj.png").starts_with("\x89PNG"));
+    CHECK(folder.read("pictures/box.obj.png") == folder.read("pictures/other box.obj.png"));
+    CHECK(folder.read("pictures/index.html").find("other box.obj.png") != std::string::npos);
+    const std::string single = folder.path("single.png");
+    CHECK(run({box, "-o", single, "--size", "64x48", "--camera", "-3,4,5,0,0,0"}).status ==
+          kSuccess);
+    CHECK(folder.read("single.png") == folder.read("pictures/box.obj.png"));
+    CHECK(run(without).out.find("\"kept\": 2") != std::string::npos);
+    // An option that the jobs do not understand is told before they start.
+    CHECK(run(words).status == kUsage);
+    CHECK(run({box, "-o", single, "--jobs", "2"}).status == kUsage);
+}
+
 }  // namespace
 }  // namespace lissom::cli
+
+namespace lissom::test {
+
+int run_tested_program(int argc, char** argv) {
+    return cli::run_program(argc, argv, cli::parts_with_render());
+}
+
+}  // namespace lissom::test
