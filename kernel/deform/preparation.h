@@ -38,6 +38,8 @@ namespace lissom {
 struct HandleResponses {
     std::vector<RotationSystem::Response> of_handles;
     Eigen::MatrixXd stiffness;
+    /// The movable handles, in the order of its rows.
+    std::vector<Index> movable;
 };
 
 /// A value that threads find when they first need it. It follows from immutable input, so that

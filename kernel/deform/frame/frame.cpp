@@ -10,10 +10,12 @@
 namespace lissom {
 namespace {
 
-// Solves the second system with the stretch of `taken` added to rotations, which stay as they are.
-void solve_stretched(const SecondInput& input, std::span<const TakenStretch> taken,
-                     FrameScratch::State& scratch, const Context& context) {
-    std::vector<PaddedMat3> before;
+// Solves the second system with the taken stretch added to rotations, which stay as they are.
+void solve_stretched(const SecondInput& input, FrameScratch::State& scratch,
+                     const Context& context) {
+    const std::vector<TakenStretch>& taken = scratch.taken;
+    Rotations& before = scratch.untaken;
+    before.clear();
     for (const auto& [v, stretch] : taken) {
         PaddedMat3& s = scratch.rotations[at(v)];
         before.push_back(s);
@@ -26,17 +28,16 @@ void solve_stretched(const SecondInput& input, std::span<const TakenStretch> tak
 }
 
 // Drafts are not limited: counting crossings takes longer than a frame.
-void refine_result(const SecondInput& input, std::span<const TakenStretch> taken,
-                   FrameScratch::State& scratch, const Context& context) {
-    const Deviation plain = input.draft ? Deviation() : scratch.deviation;
+void refine_result(const SecondInput& input, FrameScratch::State& scratch, const Context& context) {
+    if (!input.draft) scratch.refine.plain = scratch.deviation;
     const int steps = input.motion.options().refine;
     for (int step = 1; step <= steps; ++step) {
         const double further = over_relaxation(input.max_turn, step == steps);
-        refine_rotations(input, scratch.deviation, further, scratch.absolute, context,
+        refine_rotations(input, scratch.deviation, further, scratch.refine, context,
                          scratch.rotations);
-        solve_stretched(input, taken, scratch, context);
+        solve_stretched(input, scratch, context);
     }
-    if (!input.draft) limit_refinement(input, plain, scratch, context);
+    if (!input.draft) limit_refinement(input, scratch.refine.plain, scratch, context);
 }
 
 // Solves for deviations from the similarity nearest to the base transform, so that similarities of
@@ -45,7 +46,7 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
     const FrameInput& motion = input.motion;
     const Patch& patch = motion.patch();
     Deviation& deviation = scratch.deviation;
-    const std::vector<TakenStretch> taken = taken_stretches(motion, deviation);
+    find_taken_stretches(motion, deviation, scratch.taken);
     const bool winds = share_of_turns(input.max_turn) > 0.0;
     if (!winds) find_rotations(input, deviation, scratch.part, context, scratch.rotations);
     const Mat3 remainder = motion.base_linear() - input.base_rotation;
@@ -57,8 +58,8 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
         });
     }
     if (winds) wind_rotations(input, scratch, context);
-    solve_stretched(input, taken, scratch, context);
-    if (motion.options().refine > 0) refine_result(input, taken, scratch, context);
+    solve_stretched(input, scratch, context);
+    if (motion.options().refine > 0) refine_result(input, scratch, context);
 }
 
 // Whether the full frame takes the same steps up to the last corrections. Refinements start from

@@ -101,10 +101,9 @@ void FrameInput::add_relative_turns(std::vector<Vec4>& turns) const {
     }
 }
 
-std::vector<Vec4> FrameInput::relative_turns() const {
-    std::vector<Vec4> turns;
+void FrameInput::find_relative_turns(std::vector<Vec4>& turns) const {
+    turns.clear();
     add_relative_turns(turns);
-    return turns;
 }
 
 double FrameInput::max_turn(std::vector<Vec4>& turns) const {
@@ -118,9 +117,10 @@ double FrameInput::max_turn(std::vector<Vec4>& turns) const {
     return greatest;
 }
 
-std::vector<Vec4> FrameInput::spread(const std::vector<Vec4>& value, const Context& context) const {
+void FrameInput::spread(const std::vector<Vec4>& value, std::vector<Vec4>& field,
+                        const Context& context) const {
     const std::vector<Index>& free = method().first->free_vertices();
-    std::vector<Vec4> field(patch().vertex_count, Vec4::Zero());
+    field.assign(patch().vertex_count, Vec4::Zero());
     for (std::size_t n = 0; n < value.size(); ++n) {
         for (const Index v : prepared_.held[solution().handles()[n]]) {
             if (prepared_.known.position[v]) field[v] = value[n];
@@ -133,7 +133,6 @@ std::vector<Vec4> FrameInput::spread(const std::vector<Vec4>& value, const Conte
             }
         }
     });
-    return field;
 }
 
 void FrameInput::add_asked_moves(std::vector<Vec4>& field) const {

@@ -57,13 +57,14 @@ class FrameInput {
     Mat3 known_gradient(Index v) const;
 
     /// Turns and logarithms of scale of the solution's handles, relative to the base.
-    std::vector<Vec4> relative_turns() const;
+    void find_relative_turns(std::vector<Vec4>& turns) const;
     /// The greatest turn between two handles; `turns` is memory for it. The thesis's literal
     /// formulation knows no turns.
     double max_turn(std::vector<Vec4>& turns) const;
-    /// Returns sum over h of w_h value_h at every local vertex; w_h are the weights of translations
-    /// in the first system.
-    std::vector<Vec4> spread(const std::vector<Vec4>& value, const Context& context) const;
+    /// Makes `field` the sum over h of w_h value_h at every local vertex; w_h are the weights of
+    /// translations in the first system.
+    void spread(const std::vector<Vec4>& value, std::vector<Vec4>& field,
+                const Context& context) const;
     /// Adds the moves of targets to `field`, relative to a base at rest.
     void add_asked_moves(std::vector<Vec4>& field) const;
 

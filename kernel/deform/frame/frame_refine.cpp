@@ -32,12 +32,15 @@ constexpr double kSureChange = 25.0 * kPi / 180.0;
 constexpr double kSizeChange = 0.05;
 
 // Change of size by handles, as logarithms in the last entry; empty if there is none.
-std::vector<Vec4> size_changes(const FrameInput& motion, const Context& context) {
-    if (!motion.method().solution) return {};
-    const std::vector<Vec4> of_handles = motion.relative_turns();
-    const bool any = std::any_of(of_handles.begin(), of_handles.end(),
+const std::vector<Vec4>& size_changes(const FrameInput& motion, RefineRoom& room,
+                                      const Context& context) {
+    room.sizes.clear();
+    if (!motion.method().solution) return room.sizes;
+    motion.find_relative_turns(room.turns);
+    const bool any = std::any_of(room.turns.begin(), room.turns.end(),
                                  [](const Vec4& h) { return std::abs(h[3]) > 1e-9; });
-    return any ? motion.spread(of_handles, context) : std::vector<Vec4>();
+    if (any) motion.spread(room.turns, room.sizes, context);
+    return room.sizes;
 }
 
 }  // namespace
@@ -52,10 +55,10 @@ double over_relaxation(double max_turn, bool last) {
 // over-relaxation: the rotations then go on by `further` times the change, and less if no rotation
 // fits. Scales stay.
 void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,
-                      std::vector<Vec4>& absolute, const Context& context, Rotations& rotations) {
+                      RefineRoom& room, const Context& context, Rotations& rotations) {
     const FrameInput& motion = input.motion;
     const Patch& patch = motion.patch();
-    std::vector<Vec4>& x = absolute;
+    std::vector<Vec4>& x = room.absolute;
     x.resize(patch.real_count);
     for_each_block(context, patch.real_count, [&](Index begin, Index end) {
         for (Index v = begin; v < end; ++v) {
@@ -63,7 +66,7 @@ void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation,
         }
     });
     const EnergyLoop loop = motion.method().second->energy();
-    const std::vector<Vec4> sizes = size_changes(motion, context);
+    const std::vector<Vec4>& sizes = size_changes(motion, room, context);
     const bool scales = motion.scales();
     for (const std::vector<Index>* vertices :
          {&motion.method().gathered, &motion.method().averaged}) {

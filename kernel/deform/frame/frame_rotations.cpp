@@ -65,7 +65,8 @@ std::vector<std::vector<Vec3>> find_weight_gradients(const FrameInput& motion,
     for (std::size_t n = 0; n < handles; ++n) {
         std::vector<Vec4> unit(handles, Vec4::Zero());
         unit[n] = Vec4::UnitX();
-        const std::vector<Vec4> weight = motion.spread(unit, context);
+        std::vector<Vec4> weight;
+        motion.spread(unit, weight, context);
         for_each_block(context, count_of(vertices), [&](Index begin, Index end) {
             std::array<Mat3, kFrameBlock> m;
             motion.prepared().gradient_loop().gather(vertices.data(), weight.data(), m.data(),
@@ -78,27 +79,27 @@ std::vector<std::vector<Vec3>> find_weight_gradients(const FrameInput& motion,
 
 }  // namespace
 
-SpreadMoves::SpreadMoves(const FrameInput& motion, const std::vector<Vec4>& of_handles,
-                         const Context& context)
-    : motion_(motion), of_handles_(of_handles) {
+SpreadMoves::SpreadMoves(const FrameInput& motion, SpreadRoom& room, const Context& context)
+    : motion_(motion), room_(room) {
     const ImplicitMethod& method = motion.method();
-    if (of_handles.size() <= kFewHandles && method.averaged.empty() && motion.asked().at.empty()) {
+    if (room.of_handles.size() <= kFewHandles && method.averaged.empty() &&
+        motion.asked().at.empty()) {
         weight_gradients_ =
             &method.weight_gradients.get([&] { return find_weight_gradients(motion, context); });
         return;
     }
-    field_ = motion.spread(of_handles, context);
-    motion.add_asked_moves(field_);
+    motion.spread(room.of_handles, room.field, context);
+    motion.add_asked_moves(room.field);
 }
 
 void SpreadMoves::gather(const Index* vertices, Mat3* m, Index begin, Index end) const {
     if (!weight_gradients_) {
-        motion_.prepared().gradient_loop().gather(vertices, field_.data(), m, begin, end);
+        motion_.prepared().gradient_loop().gather(vertices, room_.field.data(), m, begin, end);
         return;
     }
     std::fill(m, m + (end - begin), Mat3::Zero());
-    for (std::size_t n = 0; n < of_handles_.size(); ++n) {
-        const Vec3 move = of_handles_[n].head<3>();
+    for (std::size_t n = 0; n < room_.of_handles.size(); ++n) {
+        const Vec3 move = room_.of_handles[n].head<3>();
         if (move.isZero(0.0)) continue;
         const std::vector<Vec3>& gradient = (*weight_gradients_)[n];
         for (Index i = begin; i < end; ++i) m[i - begin] += move * gradient[i].transpose();
@@ -111,30 +112,30 @@ Mat3 rotation_of(const FrameInput& motion, const Mat3& gradient) {
 }
 
 // Each handle goes `fraction` of its way from the base, along a screw.
-std::optional<TurnPart> part_of_turns(const FrameInput& motion, double max_turn, Deviation& scratch,
+std::optional<TurnPart> part_of_turns(const FrameInput& motion, double max_turn, TurnPartRoom& room,
                                       const Context& context) {
     const double fraction = turn_fraction(max_turn);
     if (fraction >= 1.0) return std::nullopt;
     const std::vector<Index>& handles = motion.solution().handles();
     const Mat4& base = motion.base();
-    const std::vector<Vec4> turns = motion.relative_turns();
-    std::vector<Mat4> differences;
-    std::vector<Vec4> remainders;
-    for (std::size_t n = 0; n < turns.size(); ++n) {
+    motion.find_relative_turns(room.turns);
+    room.differences.clear();
+    room.remainder.of_handles.clear();
+    for (std::size_t n = 0; n < room.turns.size(); ++n) {
         const Affine& moved = motion.pose(handles[n]).local_transform;
         const Vec3 center =
             motion.prepared().constraints->handles[handles[n]]->center - motion.patch().origin;
         const Vec4 whole = (matrix_of(moved) - base) * homogeneous(center);
-        const Screw screw = screw_of(turns[n].head<3>(), whole.head<3>());
+        const Screw screw = screw_of(room.turns[n].head<3>(), whole.head<3>());
         Affine at;
         at.linear = rotation_of_turn((fraction - 1.0) * screw.turn) * moved.linear;
         at.translation =
             (base * homogeneous(center)).head<3>() + screw.shift(fraction) - at.linear * center;
-        differences.push_back(matrix_of(at) - base);
-        remainders.push_back(padded(screw.remainder));
+        room.differences.push_back(matrix_of(at) - base);
+        room.remainder.of_handles.push_back(padded(screw.remainder));
     }
-    spread_moves(motion, differences, context, scratch);
-    return TurnPart{fraction, scratch, SpreadMoves(motion, remainders, context)};
+    spread_moves(motion, room.differences, context, room.deviation);
+    return TurnPart{fraction, room.deviation, SpreadMoves(motion, room.remainder, context)};
 }
 
 void extrapolate_rotation(const FrameInput& motion, const TurnPart& part, const Index* vertices,
@@ -197,10 +198,10 @@ void turn_held(const SecondInput& input, Rotations& rotations) {
     }
 }
 
-void find_rotations(const SecondInput& input, std::span<const Vec4> deviation, Deviation& scratch,
+void find_rotations(const SecondInput& input, std::span<const Vec4> deviation, TurnPartRoom& room,
                     const Context& context, Rotations& rotations) {
     const FrameInput& motion = input.motion;
-    const std::optional<TurnPart> part = part_of_turns(motion, input.max_turn, scratch, context);
+    const std::optional<TurnPart> part = part_of_turns(motion, input.max_turn, room, context);
     const TurnPart* const of = part ? &*part : nullptr;
     const std::vector<Index>& vertices = motion.method().gathered;
     for_each_block(context, count_of(vertices), [&](Index begin, Index end) {

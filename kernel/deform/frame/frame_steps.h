@@ -49,15 +49,64 @@ struct DraftMemo {
     }
 };
 
+/// Memory of SpreadMoves.
+struct SpreadRoom {
+    std::vector<Vec4> of_handles;
+    /// The moves themselves, for handles too many for gradients of weights.
+    std::vector<Vec4> field;
+};
+
+/// Memory of TurnPart.
+struct TurnPartRoom {
+    Deviation deviation;
+    std::vector<Vec4> turns;
+    std::vector<Mat4> differences;
+    SpreadRoom remainder;
+};
+
+/// A sum of turns by weights.
+struct TurnSum {
+    Vec4 field = Vec4::Zero();
+    double total = 0.0, remainder = 1.0;
+
+    void add(double raw, const Vec4& of);
+};
+
+/// Memory of wind_rotations.
+struct WindingRoom {
+    std::vector<Vec4> turns;
+    std::vector<TurnSum> silent;
+    std::vector<Vec3> forces;
+    Deviation tied;
+    SpreadRoom mismatch;
+};
+
+/// The stretch that a vertex takes over from a handle which does not hold its gradient exactly.
+struct TakenStretch {
+    Index vertex = kNoIndex;
+    Mat3 stretch = Mat3::Identity();
+};
+
+/// Memory of refinements.
+struct RefineRoom {
+    Deviation plain;
+    std::vector<Vec4> absolute, turns, sizes;
+};
+
 struct FrameScratch::State {
     TargetMemo asked;
     DraftMemo draft;
-    /// Deviation of the whole motion, and of a part of the turns.
-    Deviation deviation, part;
+    /// Deviation of the whole motion.
+    Deviation deviation;
+    TurnPartRoom part;
+    WindingRoom winding;
+    std::vector<TakenStretch> taken;
+    /// Rotations in place of which those of `taken` stand.
+    Rotations untaken;
     /// Sized, and zero outside the region, for `sized_for`.
     Rotations rotations;
     std::weak_ptr<const Preparation> sized_for;
-    std::vector<Vec4> absolute;
+    RefineRoom refine;
     /// For refinements, of the preparation `surface_of`.
     std::optional<MovingSurface> surface;
     std::weak_ptr<const Preparation> surface_of;
@@ -76,8 +125,8 @@ const TargetRhs& target_rhs(const std::shared_ptr<const Preparation>& preparatio
 /// with the moves of targets.
 class SpreadMoves {
   public:
-    SpreadMoves(const FrameInput& motion, const std::vector<Vec4>& of_handles,
-                const Context& context);
+    /// Of the translations in `room`, which lives as long.
+    SpreadMoves(const FrameInput& motion, SpreadRoom& room, const Context& context);
 
     /// m[i - begin] for the i-th of vertices, i in [begin, end): of gathered vertices, or of any if
     /// some are averaged.
@@ -85,10 +134,8 @@ class SpreadMoves {
 
   private:
     const FrameInput& motion_;
-    std::vector<Vec4> of_handles_;
+    const SpreadRoom& room_;
     const std::vector<std::vector<Vec3>>* weight_gradients_ = nullptr;
-    /// The moves themselves, for handles too many for gradients of weights.
-    std::vector<Vec4> field_;
 };
 
 /// The first system at a fraction of the turns that are asked for.
@@ -117,16 +164,10 @@ Mat3 rotation_of(const FrameInput& motion, const Mat3& gradient);
 /// size it had, and free vertices beside it would pay. The same as rotation_of for rigid motions.
 Mat3 held_transform(const FrameInput& motion, const Mat3& linear);
 
-/// The stretch that a vertex takes over from a handle which does not hold its gradient exactly.
-struct TakenStretch {
-    Index vertex = kNoIndex;
-    Mat3 stretch = Mat3::Identity();
-};
-
-/// Stretches of vertices that stretched handles draw softly, or hold by position alone: as much of
-/// the handle's as the gradients of the first system have. None for rigid motions.
-std::vector<TakenStretch> taken_stretches(const FrameInput& motion,
-                                          std::span<const Vec4> deviation);
+/// Finds the stretches of vertices that stretched handles draw softly, or hold by position alone:
+/// as much of the handle's as the gradients of the first system have. None for rigid motions.
+void find_taken_stretches(const FrameInput& motion, std::span<const Vec4> deviation,
+                          std::vector<TakenStretch>& taken);
 
 void solve_first(const FrameInput& motion, const Context& context, Deviation& deviation);
 
@@ -135,9 +176,8 @@ void solve_first(const FrameInput& motion, const Context& context, Deviation& de
 Mat3 gradient_of(const FrameInput& motion, std::span<const Vec4> deviation, Index v,
                  const TurnPart* part = nullptr);
 
-/// Part of the turns that the first system solves, if not all; its deviation is in
-/// `scratch`.
-std::optional<TurnPart> part_of_turns(const FrameInput& motion, double max_turn, Deviation& scratch,
+/// Part of the turns that the first system solves, if not all; it stands in `room`.
+std::optional<TurnPart> part_of_turns(const FrameInput& motion, double max_turn, TurnPartRoom& room,
                                       const Context& context);
 /// Extrapolates gradients of `part` by the rest of the turns, and adds the remainders: of vertices
 /// [begin, end).
@@ -155,7 +195,7 @@ void first_rotations(const FrameInput& motion, const TurnPart* part,
 /// Handles turn as a whole, and targets as they are asked to.
 void turn_held(const SecondInput& input, Rotations& rotations);
 /// The rotations that the first system leads to.
-void find_rotations(const SecondInput& input, std::span<const Vec4> deviation, Deviation& scratch,
+void find_rotations(const SecondInput& input, std::span<const Vec4> deviation, TurnPartRoom& room,
                     const Context& context, Rotations& rotations);
 /// The same for handles that turn too far for it: by the field of turns, or between both.
 void wind_rotations(const SecondInput& input, FrameScratch::State& scratch, const Context& context);
@@ -164,7 +204,7 @@ double over_relaxation(double max_turn, bool last);
 /// Takes those that fit the positions of the second system best, and goes on by `further` times the
 /// change.
 void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,
-                      std::vector<Vec4>& absolute, const Context& context, Rotations& rotations);
+                      RefineRoom& room, const Context& context, Rotations& rotations);
 
 /// Takes the refined deviation in `scratch` back towards `plain`, the one without refinement: more
 /// and more as parts that lie apart at rest come near to one another and as edges stretch further

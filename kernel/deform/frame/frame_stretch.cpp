@@ -30,14 +30,14 @@ Mat3 part_of_stretch(const Mat3& asked, const Mat3& found, double share) {
 
 class StretchTaker {
   public:
-    StretchTaker(const FrameInput& motion, std::span<const Vec4> deviation)
-        : motion_(motion), deviation_(deviation) {}
+    StretchTaker(const FrameInput& motion, std::span<const Vec4> deviation,
+                 std::vector<TakenStretch>& taken)
+        : motion_(motion), deviation_(deviation), taken_(taken) {}
 
-    std::vector<TakenStretch> run() {
+    void run() {
         const Preparation& prepared = motion_.prepared();
         for (const GradientTie& tie : prepared.work->gradient_ties) take_tie(tie);
         for (std::size_t h = 0; h < prepared.held.size(); ++h) take_positions(index_of(h));
-        return std::move(taken_);
     }
 
   private:
@@ -69,7 +69,7 @@ class StretchTaker {
 
     const FrameInput& motion_;
     std::span<const Vec4> deviation_;
-    std::vector<TakenStretch> taken_;
+    std::vector<TakenStretch>& taken_;
 };
 
 }  // namespace
@@ -79,10 +79,10 @@ Mat3 held_transform(const FrameInput& motion, const Mat3& linear) {
     return whole ? linear : rotation_of(motion, linear);
 }
 
-std::vector<TakenStretch> taken_stretches(const FrameInput& motion,
-                                          std::span<const Vec4> deviation) {
-    if (!knows_lengths(motion)) return {};
-    return StretchTaker(motion, deviation).run();
+void find_taken_stretches(const FrameInput& motion, std::span<const Vec4> deviation,
+                          std::vector<TakenStretch>& taken) {
+    taken.clear();
+    if (knows_lengths(motion)) StretchTaker(motion, deviation, taken).run();
 }
 
 }  // namespace lissom

@@ -24,9 +24,10 @@ constexpr double kLastAngle = 240.0 * kPi / 180.0;
 // the first for handles that the second knows nothing of.
 class MeanOfTurns {
   public:
-    MeanOfTurns(const FrameInput& motion, const HandleResponses& answers,
-                const std::vector<Vec4>& value)
-        : answers_(answers), value_(value) {
+    // `room` has the turns of handles, and memory.
+    MeanOfTurns(const FrameInput& motion, const HandleResponses& answers, WindingRoom& room)
+        : answers_(answers), value_(room.turns), silent_(room.silent) {
+        silent_.clear();
         const auto answers_to = [](const auto& response) { return !response.answer.empty(); };
         if (!std::all_of(answers.of_handles.begin(), answers.of_handles.end(), answers_to)) {
             add_silent(motion);
@@ -34,7 +35,7 @@ class MeanOfTurns {
     }
 
     Vec4 at(Index v) const {
-        Sum sum = silent_.empty() ? Sum{} : silent_[v];
+        TurnSum sum = silent_.empty() ? TurnSum{} : silent_[v];
         for (std::size_t n = 0; n < value_.size(); ++n) {
             if (!answers_.of_handles[n].answer.empty())
                 sum.add(answers_.of_handles[n].answer[v], value_[n]);
@@ -44,18 +45,6 @@ class MeanOfTurns {
     }
 
   private:
-    struct Sum {
-        Vec4 field = Vec4::Zero();
-        double total = 0.0, remainder = 1.0;
-
-        void add(double raw, const Vec4& of) {
-            const double weight = std::clamp(raw, 0.0, 1.0);
-            field += weight * of;
-            total += weight;
-            remainder -= raw;
-        }
-    };
-
     // Those of handles that the second system does not answer to.
     void add_silent(const FrameInput& motion) {
         const Preparation& prepared = motion.prepared();
@@ -76,7 +65,7 @@ class MeanOfTurns {
 
     const HandleResponses& answers_;
     const std::vector<Vec4>& value_;
-    std::vector<Sum> silent_;
+    std::vector<TurnSum>& silent_;
 };
 
 // Handles that the second system could move as a whole: all that hold positions, but the base.
@@ -99,7 +88,7 @@ HandleResponses find_answers(const Preparation& prepared, RotationSystem::Scratc
     const std::vector<Index> movable = movable_handles(prepared);
     const auto count = count_of(movable);
     HandleResponses answers{std::vector<RotationSystem::Response>(all.size()),
-                            Eigen::MatrixXd(count, count)};
+                            Eigen::MatrixXd(count, count), movable};
     for (Index first = 0; first < count; first += 3) {
         const Index last = std::min(count, first + 3);
         std::vector<Vec4> x(prepared.patch().vertex_count, Vec4::Zero());
@@ -123,68 +112,59 @@ HandleResponses find_answers(const Preparation& prepared, RotationSystem::Scratc
 }
 
 // Forces on movable handles in the solution of the second system.
-Eigen::MatrixXd forces_on(const SecondInput& input, const std::vector<Index>& movable,
-                          const HandleResponses& answers, const Rotations& rotations,
-                          std::span<const Vec4> deviation, RotationSystem::Scratch& scratch,
-                          const Context& context) {
+void find_forces(const SecondInput& input, const HandleResponses& answers,
+                 FrameScratch::State& scratch, const Context& context) {
     const Preparation& prepared = input.motion.prepared();
     const RotationSystem& second = *input.motion.method().second;
     const std::vector<Index>& all = input.motion.solution().handles();
-    std::vector<Vec3> forces;
+    const Rotations& rotations = scratch.rotations;
+    std::vector<Vec3>& forces = scratch.winding.forces;
+    forces.clear();
     if (second.has_ties()) {
-        Deviation x(deviation.begin(), deviation.end());
-        second.solve(rotations, x, input.draft, scratch, context);
-        for (const Index h : movable) {
-            forces.push_back(second.force(rotations.data(), x, prepared.held[h], scratch, context));
-        }
-    } else {
-        for (const Index h : movable) {
-            const auto n = std::find(all.begin(), all.end(), h) - all.begin();
+        Deviation& x = scratch.winding.tied;
+        x = scratch.deviation;
+        second.solve(rotations, x, input.draft, scratch.second, context);
+        for (const Index h : answers.movable) {
             forces.push_back(
-                second.solved_force(rotations.data(), deviation, answers.of_handles[n], context));
+                second.force(rotations.data(), x, prepared.held[h], scratch.second, context));
         }
+        return;
     }
-    Eigen::MatrixXd rows(count_of(forces), 3);
-    for (std::size_t j = 0; j < forces.size(); ++j) {
-        rows.row(index_of(j)) = forces[j].transpose();
+    for (const Index h : answers.movable) {
+        const auto n = std::find(all.begin(), all.end(), h) - all.begin();
+        forces.push_back(second.solved_force(rotations.data(), scratch.deviation,
+                                             answers.of_handles[n], scratch.second, context));
     }
-    return rows;
 }
 
 // Distance of each handle of the solution from its place under the present turns alone.
-std::vector<Vec4> mismatches(const SecondInput& input, const HandleResponses& answers,
-                             const Rotations& rotations, std::span<const Vec4> deviation,
-                             RotationSystem::Scratch& scratch, const Context& context) {
-    const FrameInput& motion = input.motion;
-    const std::vector<Index> movable = movable_handles(motion.prepared());
-    const auto count = count_of(movable);
-    Eigen::MatrixXd natural(count, 3);
-    if (count > 0) {
-        natural = least_norm_solution(
-            answers.stiffness,
-            forces_on(input, movable, answers, rotations, deviation, scratch, context));
-    }
-    std::vector<Vec4> result;
-    for (const Index h : motion.solution().handles()) {
+void find_mismatches(const SecondInput& input, const HandleResponses& answers,
+                     FrameScratch::State& scratch, const Context& context) {
+    std::vector<Vec3>& shifts = scratch.winding.forces;
+    find_forces(input, answers, scratch, context);
+    if (!shifts.empty()) solve_least_norm(answers.stiffness, shifts);
+    const std::vector<Index>& movable = answers.movable;
+    std::vector<Vec4>& result = scratch.winding.mismatch.of_handles;
+    result.clear();
+    for (const Index h : input.motion.solution().handles()) {
         const auto found = std::find(movable.begin(), movable.end(), h);
         const Vec3 shift = found == movable.end() ? Vec3(Vec3::Zero())
-                                                  : Vec3(natural.row(found - movable.begin()));
+                                                  : shifts[at(index_of(found - movable.begin()))];
         result.push_back(padded(Vec3(-shift)));
     }
-    return result;
 }
 
 // Makes `rotations` the means of the handles' turns.
 void take_mean_turns(const SecondInput& input, const HandleResponses& answers,
-                     const Context& context, Rotations& rotations) {
+                     const Context& context, WindingRoom& room, Rotations& rotations) {
     const FrameInput& motion = input.motion;
     const bool scales = motion.scales();
     const Mat3 base_linear = motion.base_linear();
     const double base_scale = scales ? uniform_scale(base_linear) : 1.0;
     Vec4 base;
     nearest_quaternions({&base_linear, 1}, {&base, 1});
-    const std::vector<Vec4> turns = motion.relative_turns();
-    const MeanOfTurns mean(motion, answers, turns);
+    motion.find_relative_turns(room.turns);
+    const MeanOfTurns mean(motion, answers, room);
     for (const std::vector<Index>* vertices :
          {&motion.method().gathered, &motion.method().averaged}) {
         for_each_block(context, count_of(*vertices), [&](Index begin, Index end) {
@@ -252,6 +232,13 @@ void take_nearest(const FrameInput& motion, std::span<Mat3> s) {
 
 }  // namespace
 
+void TurnSum::add(double raw, const Vec4& of) {
+    const double weight = std::clamp(raw, 0.0, 1.0);
+    field += weight * of;
+    total += weight;
+    remainder -= raw;
+}
+
 double share_of_turns(double max_turn) {
     return smooth_step((max_turn - kFirstAngle) / (kLastAngle - kFirstAngle));
 }
@@ -268,9 +255,9 @@ void wind_rotations(const SecondInput& input, FrameScratch::State& scratch,
     const HandleResponses& answers = method.answers.get(
         [&] { return find_answers(motion.prepared(), scratch.second, context); });
     turn_held(input, rotations);
-    take_mean_turns(input, answers, context, rotations);
-    const SpreadMoves moves(
-        motion, mismatches(input, answers, rotations, deviation, scratch.second, context), context);
+    take_mean_turns(input, answers, context, scratch.winding, rotations);
+    find_mismatches(input, answers, scratch, context);
+    const SpreadMoves moves(motion, scratch.winding.mismatch, context);
     // Beyond a right angle, and so here, the first system is never asked for all of the turns.
     const std::optional<TurnPart> part =
         share < 1.0 ? part_of_turns(motion, input.max_turn, scratch.part, context) : std::nullopt;

@@ -292,7 +292,8 @@ Vec3 RotationSystem::force(const PaddedMat3* transforms, std::span<const Vec4> x
                            std::span<const Index> vertices, Scratch& scratch,
                            const Context& context) const {
     bend(transforms, x, scratch.bending, context);
-    std::vector<Vec3> parts(vertices.size());
+    std::vector<Vec3>& parts = scratch.forces;
+    parts.assign(vertices.size(), Vec3::Zero());
     energy().descend(transforms, x.data(), scratch.bending.data(), vertices.data(), parts.data(), 0,
                      count_of(vertices));
     Vec3 sum = Vec3::Zero();
@@ -330,10 +331,12 @@ std::vector<RotationSystem::Response> RotationSystem::responses(std::span<const 
 }
 
 Vec3 RotationSystem::solved_force(const PaddedMat3* transforms, std::span<const Vec4> x,
-                                  const Response& response, const Context& context) const {
+                                  const Response& response, Scratch& scratch,
+                                  const Context& context) const {
     const auto count = count_of(response.lever);
-    std::vector<Vec4> parts(at((count + kFrameGrain - 1) / kFrameGrain), Vec4::Zero());
-    context.parallel_for(0, count, kFrameGrain, [&](Index begin, Index end) {
+    std::vector<Vec4>& parts = scratch.parts;
+    parts.assign(at((count + kFrameGrain - 1) / kFrameGrain), Vec4::Zero());
+    for_each_part(context, count, [&](Index begin, Index end) {
         Vec4 sum = Vec4::Zero();
         for (Index i = begin; i < end; ++i) sum += transforms[i] * response.lever[i].head<3>();
         parts[begin / kFrameGrain] = sum;

@@ -34,8 +34,8 @@ class RotationSystem {
     /// Buffers of a solve, sized as needed; kept by the caller because a frame is short beside the
     /// time to get fresh pages.
     struct Scratch {
-        std::vector<Vec4> bending, step;
-        std::vector<Vec3> residual, change, correction;
+        std::vector<Vec4> bending, step, parts;
+        std::vector<Vec3> residual, change, correction, forces;
         std::vector<double> columns;
         SingleFactor::Scratch single;
     };
@@ -95,7 +95,7 @@ class RotationSystem {
     /// free vertex is nothing, and the right-hand side of the transforms there acts on the group by
     /// the vertex's answer, without the solution. Not for a system with ties.
     Vec3 solved_force(const PaddedMat3* transforms, std::span<const Vec4> x,
-                      const Response& response, const Context& context) const;
+                      const Response& response, Scratch& scratch, const Context& context) const;
     bool has_ties() const { return !ties_.empty(); }
 
     /// The loops over its energy.

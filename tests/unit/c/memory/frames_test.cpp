@@ -1,0 +1,217 @@
+// Functions of a frame take no memory once two frames were made, however far handles turn and
+// whatever changed before.
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bindings/engine/lissom_basis.h"
+#include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/c/host.h"
+#include "tests/unit/c/memory/failing_malloc.h"
+
+namespace lissom::test {
+namespace {
+
+struct FrameCase {
+    const char* name;
+    lissom_deformer_options options = lissom_default_deformer_options();
+    lissom_handle_options handle = lissom_default_handle_options();
+    int threads = 1;
+};
+
+// A bar whose top is moved while its bottom stays.
+class DraggedBar {
+  public:
+    explicit DraggedBar(const FrameCase& one) : host_(options_of(one.threads)) {
+        const Mesh bar = make_bar({.across = 4, .along = 16});
+        mesh_ = host_.add(bar);
+        REQUIRE(lissom_deformer_create(host_, mesh_, {0}, &one.options, &deformer_) == LISSOM_OK);
+        REQUIRE(lissom_deformer_pin(host_, deformer_, region(bar, "bottom")) == LISSOM_OK);
+        REQUIRE(lissom_deformer_add_handle(host_, deformer_, region(bar, "top"), &one.handle,
+                                           &handle_) == LISSOM_OK);
+        room_.resize(3 * at(lissom_mesh_vertex_count(host_, mesh_)));
+    }
+
+    lissom_context* context() const { return host_; }
+    lissom_deformer deformer() const { return deformer_; }
+
+    /// Factor of the top's size.
+    double size = 1.0;
+
+    // Turns the top about the bar's axis and moves it.
+    lissom_status set_transform(double turn) const {
+        lissom_transform map = lissom_identity();
+        map.m[0] = map.m[10] = size * std::cos(turn);
+        map.m[2] = size * std::sin(turn);
+        map.m[8] = -size * std::sin(turn);
+        map.m[5] = size;
+        map.m[3] = 0.1 * turn;
+        return lissom_deformer_set_transform(host_, deformer_, handle_, &map);
+    }
+    // Makes a frame. Returns which of its functions took memory, and how often.
+    std::string takers_of_frame(double turn, lissom_quality quality) {
+        const lissom_output out{room_.data(), room_.size() / 3, 0, LISSOM_FLOAT64};
+        const std::function<lissom_status()> calls[] = {
+            [&] { return set_transform(turn); },
+            [&] { return lissom_deformer_solve(host_, deformer_, quality); },
+            [&] { return lissom_deformer_read_positions(host_, deformer_, &out); },
+            [&] { return lissom_deformer_read_normals(host_, deformer_, &out); },
+            [&] { return lissom_mesh_read_positions(host_, mesh_, &out); }};
+        std::string takers;
+        for (const auto& call : calls) {
+            const long before = allocations();
+            const lissom_status status = call();
+            const long taken = allocations() - before;
+            CHECK(status == LISSOM_OK);
+            if (taken == 0) continue;
+            takers += std::to_string(&call - calls) + ":" + std::to_string(taken) + " ";
+        }
+        return takers;
+    }
+
+  private:
+    static lissom_context_options options_of(int threads) {
+        auto options = lissom_default_context_options();
+        options.threads = threads;
+        return options;
+    }
+    lissom_region region(const Mesh& bar, const char* name) const {
+        const auto& vertices = bar.find_region(name)->vertices();
+        const lissom_input list{vertices.data(), vertices.size(), 0, LISSOM_INT32};
+        lissom_region made{};
+        REQUIRE(lissom_region_of_vertices(host_, mesh_, &list, &made) == LISSOM_OK);
+        return made;
+    }
+
+    Host host_;
+    lissom_mesh mesh_{};
+    lissom_deformer deformer_{};
+    std::int32_t handle_ = -1;
+    std::vector<double> room_;
+};
+
+constexpr lissom_quality kQualities[] = {LISSOM_PREVIEW, LISSOM_DRAFT, LISSOM_FULL};
+
+// Frames that begin at `turn`; those after the second of each quality take nothing.
+void check_frames(DraggedBar& bar, double turn, double step, int count, bool full = true) {
+    for (const lissom_quality quality : kQualities) {
+        if (quality == LISSOM_FULL && !full) continue;
+        for (int frame = 0; frame < count; ++frame) {
+            CAPTURE(quality);
+            CAPTURE(frame);
+            const std::string takers = bar.takers_of_frame(turn + step * frame, quality);
+            CAPTURE(takers);
+            CHECK((frame < 2 || takers.empty()));
+        }
+    }
+}
+
+std::vector<FrameCase> frame_cases() {
+    std::vector<FrameCase> all(8, FrameCase{"plain"});
+    all[1].name = "refined";
+    all[1].options.refine = 2;
+    all[2].name = "scaled details";
+    all[2].options.scale_details = true;
+    all[3].name = "soft";
+    all[3].handle.weight = 1.0;
+    all[4].name = "falloff";
+    all[4].handle.falloff = 0.3;
+    all[5].name = "Poisson";
+    all[5].options.second = LISSOM_SECOND_POISSON;
+    all[6].name = "Laplacian";
+    all[6].options.second = LISSOM_SECOND_LAPLACIAN;
+    all[7].name = "position alone";
+    all[7].handle.gradient = false;
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("functions of a frame take no memory after two frames, at turns of any size") {
+    for (const FrameCase& one : frame_cases()) {
+        CAPTURE(std::string(one.name));
+        DraggedBar bar(one);
+        // Full frames that are refined count crossings.
+        const bool full = one.options.refine == 0;
+        check_frames(bar, 0.3, 0.05, 6, full);
+        check_frames(bar, 1.7, 0.05, 6, full);
+        // From more than a third of a turn to three turns, and back at once.
+        check_frames(bar, 2.5, 0.6, 30, full);
+        check_frames(bar, -0.4, -0.9, 12, full);
+    }
+}
+
+TEST_CASE("functions of a frame take no memory if a handle grows while it turns") {
+    for (const FrameCase& one : frame_cases()) {
+        CAPTURE(std::string(one.name));
+        DraggedBar bar(one);
+        bar.size = 1.2;
+        const bool full = one.options.refine == 0;
+        check_frames(bar, 0.3, 0.05, 6, full);
+        check_frames(bar, 2.5, 0.6, 12, full);
+    }
+}
+
+TEST_CASE("functions of a frame take no memory two frames after handles and points have changed") {
+    DraggedBar bar(frame_cases()[0]);
+    check_frames(bar, 0.2, 0.1, 4);
+    for (const double weight : {0.0, 1.0}) {
+        CAPTURE(weight);
+        for (const double x : {0.1, 0.2, 0.3}) {
+            const double place[] = {x, 0.5, 0.1};
+            REQUIRE(lissom_deformer_constrain(bar.context(), bar.deformer(), 60, place, weight) ==
+                    LISSOM_OK);
+            check_frames(bar, 0.4, 0.1, 4);
+            check_frames(bar, 3.5, 0.1, 4);
+        }
+        REQUIRE(lissom_deformer_free(bar.context(), bar.deformer(), 60) == LISSOM_OK);
+        check_frames(bar, 3.0, 0.4, 4);
+    }
+    REQUIRE(lissom_deformer_rebase(bar.context(), bar.deformer()) == LISSOM_OK);
+    check_frames(bar, 0.3, 0.1, 4);
+    check_frames(bar, 3.0, 0.4, 4);
+    REQUIRE(lissom_deformer_reset(bar.context(), bar.deformer()) == LISSOM_OK);
+    check_frames(bar, 3.0, 0.4, 4);
+}
+
+TEST_CASE("functions of a frame take no memory after an error of one") {
+    DraggedBar bar(frame_cases()[0]);
+    check_frames(bar, 3.0, 0.1, 4);
+    lissom_transform flat = lissom_identity();
+    flat.m[0] = 0.0;
+    CHECK(lissom_deformer_set_transform(bar.context(), bar.deformer(), 1, &flat) ==
+          LISSOM_SINGULAR_TRANSFORM);
+    CHECK(bar.takers_of_frame(3.2, LISSOM_FULL) == "");
+}
+
+TEST_CASE("a basis is opened and evaluated without memory") {
+    const DraggedBar bar(frame_cases()[0]);
+    REQUIRE(bar.set_transform(0.2) == LISSOM_OK);
+    lissom_bytes file{};
+    REQUIRE(lissom_deformer_encode_basis(bar.context(), bar.deformer(), &file) == LISSOM_OK);
+    // Aligned as the basis wants it.
+    std::vector<double> bytes(file.size / sizeof(double) + 1);
+    std::memcpy(bytes.data(), file.data, file.size);
+    lissom_basis basis{};
+    std::vector<float> transforms(64), out(30000);
+    const std::uint32_t stride = 3 * sizeof(float);
+    const long before = allocations();
+    const lissom_basis_status status = lissom_basis_open(&basis, bytes.data(), file.size);
+    for (std::uint32_t handle = 0; handle < basis.handle_count; ++handle) {
+        lissom_basis_identity(transforms.data() + 12 * at(index_of(handle)));
+    }
+    const lissom_transform map = lissom_identity();
+    for (int frame = 0; frame < 3 && status == LISSOM_BASIS_OK; ++frame) {
+        lissom_basis_local(&basis, map.m, transforms.data());
+        lissom_basis_evaluate(&basis, transforms.data(), 0, basis.vertex_count, out.data(), stride);
+        lissom_basis_scatter(&basis, transforms.data(), 0, basis.vertex_count, out.data(), stride);
+    }
+    const long taken = allocations() - before;
+    CHECK(status == LISSOM_BASIS_OK);
+    CHECK(basis.vertex_count > 100);
+    CHECK(taken == 0);
+}
+
+}  // namespace lissom::test
