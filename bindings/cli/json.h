@@ -25,6 +25,9 @@ Json report_json(const Report& report);
 /// Returns {"min": [x, y, z], "max": ..., "center": ..., "diagonal": ...}; null for an empty box.
 Json bounds_json(const Box& box);
 
+/// Returns whether a text is UTF-8, as JSON must be.
+bool is_utf8(const std::string& text);
+
 /// Returns the text of a value; bytes that are no UTF-8 (in names of files) are replaced.
 std::string json_text(const Json& value, int indent = 2);
 

@@ -8,6 +8,7 @@ import os
 import random
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -153,6 +154,22 @@ class Plans(Folder):
             self.assertIn(text, run.stderr)
         self.assertFalse(os.path.exists(self.path("o")))
 
+    def test_whole_numbers_are_written_out(self):
+        jobs = self.plan("make.lua", "--sweep", "count=99999:100001:1", "--out", "out/{count}.txt")
+        self.assertEqual([job["output"] for job in jobs], ["out/99999.txt", "out/100000.txt", "out/100001.txt"])
+
+    def test_a_hundred_thousand_jobs_are_listed_and_reported(self):
+        words = ("make.lua", "--sweep", "count=1:100000:1", "--out", "out/{count}.txt")
+        jobs = self.plan(*words)
+        self.assertEqual(len({job["output"] for job in jobs}), 100000)
+        self.assertEqual(jobs[-1]["output"], "out/100000.txt")
+        self.batch(*words, "--export", "task.sh")
+        self.batch("--submission", self.path("out", ".batch", "slurm", "submission.json"), "--collect")
+        with open(self.path("out", "summary.csv"), encoding="utf-8", newline="") as file:
+            self.assertEqual([row["count"] for row in csv.DictReader(file)], [str(n + 1) for n in range(100000)])
+        self.assertIn("100000 jobs, 100000 waiting", self.read("out", "index.html"))
+        self.assertLess(os.path.getsize(self.path("out", "index.html")), 60000000)
+
     def test_values_never_lead_out_of_the_folder(self):
         self.write("t.csv", "text\n../../x\n..\na/b\n\n\"\"\n")
         jobs = self.plan("make.lua", "--over", "t.csv", "--out", "out/{text}/{n}.txt")
@@ -294,6 +311,100 @@ class Runs(Folder):
         self.batch(*self.SWEEP)
         self.assertEqual(self.reasons(*self.SWEEP), ["", "", ""])
 
+    def test_outputs_beside_the_inputs_are_no_inputs_of_the_next_run(self):
+        for name in ("in/a.obj", "in/b.obj"):
+            self.write(name, TRIANGLE)
+        self.write("copy.lua", """
+            local lissom = require("lissom")
+            local p = lissom.params{ mesh = { type = "file" }, out = { type = "file", default = "" } }
+            lissom.load(p.mesh):save(p.out)""")
+        words = ("copy.lua", "--over", "in/*.obj", "--out", "in/{name}_bent.obj")
+        self.batch(*words)
+        self.write("in/c.obj", TRIANGLE)
+        self.assertEqual(self.reasons(*words), ["", "", "new"])
+        self.assertIn("1 done, 2 done before", self.batch(*words).stdout)
+
+    def test_files_that_are_read_with_an_input_are_inputs_too(self):
+        self.write("copy.lua", """
+            local lissom = require("lissom")
+            local p = lissom.params{ mesh = { type = "file" }, out = { type = "file", default = "" } }
+            lissom.load(p.mesh):save(p.out)""")
+        self.write("in/m.obj", "mtllib m n.mtl\nusemtl wood\n" + TRIANGLE)
+        self.write("in/m n.mtl", "newmtl wood\nKd 1 0 0\nmap_Kd -s 1 1 1 wood.png\n")
+        subprocess.run([PROGRAM, "convert", "in/m.obj", "in/b.gltf"], cwd=self.folder, check=True, capture_output=True)
+        with open(self.path("in", "b.gltf"), encoding="utf-8") as file:
+            document = json.load(file)
+        if document["buffers"][0]["uri"].startswith("data:"):
+            import base64
+            data = base64.b64decode(document["buffers"][0]["uri"].split(",", 1)[1])
+            document["buffers"][0]["uri"] = "the%20data.bin"
+            self.write("in/b.gltf", json.dumps(document))
+            with open(self.path("in", "the data.bin"), "wb") as file:
+                file.write(data)
+        words = ("copy.lua", "--over", "in/*", "--out", "out/{name}.ply")
+        self.batch(*words)
+        self.assertEqual(self.reasons(*words), ["", ""])
+        side = [name for name in os.listdir(self.path("in")) if name.endswith(".bin")][0]
+        with open(self.path("in", side), "ab") as file:
+            file.write(b"0000")
+        self.write("in/wood.png", "x")
+        self.assertEqual(self.reasons(*words), ["in/" + side + " has changed", "in/wood.png has changed"])
+        self.batch(*words)
+        self.write("in/m n.mtl", "newmtl wood\nKd 0 1 0\n")
+        self.assertEqual(self.reasons(*words), ["", "in/m n.mtl has changed"])
+
+    def test_a_scene_in_a_folder_is_an_input(self):
+        self.write("scene.lua", """
+            local lissom = require("lissom")
+            local scene = lissom.scene{}
+            scene:add("ball", lissom.shapes.sphere())
+            scene:save("room/")""")
+        self.write("use.lua", """
+            local lissom = require("lissom")
+            local p = lissom.params{ scene = { type = "folder", default = "room" }, out = { type = "file", default = "" } }
+            local scene = lissom.load_scene(p.scene)
+            assert(io.open(p.out, "w")):write(#scene:list()):close()""")
+        os.makedirs(self.path("room"))
+        subprocess.run([PROGRAM, "run", "scene.lua"], cwd=self.folder, check=True)
+        words = ("use.lua", "--out", "out/x.txt")
+        self.batch(*words)
+        self.assertEqual(self.reasons(*words), [""])
+        with open(self.path("room", "scene.json"), "a", encoding="utf-8") as file:
+            file.write("\n")
+        self.assertEqual(self.reasons(*words), ["room/scene.json has changed"])
+
+    def test_two_batches_at_once_do_each_job_once(self):
+        words = self.words("make.lua", "--sweep", "number=1:20:1", "--out", "out/{number}.txt")
+        both = [subprocess.Popen(words, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                for _ in range(2)]
+        texts = [process.communicate(timeout=120)[0] for process in both]
+        self.assertIn(0, [process.returncode for process in both], texts)
+        if 1 in [process.returncode for process in both]:
+            self.assertIn("another batch works in out", "".join(texts))
+        self.assertEqual(self.outputs(), {f"{n}.txt": b"word %d 1  0\n" % n for n in range(1, 21)})
+        results = self.path("out", ".batch", "results")
+        lines = "".join(self.read("out", ".batch", "results", name) for name in os.listdir(results)).splitlines()
+        self.assertEqual(len(lines), 20)
+
+    def test_names_that_are_no_text_fail_alone(self):
+        self.write("in/a.obj", TRIANGLE)
+        with open(os.path.join(os.fsencode(self.path("in")), b"b\xff.obj"), "w", encoding="ascii") as file:
+            file.write(TRIANGLE)
+        run = self.batch("make.lua", "--over", "in/*.obj", "--out", "out/{name}.txt", status=1)
+        self.assertIn("the name is not in UTF-8", run.stdout)
+        self.assertEqual(list(self.outputs()), ["a.txt"])
+
+    @unittest.skipIf(os.geteuid() == 0 and not shutil.which("setpriv"), "root writes everywhere")
+    def test_a_folder_without_write_permission_is_told_before_the_first_job(self):
+        os.mkdir(self.path("closed"))
+        os.chmod(self.path("closed"), 0o555)
+        os.chmod(self.folder, 0o755)
+        user = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"] if os.geteuid() == 0 else []
+        run = subprocess.run(user + self.words(*self.SWEEP[:-1], "closed/{number}.txt"), cwd=self.folder,
+                             capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("closed/.batch/results: the folder cannot be made", run.stderr)
+
     def test_an_interrupt_keeps_what_is_done(self):
         process = subprocess.Popen(self.words("make.lua", "--sweep", "number=1,2", "--sweep", "mode=good,never_ends",
                                               "--out", "out/{number}{mode}.txt"), cwd=self.folder,
@@ -377,6 +488,42 @@ class Files(Folder):
         self.run_verb("convert", "--in=-x.obj", "--out", "out2", "--to", "off")
         self.assertEqual(self.outputs(), self.outputs("out2"))
         self.assertEqual(list(self.outputs()), ["-x.off"])
+
+    def write_textured(self, name):
+        """A .glb file whose texture is called "skin" and has the name of the file in it."""
+        points = struct.pack("<15f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1)
+        picture = b"\x89PNG\r\n\x1a\n" + name.encode().ljust(8, b"\0")
+        views = [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24},
+                 {"buffer": 0, "byteOffset": 60, "byteLength": 16}]
+        document = {
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+            "materials": [{"name": "m", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+            "textures": [{"source": 0}], "images": [{"name": "skin", "mimeType": "image/png", "bufferView": 2}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+                           "max": [1, 1, 0]}, {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+            "bufferViews": views, "buffers": [{"byteLength": 76}]}
+        text = json.dumps(document).encode()
+        text += b" " * (-len(text) % 4)
+        os.makedirs(self.path("glb"), exist_ok=True)
+        with open(self.path("glb", name + ".glb"), "wb") as file:
+            file.write(struct.pack("<4sIII4s", b"glTF", 2, 28 + len(text) + 76, len(text), b"JSON") + text)
+            file.write(struct.pack("<I4s", 76, b"BIN\0") + points + picture)
+
+    def test_textures_of_one_name_do_not_take_each_others_place(self):
+        for name in "abc":
+            self.write_textured(name)
+        convert = ("convert", "--in", "glb", "--out", "out", "--to", "obj", "--jobs", "2")
+        self.run_verb(*convert)
+        made = self.outputs()
+
+        def named(file, keyword):
+            return next(line.split(None, 1)[1] for line in made[file].decode().splitlines() if line.startswith(keyword))
+
+        for name in "abc":
+            texture = named(named(name + ".obj", "mtllib"), "map_Kd")
+            self.assertEqual(made[texture][8:9], name.encode(), sorted(made))
+        self.assertIn("3 of them before", self.run_verb(*convert).stdout)
 
     def test_a_crash_costs_one_file(self):
         environment = dict(os.environ, LISSOM_THREADS="1")
@@ -468,6 +615,20 @@ class Kills(Folder):
         self.assertGreater(time.monotonic() - started, 0.5)
         self.assertEqual(list(self.outputs()), ["x.txt"])
 
+    def test_a_limit_of_files_is_the_failure_of_its_job(self):
+        self.write("sizes.lua", """
+            local p = require("lissom").params{ n = { type = "integer", default = 1 }, out = { type = "file", default = "" } }
+            local file = assert(io.open(p.out, "w"))
+            assert(file:write(("x"):rep(p.n)))
+            assert(file:close())""")
+        words = self.words("sizes.lua", "--sweep", "n=10,3000000,20", "--out", "out/{n}.txt")
+        limited = subprocess.run(["sh", "-c", "ulimit -f 2000; exec \"$@\"", "sh", *words], cwd=self.folder,
+                                 capture_output=True, text=True, timeout=120, check=False)
+        self.assertEqual(limited.returncode, 1, limited.stdout + limited.stderr)
+        self.assertEqual(sorted(self.outputs()), ["10.txt", "20.txt"])
+        self.batch(*words[2:])
+        self.assertEqual(len(self.outputs()["3000000.txt"]), 3000000)
+
     @unittest.skipUnless(os.geteuid() == 0 and shutil.which("mount"), "a small disk needs root")
     def test_a_full_disk_stops_the_batch_and_loses_nothing(self):
         os.mkdir(self.path("small"))
@@ -539,8 +700,12 @@ class Slurm(Folder):
 
     def test_what_a_cluster_loses_is_submitted_by_the_same_command(self):
         run = self.submit(*self.WORDS, FAKE_MODE="lose", FAKE_ARRAY_SIZE="6", status=1)
-        self.assertRegex(run.stdout, "13 done, 12 left")
+        self.assertRegex(run.stdout, "0 done, 25 left")
         self.submit(*self.WORDS, FAKE_MODE="forget", FAKE_ARRAY_SIZE="6")
+        self.assertEqual(self.outputs(), self.all_outputs())
+
+    def test_a_task_that_ends_early_takes_on_jobs_of_others(self):
+        self.submit(*self.WORDS, FAKE_MODE="first", FAKE_ARRAY_SIZE="6")
         self.assertEqual(self.outputs(), self.all_outputs())
 
     def test_a_missing_or_refusing_sbatch_is_told(self):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Acts as sbatch, squeue and scontrol, by the name that it is called by. FAKE_SLURM is its folder; FAKE_MODE makes
-it refuse ("refuse"), run tasks twice at once ("twice"), lose every other task ("lose"), or forget jobs that have ended
+it refuse ("refuse"), run the first task alone ("first"), run tasks twice at once ("twice"), lose all tasks ("lose"), or forget jobs that have ended
 ("forget")."""
 import os
 import subprocess
@@ -26,7 +26,7 @@ def run_array(job, script):
     """Runs the tasks of an array; this process has been left by its parent."""
     first, last = map(int, option("array", "0-0").split("-"))
     for task in range(first, last + 1):
-        if MODE == "lose" and task % 2 == 1:
+        if MODE == "lose" or (MODE == "first" and task > first):
             continue
         environment = dict(os.environ, SLURM_ARRAY_TASK_ID=str(task), SLURM_JOB_ID=job)
         log = option("output").replace("%A", job).replace("%a", str(task))

@@ -12,35 +12,10 @@ import tempfile
 import time
 import unittest
 
+from small_slurm import Cluster, missing_parts
+
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 NODES = 4
-
-CONFIGURATION = """ClusterName=test
-SlurmctldHost=localhost(127.0.0.1)
-SlurmctldPort=16817
-CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
-AuthInfo=socket={folder}/munge.socket
-SlurmUser=root
-StateSaveLocation={folder}/state
-SlurmdSpoolDir={folder}/spool.%n
-SlurmctldPidFile={folder}/slurmctld.pid
-SlurmdPidFile={folder}/slurmd.%n.pid
-SlurmctldLogFile={folder}/slurmctld.log
-SlurmdLogFile={folder}/slurmd.%n.log
-ProctrackType=proctrack/linuxproc
-TaskPlugin=task/none
-SelectType=select/cons_tres
-SelectTypeParameters=CR_Core
-SchedulerParameters=batch_sched_delay=0,sched_min_interval=0,sched_interval=1
-SlurmdParameters=config_overrides
-ReturnToService=2
-SlurmdTimeout=10
-KillWait=2
-MinJobAge=2
-MaxArraySize=1001
-NodeName=n[1-{nodes}] NodeHostname=localhost NodeAddr=127.0.0.1 Port=[17001-{last}] CPUs=2
-PartitionName=main Nodes=ALL Default=YES MaxTime=60
-"""
 
 SCRIPT = r'''
 local p = require("lissom").params{ n = { type = "integer", default = 1 }, seconds = { type = "number", default = 0 },
@@ -52,66 +27,12 @@ file:close()
 '''
 
 
-class Cluster:
-    """Slurm in a folder of its own."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        os.environ["SLURM_CONF"] = self.path("slurm.conf")
-        with open(self.path("slurm.conf"), "w", encoding="ascii") as file:
-            file.write(CONFIGURATION.format(folder=folder, nodes=NODES, last=17000 + NODES))
-        for name in ["state"] + [f"spool.n{i + 1}" for i in range(NODES)]:
-            os.mkdir(self.path(name))
-        with open(self.path("munge.key"), "wb", opener=lambda path, flags: os.open(path, flags, 0o600)) as file:
-            file.write(os.urandom(1024))
-        os.chmod(folder, 0o755)
-        subprocess.run(["munged", "--key-file=" + self.path("munge.key"), "--socket=" + self.path("munge.socket"),
-                        "--pid-file=" + self.path("munged.pid"), "--log-file=" + self.path("munged.log"),
-                        "--seed-file=" + self.path("munge.seed"), "--num-threads=4"], check=True)
-        self.start_controller()
-        for i in range(NODES):
-            self.start_node(i + 1)
-        self.wait_for_nodes()
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def start_controller(self, *words):
-        subprocess.run(["slurmctld", *words], check=True)
-
-    def start_node(self, number):
-        subprocess.run(["slurmd", "-N", f"n{number}"], check=True)
-
-    def wait_for_nodes(self):
-        for _ in range(600):
-            run = subprocess.run(["sinfo", "-h", "-o", "%D %t"], capture_output=True, text=True, check=False)
-            if run.stdout.strip() == f"{NODES} idle":
-                return
-            time.sleep(0.1)
-        raise RuntimeError("the nodes of Slurm do not come up: " + run.stdout)
-
-    def process(self, name):
-        with open(self.path(name + ".pid"), encoding="ascii") as file:
-            return int(file.read())
-
-    def kill(self, name):
-        os.kill(self.process(name), signal.SIGKILL)
-        time.sleep(0.2)
-
-    def stop(self):
-        for name in ["slurmctld"] + [f"slurmd.n{i + 1}" for i in range(NODES)] + ["munged"]:
-            try:
-                os.kill(self.process(name), signal.SIGTERM)
-            except (OSError, ValueError):
-                pass
-        time.sleep(2)
-
-
 class Slurm(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.root = tempfile.mkdtemp(prefix="lissom-slurm-")
-        cls.cluster = Cluster(cls.root)
+        cls.cluster = Cluster(cls.root, NODES)
+        cls.cluster.start()
 
     @classmethod
     def tearDownClass(cls):
@@ -250,8 +171,8 @@ class Slurm(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    missing = [name for name in ("slurmctld", "slurmd", "munged", "sbatch") if not shutil.which(name)]
-    if missing or os.geteuid() != 0:
-        print("skipped: " + (", ".join(missing) + " is not installed" if missing else "needs root"))
+    reason = missing_parts()
+    if reason:
+        print("skipped: " + reason)
         sys.exit(77)
     unittest.main()

@@ -1,4 +1,4 @@
-// What `lissom batch` costs beside the same processes started by xargs.
+// What `lissom batch` costs beside the same processes started by xargs, and by Slurm.
 #include <sys/resource.h>
 
 #include <cstdlib>
@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kProgram = LISSOM_PROGRAM_FILE;
+constexpr const char* kSlurm = LISSOM_SMALL_SLURM_FILE;
 
 // Waits, which takes no processor, and writes its number.
 constexpr const char* kScript = R"(
@@ -36,6 +37,8 @@ class Folder {
     ~Folder() { fs::remove_all(path_); }
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
+
+    const fs::path& path() const { return path_; }
 
     // Runs a command of the shell in the folder, with an empty folder "out".
     void run(const std::string& command) const {
@@ -99,6 +102,44 @@ void compare_time(Report& report, const Folder& folder) {
                      1.1);
 }
 
+// A Slurm of one node with two processors, on the loopback.
+class SmallSlurm {
+  public:
+    explicit SmallSlurm(const Folder& folder) : folder_(folder.path() / "slurm") {
+        fs::create_directory(folder_);
+        is_there_ = call("start") == 0;
+        setenv("SLURM_CONF", (folder_ / "slurm.conf").c_str(), 1);
+    }
+    ~SmallSlurm() {
+        if (is_there_) call("stop");
+    }
+    SmallSlurm(const SmallSlurm&) = delete;
+    SmallSlurm& operator=(const SmallSlurm&) = delete;
+
+    bool is_there() const { return is_there_; }
+
+  private:
+    int call(const std::string& word) const {
+        return std::system((std::string("python3 -B '") + kSlurm + "' " + word + " '" +
+                            folder_.string() + "' 1 >&2")
+                               .c_str());
+    }
+
+    fs::path folder_;
+    bool is_there_ = false;
+};
+
+void compare_slurm(Report& report, const Folder& folder) {
+    const SmallSlurm slurm(folder);
+    if (!slurm.is_there()) return report.line("  no Slurm can be started here");
+    constexpr int kJobs = 1000;
+    report.add_ratio("1,000 trivial jobs by Slurm, two at a time", "without Slurm",
+                     seconds_quotient(
+                         3, [&] { folder.run(batch(kJobs, 0.0, "--slurm")); },
+                         [&] { folder.run(batch(kJobs, 0.0, "")); }),
+                     1.2);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -106,4 +147,5 @@ int main(int argc, char** argv) {
     const Folder folder;
     if (report.wants("processors")) compare_processors(report, folder);
     if (report.wants("time")) compare_time(report, folder);
+    if (report.wants("slurm")) compare_slurm(report, folder);
 }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <utility>
 
+#include "bindings/cli/batch/files/companions.h"
 #include "bindings/cli/json.h"
 #include "bindings/cli/process/process_number.h"
 #include "kernel/core/error.h"
@@ -61,7 +62,14 @@ JobTask Attempt::prepare() {
     // A process that outlives its driver keeps its own folder.
     const std::string work = job_key(job()) + "." + std::to_string(process_number());
     staging_.emplace(folder_ / "work" / work, job().output, plan_.makes_folders);
+    staging_->hold(waiting_.taken);
     return {plan_.script, job_words(plan_, job(), staging_->output()), log_.string()};
+}
+
+std::set<fs::path> Attempt::taken() const {
+    std::set<fs::path> names = staging_->taken();
+    if (!names.empty()) names.insert(waiting_.taken.begin(), waiting_.taken.end());
+    return names;
 }
 
 void Attempt::end(const ProcessEnd& end, double timeout) {
@@ -127,6 +135,7 @@ void Attempt::publish(JobRecord& record, BatchState& state, std::set<fs::path>& 
 std::vector<FileStamp> Attempt::read_stamps(FileDigests& digests) const {
     std::set<std::string> files(news_.reads.begin(), news_.reads.end());
     for (const fs::path& input : job().inputs) files.insert(input.string());
+    for (const std::string& file : std::set<std::string>(files)) add_companions(file, files);
     const std::string own = staging_->output().parent_path().string() + "/";
     std::vector<FileStamp> stamps;
     for (const std::string& file : files) {

@@ -20,6 +20,8 @@ struct WaitingJob {
     const BatchJob* job = nullptr;
     int attempt = 1;
     std::string reason;
+    /// Names beside the output that files of other jobs have (see Staging::hold).
+    std::set<std::filesystem::path> taken = {};
 };
 
 class Attempt {
@@ -38,6 +40,9 @@ class Attempt {
     /// Starts the clock.
     void begin() { start_ = Clock::now(); }
     double seconds() const;
+
+    /// Returns the names that kept the outputs from their place, with those known before.
+    std::set<std::filesystem::path> taken() const;
 
     void take(JobNews news) { news_ = std::move(news); }
     /// Notes how the process has ended the job; `timeout` above 0 for a job that took longer.

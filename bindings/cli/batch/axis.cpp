@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "bindings/cli/file_patterns.h"
@@ -191,8 +192,12 @@ void add_columns(Axis& axis, const std::vector<fs::path>& relative) {
 }  // namespace
 
 std::string number_text(double number) {
+    constexpr double kMaxWhole = 1e15;
     char text[32];
-    const auto [end, error] = std::to_chars(text, text + sizeof text, number);
+    const bool is_whole = std::abs(number) < kMaxWhole && number == std::floor(number);
+    const auto [end, error] =
+        is_whole ? std::to_chars(text, text + sizeof text, static_cast<std::int64_t>(number))
+                 : std::to_chars(text, text + sizeof text, number);
     return error == std::errc() ? std::string(text, end) : std::to_string(number);
 }
 
@@ -227,6 +232,7 @@ Axis files_axis(const std::string& name, const std::string& pattern) {
     Axis axis;
     axis.names = {name};
     axis.given = 1;
+    axis.is_pattern = true;
     std::vector<fs::path> relative;
     for (const MatchedFile& file : matches.files) {
         axis.rows.push_back({file.path.string()});

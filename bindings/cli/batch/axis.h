@@ -17,6 +17,8 @@ struct Axis {
     /// Number of the names in front that are given; those behind come from the names of files, for
     /// outputs (see `kFileNames`).
     std::size_t given = 0;
+    /// Its first names are those of files that a pattern has found.
+    bool is_pattern = false;
 };
 
 /// Names that an axis of files gives to outputs: the file's name without extension (also as
@@ -43,7 +45,7 @@ Axis table_axis(const std::filesystem::path& file);
 /// Adds the values of `kFileNames` that the axis lacks, from its column of files `name`.
 void add_file_names(Axis& axis, const std::string& name);
 
-/// Returns a number in its shortest form.
+/// Returns a number in its shortest form, whole numbers up to 1e15 without an exponent.
 std::string number_text(double number);
 
 }  // namespace lissom::cli

@@ -27,6 +27,8 @@ constexpr double kProgressSeconds = 0.25, kWaitSeconds = 0.1;
 constexpr std::uintmax_t kFullBytes = 1 << 20;
 // Jobs of one process at most, and bytes of their tasks, which are words of its command line.
 constexpr std::size_t kMaxPacked = 64, kMaxTaskBytes = 60000;
+// Attempts of a job whose files beside the output have names of other files.
+constexpr int kMaxNameAttempts = 20;
 
 double seconds_after(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -79,7 +81,7 @@ class Driver {
             if (reason.empty()) {
                 keep(job);
             } else {
-                waiting_.push_back({&job, 1, std::move(reason)});
+                waiting_.push_back({&job, 1, std::move(reason), {}});
             }
         }
     }
@@ -123,7 +125,7 @@ class Driver {
             waiting_.pop_front();
             auto attempt = std::make_unique<Attempt>(plan_, next, state_);
             if (!attempt->is_free()) {
-                waiting_.push_back(std::move(next));
+                if (!options_.leaves_taken) waiting_.push_back(std::move(next));
                 continue;
             }
             if (options_.shares_folder && next.attempt == 1 && is_done_elsewhere(*next.job)) {
@@ -176,7 +178,7 @@ class Driver {
         require_space(records);
         for (const fs::path& folder : folders) flush_to_disk(folder);
         state_.add(records);
-        for (std::size_t i = 0; i < ended.size(); ++i) settle(ended[i]->job(), records[i]);
+        for (std::size_t i = 0; i < ended.size(); ++i) settle(*ended[i], records[i]);
     }
 
     void require_space(const std::vector<JobRecord>& records) const {
@@ -188,9 +190,16 @@ class Driver {
                         " is full: free space, and start the batch again; it goes on from here");
     }
 
-    void settle(const BatchJob& job, const JobRecord& record) {
+    void settle(const Attempt& attempt, const JobRecord& record) {
+        const BatchJob& job = attempt.job();
+        // A verb finds other names for the files beside its output.
+        std::set<fs::path> taken = attempt.taken();
+        if (!plan_.verb.empty() && !taken.empty() && record.attempts < kMaxNameAttempts) {
+            waiting_.push_back({&job, record.attempts + 1, record.outcome, std::move(taken)});
+            return;
+        }
         if (is_tried_again(record, options_)) {
-            waiting_.push_back({&job, record.attempts + 1, record.outcome});
+            waiting_.push_back({&job, record.attempts + 1, record.outcome, {}});
             return;
         }
         ++(record.is_done() ? progress_.done : progress_.failed);

@@ -47,6 +47,8 @@ struct BatchOptions {
     std::function<void(const BatchProgress&)> progress;
     /// Other processes may work on other jobs of the folder, as the tasks of a cluster do.
     bool shares_folder = false;
+    /// Leave jobs to other processes that work on them, instead of waiting for their end.
+    bool leaves_taken = false;
 };
 
 /// Folder of the records, logs and locks of a batch below that of its outputs.

@@ -6,7 +6,9 @@
 #include <set>
 #include <unordered_map>
 
+#include "bindings/cli/batch/driver.h"
 #include "bindings/cli/batch/plan_axes.h"
+#include "bindings/cli/json.h"
 #include "bindings/cli/script.h"
 #include "kernel/core/error.h"
 #include "kernel/io/stream/file.h"
@@ -117,6 +119,33 @@ void require_inside(const fs::path& folder, const BatchJob& job) {
                 ", outside of " + folder.string());
 }
 
+fs::path normal_path(const fs::path& path) {
+    return fs::absolute(path).lexically_normal();
+}
+
+bool is_within_folder(const std::string& file, const fs::path& folder) {
+    return *normal_path(file).lexically_relative(normal_path(folder)).begin() != "..";
+}
+
+// Outputs that a batch has made in the folder.
+std::set<fs::path> outputs_in(const fs::path& folder) {
+    std::set<fs::path> outputs;
+    for (const auto& [name, record] : Ledger(folder / kBatchFolder / "results").records()) {
+        for (const FileStamp& stamp : record.outputs) outputs.insert(normal_path(stamp.path));
+    }
+    return outputs;
+}
+
+// A pattern may match what the same command has made before.
+void leave_outputs_out(Axis& axis, const fs::path& folder) {
+    const auto is_near = [&](const auto& row) { return is_within_folder(row[0], folder); };
+    if (!axis.is_pattern || std::none_of(axis.rows.begin(), axis.rows.end(), is_near)) return;
+    const std::set<fs::path> outputs = outputs_in(folder);
+    std::erase_if(axis.rows,
+                  [&](const auto& row) { return outputs.contains(normal_path(row[0])); });
+    if (axis.rows.empty()) refuse_plan("all files of the pattern are outputs of this batch");
+}
+
 std::string argument_text(const BatchJob& job) {
     std::string text;
     for (const auto& [name, value] : job.arguments) text += " " + name + "=" + value;
@@ -160,7 +189,8 @@ BatchPlan make_plan(const lua::ParameterSet& parameters, const BatchWords& words
     const auto [given, text] = named_parameter(parameters, words.out);
     const ScriptParameter& out = out_parameter(parameters, given);
     const OutputName output(text);
-    const Axes axes = read_axes(parameters, out, words);
+    Axes axes = read_axes(parameters, out, words);
+    for (Axis& axis : axes.list) leave_outputs_out(axis, output.base());
     require_known_names(parameters, axes, output);
     BatchPlan plan;
     plan.script = words.script;
@@ -175,6 +205,7 @@ BatchPlan make_plan(const lua::ParameterSet& parameters, const BatchWords& words
         require_inside(plan.folder, plan.jobs.back());
     }
     require_own_outputs(plan);
+    refuse_strange_names(plan);
     return plan;
 }
 
@@ -194,6 +225,18 @@ std::vector<std::string> verb_words(const BatchPlan& plan, const BatchJob& job,
 }
 
 }  // namespace
+
+void refuse_strange_names(BatchPlan& plan) {
+    for (BatchJob& job : plan.jobs) {
+        std::vector<fs::path> paths = job.inputs;
+        paths.push_back(job.output);
+        for (const fs::path& path : paths) {
+            if (job.refused || is_utf8(path.string())) continue;
+            job.refused = Error(ErrorCode::invalid_argument,
+                                display_name(path) + ": the name is not in UTF-8; rename the file");
+        }
+    }
+}
 
 std::vector<std::string> job_words(const BatchPlan& plan, const BatchJob& job,
                                    const fs::path& output) {

@@ -67,6 +67,10 @@ lua::ParameterSet script_parameters(Program& program, const std::string& script)
 /// pattern that matches nothing and for inputs that do not exist.
 BatchPlan make_plan(const lua::ParameterSet& parameters, const BatchWords& words);
 
+/// Refuses jobs with inputs or outputs whose names are no UTF-8: they could not be told to other
+/// programs.
+void refuse_strange_names(BatchPlan& plan);
+
 /// Returns the words that run a job with `output` as its output: "--name=value" each for a script,
 /// the words of a verb that answers by JSON.
 std::vector<std::string> job_words(const BatchPlan& plan, const BatchJob& job,

@@ -1,6 +1,7 @@
 #include "bindings/cli/batch/staging.h"
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 
 #include "bindings/cli/batch/durable_files.h"
@@ -54,7 +55,10 @@ Staging::~Staging() {
 std::vector<fs::path> Staging::files() const {
     std::vector<fs::path> found;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(work_)) {
-        if (entry.is_regular_file()) found.push_back(entry.path());
+        if (!entry.is_regular_file()) continue;
+        const bool is_held =
+            entry.file_size() == 0 && held_.contains(entry.path().lexically_relative(work_));
+        if (!is_held) found.push_back(entry.path());
     }
     std::sort(found.begin(), found.end());
     // The output is last: if it is there, all that belongs to it is.
@@ -73,19 +77,41 @@ void Staging::require_output() const {
                     ": it must write to the path that its parameter gives");
 }
 
-void Staging::require_place(const fs::path& staged, const fs::path& place, const JobRecord* before,
-                            FileDigests& digests) const {
+void Staging::hold(const std::set<fs::path>& names) {
+    held_ = names;
+    for (const fs::path& name : names) {
+        make_folder((work_ / name).parent_path());
+        std::ofstream(work_ / name, std::ios::binary).flush();
+    }
+}
+
+fs::path Staging::place_of(const fs::path& staged) const {
+    const fs::path folder = output_.parent_path().empty() ? "." : output_.parent_path();
+    return (folder / staged.lexically_relative(work_)).lexically_normal();
+}
+
+bool Staging::is_taken(const fs::path& staged, const JobRecord* before,
+                       FileDigests& digests) const {
     std::error_code error;
+    const fs::path place = place_of(staged);
     if (fs::is_directory(place, error)) {
         throw Error(ErrorCode::file_is_directory,
                     display_name(place) + " is a folder: remove it, or choose another --out");
     }
     const bool is_own = place == output_ || was_written(before, place) ||
                         place.string().starts_with(output_.string() + "/");
-    if (is_own || !fs::exists(place, error)) return;
-    if (digests.stamp(place).digest == digests.stamp(staged).digest) return;
+    if (is_own || !fs::exists(place, error)) return false;
+    return digests.stamp(place).digest != digests.stamp(staged).digest;
+}
+
+void Staging::require_places(const std::vector<fs::path>& staged, const JobRecord* before,
+                             FileDigests& digests) {
+    for (const fs::path& file : staged) {
+        if (is_taken(file, before, digests)) taken_.insert(file.lexically_relative(work_));
+    }
+    if (taken_.empty()) return;
     throw Error(ErrorCode::file_write_failed,
-                display_name(place) +
+                display_name(place_of(work_ / *taken_.begin())) +
                     " exists with other content, of another job or not of this "
                     "batch: give each job a folder, as --out 'out/{n}/FILE'");
 }
@@ -93,15 +119,11 @@ void Staging::require_place(const fs::path& staged, const fs::path& place, const
 std::vector<FileStamp> Staging::publish(const JobRecord* before, FileDigests& digests,
                                         std::set<fs::path>& folders) {
     require_output();
-    const fs::path folder = output_.parent_path().empty() ? "." : output_.parent_path();
     std::vector<FileStamp> made;
     const std::vector<fs::path> staged = files();
+    require_places(staged, before, digests);
     for (const fs::path& file : staged) {
-        require_place(file, (folder / file.lexically_relative(work_)).lexically_normal(), before,
-                      digests);
-    }
-    for (const fs::path& file : staged) {
-        const fs::path place = (folder / file.lexically_relative(work_)).lexically_normal();
+        const fs::path place = place_of(file);
         const fs::path place_folder = place.parent_path().empty() ? "." : place.parent_path();
         if (!folders.contains(place_folder)) make_folder(place_folder);
         flush_to_disk(file);

@@ -25,6 +25,10 @@ class Staging {
     /// Path that the script writes to.
     std::filesystem::path output() const { return work_ / output_.filename(); }
 
+    /// Puts empty files in the place of files beside the output, so that the job chooses other
+    /// names for its own.
+    void hold(const std::set<std::filesystem::path>& names);
+
     /// Moves all files to the folder of the output, each on the disk before it is renamed, and
     /// removes those of `before` that were not made again. Returns their stamps, and adds to
     /// `folders` those that are to be flushed to the disk. Errors: file_not_found if the script
@@ -33,13 +37,20 @@ class Staging {
     std::vector<FileStamp> publish(const JobRecord* before, FileDigests& digests,
                                    std::set<std::filesystem::path>& folders);
 
+    /// Returns the names beside the output for which `publish` has found files with other content.
+    const std::set<std::filesystem::path>& taken() const { return taken_; }
+
   private:
     std::vector<std::filesystem::path> files() const;
     void require_output() const;
-    void require_place(const std::filesystem::path& staged, const std::filesystem::path& place,
-                       const JobRecord* before, FileDigests& digests) const;
+    void require_places(const std::vector<std::filesystem::path>& staged, const JobRecord* before,
+                        FileDigests& digests);
+    std::filesystem::path place_of(const std::filesystem::path& staged) const;
+    bool is_taken(const std::filesystem::path& staged, const JobRecord* before,
+                  FileDigests& digests) const;
 
     std::filesystem::path work_, output_;
+    std::set<std::filesystem::path> held_, taken_;
 };
 
 }  // namespace lissom::cli

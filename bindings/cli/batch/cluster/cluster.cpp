@@ -111,6 +111,34 @@ BatchProgress watch(const BatchPlan& plan, BatchState& state, const BatchOptions
     return watch.progress();
 }
 
+BatchPlan plan_of_task(const Submission& submission, std::size_t task) {
+    const BatchPlan& all = submission.plan;
+    BatchPlan plan = {all.script, all.verb, all.out_parameter, all.makes_folders, all.folder, {}};
+    for (const std::size_t job : submission.tasks[task]) {
+        plan.jobs.push_back(submission.plan.jobs.at(job));
+    }
+    return plan;
+}
+
+// Takes on jobs of the tasks that follow until this one has lasted its time: they may be shorter
+// than was thought, and a task costs more than they do.
+void help_other_tasks(const Submission& submission, std::size_t task, Clock::time_point start,
+                      BatchState& state, BatchOptions options) {
+    options.leaves_taken = true;
+    const std::size_t count = submission.tasks.size();
+    for (std::size_t i = 1; i < count; ++i) {
+        const std::chrono::duration<double> lasted = Clock::now() - start;
+        if (options.stopped() || lasted.count() > kTaskSeconds) return;
+        BatchPlan plan = plan_of_task(submission, (task + i) % count);
+        state.refresh();
+        std::erase_if(plan.jobs, [&](const BatchJob& job) {
+            const JobRecord* const record = state.record(job);
+            return record && record->time >= submission.time;
+        });
+        if (!plan.jobs.empty()) run_batch(plan, state, options);
+    }
+}
+
 }  // namespace
 
 Submission make_submission(const BatchPlan& plan, BatchState& state, const BatchOptions& options,
@@ -120,6 +148,7 @@ Submission make_submission(const BatchPlan& plan, BatchState& state, const Batch
     submission.plan = plan;
     submission.options = options;
     submission.directory = fs::current_path();
+    submission.time = now_in_milliseconds();
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
         const BatchJob& job = plan.jobs[i];
@@ -160,15 +189,14 @@ BatchProgress run_task(const Submission& submission, std::size_t task, BatchOpti
                                                  std::to_string(submission.tasks.size()) +
                                                  " tasks, not task " + std::to_string(task));
     }
+    const Clock::time_point start = Clock::now();
     fs::current_path(submission.directory);
-    BatchPlan plan = submission.plan;
-    plan.jobs.clear();
-    for (const std::size_t job : submission.tasks[task]) {
-        plan.jobs.push_back(submission.plan.jobs.at(job));
-    }
+    const BatchPlan plan = plan_of_task(submission, task);
     BatchState state(plan);
     options.shares_folder = true;
-    return run_batch(plan, state, options);
+    const BatchProgress progress = run_batch(plan, state, options);
+    help_other_tasks(submission, task, start, state, options);
+    return progress;
 }
 
 }  // namespace lissom::cli

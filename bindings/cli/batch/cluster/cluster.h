@@ -27,7 +27,9 @@ std::vector<std::string> export_to_slurm(const BatchPlan& plan, BatchState& stat
                                          const std::filesystem::path& script,
                                          const std::vector<std::string>& more);
 
-/// Runs a task of a submission. Errors: out_of_range for a task that it has not.
+/// Runs a task of a submission, and jobs that other tasks have not begun until it has lasted
+/// `kTaskSeconds`. Returns the progress of its own jobs. Errors: out_of_range for a task that it
+/// has not.
 BatchProgress run_task(const Submission& submission, std::size_t task, BatchOptions options);
 
 }  // namespace lissom::cli

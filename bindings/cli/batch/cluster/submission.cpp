@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kTaskSeconds = 60.0, kUnknownSeconds = 5.0;
+constexpr double kUnknownSeconds = 5.0;
 
 Json job_json(const BatchJob& job) {
     Json arguments = Json::array(), inputs = Json::array();
@@ -49,6 +49,7 @@ Submission read_json(const Json& json) {
     submission.options.timeout = json.at("timeout");
     submission.options.packs = json.at("packs");
     submission.directory = json.at("directory").get<std::string>();
+    submission.time = json.at("time");
     submission.tasks = json.at("tasks").get<std::vector<std::vector<std::size_t>>>();
     return submission;
 }
@@ -85,6 +86,7 @@ void write_submission(const Submission& submission, const fs::path& file) {
                        {"retries", submission.options.retries},
                        {"timeout", submission.options.timeout},
                        {"packs", submission.options.packs},
+                       {"time", submission.time},
                        {"tasks", submission.tasks},
                        {"jobs", jobs}};
     write_file_atomically(file, json_text(json, -1) + "\n");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,7 +19,12 @@ struct Submission {
     std::vector<std::vector<std::size_t>> tasks;
     /// Folder in which the command was given.
     std::filesystem::path directory;
+    /// Time of the submission, in milliseconds since 1970.
+    std::int64_t time = 0;
 };
+
+/// Seconds that a task lasts at least, if there are jobs.
+inline constexpr double kTaskSeconds = 60.0;
 
 /// Divides jobs among tasks so that a task lasts a minute or more, as far as the seconds of a job
 /// are known (0: not), and there are at most `most` of them.

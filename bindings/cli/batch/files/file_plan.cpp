@@ -138,6 +138,7 @@ BatchPlan plan_files(const ManyFiles& files, std::vector<std::string> verb,
     plan.out_parameter = out_option;
     plan.folder = without_trailing_slash(files.out_folder).lexically_normal();
     FilePlanMaker(files, plan).make();
+    refuse_strange_names(plan);
     return plan;
 }
 

@@ -20,6 +20,13 @@ std::size_t characters(std::string_view text) {
     }));
 }
 
+// Names of files may hold line ends.
+std::string on_one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
+    return text;
+}
+
 std::string padded(const std::string& text, std::size_t width) {
     const std::size_t length = characters(text);
     return text + std::string(length < width ? width - length : 0, ' ');
@@ -132,7 +139,7 @@ void FileReport::write_ready() {
 void FileReport::write(const Row& row) {
     program_.clear_progress();
     if (!std::exchange(has_head_, true)) write_head();
-    std::string line = padded(row.json.at("file"), width_) + "  ";
+    std::string line = padded(on_one_line(row.json.at("file")), width_) + "  ";
     line += padded(row.json.at("outcome"), kOutcomeWidth);
     for (const FileColumn& column : options_.columns) {
         line += " " + on_the_right(column.text(row.json), column.width);
