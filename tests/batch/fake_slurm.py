@@ -54,7 +54,7 @@ def sbatch():
     for descriptor in range(3):
         os.dup2(null, descriptor)
     before = option("dependency").rpartition(":")[2]
-    while before and running(before):
+    while before and running(before) and os.path.exists(FOLDER):
         time.sleep(0.05)
     run_array(job, sys.argv[-1])
 

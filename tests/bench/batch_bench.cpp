@@ -40,16 +40,18 @@ class Folder {
 
     const fs::path& path() const { return path_; }
 
-    // Runs a command of the shell in the folder, with an empty folder "out".
+    // Runs a command of the shell in a new folder, with an empty folder "out".
     void run(const std::string& command) const {
-        fs::remove_all(path_ / "out");
-        fs::create_directories(path_ / "out");
-        const std::string whole = "cd '" + path_.string() + "' && " + command + " >log 2>&1";
+        const fs::path own = path_ / std::to_string(++runs_);
+        fs::create_directories(own / "out");
+        fs::copy_file(path_ / "job.lua", own / "job.lua");
+        const std::string whole = "cd '" + own.string() + "' && " + command + " >log 2>&1";
         if (std::system(whole.c_str()) != 0) throw std::runtime_error("failed: " + whole);
     }
 
   private:
     fs::path path_;
+    mutable int runs_ = 0;
 };
 
 std::string batch(int jobs, double seconds, const std::string& more) {

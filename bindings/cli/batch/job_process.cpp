@@ -1,11 +1,14 @@
 #include "bindings/cli/batch/job_process.h"
 
 #include <iostream>
+#include <lua.hpp>
 #include <set>
+#include <thread>
 
 #include "bindings/cli/json.h"
 #include "bindings/cli/process/child_process.h"
 #include "bindings/cli/script.h"
+#include "bindings/cli/terminal/script_place.h"
 
 namespace lissom::cli {
 namespace {
@@ -18,13 +21,30 @@ JobTask read_task(const Json& json) {
     return task;
 }
 
+// "file:line: " of the line of the script that runs.
+std::string place_in(const Script& script) {
+    push_script_place(script.lua(), 0);
+    std::string place = lua_tostring(script.lua(), -1);
+    lua_pop(script.lua(), 1);
+    return place;
+}
+
 void run_script_task(Program& program, const JobTask& task, JobNews& news) {
     std::set<std::string> reads = {task.script};
     program.file_used = [&reads](const std::filesystem::path& file, lua::FileUse use) {
         if (use == lua::FileUse::read) reads.insert(file.string());
     };
     Script script(program, {task.script, task.words});
+    const auto counts = program.log_filter;
+    const auto thread = std::this_thread::get_id();
+    program.log_filter = [&](LogLevel level, std::string_view message) {
+        counts(level, message);
+        if (level != LogLevel::warning || std::this_thread::get_id() != thread) return true;
+        std::cerr << "warning: " << place_in(script) << message << std::endl;
+        return false;
+    };
     const ScriptResult result = script.run_file(task.script);
+    program.log_filter = counts;
     for (std::string& file : script.module_files()) reads.insert(std::move(file));
     news.reads.assign(reads.begin(), reads.end());
     news.status = result.status;

@@ -130,7 +130,8 @@ bool is_within_folder(const std::string& file, const fs::path& folder) {
 // Outputs that a batch has made in the folder.
 std::set<fs::path> outputs_in(const fs::path& folder) {
     std::set<fs::path> outputs;
-    for (const auto& [name, record] : Ledger(folder / kBatchFolder / "results").records()) {
+    const Ledger ledger(folder / kBatchFolder / "results");
+    for (const auto& [name, record] : ledger.records()) {
         for (const FileStamp& stamp : record.outputs) outputs.insert(normal_path(stamp.path));
     }
     return outputs;

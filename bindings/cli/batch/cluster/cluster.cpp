@@ -108,7 +108,9 @@ BatchProgress watch(const BatchPlan& plan, BatchState& state, const BatchOptions
         ended = slurm_state(array) == SlurmState::ended;
         asked = Clock::now();
     }
-    return watch.progress();
+    const BatchProgress& progress = watch.progress();
+    if (progress.kept + progress.done == progress.all) cancel(array);
+    return progress;
 }
 
 BatchPlan plan_of_task(const Submission& submission, std::size_t task) {

@@ -121,4 +121,8 @@ SlurmState slurm_state(const SlurmArray& array) {
     return is_forgotten ? SlurmState::ended : SlurmState::unknown;
 }
 
+void cancel(const SlurmArray& array) {
+    if (!array.id.empty()) run_command({"scancel", "--quiet", array.id});
+}
+
 }  // namespace lissom::cli
