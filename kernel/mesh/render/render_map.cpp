@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "kernel/core/error.h"
@@ -160,6 +163,64 @@ std::vector<char> mirrored_faces(const Mesh& mesh) {
     return mirrored;
 }
 
+// Corners in sets that grow together.
+class CornerSets {
+  public:
+    explicit CornerSets(Index count) : parent_(at(count)) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
+    Index first_of(Index corner) {
+        while (parent_[at(corner)] != corner) {
+            corner = parent_[at(corner)] = parent_[at(parent_[at(corner)])];
+        }
+        return corner;
+    }
+    void unite(Index a, Index b) {
+        const Index first = first_of(a), second = first_of(b);
+        parent_[at(std::max(first, second))] = std::min(first, second);
+    }
+
+  private:
+    std::vector<Index> parent_;
+};
+
+// Corners of one render vertex that are joined by edges on which both faces have the same values.
+CornerSets fans_of(const Mesh& mesh, const RenderMap& map) {
+    CornerSets fans(mesh.topology().corner_count());
+    std::unordered_map<std::uint64_t, std::pair<Index, Index>> open;
+    for_each_corner(mesh.topology(), [&](Index f, Index k, Index corner) {
+        const bool is_last = k + 1 == count_of(mesh.topology().face(f));
+        const Index next = is_last ? corner - k : corner + 1;
+        const Index from = map.of_corner[at(corner)], to = map.of_corner[at(next)];
+        const auto found = open.find(pair_key(to, from));
+        if (found == open.end()) {
+            open[pair_key(from, to)] = {corner, next};
+            return;
+        }
+        fans.unite(corner, found->second.second);
+        fans.unite(next, found->second.first);
+    });
+    return fans;
+}
+
+// Gives each fan of faces at a vertex its own render vertex: seams that meet at the vertex part
+// them, though the values there are the same, and each fan has its own tangent.
+void part_fans(const Mesh& mesh, RenderMap& map) {
+    CornerSets fans = fans_of(mesh, map);
+    std::vector<Index> number(map.of_corner.size(), kNoIndex);
+    RenderMap parted{map.topology, {}, {}, {}, {}, 0};
+    for_each_corner(mesh.topology(), [&](Index f, Index k, Index corner) {
+        Index& own = number[at(fans.first_of(corner))];
+        if (own == kNoIndex) {
+            own = parted.size();
+            parted.vertex.push_back(mesh.topology().face(f)[at(k)]);
+            parted.corner.push_back(corner);
+        }
+        parted.of_corner.push_back(own);
+    });
+    map = std::move(parted);
+}
+
 Vec3 normal_at(const Attribute& normals, Index element) {
     const auto n = normals.at(element);
     return {n[0], n[1], n[2]};
@@ -208,6 +269,7 @@ RenderMap render_map(const Mesh& mesh, const Context& context) {
         map.vertex.push_back(v);
         map.corner.push_back(corner);
     });
+    if (!mirrored.empty()) part_fans(mesh, map);
     const Attribute* normals = mesh.attributes().find("normal");
     const bool has_normals = normals && normals->domain == Domain::corner && normals->width == 3;
     number_smooth(map, has_normals,

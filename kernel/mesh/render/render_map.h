@@ -57,8 +57,9 @@ WeldedBuffer weld_buffer(RenderBuffer buffer, const RepairOptions& options = {},
                          const Context& context = {});
 
 /// Returns the render vertices that a mesh needs: one for each vertex and each set of different
-/// values at its corners. Texture coordinates that are mirrored from one face to the next are apart
-/// too, as no tangent fits both. Errors: cancelled; memory_limit.
+/// values at its corners. Where tangents differ, vertices are apart too: between faces with
+/// mirrored texture coordinates, and between the fans of faces that seams part at a vertex. Errors:
+/// cancelled; memory_limit.
 RenderMap render_map(const Mesh& mesh, const Context& context = {});
 
 /// Returns the triangles of `mesh` between render vertices. Errors: topology_mismatch.

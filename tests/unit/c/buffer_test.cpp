@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/render/render_map.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/c/host.h"
 
@@ -132,6 +133,37 @@ std::multiset<std::array<std::uint32_t, 3>> triangle_set(const std::vector<std::
 }
 
 }  // namespace
+
+TEST_CASE("fans of faces that seams part at a vertex have a render vertex and a tangent each") {
+    // Four triangles around a vertex: texture coordinates of two opposite ones are turned, so that
+    // seams run along all four edges although the values at the vertex itself are the same.
+    const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+    FaceList faces;
+    for (const std::array<Index, 3>& face :
+         {std::array<Index, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}) {
+        faces.add(face);
+    }
+    Mesh mesh(points, faces);
+    Attribute uv{"uv", Domain::corner, 2, ScalarType::float64, {}};
+    for (Index f = 0; f < 4; ++f) {
+        for (Index k = 0; k < 3; ++k) {
+            const Vec3& p = mesh.position(mesh.topology().face(f)[at(k)]);
+            const double x = f % 2 == 0 ? p.x() : -p.y(), y = f % 2 == 0 ? p.y() : p.x();
+            uv.values.insert(uv.values.end(), {x, y});
+        }
+    }
+    mesh.attributes().add(std::move(uv));
+    const RenderMap map = render_map(mesh);
+    CHECK(map.size() == 12);
+    const std::vector<Tangent> tangents = render_tangents(map, mesh, "uv");
+    for (Index f = 0; f < 4; ++f) {
+        const Vec3 wanted = f % 2 == 0 ? Vec3(1, 0, 0) : Vec3(0, -1, 0);
+        const Index corner = mesh.topology().first_corner(f);
+        CHECK((tangents[at(map.of_corner[at(corner)])].direction - wanted).norm() < 1e-12);
+    }
+    mesh.attributes().remove("uv");
+    CHECK(render_map(mesh).size() == 5);
+}
 
 TEST_CASE("a buffer with random seams is welded as equal places are, and its vertices come back") {
     for (unsigned seed = 0; seed < 20; ++seed) {
