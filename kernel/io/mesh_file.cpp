@@ -112,9 +112,10 @@ void require_compressible(const Format& format, const SaveOptions& options) {
                         " has none");
     }
     if (options.quantize == 0) return;
-    if (!is_compressed) {
+    if (format.name != "glTF") {
         throw Error(ErrorCode::invalid_argument,
-                    "numbers are quantised in compressed files only; choose a compression too");
+                    "numbers are quantised in glTF files (.glb, .gltf) only, and not in " +
+                        std::string(format.name));
     }
     if (options.quantize >= kMinBits && options.quantize <= kMaxBits) return;
     throw Error(ErrorCode::invalid_argument, std::to_string(options.quantize) +

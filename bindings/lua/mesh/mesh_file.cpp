@@ -117,13 +117,16 @@ std::vector<Function> mesh_file_methods() {
               choice("compression", {"none", "meshopt", "draco"},
                      "Compression of .glb and .gltf: \"meshopt\" (EXT_meshopt_compression) of all "
                      "vertices, morph targets and indices, \"draco\" "
-                     "(KHR_draco_mesh_compression) of objects that have one material. Vertices and "
-                     "faces keep their order.")
+                     "(KHR_draco_mesh_compression). Vertices and faces keep their order, but for "
+                     "vertices of objects that have several materials under \"draco\".")
                   .defaults("none"),
-              integer("quantize",
-                      "Bits of positions in a compressed file, relative to the size of the object: "
-                      "14 keep a 16000th. Texture coordinates have as many, and directions half as "
-                      "many but at least 8; so have morph targets.")
+              integer(
+                  "quantize",
+                  "Bits of positions in a .glb or .gltf file, relative to the size of the object: "
+                  "14 keep a 16000th. Texture coordinates have as many, and directions half as "
+                  "many but at least 8; so have morph targets. Without compression they are "
+                  "integers (KHR_mesh_quantization), but for positions, if these are as fine "
+                  "and the numbers lie from -1 to 1.")
                   .between(6, 20)
                   .optional("all numbers are kept"),
               up_option("The up axis that the file shall have."),

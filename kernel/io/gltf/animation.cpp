@@ -85,23 +85,12 @@ std::size_t add_floats(GltfAsset& asset, const std::vector<float>& values) {
     return asset.accessors.size() - 1;
 }
 
-// For each key a weight of each target.
-std::vector<float> weights_of(const MorphKeys& keys) {
-    const std::size_t width = keys.target_count;
-    std::vector<float> weights(keys.times.size() * width, 0.0f);
-    for (std::size_t k = 0; k < keys.targets.size(); ++k) {
-        if (keys.targets[k] == kNoIndex) continue;
-        weights[k * width + keys.targets[k]] = 1.0f;
-    }
-    return weights;
-}
-
 void add_animation(GltfAsset& asset, const std::vector<std::size_t>& nodes, const MorphKeys& keys) {
     const std::size_t times = add_floats(asset, keys.times);
     asset.accessors[times].json["min"] = Json::array({keys.times.front()});
     asset.accessors[times].json["max"] = Json::array({keys.times.back()});
     const Json sampler = json_object({{"input", times},
-                                      {"output", add_floats(asset, weights_of(keys))},
+                                      {"output", add_floats(asset, keys.weights)},
                                       {"interpolation", keys.is_stepped ? "STEP" : "LINEAR"}});
     Json channels = Json::array();
     for (const std::size_t node : nodes) {

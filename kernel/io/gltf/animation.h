@@ -13,13 +13,11 @@
 
 namespace lissom {
 
-/// One key after another: its time in seconds, and the one morph target, from 0, that has the
-/// weight 1 there, or kNoIndex.
+/// One key after another: its time in seconds, and a weight of each morph target.
 struct MorphKeys {
     std::string name;
     bool is_stepped = false;
-    std::vector<float> times;
-    std::vector<Index> targets;
+    std::vector<float> times, weights;
     Index target_count = 0;
 };
 

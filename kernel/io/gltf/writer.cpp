@@ -98,6 +98,7 @@ class DocumentWriter {
         MeshWriter writer(parts_, attributes_, binary_, context_);
         writer.uses_draco = options_.compression == Compression::draco;
         writer.quantize = options_.quantize;
+        writer.writes_integers = options_.compression == Compression::none;
         if (mesh.face_count() == 0) {
             if (mesh.vertex_count() > 0) write_points(writer);
             return;
@@ -114,6 +115,7 @@ class DocumentWriter {
             progress.update(o, count);
             write_object(objects[o], pools, o, writer);
         }
+        has_integers_ = writer.has_integers();
         writer.float_loss().require_small("glTF", !moves_origin_, context_);
         log_changes(writer);
     }
@@ -125,8 +127,8 @@ class DocumentWriter {
         if (writer.uncompressed() > 0) {
             context_.log(LogLevel::warning,
                          std::to_string(writer.uncompressed()) +
-                             " objects of several materials were not compressed by Draco; "
-                             "meshopt compresses them too");
+                             " objects of several materials were not compressed by Draco: other "
+                             "vertices lie where the materials meet; meshopt compresses them too");
         }
         const Mesh& mesh = parts_.mesh();
         std::size_t alone = 0;
@@ -365,7 +367,9 @@ class DocumentWriter {
     }
 
     void declare_extensions() {
-        const std::vector<std::string> used = extensions_inside(json_);
+        std::vector<std::string> used = extensions_inside(json_);
+        if (has_integers_) used.emplace_back("KHR_mesh_quantization");
+        std::sort(used.begin(), used.end());
         std::set<std::string> required;
         if (const Json* old = member(json_, "extensionsRequired")) {
             for (const Json& name : *old) {
@@ -374,7 +378,8 @@ class DocumentWriter {
                 }
             }
         }
-        for (const std::string name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+        for (const std::string name :
+             {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"}) {
             if (std::find(used.begin(), used.end(), name) != used.end()) required.insert(name);
         }
         json_["extensionsUsed"] = used;
@@ -404,6 +409,7 @@ class DocumentWriter {
     const FaceLabels* objects_ = nullptr;
     const FaceLabels* materials_ = nullptr;
     std::map<std::string, std::size_t> new_materials_;
+    bool has_integers_ = false;
     GltfBinary binary_;
 };
 

@@ -27,7 +27,10 @@ enum class FileOrigin {
 enum class Compression {
     none,
     meshopt,  ///< EXT_meshopt_compression: of all vertices, morph targets and indices
-    draco,    ///< KHR_draco_mesh_compression: of objects that have one material
+    /// KHR_draco_mesh_compression. Of an object with several materials each primitive has its own
+    /// vertices, so that their order changes; if other vertices lie where materials meet, the
+    /// object is not compressed.
+    draco,
 };
 
 /// Conversion of the coordinates of a file to those of the mesh. Normals are turned but not scaled.
@@ -64,11 +67,13 @@ struct SaveOptions {
     /// Writes the normals of the surface (see vertex_normals) for a mesh that has none of its own.
     /// STL has those of its triangles in any case.
     bool normals = false;
-    /// glTF only. Vertices and faces keep their order.
+    /// glTF only. Vertices and faces keep their order, but see Compression::draco.
     Compression compression = Compression::none;
-    /// Bits of positions in a compressed file, relative to the size of the object, 6 to 20: 14 keep
-    /// a 16000th. Texture coordinates have as many, and directions half as many but at least 8; so
-    /// have morph targets. 0 keeps all numbers.
+    /// glTF only. Bits of positions, relative to the size of the object, 6 to 20: 14 keep a
+    /// 16000th. Texture coordinates have as many, and directions half as many but at least 8; so
+    /// have morph targets. 0 keeps all numbers. Without compression, all of them but positions are
+    /// then normalised integers of 8 or 16 bits (KHR_mesh_quantization), if these are as fine and
+    /// the numbers lie from -1 to 1.
     int quantize = 0;
 };
 

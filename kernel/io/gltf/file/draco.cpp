@@ -141,6 +141,16 @@ int add_attribute(draco::Mesh& mesh, const DracoAttribute& attribute, std::size_
     return id;
 }
 
+void quantize(draco::ExpertEncoder& encoder, int id, const DracoAttribute& attribute) {
+    if (attribute.least.empty() || attribute.range <= 0.0f) {
+        encoder.SetAttributeQuantization(id, attribute.bits);
+    } else {
+        encoder.SetAttributeExplicitQuantization(id, attribute.bits,
+                                                 static_cast<int>(attribute.width),
+                                                 attribute.least.data(), attribute.range);
+    }
+}
+
 void add_triangles(draco::Mesh& mesh, const std::vector<std::uint32_t>& indices) {
     mesh.SetNumFaces(indices.size() / 3);
     for (std::size_t f = 0; f < indices.size() / 3; ++f) {
@@ -187,7 +197,7 @@ std::string encode_draco(const std::vector<std::uint32_t>& indices,
     for (std::size_t a = 0; a < attributes.size(); ++a) {
         const bool is_float = attributes[a].type == ScalarType::float32;
         if (attributes[a].bits == 0 || !is_float) continue;
-        encoder.SetAttributeQuantization(static_cast<int>(a), attributes[a].bits);
+        quantize(encoder, static_cast<int>(a), attributes[a]);
     }
     draco::EncoderBuffer buffer;
     const draco::Status status = encoder.EncodeToBuffer(&buffer);

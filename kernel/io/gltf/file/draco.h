@@ -39,6 +39,10 @@ struct DracoAttribute {
     bool is_position = false;
     /// Bits of each number; 0 keeps them exactly.
     int bits = 0;
+    /// Least number of each component and size of the range that the bits divide. Empty: those of
+    /// the numbers.
+    std::vector<float> least;
+    float range = 0.0f;
 };
 
 /// Returns whether this build has the codec.

@@ -1,9 +1,11 @@
 #include "kernel/io/gltf/mesh/mesh_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -33,6 +35,53 @@ std::vector<Index> used_vertices(const std::vector<Index>& corners, std::size_t 
 // The name of a target without offsets.
 constexpr const char* kNoOffsets = "nothing";
 
+// Least number of each component, and the size of the widest range.
+struct NumberRange {
+    std::vector<float> least;
+    float size = 0.0f;
+};
+
+NumberRange range_of(const WrittenNumbers& numbers) {
+    NumberRange range;
+    const auto width = static_cast<std::size_t>(numbers.width);
+    for (std::size_t k = 0; k < width && k < numbers.values.size(); ++k) {
+        double least = numbers.values[k], greatest = least;
+        for (std::size_t i = k; i < numbers.values.size(); i += width) {
+            least = std::min(least, numbers.values[i]);
+            greatest = std::max(greatest, numbers.values[i]);
+        }
+        range.least.push_back(static_cast<float>(least));
+        range.size = std::max(range.size, static_cast<float>(greatest - least));
+    }
+    return range;
+}
+
+// Makes numbers the shortest integers that stand for -1 to 1, or 0 to 1, in their step or finer.
+// Returns false, without a change, if there are none.
+bool narrow(WrittenNumbers& numbers) {
+    struct Form {
+        ScalarType type;
+        double largest, least;
+    };
+    constexpr Form kForms[] = {{ScalarType::int8, 127.0, -1.0},
+                               {ScalarType::uint8, 255.0, 0.0},
+                               {ScalarType::int16, 32767.0, -1.0},
+                               {ScalarType::uint16, 65535.0, 0.0}};
+    if (numbers.step <= 0.0 || numbers.values.empty()) return false;
+    const auto [least, greatest] =
+        std::minmax_element(numbers.values.begin(), numbers.values.end());
+    for (const Form& form : kForms) {
+        const bool holds = *least >= form.least && *greatest <= 1.0;
+        if (!holds || 1.0 / form.largest > numbers.step) continue;
+        for (double& value : numbers.values) value = std::round(value * form.largest) + 0.0;
+        numbers.type = form.type;
+        numbers.normalized = true;
+        numbers.step = 0.0;
+        return true;
+    }
+    return false;
+}
+
 // Accessors written before, by their contents.
 using Written = std::map<std::string, std::size_t>;
 
@@ -54,28 +103,34 @@ class MeshWriter::Object {
         find_steps();
     }
 
-    // A primitive compressed by Draco holds all vertices of the object.
-    void expect_primitives(std::size_t count) {
-        is_packed_ = writer_.uses_draco && count == 1;
-        if (writer_.uses_draco && count > 1) ++writer_.uncompressed_;
+    // A primitive compressed by Draco holds its own vertices: those where materials meet are in
+    // several primitives, and their places tell that they are one.
+    void expect_primitives(const SurfaceObject& object, const VertexPools& pools) {
+        is_packed_ = writer_.uses_draco;
+        is_split_ = is_packed_ && object.primitives.size() > 1;
+        if (!is_split_ || (!writer_.states_copies && tells_apart(object, pools))) return;
+        is_packed_ = is_split_ = false;
+        ++writer_.uncompressed_;
     }
 
     void add_primitive(const SurfacePrimitive& primitive, const VertexPools& pools,
                        const PlacedMaterial& material) {
         const FanWriter fans = triangulated(primitive, pools);
+        std::vector<Index> corners = fans.corners();
+        const std::vector<Index> used = used_vertices(corners, pool_.size());
+        if (is_split_) begin_part(used, corners);
         Json json = beside_surface(material.number);
         if (material.number >= 0) json["material"] = material.number;
         if (fans.has_polygons()) {
             (*json.emplace("extensions", Json::object()).first)["FB_ngon_encoding"] =
                 Json::object();
         }
-        const std::vector<Index> used = used_vertices(fans.corners(), pool_.size());
         json["attributes"] = attributes_of(used, material.uv_count);
         if (Json targets = targets_of(json["attributes"]); !targets.empty()) {
             json["targets"] = std::move(targets);
         }
-        json["indices"] = indices(fans.corners());
-        if (is_packed_) pack(json, fans.corners());
+        json["indices"] = indices(corners);
+        if (is_packed_) pack(json, corners);
         mesh_["primitives"].push_back(std::move(json));
     }
 
@@ -89,11 +144,54 @@ class MeshWriter::Object {
     }
 
     Json finish() {
-        put_extras(mesh_, extras(), pool_.size(), faces_.size());
+        put_extras(mesh_, extras(), is_split_ ? written_vertices_.size() : pool_.size(),
+                   faces_.size());
         return std::move(mesh_);
     }
 
   private:
+    // Whether no other vertex lies where materials meet.
+    bool tells_apart(const SurfaceObject& object, const VertexPools& pools) const {
+        const Topology& topology = writer_.parts_.mesh().topology();
+        const std::vector<char>& shared = writer_.shared_places();
+        std::vector<Index> part_of(pool_.size(), kNoIndex);
+        for (std::size_t p = 0; p < object.primitives.size(); ++p) {
+            for (const Index f : object.primitives[p].faces) {
+                for (std::size_t k = 0; k < topology.face(f).size(); ++k) {
+                    const Index v = pools.vertex_of_corner(topology.first_corner(f) + index_of(k));
+                    const bool meets = part_of[v] != kNoIndex && part_of[v] != index_of(p);
+                    if (meets && shared[pool_.vertices[v]]) return false;
+                    part_of[v] = index_of(p);
+                }
+            }
+        }
+        return true;
+    }
+
+    // Numbers the vertices of the next primitive by themselves.
+    void begin_part(const std::vector<Index>& used, std::vector<Index>& corners) {
+        written_.clear();
+        packed_.clear();
+        joints_.clear();
+        selected_ = used;
+        written_vertices_.insert(written_vertices_.end(), used.begin(), used.end());
+        std::vector<Index> number(pool_.size(), kNoIndex);
+        for (std::size_t i = 0; i < used.size(); ++i) number[used[i]] = index_of(i);
+        for (Index& corner : corners) corner = number[corner];
+    }
+
+    void select(WrittenNumbers& numbers) const {
+        if (!is_split_) return;
+        const auto width = static_cast<std::size_t>(numbers.width);
+        std::vector<double> values;
+        values.reserve(width * selected_.size());
+        for (const Index v : selected_) {
+            const auto first = numbers.values.begin() + static_cast<std::ptrdiff_t>(at(v) * width);
+            values.insert(values.end(), first, first + numbers.width);
+        }
+        numbers.values = std::move(values);
+    }
+
     bool has_value(const Attribute& attribute, const std::vector<Index>& vertices) const {
         return std::any_of(vertices.begin(), vertices.end(),
                            [&](Index v) { return values_.has_value(attribute, v); });
@@ -215,18 +313,29 @@ class MeshWriter::Object {
         if (known != written_.end()) return known->second;
         WrittenNumbers numbers = make();
         if (numbers.type == ScalarType::float32) numbers.step = step_of(semantic);
+        if (writer_.writes_integers && may_be_integers(name, semantic)) {
+            writer_.has_integers_ = narrow(numbers) || writer_.has_integers_;
+        }
         round_to_step(numbers);
-        return written_[name] = add_numbers(name, semantic, std::move(numbers));
+        // Of the whole object, so that a vertex is the same in all primitives.
+        const NumberRange range = range_of(numbers);
+        select(numbers);
+        return written_[name] = add_numbers(name, semantic, std::move(numbers), range);
     }
 
-    std::size_t add_numbers(const std::string& name, GltfSemantic semantic,
-                            WrittenNumbers numbers) {
+    // Positions would need a scale in their node.
+    static bool may_be_integers(const std::string& name, GltfSemantic semantic) {
+        return semantic != GltfSemantic::position || name.starts_with("morph.");
+    }
+
+    std::size_t add_numbers(const std::string& name, GltfSemantic semantic, WrittenNumbers numbers,
+                            const NumberRange& range) {
         const bool with_bounds = semantic == GltfSemantic::position;
         const bool is_target = name.starts_with("morph.") || name == kNoOffsets;
         if (is_target) return writer_.binary_.add_sparse(numbers, with_bounds);
         if (!is_packed_) return writer_.binary_.add(numbers, BufferUse::vertices, with_bounds);
         const std::size_t number = writer_.binary_.add_without_view(numbers, with_bounds);
-        packed_.push_back({number, semantic, std::move(numbers)});
+        packed_.push_back({number, semantic, std::move(numbers), range});
         return number;
     }
 
@@ -241,7 +350,8 @@ class MeshWriter::Object {
             const WrittenNumbers& numbers = packed_[a].numbers;
             attributes.push_back({bytes[a], numbers.width, numbers.type, numbers.normalized,
                                   packed_[a].semantic == GltfSemantic::position,
-                                  bits_of(packed_[a])});
+                                  bits_of(packed_[a]), packed_[a].range.least,
+                                  packed_[a].range.size});
         }
         Json ids = Json::object();
         for (const auto& item : json["attributes"].items()) {
@@ -259,6 +369,7 @@ class MeshWriter::Object {
         std::size_t accessor = 0;
         GltfSemantic semantic = GltfSemantic::position;
         WrittenNumbers numbers;
+        NumberRange range;
     };
 
     // Draco divides the range of the numbers, which directions and positions fill.
@@ -348,7 +459,7 @@ class MeshWriter::Object {
 
     std::size_t indices(const std::vector<Index>& corners) const {
         // The largest number of a type may not be used.
-        const bool is_short = pool_.size() <= 0xffff;
+        const bool is_short = (is_split_ ? selected_.size() : pool_.size()) <= 0xffff;
         WrittenNumbers numbers{1, is_short ? ScalarType::uint16 : ScalarType::uint32, false, {}};
         numbers.values.assign(corners.begin(), corners.end());
         if (is_packed_) return writer_.binary_.add_without_view(numbers, false);
@@ -384,8 +495,10 @@ class MeshWriter::Object {
         if (objects_) add_labels("object", *objects_, result);
         for (const auto& [name, mask] : writer_.regions_) {
             std::vector<Index> inside;
-            for (std::size_t i = 0; i < pool_.size(); ++i) {
-                if (mask[pool_.vertices[i]]) inside.push_back(index_of(i));
+            const std::size_t count = is_split_ ? written_vertices_.size() : pool_.size();
+            for (std::size_t i = 0; i < count; ++i) {
+                const Index v = is_split_ ? written_vertices_[i] : index_of(i);
+                if (mask[pool_.vertices[v]]) inside.push_back(index_of(i));
             }
             if (!inside.empty()) result.regions[name] = std::move(inside);
         }
@@ -413,7 +526,10 @@ class MeshWriter::Object {
     std::vector<std::pair<std::size_t, std::size_t>> joints_;
     std::map<std::size_t, std::vector<const WrittenMorph*>> morphs_;
     std::size_t target_count_ = 0;
-    bool has_joints_ = false, is_packed_ = false;
+    bool has_joints_ = false, is_packed_ = false, is_split_ = false;
+    // Vertices of the pool that the primitive at hand has, and those of all primitives in a row, if
+    // each has its own.
+    std::vector<Index> selected_, written_vertices_;
     double position_step_ = 0.0, direction_step_ = 0.0, uv_step_ = 0.0;
     std::vector<Packed> packed_;
     // Corners of the face at hand, in the node.
@@ -438,10 +554,28 @@ MeshWriter::MeshWriter(SavedParts& parts, const WrittenAttributes& attributes, G
     }
 }
 
+const std::vector<char>& MeshWriter::shared_places() {
+    const Mesh& mesh = parts_.mesh();
+    if (!shared_places_.empty()) return shared_places_;
+    std::vector<Index> order(mesh.positions().size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto place = [&](Index v) {
+        const Eigen::Vector3f p = mesh.position(v).cast<float>();
+        return std::array<float, 3>{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f};
+    };
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return place(a) < place(b); });
+    shared_places_.assign(order.size(), 0);
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        if (place(order[i]) != place(order[i - 1])) continue;
+        shared_places_[order[i]] = shared_places_[order[i - 1]] = 1;
+    }
+    return shared_places_;
+}
+
 Json MeshWriter::write(const SurfaceObject& object, const VertexPools& pools, Index number,
                        const ObjectPlace& place, const std::vector<PlacedMaterial>& materials) {
     Object writer(*this, pools.pool(number), place);
-    writer.expect_primitives(object.primitives.size());
+    writer.expect_primitives(object, pools);
     if (object.is_joined) writer.keep_objects(*parts_.take_labels("object"));
     for (std::size_t p = 0; p < object.primitives.size(); ++p) {
         context_.checkpoint();

@@ -54,7 +54,12 @@ class MeshWriter {
     /// Compression of primitives, and the bits that numbers keep: see SaveOptions.
     bool uses_draco = false;
     int quantize = 0;
-    /// Objects that were not compressed because they have several materials.
+    /// Whether quantised numbers become integers (KHR_mesh_quantization), for files without
+    /// compression; and whether some have.
+    bool writes_integers = false;
+    bool has_integers() const { return has_integers_; }
+    /// Objects that were not compressed: other vertices lie where their materials meet, so that the
+    /// parts of a vertex in the primitives could not be told apart.
     std::size_t uncompressed() const { return uncompressed_; }
     /// Whether the meshes state their duplicate vertices.
     bool states_copies = false;
@@ -66,14 +71,19 @@ class MeshWriter {
   private:
     class Object;
 
+    // For each vertex of the mesh, whether another lies at its place.
+    const std::vector<char>& shared_places();
+
     SavedParts& parts_;
     const WrittenAttributes& attributes_;
     GltfBinary& binary_;
     const Context& context_;
     std::vector<std::pair<std::string, const FaceLabels*>> labels_;
     std::vector<std::pair<std::string, std::vector<char>>> regions_;
+    std::vector<char> shared_places_;
     FloatLoss float_loss_;
     std::size_t lost_tangents_ = 0, uncompressed_ = 0;
+    bool has_integers_ = false;
 };
 
 }  // namespace lissom
