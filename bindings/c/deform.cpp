@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "bindings/c/data.h"
 #include "bindings/c/jobs.h"
@@ -82,6 +84,59 @@ lissom_deform_report told_report(lissom_context& context, const DeformReport& fo
     }
     told.warnings = context.text.c_str();
     return told;
+}
+
+// ---- Bases, in the host's space
+
+Eigen::Vector3f in_host(const Space& space, const Eigen::Vector3f& v) {
+    return space.to_host(v.cast<double>()).cast<float>();
+}
+
+// The axes of both spaces are the same up to order and sign: nothing is rounded.
+EngineBasis host_basis(lissom_context& context, Deformer& deformer) {
+    EngineBasis basis = make_engine_basis(deformer, {}, context.kernel);
+    const Space& space = context.space;
+    basis.origin = space.to_host(basis.origin);
+    for (EngineHandle& handle : basis.handles) handle.center = in_host(space, handle.center);
+    for (Eigen::Vector3f& p : basis.rest) p = in_host(space, p);
+    for (auto& weights : basis.weights) {
+        for (Eigen::Vector4f& w : weights) w.head<3>() = in_host(space, w.head<3>());
+    }
+    return basis;
+}
+
+Affine host_affine(const lissom_transform& transform) {
+    Affine map;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) map.linear(r, c) = transform.m[4 * r + c];
+        map.translation[r] = transform.m[4 * r + 3];
+    }
+    return map;
+}
+
+std::vector<std::vector<Affine>> key_poses(const lissom_context& context, const Deformer& deformer,
+                                           std::span<const lissom_transform> transforms,
+                                           std::size_t count) {
+    const std::size_t handles = deformer.handles().size();
+    require(count <= kMaxBasisKeys, "there are more than 256 key poses");
+    require(transforms.size() == count * handles,
+            "there must be a transform for each key and handle");
+    std::vector<std::vector<Affine>> poses(count);
+    for (std::size_t i = 0; i < transforms.size(); ++i) {
+        poses[i / handles].push_back(context.space.to_kernel(transforms[i]));
+    }
+    return poses;
+}
+
+// Key poses with the host's transforms and positions.
+std::vector<BasisKey> host_keys(const lissom_context& context, std::vector<BasisKey> keys,
+                                std::span<const lissom_transform> transforms) {
+    std::size_t next = 0;
+    for (BasisKey& key : keys) {
+        for (Affine& map : key.transforms) map = host_affine(transforms[next++]);
+        for (Vec3& p : key.positions) p = context.space.to_host(p);
+    }
+    return keys;
 }
 
 }  // namespace
@@ -313,10 +368,22 @@ lissom_status lissom_deformer_rebase(lissom_context* context, lissom_deformer de
 
 lissom_status lissom_deformer_encode_basis(lissom_context* context, lissom_deformer deformer,
                                            lissom_bytes* bytes) {
+    return lissom_deformer_encode_keyed_basis(context, deformer, nullptr, 0, 0, bytes);
+}
+
+lissom_status lissom_deformer_encode_keyed_basis(lissom_context* context, lissom_deformer deformer,
+                                                 const lissom_transform* transforms,
+                                                 size_t transform_count, size_t key_count,
+                                                 lissom_bytes* bytes) {
     return run(context, [&] {
         require_given(bytes, "bytes");
-        context->bytes =
-            encode_basis(make_engine_basis(deformer_of(*context, deformer), {}, context->kernel));
+        if (transform_count > 0) require_given(transforms, "transforms");
+        const std::span<const lissom_transform> given(transforms, transform_count);
+        Deformer& own = deformer_of(*context, deformer);
+        const auto poses = key_poses(*context, own, given, key_count);
+        EngineBasis basis = host_basis(*context, own);
+        set_keys(basis, host_keys(*context, make_basis_keys(own, poses, context->kernel), given));
+        context->bytes = encode_basis(basis);
         *bytes = {context->bytes.data(), context->bytes.size()};
     });
 }

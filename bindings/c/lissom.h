@@ -479,7 +479,7 @@ typedef enum lissom_weld {
 typedef enum lissom_compression {
     LISSOM_COMPRESSION_NONE = 0,
     LISSOM_COMPRESSION_MESHOPT = 1,  ///< EXT_meshopt_compression
-    LISSOM_COMPRESSION_DRACO = 2     ///< KHR_draco_mesh_compression, of objects of one material
+    LISSOM_COMPRESSION_DRACO = 2     ///< KHR_draco_mesh_compression
 } lissom_compression;
 
 typedef struct lissom_mesh_load_options {
@@ -958,6 +958,16 @@ LISSOM_API lissom_status lissom_deformer_rebase(lissom_context* context, lissom_
 LISSOM_API lissom_status lissom_deformer_encode_basis(lissom_context* context,
                                                       lissom_deformer deformer,
                                                       lissom_bytes* bytes);
+/// Encodes the handle basis with key poses, at which lissom_basis.h gives the result of
+/// LISSOM_FULL, and between which it blends by the pose. `transforms` has one for each handle in
+/// the order they were added, key after key; the deformer is as before afterwards. Errors: as
+/// prepare and lissom_deformer_set_transform; INVALID_ARGUMENT for more than 256 keys, for another
+/// number of transforms, and for two keys of one pose.
+LISSOM_API lissom_status lissom_deformer_encode_keyed_basis(lissom_context* context,
+                                                            lissom_deformer deformer,
+                                                            const lissom_transform* transforms,
+                                                            size_t transform_count,
+                                                            size_t key_count, lissom_bytes* bytes);
 
 // ---- Cutting
 

@@ -13,13 +13,17 @@
 ///     lissom_basis_identity(transforms[0]);               // the first handle stays
 ///     lissom_basis_local(&basis, wanted, transforms[1]);  // the second is moved by `wanted`
 ///     lissom_basis_evaluate(&basis, transforms[0], 0, basis.vertex_count, out, 3 * sizeof(float));
+///
 /// Accuracy
-///     The result is that of `deformer:preview()`, the first system of the method, to the rounding
-///     of floats: 4e-7 of `size` for handles that move about as far as the surface is large. It
-///     follows a drag and has some shear if handles turn far; `deformer:solve()` takes the shear
-///     out and cannot be written as a sum of matrices. With every handle at the identity the result
-///     is the rest shape, to the bit. Normals are not part of a basis: `lissom_basis_normals` makes
-///     them from the positions.
+///     Without key poses the result is that of `deformer:preview()`, the first system of the
+///     method, to the rounding of floats: 4e-7 of `size` for handles that move about as far as the
+///     surface is large. It follows a drag and has some shear if handles turn far;
+///     `deformer:solve()` takes the shear out and cannot be written as a sum of matrices. With
+///     every handle at the identity the result is the rest shape, to the bit. Normals are not part
+///     of a basis: `lissom_basis_normals` makes them from the positions. A basis with key poses
+///     holds the offset of `solve()` at each of them. There the result is that of `solve()`, to
+///     1e-5 of `size`; between them the offsets are blended by the pose, and beyond their range
+///     they stay. Turns of handles are told apart up to half a turn.
 ///
 /// Coordinates
 ///     Positions and transforms are relative to `origin`, the middle of the surface, so that floats
@@ -56,6 +60,23 @@
 ///     The weights begin at a multiple of 16 bytes and can be given to a graphics card as they are:
 ///     see examples/engine/basis.vert.
 ///
+/// Key poses, if there are any, at the next multiple of 16 bytes behind the basis
+///           0      8  "LSMBKEYS"
+///           8      4  uint32: keys K, 1 to 256
+///          12      4  uint32: nodes N: K, or K + 1 if the rest pose is no key
+///          16      4  uint32: axes D, at most K
+///          20      4  0
+///          24      8  uint64: bytes of this part, 32 + 8 (D (12 H + 2 + N) + (N + D + 1) K) + 12 K
+///          n 32         doubles: D axes of 12 H numbers; the least and then the greatest
+///          coordinate of
+///                     the keys along each; N nodes of D coordinates; N + D + 1 rows of K numbers
+///            12 K n   for each key, for each vertex, 3 floats: offset
+///     The 12 numbers of a handle are its turn as a rotation vector; the way of its center, in
+///     units of `size`; and the upper triangle of its stretch less 1, row by row. Turn and stretch
+///     are the factors of its matrix by Gram and Schmidt. A pose has the coordinates c = axes *
+///     numbers, each held between the least and the greatest. The rows are the weights that the
+///     cubed distance to each node, each coordinate, and the number 1 add to each key.
+///
 /// MIT license, as all of Lissom.
 #pragma once
 
@@ -70,6 +91,7 @@
 #endif
 
 #define LISSOM_BASIS_VERSION 1u
+#define LISSOM_BASIS_MAX_KEYS 256u
 
 /// Result of `lissom_basis_open`.
 typedef enum lissom_basis_status {
@@ -112,12 +134,19 @@ typedef struct lissom_basis {
     /// 4 floats a vertex, handle after handle.
     const float* weights;
     const char* names;
+    /// Key poses: 0 for a basis without them. Nodes and axes of their space.
+    uint32_t key_count, node_count, axis_count;
+    /// 3 floats a vertex, key after key: offsets from the basis.
+    const float* corrections;
+    /// Axes, ranges, nodes and rows of weights, as in the file: doubles at a multiple of 4 bytes.
+    const unsigned char* key_numbers;
 } lissom_basis;
 
 // ---- Private
 
 #define LISSOM_BASIS__HEADER 64u
 #define LISSOM_BASIS__BLOCK 64u
+#define LISSOM_BASIS__KEYS_HEADER 32u
 
 LISSOM_BASIS_API uint32_t lissom_basis__u32(const unsigned char* at) {
     return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
@@ -170,18 +199,68 @@ LISSOM_BASIS_API void lissom_basis__copy_double(const unsigned char* from, doubl
     *to = value.number;
 }
 
+LISSOM_BASIS_API double lissom_basis__double(const unsigned char* from, uint64_t index) {
+    double number;
+    lissom_basis__copy_double(from + 8 * index, &number);
+    return number;
+}
+
+/// Opens the key poses behind a basis, if there are any.
+LISSOM_BASIS_API lissom_basis_status lissom_basis__open_keys(lissom_basis* basis,
+                                                             const unsigned char* bytes,
+                                                             uint64_t size) {
+    static const unsigned char magic[8] = {'L', 'S', 'M', 'B', 'K', 'E', 'Y', 'S'};
+    const uint64_t handles = basis->handle_count, vertices = basis->vertex_count;
+    uint64_t keys, nodes, axes, doubles, i;
+    basis->key_count = basis->node_count = basis->axis_count = 0;
+    basis->corrections = 0;
+    basis->key_numbers = 0;
+    for (i = 0; i < 8; ++i) {
+        if (i >= size || bytes[i] != magic[i]) return LISSOM_BASIS_OK;
+    }
+    if (size < LISSOM_BASIS__KEYS_HEADER) return LISSOM_BASIS_TRUNCATED;
+    keys = lissom_basis__u32(bytes + 8);
+    nodes = lissom_basis__u32(bytes + 12);
+    axes = lissom_basis__u32(bytes + 16);
+    if (keys == 0 || keys > LISSOM_BASIS_MAX_KEYS || nodes < keys || nodes > keys + 1 ||
+        axes > keys) {
+        return LISSOM_BASIS_DAMAGED;
+    }
+    doubles = axes * (12 * handles + 2 + nodes) + (nodes + axes + 1) * keys;
+    if (lissom_basis__u64(bytes + 24) !=
+        LISSOM_BASIS__KEYS_HEADER + 8 * doubles + 12 * keys * vertices) {
+        return LISSOM_BASIS_DAMAGED;
+    }
+    if (size < lissom_basis__u64(bytes + 24)) return LISSOM_BASIS_TRUNCATED;
+    bytes += LISSOM_BASIS__KEYS_HEADER;
+    for (i = 0; i < doubles; ++i) {
+        const double number = lissom_basis__double(bytes, i);
+        if (!(number - number == 0.0)) return LISSOM_BASIS_DAMAGED;
+    }
+    if (!lissom_basis__finite(bytes + 8 * doubles, 3 * keys * vertices)) {
+        return LISSOM_BASIS_DAMAGED;
+    }
+    basis->key_count = (uint32_t)keys;
+    basis->node_count = (uint32_t)nodes;
+    basis->axis_count = (uint32_t)axes;
+    basis->key_numbers = bytes;
+    basis->corrections = (const float*)(const void*)(bytes + 8 * doubles);
+    return LISSOM_BASIS_OK;
+}
+
 // ---- Opening
 
 /// Opens the basis in `size` bytes of memory, which begin at a multiple of 4 bytes, as all memory
 /// of malloc does. Checks everything: the functions below stay inside the memory for any content.
 /// Reads all numbers once. Changes `basis` only if it returns LISSOM_BASIS_OK. Bytes behind the
-/// basis do no harm.
+/// basis do no harm, unless they begin as key poses do and are none.
 LISSOM_BASIS_API lissom_basis_status lissom_basis_open(lissom_basis* basis, const void* memory,
                                                        size_t size) {
     static const unsigned char magic[8] = {'L', 'S', 'M', 'B', 'A', 'S', 'I', 'S'};
     const unsigned char* const bytes = (const unsigned char*)memory;
     lissom_basis found;
     uint64_t handles, vertices, names, total, blocks;
+    lissom_basis_status status;
     int i;
 
     if (!lissom_basis__machine_fits()) return LISSOM_BASIS_UNSUPPORTED_MACHINE;
@@ -232,8 +311,11 @@ LISSOM_BASIS_API lissom_basis_status lissom_basis_open(lissom_basis* basis, cons
             return LISSOM_BASIS_DAMAGED;
         }
     }
-    *basis = found;
-    return LISSOM_BASIS_OK;
+    total = (total + 15) / 16 * 16;
+    if (total > size) total = size;
+    status = lissom_basis__open_keys(&found, bytes + total, size - total);
+    if (status == LISSOM_BASIS_OK) *basis = found;
+    return status;
 }
 
 /// Returns the meaning of a status, in a few words.
@@ -295,6 +377,180 @@ LISSOM_BASIS_API void lissom_basis_local(const lissom_basis* basis, const double
     }
 }
 
+// ---- Key poses
+
+/* The square root of a number that is not negative, by Newton's method from half its exponent. */
+LISSOM_BASIS_API double lissom_basis__root_of(double square) {
+    union {
+        double number;
+        uint64_t bits;
+    } root;
+    int i;
+    if (!(square > 1e-290)) return square - square == 0.0 ? 0.0 : square;
+    if (!(square - square == 0.0)) return square;
+    root.number = square;
+    root.bits = (root.bits >> 1) + ((uint64_t)1023 << 51);
+    for (i = 0; i < 5; ++i) root.number = 0.5 * (root.number + square / root.number);
+    return root.number;
+}
+
+/* Scales to length one and returns the length; zero if it has none. */
+LISSOM_BASIS_API double lissom_basis__unit(double* v) {
+    const double length = lissom_basis__root_of(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    int i;
+    for (i = 0; i < 3; ++i) v[i] = length > 0.0 ? v[i] / length : 0.0;
+    return length;
+}
+
+/* The angle of the direction (x, y) from the x axis, neither negative: its tangent is halved until
+ * the series of the arc tangent is short. */
+LISSOM_BASIS_API double lissom_basis__arc(double y, double x) {
+    const int steep = y > x;
+    double t = steep ? x / y : y / x, power, sum = 0.0, factor = 1.0;
+    int i;
+    for (i = 0; i < 3; ++i) {
+        t = t / (1.0 + lissom_basis__root_of(1.0 + t * t));
+        factor *= 2.0;
+    }
+    power = t;
+    for (i = 0; i < 9; ++i) {
+        sum += (i % 2 == 0 ? power : -power) / (2 * i + 1);
+        power *= t * t;
+    }
+    sum *= factor;
+    return steep ? 1.57079632679489661923 - sum : sum;
+}
+
+/* The rotation vector of the rotation with these columns, at most half a turn. */
+LISSOM_BASIS_API void lissom_basis__turn(const double c[3][3], double turn[3]) {
+    const double squares[4] = {1 + c[0][0] + c[1][1] + c[2][2], 1 + c[0][0] - c[1][1] - c[2][2],
+                               1 - c[0][0] + c[1][1] - c[2][2], 1 - c[0][0] - c[1][1] + c[2][2]};
+    const double x = c[1][2] - c[2][1], y = c[2][0] - c[0][2], z = c[0][1] - c[1][0];
+    const double xy = c[0][1] + c[1][0], xz = c[0][2] + c[2][0], yz = c[1][2] + c[2][1];
+    const double q[4][4] = {{squares[0], x, y, z},
+                            {x, squares[1], xy, xz},
+                            {y, xy, squares[2], yz},
+                            {z, xz, yz, squares[3]}};
+    double length, w, angle;
+    int largest = 0, i, back = 0;
+    for (i = 1; i < 4; ++i) {
+        if (squares[i] > squares[largest]) largest = i;
+    }
+    for (i = 0; i < 3; ++i) turn[i] = q[largest][i + 1];
+    length = lissom_basis__unit(turn);
+    if (!(length > 0.0)) return;
+    w = q[largest][0] < 0.0 ? -q[largest][0] : q[largest][0];
+    if (w <= 1e-4 * length) {
+        /* Half a turn one way is half a turn the other way. */
+        for (i = 2; i >= 0; --i) {
+            if (turn[i] > 0.51) back = 0;
+            if (turn[i] < -0.51) back = 1;
+        }
+    } else {
+        back = q[largest][0] < 0.0;
+    }
+    angle = 2.0 * lissom_basis__arc(length, w);
+    for (i = 0; i < 3; ++i) turn[i] *= back ? -angle : angle;
+}
+
+/* The 12 numbers of a handle's pose. */
+LISSOM_BASIS_API void lissom_basis__pose(const lissom_basis* basis, uint32_t handle,
+                                         const float* transform, double pose[12]) {
+    const float* const center = basis->handles[handle].center;
+    const double size = basis->size > 0.0f ? (double)basis->size : 1.0;
+    double columns[3][3], turn[3][3], along;
+    int r, c, k = 6;
+    for (c = 0; c < 3; ++c) {
+        for (r = 0; r < 3; ++r) turn[c][r] = columns[c][r] = (double)transform[4 * r + c];
+    }
+    (void)lissom_basis__unit(turn[0]);
+    along = turn[0][0] * turn[1][0] + turn[0][1] * turn[1][1] + turn[0][2] * turn[1][2];
+    for (r = 0; r < 3; ++r) turn[1][r] -= along * turn[0][r];
+    (void)lissom_basis__unit(turn[1]);
+    for (r = 0; r < 3; ++r) {
+        turn[2][r] = turn[0][(r + 1) % 3] * turn[1][(r + 2) % 3] -
+                     turn[0][(r + 2) % 3] * turn[1][(r + 1) % 3];
+    }
+    lissom_basis__turn((const double(*)[3])turn, pose);
+    for (r = 0; r < 3; ++r) {
+        double moved = (double)transform[4 * r + 3] - (double)center[r];
+        for (c = 0; c < 3; ++c) moved += columns[c][r] * (double)center[c];
+        pose[3 + r] = moved / size;
+    }
+    for (r = 0; r < 3; ++r) {
+        for (c = r; c < 3; ++c) {
+            pose[k++] = turn[r][0] * columns[c][0] + turn[r][1] * columns[c][1] +
+                        turn[r][2] * columns[c][2] - (r == c ? 1.0 : 0.0);
+        }
+    }
+}
+
+LISSOM_BASIS_API int lissom_basis__is_identity(const float* transform) {
+    int i;
+    for (i = 0; i < 12; ++i) {
+        if (transform[i] != (i % 5 == 0 ? 1.0f : 0.0f)) return 0;
+    }
+    return 1;
+}
+
+/* Coordinates of a pose along the axes of the keys, held within their range. */
+LISSOM_BASIS_API void lissom_basis__coordinates(const lissom_basis* basis, const float* transforms,
+                                                double* at) {
+    const unsigned char* const ranges =
+        basis->key_numbers + 96 * (size_t)basis->handle_count * basis->axis_count;
+    uint32_t h, d, i;
+    for (d = 0; d < basis->axis_count; ++d) at[d] = 0.0;
+    for (h = 0; h < basis->handle_count; ++h) {
+        double pose[12];
+        lissom_basis__pose(basis, h, transforms + 12 * (size_t)h, pose);
+        for (d = 0; d < basis->axis_count; ++d) {
+            const uint64_t first = 12 * ((uint64_t)d * basis->handle_count + h);
+            for (i = 0; i < 12; ++i) {
+                at[d] += pose[i] * lissom_basis__double(basis->key_numbers, first + i);
+            }
+        }
+    }
+    for (d = 0; d < basis->axis_count; ++d) {
+        const double least = lissom_basis__double(ranges, d);
+        const double greatest = lissom_basis__double(ranges, (uint64_t)basis->axis_count + d);
+        if (at[d] < least) at[d] = least;
+        if (at[d] > greatest) at[d] = greatest;
+    }
+}
+
+/// Writes the weight of each key at a pose, `key_count` floats, for vertex shaders:
+/// `lissom_basis_evaluate` finds them by itself. `transforms` has 12 floats a handle.
+LISSOM_BASIS_API void lissom_basis_key_weights(const lissom_basis* basis, const float* transforms,
+                                               float* weights) {
+    const uint32_t keys = basis->key_count, nodes = basis->node_count, axes = basis->axis_count;
+    double at[LISSOM_BASIS_MAX_KEYS], sums[LISSOM_BASIS_MAX_KEYS];
+    const unsigned char *places, *rows;
+    uint32_t k, n, d, h, rests = nodes > keys;
+    for (k = 0; k < keys; ++k) weights[k] = 0.0f;
+    for (h = 0; h < basis->handle_count && rests; ++h) {
+        rests = (uint32_t)lissom_basis__is_identity(transforms + 12 * (size_t)h);
+    }
+    if (keys == 0 || rests) return;
+    lissom_basis__coordinates(basis, transforms, at);
+    places = basis->key_numbers + 8 * ((size_t)axes * (12 * (size_t)basis->handle_count + 2));
+    rows = places + 8 * (size_t)nodes * axes;
+    for (k = 0; k < keys; ++k) sums[k] = 0.0;
+    for (n = 0; n < nodes + axes + 1; ++n) {
+        double value = n < nodes ? 0.0 : n < nodes + axes ? at[n - nodes] : 1.0;
+        if (n < nodes) {
+            for (d = 0; d < axes; ++d) {
+                const double way = lissom_basis__double(places, (uint64_t)n * axes + d) - at[d];
+                value += way * way;
+            }
+            value *= lissom_basis__root_of(value);
+        }
+        for (k = 0; k < keys; ++k) {
+            sums[k] += value * lissom_basis__double(rows, (uint64_t)n * keys + k);
+        }
+    }
+    for (k = 0; k < keys; ++k) weights[k] = (float)sums[k];
+}
+
 // ---- Evaluation
 
 /// Adds to `count` points x the displacement by one handle, for the vertices from `first` on.
@@ -312,19 +568,12 @@ LISSOM_BASIS_API void lissom_basis__add(const float* transform, const float* wei
     }
 }
 
-LISSOM_BASIS_API int lissom_basis__is_identity(const float* transform) {
-    int i;
-    for (i = 0; i < 12; ++i) {
-        if (transform[i] != (i % 5 == 0 ? 1.0f : 0.0f)) return 0;
-    }
-    return 1;
-}
-
 /// Evaluates up to LISSOM_BASIS__BLOCK vertices from `first` on.
 LISSOM_BASIS_API void lissom_basis__block(const lissom_basis* basis, const float* transforms,
-                                          uint32_t first, uint32_t count, float* x) {
+                                          const float* key_weights, uint32_t first, uint32_t count,
+                                          float* x) {
     const float* const rest = basis->rest + 3 * (size_t)first;
-    uint32_t i, h;
+    uint32_t i, h, k;
     for (i = 0; i < 3 * count; ++i) x[i] = rest[i];
     for (h = 0; h < basis->handle_count; ++h) {
         const float* const transform = transforms + 12 * (size_t)h;
@@ -332,20 +581,28 @@ LISSOM_BASIS_API void lissom_basis__block(const lissom_basis* basis, const float
         if (lissom_basis__is_identity(transform)) continue;
         lissom_basis__add(transform, basis->weights + 4 * row, count, x);
     }
+    for (k = 0; k < basis->key_count; ++k) {
+        const float weight = key_weights[k];
+        const float* const offsets =
+            basis->corrections + 3 * ((size_t)k * basis->vertex_count + first);
+        if (weight == 0.0f) continue;
+        for (i = 0; i < 3 * count; ++i) x[i] += weight * offsets[i];
+    }
 }
 
 LISSOM_BASIS_API void lissom_basis__run(const lissom_basis* basis, const float* transforms,
                                         uint32_t first, uint32_t count, float* out,
                                         size_t stride_bytes, int scatter) {
-    float x[3 * LISSOM_BASIS__BLOCK];
+    float x[3 * LISSOM_BASIS__BLOCK], key_weights[LISSOM_BASIS_MAX_KEYS];
     uint32_t done, i;
     int c;
+    lissom_basis_key_weights(basis, transforms, key_weights);
     if (first > basis->vertex_count) first = basis->vertex_count;
     if (count > basis->vertex_count - first) count = basis->vertex_count - first;
     for (done = 0; done < count; done += LISSOM_BASIS__BLOCK) {
         const uint32_t left = count - done;
         const uint32_t block = left < LISSOM_BASIS__BLOCK ? left : LISSOM_BASIS__BLOCK;
-        lissom_basis__block(basis, transforms, first + done, block, x);
+        lissom_basis__block(basis, transforms, key_weights, first + done, block, x);
         for (i = 0; i < block; ++i) {
             const size_t place = scatter ? basis->vertices[first + done + i] : (size_t)done + i;
             float* const to = (float*)(void*)((unsigned char*)out + place * stride_bytes);

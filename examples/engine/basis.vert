@@ -11,6 +11,9 @@
 //   weights         a texture of format RGBA32F with GL_NEAREST, as many texels wide as you like: `weights`
 //                   of the basis, row after row of the texture, 16 bytes a texel.
 //   vertex_count, handle_count     as in the basis.
+//   corrections     of a basis with key poses: `corrections` in a texture of format RGB32F, laid out likewise, 12
+//                   bytes a texel; key_count as in the basis, 0 without keys; key_weights from
+//                   lissom_basis_key_weights, for each frame. `#define MAX_KEYS n` for more than 32.
 //   transforms      3 rows a handle, relative to the origin: what lissom_basis_local writes.
 //   to_clip         from the space of the mesh, moved so that the origin of the basis is at 0, to the screen.
 //
@@ -26,11 +29,16 @@ precision highp sampler2D;
 #define MAX_HANDLES 8
 #endif
 
+#ifndef MAX_KEYS
+#define MAX_KEYS 32
+#endif
+
 layout(location = 0) in vec3 rest;
 layout(location = 1) in float basis_row;
 
-uniform sampler2D weights;
-uniform int vertex_count, handle_count;
+uniform sampler2D weights, corrections;
+uniform int vertex_count, handle_count, key_count;
+uniform float key_weights[MAX_KEYS];
 uniform vec4 transforms[3 * MAX_HANDLES];
 uniform mat4 to_clip;
 
@@ -41,7 +49,12 @@ vec4 weight_of(int handle, int row) {
     return texelFetch(weights, ivec2(texel % width, texel / width), 0);
 }
 
-// rest + sum over handles of (T - I) weight.
+vec3 correction_of(int key, int row) {
+    int texel = key * vertex_count + row, width = textureSize(corrections, 0).x;
+    return texelFetch(corrections, ivec2(texel % width, texel / width), 0).xyz;
+}
+
+// rest + sum over handles of (T - I) weight + sum over keys of weight correction.
 vec3 moved(vec3 position, int row) {
     for (int h = 0; h < handle_count; ++h) {
         vec4 weight = weight_of(h, row);
@@ -49,6 +62,7 @@ vec3 moved(vec3 position, int row) {
                          dot(transforms[3 * h + 1] - vec4(0, 1, 0, 0), weight),
                          dot(transforms[3 * h + 2] - vec4(0, 0, 1, 0), weight));
     }
+    for (int k = 0; k < key_count; ++k) position += key_weights[k] * correction_of(k, row);
     return position;
 }
 

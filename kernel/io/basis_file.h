@@ -13,6 +13,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/io/basis_keys.h"
 
 namespace lissom {
 
@@ -39,8 +40,10 @@ struct EngineBasis {
     std::vector<Eigen::Vector3f> rest;
     /// Weights: for each handle one 4-vector a row.
     std::vector<std::vector<Eigen::Vector4f>> weights;
+    /// Corrections at key poses; empty for the basis alone.
+    EngineKeys keys;
 
-    /// Positions for transforms of the mesh's space, one a handle.
+    /// Returns positions for transforms of the mesh's space, one a handle, with the corrections.
     /// Errors: invalid_argument for another number of transforms.
     std::vector<Vec3> positions(std::span<const Affine> transforms) const;
 };
@@ -51,6 +54,12 @@ struct EngineBasis {
 /// vertices whose values exceed the range of floats.
 EngineBasis make_engine_basis(Deformer& deformer, std::span<const std::string> names = {},
                               const Context& context = {});
+
+/// Adds corrections, so that at each key the positions are those of the key, and between them the
+/// offsets are blended by the pose; see EngineKeys. Replaces keys that the basis had. Errors:
+/// invalid_argument for more than kMaxBasisKeys, for keys that do not fit the basis, and for two of
+/// the same pose.
+void set_keys(EngineBasis& basis, std::span<const BasisKey> keys);
 
 /// Writes a basis file, whole or not at all. Errors: file_write_failed, file_is_directory;
 /// invalid_argument if the lists do not fit each other; cancelled.

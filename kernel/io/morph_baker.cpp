@@ -9,6 +9,7 @@
 #include "kernel/core/error.h"
 #include "kernel/io/gltf/animation.h"
 #include "kernel/io/gltf/mesh/names.h"
+#include "kernel/io/shape_sums.h"
 #include "kernel/mesh/measure/measures.h"
 
 namespace lissom {
@@ -60,6 +61,13 @@ std::size_t hash_of(const std::vector<float>& values) {
     return std::hash<std::string_view>()(bytes);
 }
 
+// Each shape is its own target.
+std::vector<std::vector<float>> unit_weights(std::size_t count) {
+    std::vector<std::vector<float>> weights(count, std::vector<float>(count, 0.0f));
+    for (std::size_t t = 0; t < count; ++t) weights[t][t] = 1.0f;
+    return weights;
+}
+
 }  // namespace
 
 MorphBaker::MorphBaker(const Mesh& rest, const Region& moving, BakeOptions options, Context context)
@@ -67,6 +75,9 @@ MorphBaker::MorphBaker(const Mesh& rest, const Region& moving, BakeOptions optio
     require_same_topology(rest, moving.topology(), "the region");
     if (rest.face_count() == 0) {
         throw Error(ErrorCode::unsupported, "a mesh without faces cannot be baked");
+    }
+    if (!is_length(options_.tolerance)) {
+        throw Error(ErrorCode::invalid_argument, "the tolerance must be finite and not negative");
     }
     drop_morphs(rest_, context_);
     moves_ = flags_around(moving);
@@ -166,8 +177,7 @@ void MorphBaker::add(double time, const Mesh& shape) {
 }
 
 // Elements that do not move have no value: objects without any have no targets.
-void MorphBaker::write_target(Index target, Mesh& mesh) const {
-    const std::vector<float>& values = targets_[target];
+void MorphBaker::write_target(Index target, const std::vector<float>& values, Mesh& mesh) const {
     const std::string prefix = "morph." + std::to_string(target + 1) + ".";
     std::size_t at = 0;
     for (const Channel& channel : channels_) {
@@ -182,16 +192,46 @@ void MorphBaker::write_target(Index target, Mesh& mesh) const {
     }
 }
 
-Mesh MorphBaker::finish() const {
+// For each key the weights of its shape; none of the rest shape.
+std::vector<float> MorphBaker::key_weights(const std::vector<std::vector<float>>& weights) const {
+    std::vector<float> result;
+    for (const Index shape : key_target_) {
+        if (shape == kNoIndex) {
+            result.resize(result.size() + weights.front().size(), 0.0f);
+        } else {
+            result.insert(result.end(), weights[shape].begin(), weights[shape].end());
+        }
+    }
+    return result;
+}
+
+Mesh MorphBaker::finish(BakeReport* report) const {
     if (times_.empty()) {
         throw Error(ErrorCode::invalid_argument, "there is no shape to bake; add one");
     }
+    ShapeTolerance tolerance;
+    tolerance.position_numbers = 3 * channels_.front().elements.size();
+    tolerance.position = options_.tolerance;
+    const bool reduces = options_.tolerance > 0.0;
+    ShapeSums sums;
+    if (reduces) {
+        sums = sum_shapes(targets_, tolerance, context_);
+    } else {
+        sums.weights = unit_weights(targets_.size());
+    }
+    const std::vector<std::vector<float>>& targets = reduces ? sums.parts : targets_;
     Mesh mesh = rest_;
-    for (Index t = 0; t < target_count(); ++t) write_target(t, mesh);
-    mesh.set_asset(
-        with_morph_animation(mesh, moves_,
-                             {options_.name, options_.interpolation == KeyInterpolation::step,
-                              times_, key_target_, target_count()}));
+    for (Index t = 0; t < count_of(targets); ++t) write_target(t, targets[t], mesh);
+    MorphKeys keys{options_.name,
+                   options_.interpolation == KeyInterpolation::step,
+                   times_,
+                   {},
+                   count_of(targets)};
+    if (!sums.weights.empty()) keys.weights = key_weights(sums.weights);
+    mesh.set_asset(with_morph_animation(mesh, moves_, keys));
+    if (report) {
+        *report = {key_count(), count_of(targets), sums.max_error, sums.max_direction_error};
+    }
     return mesh;
 }
 

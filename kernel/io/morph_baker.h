@@ -36,15 +36,28 @@ struct BakeOptions {
     /// Gives a mesh without normals those of its surface, so that light follows the motion. Normals
     /// that it has always follow.
     bool normals = true;
+    /// Greatest distance of a vertex from its shape, in mesh units. Above 0 the targets are the
+    /// principal components of the shapes, as few as keep it and turn normals and tangents by about
+    /// 1 degree at most; at 0 each different shape is a target, to the bit.
+    double tolerance = 0.0;
 };
 
-/// Collects shapes. Shapes that are the same as 32-bit numbers share a target, and the rest shape
-/// needs none.
+/// Targets and errors of a bake.
+struct BakeReport {
+    Index keys = 0, targets = 0;
+    /// Greatest distance of a vertex from its shape at a key, in mesh units, and of a normal or
+    /// tangent.
+    double max_error = 0.0, max_direction_error = 0.0;
+};
+
+/// Collects shapes. Shapes that are the same as 32-bit numbers count as one, and the rest shape
+/// needs no target.
 class MorphBaker {
   public:
     /// `rest` is the shape without targets; vertices outside `moving` keep their positions. Morph
     /// targets of `rest` and their animations from its file are left out; the log says so. Errors:
-    /// topology_mismatch; unsupported for a mesh without faces; memory_limit.
+    /// topology_mismatch; unsupported for a mesh without faces; memory_limit; invalid_argument for
+    /// a tolerance that is no length.
     MorphBaker(const Mesh& rest, const Region& moving, BakeOptions options = {},
                Context context = {});
 
@@ -55,11 +68,13 @@ class MorphBaker {
     void add(double time, const Mesh& shape);
 
     Index key_count() const { return count_of(times_); }
+    /// Different shapes so far, but for that of rest.
     Index target_count() const { return count_of(targets_); }
 
     /// Returns the rest shape with its targets as attributes "morph.N.position" and so on, and the
-    /// animation in its asset. Errors: invalid_argument if no shape was added.
-    Mesh finish() const;
+    /// animation in its asset. Errors: invalid_argument if no shape was added; memory_limit;
+    /// cancelled.
+    Mesh finish(BakeReport* report = nullptr) const;
 
   private:
     // Values of the mesh that targets add to, one entry for each element that may change.
@@ -76,7 +91,8 @@ class MorphBaker {
     void require_later(double time) const;
     std::vector<float> differences(const Mesh& shape) const;
     Index target_of(std::vector<float> differences);
-    void write_target(Index target, Mesh& mesh) const;
+    void write_target(Index target, const std::vector<float>& values, Mesh& mesh) const;
+    std::vector<float> key_weights(const std::vector<std::vector<float>>& weights) const;
 
     Mesh rest_;
     BakeOptions options_;

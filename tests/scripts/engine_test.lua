@@ -181,6 +181,71 @@ local function max_difference(a, b)
     end
 end
 
+test("bake: with a tolerance a smooth animation has few targets, and the error is told", function()
+    local cactus = lissom.shapes.cactus{ vertices = 4000 }
+    local edit = lissom.deformer(cactus)
+    edit:add_handle(cactus:region("base"))
+    local tip = edit:add_handle(cactus:region("tip"))
+    local function sway(time)
+        tip:set{ rotate = { axis = "z", angle = 40 * math.sin(3 * time), about = { 0, 0.5, 0 } } }
+    end
+    local whole, told = edit:bake{ duration = 2, fps = 12, pose = sway }
+    expect.equal(told.keys, 25)
+    expect.equal(told.targets, 24)
+    expect.equal(told.max_error, 0)
+    local few, report = edit:bake{ duration = 2, fps = 12, pose = sway, tolerance = 0.001 * cactus:size() }
+    expect.equal(report.keys, 25)
+    expect.truthy(report.targets <= 8)
+    expect.truthy(report.max_error > 0 and report.max_error <= 0.001 * cactus:size())
+    expect.truthy(report.max_direction_error <= 0.02)
+    local plain, small = test.file("whole.glb"), test.file("few.glb")
+    whole:save(plain)
+    few:save(small)
+    expect.truthy(#read_bytes(small) < 0.4 * #read_bytes(plain))
+    expect.error(function() edit:bake{ duration = 1, pose = sway, tolerance = -1 } end, "tolerance")
+end)
+
+test("bake_texture: four files, and a report that tells their error", function()
+    local path = test.file("sway")
+    local told = deformer:bake_texture(path, { pose = pose, duration = 1, fps = 8 })
+    expect_unchanged()
+    expect.equal(told.frames, 9)
+    expect.equal(told.width * told.height, 9 * #mesh)
+    expect.truthy(told.max_error < 1e-4 * mesh:size())
+    expect.truthy(told.max_normal_error < 1e-4)
+    for _, ending in ipairs{ "_positions.png", "_normals.png" } do
+        expect.equal(read_bytes(path .. ending):sub(1, 8), "\137PNG\r\n\26\n")
+    end
+    expect.truthy(read_bytes(path .. ".json"):find('"coordinates": "TEXCOORD_1"', 1, true))
+    expect.equal(#lissom.load(path .. ".glb"), #mesh)
+    expect.failure("file_write_failed", deformer.bake_texture, deformer, "no/such/folder/a",
+        { pose = pose, duration = 1 })
+    expect.error(function() deformer:bake_texture(path, { pose = pose }) end, "'bake_texture' needs either")
+    expect_unchanged()
+end)
+
+test("save_basis: key poses stand behind the basis, and handles and mesh are as they were", function()
+    local plain, keyed = test.file("plain.basis"), test.file("keyed.basis")
+    deformer:save_basis(plain)
+    expect.truthy(rawequal(deformer:save_basis(keyed, { keys = { 0.5, 1 }, pose = pose }), deformer))
+    expect_unchanged()
+    local before_keys, bytes = read_bytes(plain), read_bytes(keyed)
+    expect.equal(bytes:sub(1, #before_keys), before_keys)
+    local first = math.ceil(#before_keys / 16) * 16
+    expect.equal(bytes:sub(first + 1, first + 8), "LSMBKEYS")
+    expect.truthy(#bytes > first + 2 * 12 * #mesh)
+    expect.error(function() deformer:save_basis(keyed, { keys = { 1 } }) end, "both 'pose' and 'keys'")
+    expect.error(function() deformer:save_basis(keyed, { pose = pose }) end, "both 'pose' and 'keys'")
+    expect.error(function()
+        deformer:save_basis(keyed, { keys = { 1, 1 }, pose = pose })
+    end, "key poses 1 and 2 are the same")
+    expect.error(function()
+        deformer:save_basis(keyed, { keys = { 1 }, pose = function() error("no more") end })
+    end, "no more")
+    expect_unchanged()
+    expect.equal(read_bytes(keyed), bytes)
+end)
+
 test("bake: a quantised, compressed animation is a quarter of the plain one and exact to its bits", function()
     local cactus = lissom.shapes.cactus{ vertices = 4000 }
     local edit = lissom.deformer(cactus)

@@ -12,6 +12,7 @@
 #include "kernel/io/basis_file.h"
 #include "kernel/io/morph_baker.h"
 #include "kernel/io/skin_baker.h"
+#include "kernel/io/vertex_texture.h"
 #include "kernel/mesh/measure/directions.h"
 
 namespace lissom::lua {
@@ -38,21 +39,7 @@ std::vector<std::string> handle_names(const Call& call, const DeformObject& edit
     return names;
 }
 
-int save_basis_file(Call& call) {
-    const auto edit = call.self<DeformObject>();
-    const char* path = call.string("path");
-    const bool done = call.attempt([&] {
-        Deformer& deformer = edit->deformer();
-        const std::vector<std::string> names = handle_names(call, *edit, deformer);
-        save_basis(make_engine_basis(deformer, names, call.context()),
-                   call.file(path, FileUse::write), call.context());
-    });
-    if (!done) return call.fail();
-    call.charge(edit);
-    return call.push_argument();
-}
-
-// ---- deformer:bake
+// ---- Poses of a script
 
 constexpr int kMaximumFrames = 10000;
 
@@ -86,7 +73,7 @@ class BakedState {
     DeformSnapshot snapshot_;
 };
 
-// Everything that lives as long as one call of bake or skin.
+// Everything that lives as long as one call of bake, bake_texture, skin or save_basis.
 struct Baking {
     explicit Baking(std::shared_ptr<DeformObject> owner)
         : edit(std::move(owner)), before(*edit), shape(before.mesh()) {
@@ -102,10 +89,23 @@ struct Baking {
         skin = std::make_unique<SkinBaker>(shape, edit->deformer().region(), options, context);
     }
 
+    void bake_texture(const Context& context) {
+        texture = std::make_unique<VertexTextureBaker>(shape, context);
+    }
+
+    void make_basis(std::span<const std::string> names, const Context& context) {
+        basis = std::make_unique<EngineBasis>(make_engine_basis(edit->deformer(), names, context));
+    }
+
     void add_pose(double time, bool is_preview, const Context& context) {
         Deformer& deformer = edit->deformer();
+        if (basis) {
+            keys.push_back(make_basis_key(deformer, context));
+            return;
+        }
         deformer.solve(is_preview ? FrameQuality::preview : FrameQuality::full, context);
         deformer.apply_to(shape);
+        if (texture) texture->add(time, shape);
         if (morphs) morphs->add(time, shape);
         if (skin) skin->add(time, shape);
     }
@@ -119,9 +119,12 @@ struct Baking {
     std::shared_ptr<DeformObject> edit;
     BakedState before;
     Mesh shape;
-    // One of the two.
+    // One of the four.
     std::unique_ptr<MorphBaker> morphs;
+    std::unique_ptr<VertexTextureBaker> texture;
     std::unique_ptr<SkinBaker> skin;
+    std::unique_ptr<EngineBasis> basis;
+    std::vector<BasisKey> keys;
 };
 
 // Arguments of a call of bake, as plain data.
@@ -193,27 +196,112 @@ bool run_frames(Call& call, BakeRequest& request) {
     return request.done && restored;
 }
 
+// ---- deformer:save_basis
+
+void read_basis_keys(Call& call, BakeRequest& request) {
+    if (call.has("pose") != call.has("keys")) {
+        call.raise("key poses need both 'pose' and 'keys'");
+    }
+    if (!call.has("keys")) return;
+    const auto keys = call.numbers("keys");
+    request.times = keys.data();
+    request.count = count_of(keys);
+}
+
+int save_basis_file(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const char* path = call.string("path");
+    BakeRequest request{&call, nullptr, nullptr, 0, false, false};
+    read_basis_keys(call, request);
+    auto& baking = call.hold<std::unique_ptr<Baking>>();
+    const bool began = call.attempt([&] {
+        const std::vector<std::string> names = handle_names(call, *edit, edit->deformer());
+        baking = std::make_unique<Baking>(edit.share());
+        baking->make_basis(names, call.context());
+    });
+    request.baking = baking.get();
+    if (!began || (request.count > 0 && !run_frames(call, request))) return call.fail();
+    const bool done = call.attempt([&] {
+        set_keys(*baking->basis, baking->keys);
+        save_basis(*baking->basis, call.file(path, FileUse::write), call.context());
+    });
+    if (!done) return call.fail();
+    call.charge(edit);
+    return call.push_argument();
+}
+
+// ---- deformer:bake
+
 int bake(Call& call) {
     const auto edit = call.self<DeformObject>();
     BakeRequest request = BakeRequest::read(call, "bake");
     const char* name = call.string("name");
     const auto interpolation = call.choice<KeyInterpolation>("interpolation");
     const bool normals = call.boolean("normals");
+    const double tolerance = call.number("tolerance");
+    BakeReport report;
     auto& baking = call.hold<std::unique_ptr<Baking>>();
     const auto result = call.create<MeshObject>();
     const bool began = call.attempt([&] {
         baking = std::make_unique<Baking>(edit.share());
-        baking->bake_morphs(BakeOptions{name, interpolation, normals}, call.context());
+        baking->bake_morphs(BakeOptions{name, interpolation, normals, tolerance}, call.context());
     });
     if (!began) return call.fail();
 
     request.baking = baking.get();
     if (!run_frames(call, request)) return call.fail();
-    const bool done =
-        call.attempt([&] { result.set(std::make_shared<MeshObject>(baking->morphs->finish())); });
+    const bool done = call.attempt(
+        [&] { result.set(std::make_shared<MeshObject>(baking->morphs->finish(&report))); });
     if (!done) return call.fail();
     call.remember(result.get());
     call.charge(result);
+    lua_createtable(call.lua(), 0, 4);
+    call.set_field("keys", call.push_count(at(report.keys)));
+    call.set_field("targets", call.push_count(at(report.targets)));
+    call.set_field("max_error", call.push(report.max_error));
+    call.set_field("max_direction_error", call.push(report.max_direction_error));
+    return 2;
+}
+
+// ---- deformer:bake_texture
+
+VertexTextureFiles files_beside(Call& call, const char* path) {
+    const std::string stem = path;
+    const auto file = [&](const char* ending) {
+        return call.file((stem + ending).c_str(), FileUse::write);
+    };
+    return {file(".glb"), file(".json"), file("_positions.png"), file("_normals.png")};
+}
+
+int bake_texture(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const char* path = call.string("path");
+    BakeRequest request = BakeRequest::read(call, "bake_texture");
+    auto& baking = call.hold<std::unique_ptr<Baking>>();
+    const bool began = call.attempt([&] {
+        baking = std::make_unique<Baking>(edit.share());
+        baking->bake_texture(call.context());
+    });
+    if (!began) return call.fail();
+    request.baking = baking.get();
+    if (!run_frames(call, request)) return call.fail();
+    Index width = 0, height = 0;
+    double max_error = 0.0, max_normal_error = 0.0;
+    const bool done = call.attempt([&] {
+        const VertexTexture texture = baking->texture->finish();
+        save_vertex_texture(texture, files_beside(call, path), call.context());
+        width = texture.width;
+        height = texture.height;
+        max_error = texture.max_error;
+        max_normal_error = texture.max_normal_error;
+    });
+    if (!done) return call.fail();
+    lua_createtable(call.lua(), 0, 5);
+    call.set_field("frames", call.push_count(at(request.count)));
+    call.set_field("width", call.push_count(at(width)));
+    call.set_field("height", call.push_count(at(height)));
+    call.set_field("max_error", call.push(max_error));
+    call.set_field("max_normal_error", call.push(max_normal_error));
     return 1;
 }
 
@@ -303,24 +391,41 @@ std::vector<Function> deform_engine_methods() {
          .summary =
              "Writes the basis to a file for a program without a solver: 4 floats a vertex and "
              "handle, relative to the middle of the region. bindings/engine/lissom_basis.h, one C "
-             "header, describes the file and computes the result of preview.",
+             "header, describes the file and computes the result of preview. With key poses, 3 "
+             "floats a vertex and key more, it computes the result of solve at each key, and "
+             "blends "
+             "between them by the turns, places and stretches of the handles; beyond the range of "
+             "the keys the offsets stay. Turns are told apart up to half a turn. Handles and last "
+             "result are restored afterwards.",
          .arguments = {string("path", "The file.")},
          .options = {strings("names",
                              "Names of the handles, in the order of deformer:handles(): a program "
                              "finds them by these.")
-                         .optional("that of the mesh's region with the same vertices")},
+                         .optional("that of the mesh's region with the same vertices"),
+                     function("pose", "fun(key: number, number: integer)",
+                              "Moves handles to a key pose from their present place; called with "
+                              "each number of 'keys', and with its place in the list from 1.")
+                         .optional("there are no key poses"),
+                     numbers("keys",
+                             "Numbers of the key poses, at most 256 different poses; their meaning "
+                             "is that of 'pose'.")
+                         .optional("there are no key poses")},
          .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
          .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
                     ErrorCode::not_positive_definite, ErrorCode::memory_limit,
                     ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
                     ErrorCode::unsupported, ErrorCode::not_finite, ErrorCode::file_write_failed,
-                    ErrorCode::file_is_directory, ErrorCode::cancelled},
+                    ErrorCode::file_is_directory, ErrorCode::handle_removed, ErrorCode::cancelled},
          .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
 local deformer = lissom.deformer(bar)
 deformer:add_handle(bar:region("bottom"))
 deformer:add_handle(bar:region("top"))
 local path = os.tmpname()
 assert(deformer:save_basis(path, { names = { "foot", "head" } }))
+local top = deformer:handles()[2]
+deformer:save_basis(path, { keys = { -90, -45, 45, 90 }, pose = function(angle)
+    top:set{ rotate = { axis = "z", angle = angle } }
+end })
 os.remove(path))"},
         {.name = "bake",
          .body = bake,
@@ -353,8 +458,21 @@ os.remove(path))"},
                       "Gives a mesh without normals those of its surface, so that light "
                       "follows the motion.")
                   .defaults(true),
+              number("tolerance",
+                     "Greatest distance of a vertex from its pose. Above 0 the targets are the "
+                     "principal components of the poses, as few as keep it and turn normals by "
+                     "about 1 degree at most: files become several times smaller. At 0 each "
+                     "different pose is a target.")
+                  .at_least(0)
+                  .in("mesh units")
+                  .defaults(0.0),
               string("name", "Name of the animation.").defaults("deformation")},
-         .results = {{"lissom.Mesh", "mesh", "The rest shape with its targets and the animation."}},
+         .results =
+             {{"lissom.Mesh", "mesh", "The rest shape with its targets and the animation."},
+              {"table", "report",
+               "`keys` and `targets`, their numbers; `max_error`, the greatest distance of a "
+               "vertex from its pose in mesh units; `max_direction_error`, that of a unit "
+               "normal or tangent."}},
          .errors = kPoseErrors,
          .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
 local deformer = lissom.deformer(bar)
@@ -366,6 +484,50 @@ end }
 local path = os.tmpname() .. ".glb"
 assert(wave:save(path))
 os.remove(path))"},
+        {.name = "bake_texture",
+         .body = bake_texture,
+         .summary =
+             "Writes a sequence of poses as a vertex animation texture: PATH_positions.png and "
+             "PATH_normals.png with 16 bits a channel, a texel for each vertex and frame; "
+             "PATH.glb, "
+             "the mesh at rest, whose last texture coordinates are the texel of each vertex in the "
+             "first frame; and PATH.json with the bounds, the times and `frame_step`, by which v "
+             "goes on from frame to frame. The frames of a vertex stand below one another: a "
+             "bilinear sampler blends between them. Pictures must be read as linear, without mip "
+             "maps. Handles, mesh and last result are restored afterwards.",
+         .arguments = {string("path", "The files without their endings.")},
+         .options = {function("pose", "fun(time: number, frame: integer)",
+                              "Moves handles; called for each frame with its time and its number "
+                              "from 1."),
+                     duration_option().optional("times are given"),
+                     number("fps", "Frames a second.").above(0).defaults(24.0),
+                     numbers("times",
+                             "Time of each frame in seconds, ascending, instead of a duration.")
+                         .optional("duration is given"),
+                     boolean("preview", "Poses as preview makes them: the first system only.")
+                         .defaults(false)},
+         .results = {{"table", "report",
+                      "`frames`; `width` and `height` of the pictures; `max_error`, the greatest "
+                      "distance of a vertex from its pose by 16 bits, in mesh units; "
+                      "`max_normal_error`, that of a unit normal."}},
+         .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
+                    ErrorCode::not_positive_definite, ErrorCode::memory_limit,
+                    ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
+                    ErrorCode::handle_removed, ErrorCode::unsupported, ErrorCode::file_too_large,
+                    ErrorCode::file_write_failed, ErrorCode::file_is_directory,
+                    ErrorCode::cancelled},
+         .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }
+local deformer = lissom.deformer(bar)
+deformer:add_handle(bar:region("bottom"))
+local top = deformer:add_handle(bar:region("top"))
+local path = os.tmpname()
+local report = deformer:bake_texture(path, { duration = 1, fps = 8, pose = function(time)
+    top:set{ rotate = { axis = "z", angle = 60 * time } }
+end })
+assert(report.max_error < 1e-4 * bar:size())
+for _, ending in ipairs{ "", ".glb", ".json", "_positions.png", "_normals.png" } do
+    os.remove(path .. ending)
+end)"},
         {.name = "skin",
          .body = skin,
          .summary =

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "bindings/engine/lissom_basis.h"
 #include "kernel/deform/deformer.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -154,6 +155,56 @@ TEST_CASE("the mesh of a deformer may be released") {
     lissom_bytes basis{};
     REQUIRE(lissom_deformer_encode_basis(host, bend.deformer, &basis) == LISSOM_OK);
     CHECK(std::string(static_cast<const char*>(basis.data), 8) == "LSMBASIS");
+}
+
+TEST_CASE("a basis with key poses gives frames of full solutions in the host's space, z up too") {
+    for (const bool z_up : {false, true}) {
+        CAPTURE(z_up);
+        lissom_context_options options = lissom_default_context_options();
+        options.space.z_up = z_up;
+        const Host host(options);
+        const Bend bend(host, make_bar({}));
+        double center[3];
+        REQUIRE(lissom_deformer_handle_center(host, bend.deformer, bend.top, center) == LISSOM_OK);
+        std::vector<lissom_transform> keys;
+        for (const double angle : {-1.5, 0.8, 1.6}) {
+            keys.push_back(lissom_identity());
+            keys.push_back(transform_of(
+                rotation(Vec3(0.2, 0.4, 1), angle, Vec3(center[0], center[1], center[2]))));
+        }
+        const std::vector<Vec3> before = host.positions(bend.mesh);
+        lissom_bytes bytes{};
+        REQUIRE(lissom_deformer_encode_keyed_basis(host, bend.deformer, keys.data(), keys.size(), 3,
+                                                   &bytes) == LISSOM_OK);
+        const std::string file(static_cast<const char*>(bytes.data), bytes.size);
+        lissom_basis basis;
+        REQUIRE(lissom_basis_open(&basis, file.data(), file.size()) == LISSOM_BASIS_OK);
+        CHECK(basis.key_count == 3);
+        std::vector<float> local(24), points(3 * std::size_t{basis.vertex_count});
+        std::vector<Vec3> rows(basis.vertex_count);
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t h = 0; h < 2; ++h) {
+                lissom_basis_local(&basis, keys[2 * k + h].m, &local[12 * h]);
+            }
+            lissom_basis_evaluate(&basis, local.data(), 0, basis.vertex_count, points.data(), 12);
+            REQUIRE(lissom_deformer_set_transform(host, bend.deformer, bend.top,
+                                                  &keys[2 * k + 1]) == LISSOM_OK);
+            REQUIRE(lissom_deformer_solve(host, bend.deformer, LISSOM_FULL) == LISSOM_OK);
+            const lissom_output out{rows.data(), rows.size(), 0, LISSOM_FLOAT64};
+            REQUIRE(lissom_deformer_read_positions(host, bend.deformer, &out) == LISSOM_OK);
+            double worst = 0.0;
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                const Vec3 p(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+                const Vec3 o(basis.origin[0], basis.origin[1], basis.origin[2]);
+                worst = std::max(worst, (p + o - rows[i]).norm());
+            }
+            CHECK(worst < 1e-4);
+        }
+        CHECK(lissom_deformer_encode_keyed_basis(host, bend.deformer, keys.data(), 5, 3, &bytes) ==
+              LISSOM_INVALID_ARGUMENT);
+        CHECK(lissom_deformer_encode_keyed_basis(host, bend.deformer, nullptr, 6, 3, &bytes) ==
+              LISSOM_INVALID_ARGUMENT);
+    }
 }
 
 TEST_CASE("a report names the harm that a deformation did, and keeps to the host's struct") {

@@ -241,6 +241,12 @@ std::vector<Given> deform_cases() {
              const lissom_transform map = bad_transform(i, bad);
              return lissom_deformer_set_transform(world, world.deformer, world.handle, &map);
          }},
+        {"lissom_deformer_encode_keyed_basis", 12,
+         [](World& world, int i, double bad) {
+             const lissom_transform map = bad_transform(i, bad);
+             lissom_bytes bytes{};
+             return lissom_deformer_encode_keyed_basis(world, world.deformer, &map, 1, 1, &bytes);
+         }},
         {"lissom_deformer_constrain", 4,
          [](World& world, int i, double bad) {
              const auto n = with_bad<4>({0, 0, 0, 1}, i, bad);

@@ -113,6 +113,47 @@ TEST_CASE("the shapes of a deformation come back at their keys, with their norma
     }
 }
 
+TEST_CASE("with a tolerance few targets make all shapes within it, and the error is told") {
+    const Mesh rest = make_cactus({.vertices = 2000});
+    const double size = surface_radius(rest);
+    Deformer edit(rest, all_of(rest));
+    edit.add_handle(*rest.find_region("base"));
+    const HandleId tip = edit.add_handle(*rest.find_region("tip"));
+    std::vector<Mesh> shapes;
+    for (int k = 0; k < 24; ++k) {
+        edit.set_transform(tip,
+                           rotation(Vec3::UnitZ(), std::sin(0.3 * k), edit.handle(tip).center));
+        edit.solve();
+        edit.apply_to(shapes.emplace_back(rest));
+    }
+    Index before = 24;
+    for (const double share : {1e-5, 1e-3, 1e-2}) {
+        CAPTURE(share);
+        MorphBaker baker(rest, edit.region(), {.tolerance = share * size});
+        for (int k = 0; k < 24; ++k) baker.add(0.1 * k, shapes[static_cast<std::size_t>(k)]);
+        BakeReport report;
+        const Glb file(baker.finish(&report));
+        const Mesh read = decode_mesh(file.bytes, "glb");
+        CHECK(report.keys == 24);
+        CHECK(report.targets < before);
+        CHECK(report.max_error <= share * size);
+        CHECK(report.max_direction_error <= 0.02);
+        double worst = 0.0, turned = 0.0;
+        for (std::size_t k = 0; k < shapes.size(); ++k) {
+            const std::vector<float> weights = file.weights(k);
+            worst = std::max(
+                worst, max_distance(blended(read, "", "position", weights), shapes[k].positions()));
+            turned = std::max(turned, max_distance(blended(read, "normal", "normal", weights),
+                                                   vertex_normals(shapes[k])));
+        }
+        CHECK(worst == doctest::Approx(report.max_error).epsilon(0.05));
+        CHECK(turned < 0.021);
+        before = report.targets;
+    }
+    CHECK(before <= 6);
+    CHECK_THROWS_AS(MorphBaker(rest, edit.region(), {.tolerance = -1.0}), Error);
+}
+
 TEST_CASE("equal shapes share a target and the rest shape needs none") {
     const Mesh rest = make_bar({.across = 2, .along = 6});
     MorphBaker baker(rest, all_of(rest), {.name = "sway", .interpolation = KeyInterpolation::step});

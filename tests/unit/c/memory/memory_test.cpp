@@ -515,6 +515,11 @@ void add_deform_cases(std::vector<MemoryCase>& all) {
     add("lissom_deformer_encode_basis", posed_deformer, [](World& world) {
         return lissom_deformer_encode_basis(world, world.deformer, &world.bytes);
     });
+    add("lissom_deformer_encode_keyed_basis", posed_deformer, [](World& world) {
+        static const lissom_transform kKey[] = {lissom_identity(),
+                                                {{1, 0, 0, 0.2, 0, 0, -1, 0, 0, 1, 0, 0}}};
+        return lissom_deformer_encode_keyed_basis(world, world.deformer, kKey, 2, 1, &world.bytes);
+    });
 }
 
 void add_merge_cases(std::vector<MemoryCase>& all) {
