@@ -354,16 +354,20 @@ TEST_CASE("a map is refused after a change of topology, and a new one has what t
           LISSOM_TOPOLOGY_MISMATCH);
     Welded again{welded.mesh, {}};
     REQUIRE(lissom_render_map_create(host, welded.mesh, &again.map) == LISSOM_OK);
-    CHECK(lissom_render_map_size(host, again.map) == buffer.size());
-    std::vector<double> uvs(2 * at(buffer.size()));
+    // Diagonal faces of one chart are two fans at their vertex: it is drawn twice.
+    const std::int32_t size = lissom_render_map_size(host, again.map);
+    CHECK(size >= buffer.size());
+    std::vector<double> uvs(2 * at(size));
     const lissom_output pairs{uvs.data(), uvs.size() / 2, 0, LISSOM_FLOAT64};
     REQUIRE(lissom_render_map_read_attribute(host, again.map, again.mesh, "uv", &pairs) ==
             LISSOM_OK);
     using Drawn = std::array<double, 5>;
-    std::multiset<Drawn> wanted, found;
+    std::set<Drawn> wanted, found;
     const std::vector<Vec3> points = render_points(host, again);
     for (std::size_t i = 0; i < points.size(); ++i) {
         found.insert({points[i][0], points[i][1], points[i][2], uvs[2 * i], uvs[2 * i + 1]});
+    }
+    for (std::size_t i = 0; i < at(buffer.size()); ++i) {
         const Point& p = buffer.positions[i];
         wanted.insert({-p[0] + 0.0, p[1], p[2], buffer.uvs[i][0], buffer.uvs[i][1]});
     }
