@@ -9,6 +9,8 @@
 
 #include "kernel/core/clock.h"
 #include "kernel/core/error.h"
+#include "kernel/core/geometry.h"
+#include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/verdict.h"
 #include "kernel/mesh/fill/bridge.h"
 
@@ -65,6 +67,26 @@ void add_bridge(const Join& join, MergeResult& result, const Context& context) {
     report.placed = Placing::as_placed;
 }
 
+// A triangle of a bridge is a needle if the angles at its boundary edge are at least this.
+constexpr double kNeedleFoot = 30.0 * kDegree;
+
+// The smallest tip of the needles that stand on short edges of a boundary: as nothing moves, a
+// strip between unlike boundaries has them. 0 without any.
+double thinnest_needle(const Mesh& bridged, Index first_face) {
+    double thinnest = 0.0;
+    for (Index f = first_face; f < bridged.face_count(); ++f) {
+        const std::span<const Index> face = bridged.topology().face(f);
+        const Vec3 along = bridged.position(face[1]) - bridged.position(face[0]);
+        const Vec3 first = bridged.position(face[2]) - bridged.position(face[0]);
+        const Vec3 second = bridged.position(face[2]) - bridged.position(face[1]);
+        const bool upright = angle_between(along, first) >= kNeedleFoot &&
+                             angle_between(-along, second) >= kNeedleFoot;
+        const double tip = angle_between(first, second);
+        if (upright && (thinnest == 0.0 || tip < thinnest)) thinnest = tip;
+    }
+    return thinnest;
+}
+
 void measure(const Mesh& before, std::span<const Join> joins, bool sought, MergeResult& result,
              const Context& context) {
     MergeReport& report = result.report;
@@ -75,6 +97,8 @@ void measure(const Mesh& before, std::span<const Join> joins, bool sought, Merge
     }
     report.source_rim = seam_quality(before, sources);
     report.target_rim = seam_quality(before, targets);
+    // Judged as the polygons that a seam divides.
+    report.source_rim.polygon_angle = thinnest_needle(result.mesh, before.face_count());
     report.seam.before = report.seam.after = seam_quality(result.mesh, result.seams);
     if (sought) {
         std::vector<Index> added(at(result.mesh.face_count() - before.face_count()));

@@ -159,7 +159,7 @@ struct Paste::State {
     const PasteGround& ground(const Context& context);
     /// Sharp edges that a part may stand on; none if the target was cleared under its boundary.
     std::span<const SharpEdge> edges_to_stand_on(const Context& context);
-    /// Sharp edges of the target as given that were not cleared; nothing if none of it was.
+    /// Sharp edges of the target as given that no cleared part meets; nothing if none was cleared.
     std::optional<std::vector<SharpEdge>> edges_left(const Context& context) const;
     LaidPart laid_on_ground(const PartTrials& trials, const PartTrial& trial,
                             const Context& context);

@@ -192,7 +192,7 @@ std::optional<std::vector<SharpEdge>> Paste::State::edges_left(const Context& co
     const std::vector<char> cleared = gone->mask();
     std::vector<SharpEdge> left = *given_edges;
     std::erase_if(left, [&](const SharpEdge& edge) {
-        return cleared[at(edge.first)] && cleared[at(edge.second)];
+        return cleared[at(edge.first)] || cleared[at(edge.second)];
     });
     return left;
 }

@@ -56,6 +56,24 @@ TEST_CASE("merge within: boundaries of one mesh are joined and their seams measu
                      result.mesh.positions().begin()));
 }
 
+TEST_CASE("merge within: needles between boundaries of unlike counts are no fault of a bridge") {
+    for (const auto& [few, many] : {std::pair(8, 200), std::pair(200, 8), std::pair(12, 600)}) {
+        CAPTURE(few);
+        Mesh mesh = make_cylinder({.segments = few, .rings = 2, .caps = false});
+        Mesh other = make_cylinder({.segments = many, .rings = 2, .caps = false});
+        Affine map;
+        map.translation = {0, 3, 0};
+        transform(other, map);
+        append(mesh, other);
+        const std::vector<Path> rims = boundaries(mesh);
+        const Join joins[] = {{rims[2], rims[1]}};
+        const MergeResult result = merge_within(mesh, joins);
+        CAPTURE(result.report.verdict);
+        CHECK(result.report.ok);
+        CHECK(result.report.seam.after.smallest_angle < 2.0 * kDegree);
+    }
+}
+
 TEST_CASE("merge within: what cannot be joined is refused") {
     const Mesh mesh = tubes();
     const std::vector<Path> rims = boundaries(mesh);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/merge/paste/paste.h"
+#include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/query/spatial_tree.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
 #include "tests/unit/support.h"
@@ -248,5 +249,35 @@ TEST_CASE("paste: all frames of a drag over coarse, sharp and smooth targets are
             CHECK(draft.scale == doctest::Approx(0.25).epsilon(0.25));
             CHECK(draft.part.topology().boundary_loops().size() == 1);
         }
+    }
+}
+
+namespace {
+
+// A cone on level ground, with a sharp foot.
+Mesh cone_on_ground(double foot) {
+    Mesh ground = make_grid({.size = {4, 4}, .segments = {30, 30}});
+    triangulate(ground);
+    for (Vec3& p : ground.edit_positions()) {
+        p.y() = std::max(0.0, 1.2 * (foot - std::hypot(p.x(), p.z())));
+    }
+    return ground;
+}
+
+}  // namespace
+
+TEST_CASE("paste: edges of a feature that is cleared end at the part, which does not bite them") {
+    const Mesh horn = horned_ball(12);
+    for (const double foot : {0.25, 0.3, 0.35, 0.4, 0.5}) {
+        CAPTURE(foot);
+        PasteOptions options;
+        options.clear = true;
+        Paste paste(horn, cone_on_ground(foot), around_horn(horn), std::nullopt, std::nullopt,
+                    {.at = {0, 1, 0}, .scale = 0.6}, options);
+        paste.optimize();
+        const PasteResult result = paste.merge();
+        REQUIRE(result.report.clearing);
+        CHECK(result.merged.report.bite.length < 0.1);
+        CHECK(result.merged.report.ok);
     }
 }

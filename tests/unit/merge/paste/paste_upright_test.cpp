@@ -1,6 +1,7 @@
 // The way that parts are turned on targets of all kinds.
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -9,6 +10,8 @@
 #include "kernel/core/geometry.h"
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/paste/paste.h"
+#include "kernel/mesh/edit/transform.h"
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/query/spatial_tree.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -150,4 +153,62 @@ TEST_CASE("paste: a part that is turned by an angle is turned from up") {
     placement.angle = 40.0 * kDegree;
     const Paste paste = nose_at(nose, ball, placement);
     CHECK(lean(paste, nose, ball, placement.at) == doctest::Approx(40.0 * kDegree).epsilon(0.1));
+}
+
+namespace {
+
+Mesh mirrored(Mesh mesh) {
+    Affine mirror;
+    mirror.linear = Vec3(-1, 1, 1).asDiagonal();
+    transform(mesh, mirror);
+    return mesh;
+}
+
+// The vertex that lies farthest from the origin on one side of the plane x = 0.
+Vec3 tip_at(const Mesh& mesh, double side) {
+    Vec3 tip = Vec3::Zero();
+    for (const Vec3& p : mesh.positions()) {
+        if (side * p.x() > 0.0 && p.norm() > tip.norm()) tip = p;
+    }
+    return tip;
+}
+
+// A horn that bends to `side` along x, pasted on that side of a target.
+PasteResult horn_on_side(const Mesh& horn, const Mesh& target, double side) {
+    PastePlacement placement;
+    placement.at = {side * 0.8, 1.5, 0.3};
+    placement.up = Vec3(side, 0.0, 0.0);
+    placement.toward = placement.up;
+    placement.scale = 0.45;
+    Paste paste(horn, target, around_horn(horn), std::nullopt, std::nullopt, placement);
+    paste.optimize();
+    return paste.merge();
+}
+
+}  // namespace
+
+TEST_CASE("paste: a horn and its mirror image stand as a pair, on either side alike") {
+    const Mesh horn = horned_ball();
+    Mesh both = egg(40);
+    std::vector<double> volumes;
+    for (const double side : {1.0, -1.0}) {
+        const PasteResult result = horn_on_side(side > 0.0 ? horn : mirrored(horn), both, side);
+        CHECK(result.merged.report.ok);
+        CHECK(result.merged.mesh.topology().is_closed());
+        volumes.push_back(volume(result.merged.mesh) - volume(both));
+        both = result.merged.mesh;
+    }
+    const Vec3 right = tip_at(both, 1.0), left = tip_at(both, -1.0);
+    REQUIRE(right.norm() > 2.05);
+    CHECK((right - Vec3(-left.x(), left.y(), left.z())).norm() < 0.03);
+    CHECK(volumes[0] == doctest::Approx(volumes[1]).epsilon(0.05));
+}
+
+TEST_CASE("paste: the mirror image of a paste is the paste of the mirror images") {
+    const Mesh horn = horned_ball(), target = egg(40);
+    const PasteResult plain = horn_on_side(horn, target, 1.0);
+    const PasteResult other = horn_on_side(mirrored(horn), mirrored(target), -1.0);
+    CHECK(plain.merged.report.ok == other.merged.report.ok);
+    const Vec3 right = tip_at(plain.merged.mesh, 1.0), left = tip_at(other.merged.mesh, -1.0);
+    CHECK((right - Vec3(-left.x(), left.y(), left.z())).norm() < 0.01);
 }
