@@ -232,7 +232,7 @@ TEST_CASE("merge: the smallest meshes") {
                           half_ball(6),
                           make_grid({.segments = {1, 1}}),
                           make_grid({.segments = {1, 6}}),
-                          half_ball(40, 0.6)};
+                          half_ball(20, 0.6)};
     for (const Mesh& source : small) {
         for (const Mesh& target : small) {
             if (&source == &target) continue;
@@ -241,7 +241,7 @@ TEST_CASE("merge: the smallest meshes") {
                     CAPTURE(source.vertex_count());
                     CAPTURE(target.vertex_count());
                     // The large ones take long.
-                    const bool large = std::max(source.vertex_count(), target.vertex_count()) > 200;
+                    const bool large = std::max(source.vertex_count(), target.vertex_count()) > 100;
                     if (large && (c != Configuration::free || seam != SeamKind::conform)) continue;
                     MergeOptions options;
                     options.configuration = c;

@@ -9,6 +9,7 @@
 #include "kernel/io/mesh_file.h"
 #include "kernel/merge/loop/loop_fit.h"
 #include "kernel/merge/merge.h"
+#include "kernel/merge/merge_stages.h"
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/measure/measures.h"
@@ -196,9 +197,10 @@ std::vector<PlacePair> keyed_pairs() {
         const auto source = load_part(real.source), target = load_part(real.target);
         if (!source || !target) return {};
         const Mesh* targets[] = {&target->mesh};
-        const MergeReport report =
-            Merger(source->mesh, targets, {join_of(real, *source, *target)}).solve().report;
-        const Vec3 turn = report.joins[0].turn;
+        const std::vector<Join> joins{join_of(real, *source, *target)};
+        const MergePreparation made = prepare_merge(source->mesh, targets, joins, {}, {});
+        const std::vector<std::vector<KeyPair>> keys{joins.front().keys};
+        const Vec3 turn = match_boundaries(made, keys, {}).joins.front().turn;
         PlacePair pair{real.name, source->mesh, target->mesh, source->boundary, target->boundary};
         pair.right = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
         pairs.push_back(std::move(pair));

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <random>
 #include <set>
 
@@ -28,10 +29,17 @@ struct LoadedPair {
     const RealPair* pair = nullptr;
     LoadedPart source, target;
 
-    MergeResult merged(const MergeOptions& options = {}) const {
+    MergeResult merged(const MergeOptions& options) const {
         const Mesh* targets[] = {&target.mesh};
         return Merger(source.mesh, targets, {join_of(*pair, source, target)}, options).solve();
     }
+    // By default; made once.
+    const MergeResult& merged() const {
+        if (!plain) plain = std::make_shared<const MergeResult>(merged(MergeOptions()));
+        return *plain;
+    }
+
+    mutable std::shared_ptr<const MergeResult> plain;
 };
 
 // Every pair, loaded once; empty without the test data.
@@ -41,7 +49,7 @@ const std::vector<LoadedPair>& loaded_pairs() {
         for (const RealPair& pair : real_pairs()) {
             auto source = load_part(pair.source), target = load_part(pair.target);
             if (!source || !target) break;
-            result.push_back({&pair, std::move(*source), std::move(*target)});
+            result.push_back({&pair, std::move(*source), std::move(*target), nullptr});
         }
         return result;
     }();
@@ -112,7 +120,7 @@ double max_difference(const Mesh& a, const Mesh& b) {
 TEST_CASE("pairs of real models become one watertight surface whose seam is hidden") {
     for (const LoadedPair& pair : loaded_pairs()) {
         CAPTURE(pair.pair->name);
-        const MergeResult result = pair.merged();
+        const MergeResult& result = pair.merged();
         const Mesh &s = pair.source.mesh, &t = pair.target.mesh, &m = result.mesh;
         CHECK(open_boundaries(m) == open_boundaries(s) + open_boundaries(t) - 2);
         CHECK(euler_characteristic(m.topology()) ==
@@ -154,7 +162,7 @@ TEST_CASE("the result does not depend on where the source lies, how it is turned
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (const LoadedPair& pair : loaded_pairs()) {
         CAPTURE(pair.pair->name);
-        const Mesh expected = pair.merged().mesh;
+        const Mesh& expected = pair.merged().mesh;
         const double size = surface_radius(expected);
         for (int trial = 0; trial < trials(); ++trial) {
             Affine map = rotation(Vec3(unit(random), unit(random), unit(random)),
@@ -180,7 +188,7 @@ TEST_CASE("the result does not depend on where the source lies, how it is turned
 TEST_CASE("a transition region hides the seam further, and moves nothing beyond it") {
     for (const LoadedPair& pair : loaded_pairs()) {
         CAPTURE(pair.pair->name);
-        const MergeResult plain = pair.merged();
+        const MergeResult& plain = pair.merged();
         MergeOptions options;
         const double length = pair.target.boundary.length(pair.target.mesh);
         const double radius = length / (2.0 * kPi);
@@ -216,7 +224,8 @@ TEST_CASE("neither fairing nor a transition crumples the band that it was to smo
                            {{Vec3(0, 0, 1), Vec3(0, 0, 1)}}};
     std::vector<LoadedPair> pairs = loaded_pairs();
     auto source = load_part(penguin.source), target = load_part(penguin.target);
-    if (source && target) pairs.push_back({&penguin, std::move(*source), std::move(*target)});
+    if (source && target)
+        pairs.push_back({&penguin, std::move(*source), std::move(*target), nullptr});
     for (const LoadedPair& pair : pairs) {
         CAPTURE(pair.pair->name);
         const double plain = pair.merged().report.joins[0].band.roughness;

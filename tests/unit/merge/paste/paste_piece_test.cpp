@@ -60,7 +60,7 @@ bool same_map(const ElementMap& a, const ElementMap& b) {
 }  // namespace
 
 TEST_CASE("paste: onto a piece of the target as onto all of it") {
-    Mesh horn = horned_ball(), target = egg(60);
+    Mesh horn = horned_ball(), target = egg(40);
     add_coordinates(horn);
     add_coordinates(target);
     Mesh skinned = horn;
