@@ -13,6 +13,65 @@ local styling = {}
 -- With two arguments in every Lua.
 local atan2 = rawget(math, "atan2") or math.atan
 
+--- The colour of hair as "#rrggbb", from its melanin, 0 white to 1 black, the part of it that is red
+-- (pheomelanin), and the part of grey hair. Both melanins absorb red, green and blue as in Chiang et al.
+-- (2016); the power is between that of a single strand, 1, and that of their fit of dense hair, 0.5.
+function styling.color(melanin, redness, grey)
+    local amount = -math.log(1 - math.min(math.max(melanin, 0), 0.98))
+    local brown, red = amount * (1 - (redness or 0)), amount * (redness or 0)
+    local parts = {}
+    for k, absorbed in ipairs{ { 0.506, 0.343 }, { 0.841, 0.733 }, { 1.653, 1.924 } } do
+        local left = 0.012 + 0.83 * math.exp(-3.1 * (brown * absorbed[1] + red * absorbed[2]) ^ 0.65)
+        left = left + (grey or 0) * (0.55 - left)
+        local shown = left <= 0.0031308 and 12.92 * left or 1.055 * left ^ (1 / 2.4) - 0.055
+        parts[k] = math.floor(255 * math.min(math.max(shown, 0), 1) + 0.5)
+    end
+    return string.format("#%02x%02x%02x", parts[1], parts[2], parts[3])
+end
+
+--- Usual colours by their names.
+styling.colors = {
+    black = styling.color(0.95), dark_brown = styling.color(0.75, 0.05), brown = styling.color(0.5, 0.08),
+    light_brown = styling.color(0.33, 0.1), dark_blond = styling.color(0.22, 0.1),
+    blond = styling.color(0.13, 0.15), platinum = styling.color(0.04, 0.05),
+    auburn = styling.color(0.55, 0.6), red = styling.color(0.5, 1), grey = styling.color(0.8, 0, 0.5),
+    white = styling.color(0.01),
+}
+
+--- Red, green and blue of a colour "#rrggbb" as hair:set_colors takes them.
+function styling.linear(color)
+    local made = {}
+    for part in color:gmatch("%x%x") do
+        local x = tonumber(part, 16) / 255
+        made[#made + 1] = x <= 0.04045 and x / 12.92 or ((x + 0.055) / 1.055) ^ 2.4
+    end
+    return made
+end
+
+--- Colours a preset's hair from root to tip by names of styling.colors, or "#rrggbb", two or more.
+function styling.ombre(hair, ...)
+    local profile = {}
+    for i, color in ipairs{ ... } do profile[i] = styling.linear(styling.colors[color] or color) end
+    return hair:set_colors{ profile = profile }
+end
+
+--- Streaks: a part of the locks, 0 to 1, has another colour.
+function styling.highlights(hair, base, streaks, part, seed)
+    local colors, chance = {}, {}
+    local a = styling.linear(styling.colors[base] or base)
+    local b = styling.linear(styling.colors[streaks] or streaks)
+    for s = 1, #hair do
+        local root = hair:root(s)
+        local lock = root.guide or root.id
+        if chance[lock] == nil then
+            local x = math.sin(12.9898 * lock + 78.233 * (seed or 1)) * 43758.5453
+            chance[lock] = x - math.floor(x) < part
+        end
+        colors[s] = chance[lock] and b or a
+    end
+    return hair:set_colors{ colors = colors }
+end
+
 --- 0 up to `low`, 1 from `high` on, level at both.
 function styling.smooth(low, high, x)
     local t = math.min(math.max((x - low) / (high - low), 0), 1)

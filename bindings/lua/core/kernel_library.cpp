@@ -53,6 +53,7 @@ Type whole_curve_type() {
 
 Type whole_hairstyle_type() {
     Type style = hairstyle_type();
+    style.methods.push_back(style_text_method());
     style.methods.push_back(sketch_method_of_hairstyle());
     return style;
 }
@@ -80,6 +81,8 @@ Library kernel_library() {
     add(library.functions, part_functions());
     add(library.functions, scalp_functions());
     add(library.functions, hairstyle_functions());
+    library.functions.push_back(read_style_function());
+    add(library.functions, groom_functions());
     add(library.functions, strand_functions());
     add(library.functions, scene_functions());
     add(library.functions, polyline_functions());
@@ -106,6 +109,7 @@ Library kernel_library() {
     add(library.records, hairstyle_records());
     add(library.records, curve_records());
     add(library.records, strand_records());
+    add(library.records, groom_records());
     add(library.records, scene_records());
     add(library.records, pick_records());
     add(library.records, stroke_records());

@@ -58,6 +58,10 @@ std::vector<Record> curve_records();
 Type hairstyle_type();
 std::vector<Function> hairstyle_functions();
 std::vector<Record> hairstyle_records();
+Function style_text_method();
+Function read_style_function();
+std::vector<Function> groom_functions();
+std::vector<Record> groom_records();
 
 Type strands_type();
 std::vector<Function> strand_functions();

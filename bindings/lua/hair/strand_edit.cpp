@@ -4,6 +4,7 @@
 #include "bindings/lua/hair/strands_methods.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/transform_options.h"
+#include "kernel/hair/strands/strand_measures.h"
 #include "kernel/hair/strands/strand_resample.h"
 #include "kernel/hair/strands/strand_selection.h"
 
@@ -87,6 +88,20 @@ int append_strands(Call& call) {
     });
 }
 
+int assign_strands(Call& call) {
+    const auto other = call.object<StrandsObject>("other");
+    return change_strands(call, [&](Strands& strands) { strands = Strands(other->strands); });
+}
+
+int push_comment(Call& call) {
+    return call.push(std::string_view(strands_of(call).comment()));
+}
+
+int set_comment(Call& call) {
+    const std::string_view text = call.string("text");
+    return change_strands(call, [&](Strands& s) { s.set_comment(std::string(text)); });
+}
+
 int transform_strands(Call& call) {
     const TransformOptions options = TransformOptions::read(call);
     return change_strands(call, [&](Strands& strands) {
@@ -158,11 +173,35 @@ Eigen::Vector3f linear_color(const Vec3& color) {
     return color.cast<float>();
 }
 
+// Colours along each strand, for each of its points.
+std::vector<Eigen::Vector3f> colors_along(const Strands& strands, std::span<const Vec3> profile) {
+    if (profile.size() < 2) {
+        throw Error(ErrorCode::invalid_argument,
+                    "a profile of colours needs two or more, from the root to the tip");
+    }
+    std::vector<Eigen::Vector3f> steps, colors;
+    for (const Vec3& color : profile) steps.push_back(linear_color(color));
+    std::vector<double> t;
+    for (Index s = 0; s < strands.size(); ++s) {
+        arc_fractions(strands.strand(s), t);
+        for (const double part : t) {
+            const double place = part * static_cast<double>(steps.size() - 1);
+            const auto below = std::min(static_cast<std::size_t>(place), steps.size() - 2);
+            const auto share = static_cast<float>(place - static_cast<double>(below));
+            colors.push_back(steps[below] + share * (steps[below + 1] - steps[below]));
+        }
+    }
+    return colors;
+}
+
 int set_colors(Call& call) {
     return change_strands(call, [&](Strands& strands) {
         StrandValues<Eigen::Vector3f> colors{Eigen::Vector3f::Zero()};
         if (call.has("color")) {
             colors.common = linear_color(call.vector("color"));
+        } else if (call.has("profile")) {
+            colors.values = colors_along(strands, call.points("profile"));
+            colors.domain = StrandDomain::point;
         } else {
             for (const Vec3& color : call.points("colors")) {
                 colors.values.push_back(linear_color(color));
@@ -215,6 +254,27 @@ std::vector<Function> strand_edit_methods() {
          .results = kSelfStrands,
          .errors = {ErrorCode::invalid_argument},
          .example = kTwoStrands + "assert(#hair:append(hair) == 4)"},
+        {.name = "assign",
+         .body = assign_strands,
+         .summary = "Takes the content of other strands, with all that they know.",
+         .arguments = {object("other", "lissom.Strands", "They stay as they are.")},
+         .results = kSelfStrands,
+         .errors = {ErrorCode::memory_limit},
+         .example = kTwoStrands + "local other = hair:select{ first = 1 }\n"
+                                  "assert(#other:assign(hair) == 2)"},
+        {.name = "comment",
+         .body = push_comment,
+         .summary = "The comment of the strands, as of their file; that of hair which a groom "
+                    "keeps in a scene is the text of the groom.",
+         .results = {{"string", "text", "The comment, \"\" without one."}},
+         .example = kTwoStrands + "assert(hair:comment() == \"\")"},
+        {.name = "set_comment",
+         .body = set_comment,
+         .summary = "Replaces the comment, which scenes and files of hair keep (.hair the first "
+                    "88 bytes).",
+         .arguments = {string("text", "The comment.")},
+         .results = kSelfStrands,
+         .example = kTwoStrands + "assert(hair:set_comment(\"red\"):comment() == \"red\")"},
         {.name = "transform",
          .body = transform_strands,
          .summary = "Scales, then rotates, then translates all points. Widths scale too.",
@@ -250,7 +310,11 @@ std::vector<Function> strand_edit_methods() {
          .summary = "Sets the colours of strands as linear red, green and blue, each 0 to 1; "
                     "pictures and files have them.",
          .options = {vector("color", "The colour of all strands.").optional(),
-                     points("colors", "Colours, one a strand or one a point.").optional()},
+                     points("colors", "Colours, one a strand or one a point.").optional(),
+                     points("profile",
+                            "Colours at equal steps from the root to the tip, linear between: two "
+                            "or more.")
+                         .optional()},
          .one_option = true,
          .results = kSelfStrands,
          .errors = {ErrorCode::invalid_argument, ErrorCode::out_of_range},

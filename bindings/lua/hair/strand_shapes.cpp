@@ -3,6 +3,7 @@
 #include "kernel/hair/operators/strand_bend.h"
 #include "kernel/hair/operators/strand_collision.h"
 #include "kernel/hair/operators/strand_cut.h"
+#include "kernel/hair/operators/strand_layer.h"
 
 namespace lissom::lua {
 namespace {
@@ -183,12 +184,31 @@ void set_body(const Hairstyle& style, PushOutOptions& options) {
     options.rough_error = metre * grid.layout().step;
 }
 
+// Lifts strands over hair of a layer below. Both are measured by the grid, which costs less.
+void lift_over_layer(Strands& strands, const Hairstyle& style, const Strands& lower,
+                     const PushOutOptions& body, const Context& context) {
+    const Scalp& scalp = style.scalp();
+    LiftOverOptions options;
+    static_cast<StrandOperatorOptions&>(options) = body;
+    options.distance = body.rough ? body.rough : body.distance;
+    options.gap = body.clearance;
+    const Vec3 center = scalp.unit() * scalp.frame().center;
+    const LayerThickness layer(lower, options.distance, center, context);
+    options.layer = &layer;
+    lift_over(strands, options, context);
+}
+
 int push_strands_out(Call& call) {
     return run_shape_operator<PushOutOptions>(
         call, true, [&](Strands& strands, PushOutOptions& options) {
-            set_body(call.object<HairstyleObject>("head")->style(), options);
+            const Hairstyle& style = call.object<HairstyleObject>("head")->style();
+            set_body(style, options);
             options.clearance = call.number("clearance");
             options.ramp = call.number("ramp");
+            if (call.has("layer")) {
+                const auto lower = call.object<StrandsObject>("layer");
+                lift_over_layer(strands, style, lower->strands, options, call.context());
+            }
             push_out(strands, options, call.context());
         });
 }
@@ -378,6 +398,10 @@ Function push_out_method() {
             "segments between points count too.",
         .options = with_fields(
             {head_field(),
+             object("layer", "lissom.Strands",
+                    "Hair below: strands are lifted over it first, by the clearance above the "
+                    "thickness that it has over the head, and by up to 6 mm more at random.")
+                 .optional("none"),
              meters("clearance", "Distance that hair stays off the surface.")
                  .defaults(d.clearance)
                  .at_least(0),

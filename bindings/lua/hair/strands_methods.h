@@ -29,6 +29,8 @@ inline const Strands& strands_of(const Call& call) {
     return call.self<StrandsObject>()->strands;
 }
 
+/// strand_fills.cpp: interpolate, duplicate, blend, attach.
+std::vector<Function> strand_fill_methods();
 /// strand_braids.cpp: braid, bun.
 std::vector<Function> strand_braid_methods();
 

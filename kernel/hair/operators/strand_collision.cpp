@@ -14,17 +14,6 @@ constexpr int kRounds = 3, kSteps = 4, kWrapSteps = 8;
 // A point counts as outside from so much below its clearance on.
 constexpr double kPushSlack = 1e-5;
 
-// Unit gradient of the distance; zero if it has none.
-Vec3 outward_at(const BodyDistance& distance, const Vec3& p) {
-    Vec3 gradient;
-    for (Index i = 0; i < 3; ++i) {
-        const Vec3 step = kProbe * Vec3::Unit(i);
-        gradient[i] = distance(p + step) - distance(p - step);
-    }
-    const double size = gradient.norm();
-    return size > 0.0 && std::isfinite(size) ? Vec3(gradient / size) : Vec3::Zero();
-}
-
 class Pusher {
   public:
     Pusher(const PushOutOptions& options, StrandWork& work) : options_(options), work_(work) {}
@@ -96,6 +85,16 @@ class Pusher {
 };
 
 }  // namespace
+
+Vec3 outward_at(const BodyDistance& distance, const Vec3& point) {
+    Vec3 gradient;
+    for (Index i = 0; i < 3; ++i) {
+        const Vec3 step = kProbe * Vec3::Unit(i);
+        gradient[i] = distance(point + step) - distance(point - step);
+    }
+    const double size = gradient.norm();
+    return size > 0.0 && std::isfinite(size) ? Vec3(gradient / size) : Vec3::Zero();
+}
 
 void push_out(Strands& strands, const PushOutOptions& options, const Context& context) {
     require(static_cast<bool>(options.distance), "pushing strands out needs a distance");

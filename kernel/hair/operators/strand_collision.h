@@ -14,6 +14,10 @@ namespace lissom {
 /// several threads.
 using BodyDistance = std::function<double(const Vec3& point)>;
 
+/// Returns the unit gradient of a distance, by differences over a millimetre to each side; zero if
+/// it has none.
+Vec3 outward_at(const BodyDistance& distance, const Vec3& point);
+
 struct PushOutOptions : StrandOperatorOptions {
     BodyDistance distance;
     /// A distance that costs less and is off by at most `rough_error`: where it leaves no doubt,

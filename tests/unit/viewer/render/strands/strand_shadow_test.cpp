@@ -157,6 +157,27 @@ TEST_CASE("strand shadow: the scalp takes the hair's colour where many roots are
     CHECK(shadow.scalp_color()[0] == Approx(2.0 * shadow.scalp_color()[1]));
 }
 
+TEST_CASE("strand shadow: the tint of evenly rooted skin has no rings") {
+    std::vector<std::vector<Vec3>> lines;
+    for (int i = 0; i < 60; ++i) {
+        for (int j = 0; j < 60; ++j) {
+            const Vec3 root(0.0008 * i, 0.0008 * j, 0.37 * 0.0008 * i);
+            lines.push_back({root, root + Vec3(0, 0, 0.05)});
+        }
+    }
+    const Strands strands = test::strands_of(lines);
+    const Snapshot drawing = test::drawing_of(strands);
+    const StrandShadow shadow(view_strands(drawing, Mat4::Identity(), Vec3::Zero()), {});
+    const ViewGrid& grid = shadow.grid();
+    for (int k = 0; k <= 40; ++k) {
+        const float x = 0.016f + 0.0004f * static_cast<float>(k);
+        const Vector3f p(x, 0.024f, 0.37f * x);
+        const Vector3f at = ((p - grid.origin) / grid.step).array().round();
+        const auto i = grid.index(Index(at.x()), Index(at.y()), Index(at.z()));
+        CHECK(shadow.on_meshes()[4 * i + 2] / 255.0 == Approx(0.7).epsilon(0.02));
+    }
+}
+
 TEST_CASE("strand shadow: no strands, or only broken ones, are no shade") {
     const Strands nothing;
     const double nan = std::nan("");
