@@ -496,6 +496,18 @@ class Files(Folder):
         with open(self.path("one.ply"), "rb") as file:
             self.assertEqual(self.outputs()["a.ply"], file.read())
 
+    def test_files_of_the_user_are_not_replaced_by_the_table(self):
+        for name in ("index.html", "summary.csv", "summary.json"):
+            self.write("out/" + name, "mine")
+            run = self.convert(status=1)
+            self.assertIn(f"out/{name} is not from a batch", run.stderr)
+            self.assertEqual(os.listdir(self.path("out")), [name])
+            self.assertEqual(self.read("out", name), "mine")
+            os.remove(self.path("out", name))
+        self.convert(status=1)
+        shutil.rmtree(self.path("out", ".batch"))
+        self.assertIn("3 converted", self.convert(status=1).stdout)
+
     def test_names_that_begin_as_options_do_are_files(self):
         self.write("-x.obj", TRIANGLE)
         self.run_verb("convert", "--in", "./*.obj", "--out", "out", "--to", "off")

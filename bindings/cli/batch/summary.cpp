@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bindings/cli/batch/axis.h"
@@ -158,6 +162,25 @@ std::string summary_page(const Json& summary) {
     std::string text = page_template();
     const std::string_view mark = "@DATA@";
     return text.replace(text.find(mark), mark.size(), embedded(data));
+}
+
+void require_own_summary(const BatchPlan& plan) {
+    constexpr std::pair<const char*, std::string_view> kBegins[] = {
+        {"summary.json", "{\n  \"script\": "},
+        {"summary.csv", "number,"},
+        {"index.html",
+         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "}};
+    std::error_code error;
+    if (fs::exists(plan.folder / kBatchFolder / "results", error)) return;
+    for (const auto& [name, begin] : kBegins) {
+        std::ifstream stream(plan.folder / name, std::ios::binary);
+        std::string bytes(begin.size(), '\0');
+        if (!stream || (stream.read(bytes.data(), std::ssize(bytes)) && bytes == begin)) continue;
+        throw Error(ErrorCode::file_write_failed,
+                    display_name(plan.folder / name) +
+                        " is not from a batch and would be replaced: move it, or choose another "
+                        "folder for --out");
+    }
 }
 
 void write_summary(const BatchPlan& plan, const BatchState& state) {

@@ -24,6 +24,9 @@ std::string summary_page(const Json& summary);
 /// Returns the text of the page, with @DATA@ for the jobs.
 const char* page_template();
 
+/// Throws if a file of another origin has the name of one of the three. Errors: file_write_failed.
+void require_own_summary(const BatchPlan& plan);
+
 /// Writes the three into the folder of the batch. Errors: file_write_failed.
 void write_summary(const BatchPlan& plan, const BatchState& state);
 

@@ -100,12 +100,13 @@ BatchProgress watch(const BatchPlan& plan, BatchState& state, const BatchOptions
                     const SlurmArray& array, std::int64_t since) {
     Watch watch(plan, state, options, since);
     Clock::time_point asked = Clock::now();
-    for (bool ended = false; !options.stopped();) {
+    // A task that is requeued is not in the queue for a moment: it has ended if that is said twice.
+    for (int ended = 0; !options.stopped();) {
         watch.look();
-        if (ended || watch.progress().ended() == watch.progress().all) break;
+        if (ended == 2 || watch.progress().ended() == watch.progress().all) break;
         std::this_thread::sleep_for(std::chrono::duration<double>(kLookSeconds));
         if (std::chrono::duration<double>(Clock::now() - asked).count() < kAskSeconds) continue;
-        ended = slurm_state(array) == SlurmState::ended;
+        ended = slurm_state(array) == SlurmState::ended ? ended + 1 : 0;
         asked = Clock::now();
     }
     const BatchProgress& progress = watch.progress();

@@ -111,6 +111,7 @@ void complete_run(const Program& program, RunWords& words) {
 int run_plan(Program& program, const BatchPlan& plan, RunWords& words, BatchReport& report) {
     BatchState state(plan);
     if (words.list) return list_plan(program, plan, state);
+    require_own_summary(plan);
     ProgressWriter writer(program, words.progress);
     listen(program, writer, report, words.options);
     if (!words.export_file.empty()) return export_plan(plan, state, words);
