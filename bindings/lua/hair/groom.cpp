@@ -166,9 +166,9 @@ std::vector<Function> groom_functions() {
          .results = {{"lissom.Groom", "groom", "The groom."}},
          .errors = {ErrorCode::invalid_argument, ErrorCode::file_syntax, ErrorCode::unsupported,
                     ErrorCode::memory_limit, ErrorCode::cancelled},
-         .example = kGroomExample + R"(assert(#groom:hair() == 100 and groom.evaluated == 3)
+         .example = kGroomExample + R"(assert(#groom:hair() == 100 and groom.evaluated == 4)
 groom:set("all", 2, { spread = 0.002 }):hair()
-assert(groom.evaluated == 4))"},
+assert(groom.evaluated == 6))"},
         {.name = "load_groom",
          .body = load_groom,
          .summary = "Reads a groom for a head, which may be another than it was made on.",
