@@ -154,22 +154,25 @@ MergeReport report_of(const PreparationReport& prepared, const Boundaries& bound
 }
 
 MergeResult Merger::solve(const Context& context) try {
-    const MergePreparation& preparation = state_->preparation;
+    const MergePreparation& made = state_->preparation;
     Progress progress(context, "merge");
-    const Boundaries& sides = preparation.boundaries;
+    const Boundaries& sides = made.boundaries;
     const MemoryCharge working = context.charge(
         3 * (sides.source.mesh.memory_bytes() + sides.target.memory_bytes()), "merging");
     const auto start = Clock::now();
-    const Matching matching = match_boundaries(preparation, state_->keys, context);
+    const auto find = [&] {
+        return find_places(sides, *made.parts, made.system, made.options, context);
+    };
+    const Matching matching = match_boundaries(made.given, sides, made.options,
+                                               made.report.sides.joins, state_->keys, find);
     progress.step(0.5);
-    const DeformedSource moved =
-        deform_source(sides, preparation.system, preparation.options, matching, context);
+    const DeformedSource moved = deform_source(sides, made.system, made.options, matching, context);
     progress.step(0.5);
-    auto [merged, report] = judged_sides(preparation, matching, moved, context);
+    auto [merged, report] =
+        judged_sides(made.report, sides, made.options, matching, moved, context);
     report.solve_seconds = seconds_since(start);
-    const Boundaries& from = preparation.boundaries;
     const MeshMap origins =
-        appended_map(from.target_map, from.source.map, *preparation.given.target_topology.back());
+        appended_map(sides.target_map, sides.source.map, *made.given.target_topology.back());
     Sewn& sewn = merged.sewn;
     return {std::move(sewn.mesh), std::move(report), composed(sewn.map, origins),
             std::move(sewn.side_of_face), std::move(sewn.seams)};

@@ -16,28 +16,26 @@ bool may_mend(const MergeOptions& options, const MergeReport& report) {
            has_surface_faults(report);
 }
 
-JudgedSides sewn_judged(const MergePreparation& preparation, const MergeOptions& options,
-                        const Matching& matching, const DeformedSource& moved,
-                        const Context& context) {
-    JudgedSides sides{sew_sides(preparation.boundaries, options, matching, moved, context), {}};
-    sides.report = report_of(preparation.report, preparation.boundaries, options, matching, moved,
-                             sides.merged, context);
+JudgedSides sewn_judged(const PreparationReport& prepared, const Boundaries& boundaries,
+                        const MergeOptions& options, const Matching& matching,
+                        const DeformedSource& moved, const Context& context) {
+    JudgedSides sides{sew_sides(boundaries, options, matching, moved, context), {}};
+    sides.report =
+        report_of(prepared, boundaries, options, matching, moved, sides.merged, context);
     return sides;
 }
 
 // Takes folds and crossings beside the seams away, as far as that leaves fewer faults. Returns
 // whether it did.
-bool relax_best(const MergePreparation& preparation, const MergeOptions& options,
-                const Matching& matching, const DeformedSource& moved, JudgedSides& best,
-                const Context& context) {
+bool relax_best(const PreparationReport& prepared, const Boundaries& boundaries,
+                const MergeOptions& options, const Matching& matching, const DeformedSource& moved,
+                JudgedSides& best, const Context& context) {
     bool better = false;
     JudgedSides tried = best;
     for (Index rings = 1; rings <= kRelaxRings && !tried.report.ok; rings *= 2) {
-        if (!relax_sides(preparation.boundaries, options, tried.report, rings, tried.merged,
-                         context))
-            break;
-        tried.report = report_of(preparation.report, preparation.boundaries, options, matching,
-                                 moved, tried.merged, context);
+        if (!relax_sides(boundaries, options, tried.report, rings, tried.merged, context)) break;
+        tried.report =
+            report_of(prepared, boundaries, options, matching, moved, tried.merged, context);
         if (!is_better(tried.report, best.report, false)) continue;
         best = tried;
         better = true;
@@ -47,10 +45,10 @@ bool relax_best(const MergePreparation& preparation, const MergeOptions& options
 
 }  // namespace
 
-JudgedSides judged_sides(const MergePreparation& preparation, const Matching& matching,
+JudgedSides judged_sides(const PreparationReport& prepared, const Boundaries& boundaries,
+                         const MergeOptions& asked, const Matching& matching,
                          const DeformedSource& moved, const Context& context) {
-    const MergeOptions& asked = preparation.options;
-    JudgedSides best = sewn_judged(preparation, asked, matching, moved, context);
+    JudgedSides best = sewn_judged(prepared, boundaries, asked, matching, moved, context);
     if (!may_mend(asked, best.report)) return best;
     const std::string faults = fault_names(best.report);
     MergeOptions fair = asked, blended = asked;
@@ -60,13 +58,13 @@ JudgedSides judged_sides(const MergePreparation& preparation, const Matching& ma
     const MergeOptions* taken = &asked;
     for (const auto& [options, name] :
          {std::pair(&fair, "the seam is fair"), std::pair(&blended, "a transition is made")}) {
-        JudgedSides other = sewn_judged(preparation, *options, matching, moved, context);
+        JudgedSides other = sewn_judged(prepared, boundaries, *options, matching, moved, context);
         if (!is_better(other.report, best.report, !way.empty())) continue;
         best = std::move(other);
         way = name;
         taken = options;
     }
-    if (!best.report.ok && relax_best(preparation, *taken, matching, moved, best, context)) {
+    if (!best.report.ok && relax_best(prepared, boundaries, *taken, matching, moved, best, context)) {
         way += (way.empty() ? "" : " and ") + std::string("the folds beside it are smoothed");
     }
     if (!way.empty()) note_mended(faults, way, best.report);

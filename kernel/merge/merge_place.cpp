@@ -109,16 +109,19 @@ const JudgedTurn& best_turn(const std::vector<JudgedTurn>& turns) {
 
 // Several joins take the places of their centres; a single one is turned as its loops, the planes
 // of symmetry, masses and necks of the parts suggest, with the least distortion.
-FoundPlaces places_by_shape(const MergePreparation& preparation, std::span<const LoopJoin> loops,
+FoundPlaces places_by_shape(const Boundaries& boundaries, const PartShapes& shapes,
+                            const SourceSystem& system, const MergeOptions& options,
                             const Context& context) {
+    const std::vector<LoopJoin> loops = loops_of(boundaries);
     if (loops.size() > 1) return guessed_places(guess_offsets(loops), Placing::shape);
-    const PartShapes::Pair& parts = preparation.parts->of(preparation.boundaries, context);
+    const PartShapes::Pair& parts = shapes.of(boundaries, context);
     if (parts.source.round || parts.target.round) {
         FoundPlaces found = sure_places(guess_offsets(loops), Placing::shape);
         found.any_turn = true;
         return found;
     }
-    const std::vector<JudgedTurn> turns = judged_turns(preparation, context);
+    const std::vector<JudgedTurn> turns =
+        judged_turns(boundaries, shapes, system, options, context);
     const JudgedTurn& best = best_turn(turns);
     return {{{0.0, best.turn.offset}}, Placing::shape, {best.certainty}, false};
 }
@@ -133,9 +136,8 @@ double apart_from(const TurnCandidate& turn, const ParameterPair& key) {
 
 // Before anything is deformed: whether the turn that outlines, symmetry and masses speak for most
 // is about that of the key.
-bool agrees_roughly(const MergePreparation& preparation, const PartShapes::Pair& parts,
+bool agrees_roughly(const Boundaries& from, const PartShapes::Pair& parts,
                     const ParameterPair& key) {
-    const Boundaries& from = preparation.boundaries;
     const std::vector<TurnCandidate> turns = turn_candidates(
         {&from.source_curves.front(), &from.target_curves.front(), &parts.source, &parts.target});
     const auto best =
@@ -145,42 +147,49 @@ bool agrees_roughly(const MergePreparation& preparation, const PartShapes::Pair&
     return best == turns.end() || apart_from(*best, key) <= kQuarterTurn;
 }
 
-void compare_with_shape(const MergePreparation& preparation, FoundPlaces& found,
-                        const Context& context) {
-    const PartShapes::Pair& parts = preparation.parts->of(preparation.boundaries, context);
-    const ParameterPair& key = found.keys.front();
-    if (parts.source.round || parts.target.round || agrees_roughly(preparation, parts, key)) return;
-    const std::vector<JudgedTurn> turns = judged_turns(preparation, context);
+// Returns the angle from the turn that the shapes surely suggest, or 0: FoundPlaces::off_shape.
+double angle_off_shape(const Boundaries& boundaries, const PartShapes& shapes,
+                       const SourceSystem& system, const MergeOptions& options,
+                       const ParameterPair& key, const Context& context) {
+    const PartShapes::Pair& parts = shapes.of(boundaries, context);
+    if (parts.source.round || parts.target.round || agrees_roughly(boundaries, parts, key)) {
+        return 0.0;
+    }
+    const std::vector<JudgedTurn> turns =
+        judged_turns(boundaries, shapes, system, options, context);
     const JudgedTurn& best = best_turn(turns);
     const double apart = apart_from(best.turn, key);
-    if (!(best.certainty >= kCertain && apart > kQuarterTurn)) return;
-    found.off_shape = 2.0 * kPi * apart;
+    return best.certainty >= kCertain && apart > kQuarterTurn ? 2.0 * kPi * apart : 0.0;
 }
 
 }  // namespace
 
-std::vector<JudgedTurn> judged_turns(const MergePreparation& preparation, const Context& context) {
-    const Boundaries& from = preparation.boundaries;
-    const PartShapes::Pair& parts = preparation.parts->of(from, context);
-    const Region& region = preparation.system.deformer->region();
-    const bool snap = preparation.method.loops == LoopMeasure::robust;
-    const Loop &source = from.source_curves.front(), &target = from.target_curves.front();
+std::vector<JudgedTurn> judged_turns(const Boundaries& boundaries, const PartShapes& shapes,
+                                     const SourceSystem& system, const MergeOptions& options,
+                                     const Context& context) {
+    const PartShapes::Pair& parts = shapes.of(boundaries, context);
+    const Region& region = system.deformer->region();
+    const MergeMethod method = method_of(options);
+    const bool snap = method.loops == LoopMeasure::robust;
+    const Loop& source = boundaries.source_curves.front();
+    const Loop& target = boundaries.target_curves.front();
     std::vector<JudgedTurn> turns;
     for (const TurnCandidate& turn :
          turn_candidates({&source, &target, &parts.source, &parts.target})) {
         const ParameterPair key{0.0, turn.offset};
         const LoopPair pair = corresponding(source, target, std::span(&key, 1), snap);
-        const BoundaryDeformation deformed = deformed_by(
-            from, preparation.system, preparation.method.values, std::span(&pair, 1), {}, context);
-        turns.push_back({turn, bend_of(from.source.mesh, region, deformed.positions), 0.0});
+        const BoundaryDeformation deformed =
+            deformed_by(boundaries, system, method.values, std::span(&pair, 1), {}, context);
+        turns.push_back({turn, bend_of(boundaries.source.mesh, region, deformed.positions), 0.0});
     }
     find_certainty(turns);
     return turns;
 }
 
-FoundPlaces find_places(const MergePreparation& preparation, const Context& context) {
-    const std::vector<LoopJoin> loops = loops_of(preparation.boundaries);
-    const MergeOptions& options = preparation.options;
+FoundPlaces find_places(const Boundaries& boundaries, const PartShapes& parts,
+                        const SourceSystem& system, const MergeOptions& options,
+                        const Context& context) {
+    const std::vector<LoopJoin> loops = loops_of(boundaries);
     if (directions_count(loops.front(), options.directions)) {
         return guessed_places(guess_offsets(loops, options.directions), Placing::directions);
     }
@@ -188,9 +197,13 @@ FoundPlaces find_places(const MergePreparation& preparation, const Context& cont
         return sure_places(nearest_offsets(loops), Placing::as_placed);
     }
     const bool over = loops.size() == 1 && is_turned_over(loops.front());
-    if (options.place == Place::shape || over) return places_by_shape(preparation, loops, context);
+    if (options.place == Place::shape || over) {
+        return places_by_shape(boundaries, parts, system, options, context);
+    }
     FoundPlaces found = sure_places(as_placed_offsets(loops), Placing::as_placed);
-    if (loops.size() == 1) compare_with_shape(preparation, found, context);
+    if (loops.size() > 1) return found;
+    found.off_shape =
+        angle_off_shape(boundaries, parts, system, options, found.keys.front(), context);
     return found;
 }
 

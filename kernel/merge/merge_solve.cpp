@@ -291,19 +291,18 @@ ParameterPair key_of(const CurveFit& fit, const Loop& source, const Loop& target
 
 // Parts that fit as they lie need no place; `find` is called if keys are missing.
 template <typename Find>
-MatchedKeys matched_keys(const MergePreparation& preparation, std::size_t j,
+MatchedKeys matched_keys(const Boundaries& from, const MergeOptions& options, std::size_t j,
                          std::vector<ParameterPair> keys, const Find& find, Matching& matching) {
-    const Boundaries& from = preparation.boundaries;
     JoinReport& join = matching.joins[j];
     MatchedKeys matched{std::move(keys), {}};
-    matched.fit = fit_of(from, preparation.options, j, matched.keys, nullptr);
+    matched.fit = fit_of(from, options, j, matched.keys, nullptr);
     if (!matched.keys.empty()) return matched;
     join.placed = Placing::as_placed;
     if (!matched.fit) {
         const FoundPlaces& found = find();
-        matched.fit = fit_of(from, preparation.options, j, {}, &found);
+        matched.fit = fit_of(from, options, j, {}, &found);
         matched.keys = {found.keys[j]};
-        note_place(preparation.options.place, found, j, join, matching.warnings);
+        note_place(options.place, found, j, join, matching.warnings);
     }
     if (matched.fit) {
         matched.keys = {key_of(*matched.fit, from.source_curves[j], from.target_curves[j])};
@@ -330,15 +329,14 @@ LoopPair matched_loops(const Boundaries& from, LoopMeasure measure, std::size_t 
 }
 
 // Only the fixed configuration can do nothing about it.
-void note_same_side(const MergePreparation& preparation, std::size_t j, Matching& matching) {
-    if (preparation.options.configuration == Configuration::free) return;
-    const Boundaries& from = preparation.boundaries;
+void note_same_side(const Boundaries& from, const GivenLoop& given, std::size_t j,
+                    Matching& matching) {
     JoinReport& join = matching.joins[j];
     join.same_side =
         !join.fits && on_same_side(from.source_curves[j], from.target_curves[j], matching.pairs[j]);
     if (!join.same_side) return;
     Elements elements{ElementKind::vertex, 0, {}};
-    for (const Index v : preparation.given.source_loops[j].vertices) elements.add(v);
+    for (const Index v : given.vertices) elements.add(v);
     matching.warnings.push_back(
         "join " + std::to_string(j + 1) + ": the source's boundary at " + describe(elements) +
         " has the source on the same side as the target, so that the source turns over to meet "
@@ -347,29 +345,33 @@ void note_same_side(const MergePreparation& preparation, std::size_t j, Matching
 
 }  // namespace
 
-Matching match_boundaries(const MergePreparation& preparation,
-                          std::span<const std::vector<KeyPair>> given, const Context& context) {
+Matching match_boundaries(const GivenMeshes& given, const Boundaries& boundaries,
+                          const MergeOptions& options, std::vector<JoinReport> joins,
+                          std::span<const std::vector<KeyPair>> keys,
+                          const std::function<FoundPlaces()>& find) {
     std::optional<FoundPlaces> found;
-    const auto find = [&]() -> const FoundPlaces& {
-        if (!found) found = find_places(preparation, context);
+    const auto find_once = [&]() -> const FoundPlaces& {
+        if (!found) found = find();
         return *found;
     };
+    const MergeMethod method = method_of(options);
     Matching result;
-    result.joins = preparation.report.sides.joins;
-    for (std::size_t j = 0; j < given.size(); ++j) {
-        PlacedKeys placed =
-            placed_keys(preparation.given, preparation.boundaries, preparation.method, j, given[j]);
+    result.joins = std::move(joins);
+    for (std::size_t j = 0; j < keys.size(); ++j) {
+        PlacedKeys placed = placed_keys(given, boundaries, method, j, keys[j]);
         result.overlap_starts.push_back(placed.start);
-        const Loop& source = preparation.boundaries.source_curves[j];
+        const Loop& source = boundaries.source_curves[j];
         result.starts.push_back(placed.parameters.empty()
                                     ? 0
                                     : nearest_vertex(source, placed.parameters.front().source));
-        MatchedKeys matched =
-            matched_keys(preparation, j, std::move(placed.parameters), find, result);
-        result.pairs.push_back(matched_loops(preparation.boundaries, preparation.method.loops, j,
-                                             matched, result.joins[j]));
+        MatchedKeys matched = matched_keys(boundaries, options, j, std::move(placed.parameters),
+                                           find_once, result);
+        result.pairs.push_back(
+            matched_loops(boundaries, method.loops, j, matched, result.joins[j]));
         result.fits.push_back(std::move(matched.fit));
-        note_same_side(preparation, j, result);
+        if (options.configuration == Configuration::fixed) {
+            note_same_side(boundaries, given.source_loops[j], j, result);
+        }
     }
     return result;
 }

@@ -1,11 +1,12 @@
 /// The stages of a merge; private to kernel/merge. Each is a function of the ones before it:
 ///
 ///     make_sides -> Sides -> find_boundaries -> Boundaries -> prepare_merge -> MergePreparation,
-///     match_boundaries -> Matching, deform_source -> DeformedSource, sew_sides -> MergedSides,
-///     report_of
+///     find_places -> FoundPlaces, match_boundaries -> Matching, deform_source -> DeformedSource,
+///     sew_sides -> MergedSides, report_of
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -180,7 +181,9 @@ struct FoundPlaces {
     /// is less than a quarter turn.
     double off_shape = 0.0;
 };
-FoundPlaces find_places(const MergePreparation& preparation, const Context& context);
+FoundPlaces find_places(const Boundaries& boundaries, const PartShapes& parts,
+                        const SourceSystem& system, const MergeOptions& options,
+                        const Context& context);
 
 /// Correspondence of the boundaries.
 struct Matching {
@@ -194,9 +197,12 @@ struct Matching {
     std::vector<JoinReport> joins;
     std::vector<std::string> warnings;
 };
-/// `keys` by join; find_places if one has none.
-Matching match_boundaries(const MergePreparation& preparation,
-                          std::span<const std::vector<KeyPair>> keys, const Context& context);
+/// `keys` by join, and `joins` with the findings about the sides. `find` is called once, if a join
+/// without keys does not fit as it lies.
+Matching match_boundaries(const GivenMeshes& given, const Boundaries& boundaries,
+                          const MergeOptions& options, std::vector<JoinReport> joins,
+                          std::span<const std::vector<KeyPair>> keys,
+                          const std::function<FoundPlaces()>& find);
 
 /// The source as the boundaries of `pairs` deform it, or move it if parts fit; `fits` by join, or
 /// none. Errors: cancelled.
@@ -215,7 +221,9 @@ struct JudgedTurn {
     double score = 0.0, certainty = 0.0;
 };
 /// Deforms the source by every turn that the shapes of the parts suggest, with the factors kept.
-std::vector<JudgedTurn> judged_turns(const MergePreparation& preparation, const Context& context);
+std::vector<JudgedTurn> judged_turns(const Boundaries& boundaries, const PartShapes& parts,
+                                     const SourceSystem& system, const MergeOptions& options,
+                                     const Context& context);
 
 /// The source brought to the target.
 struct DeformedSource {
@@ -257,8 +265,9 @@ struct JudgedSides {
     MergedSides merged;
     MergeReport report;
 };
-/// Sews and judges as the options of the preparation say, and mends if they allow it.
-JudgedSides judged_sides(const MergePreparation& preparation, const Matching& matching,
+/// Sews and judges, and mends if the options allow it.
+JudgedSides judged_sides(const PreparationReport& prepared, const Boundaries& boundaries,
+                         const MergeOptions& options, const Matching& matching,
                          const DeformedSource& moved, const Context& context);
 
 }  // namespace lissom

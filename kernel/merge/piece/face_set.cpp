@@ -31,12 +31,12 @@ void FaceSet::remove(Index face) {
     inside_[at(face)] = 0;
 }
 
-template <typename Holds>
-std::vector<std::vector<Index>> FaceSet::connected(const Holds& holds) const {
+template <typename Predicate>
+std::vector<std::vector<Index>> FaceSet::connected(const Predicate& is_member) const {
     std::vector<std::vector<Index>> parts;
     std::vector<char> seen(inside_.size(), 0);
     const auto reach = [&](Index f, std::vector<Index>& part) {
-        if (f == kNoIndex || seen[at(f)] || !holds(f)) return;
+        if (f == kNoIndex || seen[at(f)] || !is_member(f)) return;
         seen[at(f)] = 1;
         part.push_back(f);
     };

@@ -38,8 +38,8 @@ class FaceSet {
     const Topology& topology() const { return *topology_; }
 
   private:
-    template <typename Holds>
-    std::vector<std::vector<Index>> connected(const Holds& holds) const;
+    template <typename Predicate>
+    std::vector<std::vector<Index>> connected(const Predicate& is_member) const;
     bool is_bow_tie(Index vertex) const;
 
     const Topology* topology_;

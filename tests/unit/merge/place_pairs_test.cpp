@@ -36,7 +36,12 @@ Guess guess_of(const PlacePair& pair) {
     const std::vector<Join> joins{Join{pair.source_boundary, pair.target_boundary}};
     const MergePreparation made = prepare_merge(pair.source, targets, joins, options, {});
     const std::vector<std::vector<KeyPair>> no_keys(1);
-    const JoinReport join = match_boundaries(made, no_keys, {}).joins.front();
+    const auto find = [&] {
+        return find_places(made.boundaries, *made.parts, made.system, options, {});
+    };
+    const JoinReport join = match_boundaries(made.given, made.boundaries, options,
+                                             made.report.sides.joins, no_keys, find)
+                                .joins.front();
     const Vec3 axis = join.turn.norm() > 0.0 ? Vec3(join.turn.normalized()) : Vec3::UnitX();
     const Mat3 turn = Eigen::AngleAxisd(join.turn.norm(), axis).toRotationMatrix();
     const bool right = join.any_turn || is_right(pair, turn);
