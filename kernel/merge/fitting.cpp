@@ -21,7 +21,7 @@ double median_frame_turn(const FitSides& sides, const CurveFit& fit) {
     std::vector<double> turns;
     for (const BoundaryValue& value :
          loop_values(sides.source_loop, sides.target_loop, fit.pair, {})) {
-        const Mat3 left = value.rotation * fit.rotation.transpose();
+        const Mat3 left = value.rotation * fit.map.rotation.transpose();
         turns.push_back(std::acos(std::clamp(0.5 * (left.trace() - 1.0), -1.0, 1.0)));
     }
     const auto middle = turns.begin() + std::ssize(turns) / 2;

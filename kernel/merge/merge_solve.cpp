@@ -151,8 +151,8 @@ Vec3 rotation_vector(const Mat3& rotation) {
 
 void turn_as(const CurveFit& fit, std::vector<BoundaryValue>& values) {
     for (BoundaryValue& value : values) {
-        value.rotation = fit.rotation;
-        value.scale = fit.scale;
+        value.rotation = fit.map.rotation;
+        value.scale = fit.map.scale;
     }
 }
 
@@ -185,7 +185,7 @@ BoundaryDeformation laid(const Mesh& mesh, const Region& region, const CurveFit&
     for (const Index v : region.vertices()) {
         result.positions.push_back(fit(mesh.position(v)));
     }
-    result.transforms.assign(result.positions.size(), fit.scale * fit.rotation);
+    result.transforms.assign(result.positions.size(), fit.map.scale * fit.map.rotation);
     return result;
 }
 
@@ -319,7 +319,7 @@ LoopPair matched_loops(const Boundaries& from, LoopMeasure measure, std::size_t 
     join.source_size = source.size();
     join.target_size = target.size();
     join.fits = matched.fit.has_value();
-    join.scale = matched.fit ? matched.fit->scale : loop_scale(source, target);
+    join.scale = matched.fit ? matched.fit->map.scale : loop_scale(source, target);
     LoopPair pair =
         matched.fit ? matched.fit->pair
                     : corresponding(source, target, matched.keys, measure == LoopMeasure::robust);
@@ -364,8 +364,8 @@ Matching match_boundaries(const GivenMeshes& given, const Boundaries& boundaries
         result.starts.push_back(placed.parameters.empty()
                                     ? 0
                                     : nearest_vertex(source, placed.parameters.front().source));
-        MatchedKeys matched = matched_keys(boundaries, options, j, std::move(placed.parameters),
-                                           find_once, result);
+        MatchedKeys matched =
+            matched_keys(boundaries, options, j, std::move(placed.parameters), find_once, result);
         result.pairs.push_back(
             matched_loops(boundaries, method.loops, j, matched, result.joins[j]));
         result.fits.push_back(std::move(matched.fit));

@@ -4,25 +4,12 @@
 #include <cstring>
 #include <optional>
 #include <span>
-#include <string>
+#include <utility>
 
 #include "kernel/hair/strands/strand_measures.h"
+#include "kernel/scene/strand_frame.h"
 
 namespace lissom {
-
-/// All of strands but their points; private to this file.
-struct StrandFrame {
-    std::vector<Index> offsets;
-    StrandWidths widths;
-    StrandRoots roots;
-    std::vector<Index> groups;
-    std::vector<std::string> group_names;
-    std::vector<std::uint32_t> ids;
-    StrandGuides guides;
-    std::optional<StrandValues<Eigen::Vector3f>> colors;
-    StrandValues<float> transparency;
-    std::string comment;
-};
 
 namespace {
 
@@ -60,6 +47,8 @@ bool equal(const StrandFrame& frame, const Strands& strands) {
            equal(frame.transparency, strands.transparency()) && frame.comment == strands.comment();
 }
 
+}  // namespace
+
 StrandFrame frame_of(const Strands& strands) {
     StrandFrame frame{{strands.offsets().begin(), strands.offsets().end()},
                       strands.widths(),
@@ -75,7 +64,16 @@ StrandFrame frame_of(const Strands& strands) {
     return frame;
 }
 
-}  // namespace
+void set_frame(Strands& strands, StrandFrame frame) {
+    strands.set_widths(std::move(frame.widths));
+    strands.set_roots(std::move(frame.roots));
+    strands.set_groups(std::move(frame.groups), std::move(frame.group_names));
+    strands.set_ids(std::move(frame.ids));
+    strands.set_guides(std::move(frame.guides));
+    if (frame.colors) strands.set_colors(*std::move(frame.colors));
+    strands.set_transparency(std::move(frame.transparency));
+    strands.set_comment(std::move(frame.comment));
+}
 
 StrandsContent::StrandsContent(const Strands& strands, const StrandsContent* last,
                                ContentStore& store)
@@ -92,14 +90,7 @@ Strands StrandsContent::strands() const {
     const StrandFrame& frame = *frame_->value;
     Strands strands(std::vector<float>(points_.size() / sizeof(float)), frame.offsets);
     points_.copy_to(std::as_writable_bytes(strands.edit_points()));
-    strands.set_widths(frame.widths);
-    strands.set_roots(frame.roots);
-    strands.set_groups(frame.groups, frame.group_names);
-    strands.set_ids(frame.ids);
-    strands.set_guides(frame.guides);
-    if (frame.colors) strands.set_colors(*frame.colors);
-    strands.set_transparency(frame.transparency);
-    strands.set_comment(frame.comment);
+    set_frame(strands, frame);
     return strands;
 }
 

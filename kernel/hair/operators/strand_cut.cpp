@@ -113,21 +113,10 @@ void cut(Strands& strands, const StrandCutOptions& options, const Context& conte
     require_cut(strands, options);
     if (options.factor == 0.0) return;
     Progress progress(context, "cut strands");
-    const auto find = [&](Index s, std::vector<StrandPlace>& places) {
-        const StrandView strand = strands.strand(s);
-        const auto last = index_of(strand.cols()) - 1;
-        StrandPlace end{last, 0.0f};
-        if (last > 0) {
-            std::vector<double> fractions;
-            arc_fractions(strand, fractions);
-            const double part = part_left(strands, s, options, fractions);
-            if (part < 1.0) end = place_at(fractions, part);
-        }
-        const Index whole = end.u > 0.0f ? end.below : end.below - 1;
-        for (Index k = 0; k <= whole; ++k) places.push_back({k, 0.0f});
-        places.push_back(end);
+    const auto part = [&](Index s, const std::vector<double>& fractions) {
+        return part_left(strands, s, options, fractions);
     };
-    strands = at_places(strands, find, context);
+    strands = shortened(strands, part, context);
 }
 
 void cull(Strands& strands, std::span<const char> marks, bool locks) {

@@ -195,6 +195,24 @@ StrandPlace place_at(const std::vector<double>& fractions, double t) {
     return {index_of(k), static_cast<float>(u)};
 }
 
+Strands shortened(const Strands& strands, const KeptPart& part, const Context& context) {
+    const auto find = [&](Index s, std::vector<StrandPlace>& places) {
+        const StrandView strand = strands.strand(s);
+        const auto last = index_of(strand.cols()) - 1;
+        StrandPlace end{last, 0.0f};
+        if (last > 0) {
+            std::vector<double> fractions;
+            arc_fractions(strand, fractions);
+            const double kept = part(s, fractions);
+            if (kept < 1.0) end = place_at(fractions, kept);
+        }
+        const Index whole = end.u > 0.0f ? end.below : end.below - 1;
+        for (Index k = 0; k <= whole; ++k) places.push_back({k, 0.0f});
+        places.push_back(end);
+    };
+    return at_places(strands, find, context);
+}
+
 Strands resample(const Strands& strands, const ResampleOptions& options, const Context& context) {
     require_resample(options);
     Progress progress(context, "resample strands");

@@ -68,21 +68,10 @@ double kept_part(const StrandView& strand, std::uint32_t id, const std::vector<d
 void trim(Strands& strands, const StrandTrimOptions& options, const Context& context) {
     require_trim(options);
     Progress progress(context, "trim strands");
-    const auto find = [&](Index s, std::vector<StrandPlace>& places) {
-        const StrandView strand = strands.strand(s);
-        const auto last = index_of(strand.cols()) - 1;
-        StrandPlace end{last, 0.0f};
-        if (last > 0) {
-            std::vector<double> fractions;
-            arc_fractions(strand, fractions);
-            const double part = kept_part(strand, strands.id(s), fractions, options);
-            if (part < 1.0) end = place_at(fractions, part);
-        }
-        const Index whole = end.u > 0.0f ? end.below : end.below - 1;
-        for (Index k = 0; k <= whole; ++k) places.push_back({k, 0.0f});
-        places.push_back(end);
+    const auto part = [&](Index s, const std::vector<double>& fractions) {
+        return kept_part(strands.strand(s), strands.id(s), fractions, options);
     };
-    strands = at_places(strands, find, context);
+    strands = shortened(strands, part, context);
 }
 
 }  // namespace lissom

@@ -148,25 +148,12 @@ struct Meetings {
         return true;
     }
 
-    // The similarity of least squares (Umeyama 1991), its scale that of the sizes.
-    void lay(CurveFit& fit) const {
+    SimilarityMap similarity() const {
         const auto count = static_cast<double>(from.size());
         Vec3 a = Vec3::Zero(), b = Vec3::Zero();
         for (const Vec3& p : from) a += (p - from[0]) / count;
         for (const Vec3& p : to) b += (p - to[0]) / count;
-        fit.from = from[0] + a;
-        fit.to = to[0] + b;
-        Mat3 products = Mat3::Zero();
-        double from_squares = 0.0, to_squares = 0.0;
-        for (std::size_t k = 0; k < from.size(); ++k) {
-            const Vec3 p = from[k] - fit.from, q = to[k] - fit.to;
-            products += q * p.transpose();
-            from_squares += p.squaredNorm();
-            to_squares += q.squaredNorm();
-        }
-        fit.rotation = nearest_rotation(products / std::sqrt(from_squares * to_squares));
-        fit.scale = std::sqrt(to_squares / from_squares);
-        fit.stays = false;
+        return similarity_about(from, to, from[0] + a, to[0] + b);
     }
 };
 
@@ -175,7 +162,10 @@ std::optional<CurveFit> fit_at(const Loop& source, const Loop& target, const Cur
     SideBySide places(from, to, i, j);
     const Meetings meetings(from, to, places);
     CurveFit fit;
-    if (moves) meetings.lay(fit);
+    if (moves) {
+        fit.map = meetings.similarity();
+        fit.stays = false;
+    }
     if (!meetings.agree(fit, kOneCurve * to.length())) return std::nullopt;
     fit.pair = {source.vertices(), target.vertices(), std::move(places.on_target),
                 std::move(places.on_source)};
@@ -281,7 +271,7 @@ double median_turn(const CurveFit& fit, const Mesh& source, const Mesh& target) 
         if (a == kNoIndex || b == kNoIndex) return;
         const Vec3 p = clear_area_vector(source, a), q = clear_area_vector(target, b);
         if (p.isZero(0.0) || q.isZero(0.0)) return;
-        turns.push_back(angle_between(fit.rotation * p, q));
+        turns.push_back(angle_between(fit.map.rotation * p, q));
     };
     for (Index i = 0; i < n; ++i) add(i, pair.on_target[at(i)].segment);
     for (Index j = 0; j < m; ++j) add(pair.on_source[at(j)].segment, j);

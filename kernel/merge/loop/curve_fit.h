@@ -10,25 +10,21 @@
 #include "kernel/core/geometry.h"
 #include "kernel/merge/loop/correspondence.h"
 #include "kernel/merge/loop/loop.h"
+#include "kernel/merge/loop/loop_fit.h"
 #include "kernel/merge/loop/loop_pair.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {
 
-/// The similarity that lays the source's loop onto the target's: p goes to
-/// to + scale * rotation * (p - from).
+/// The similarity that lays the source's loop onto the target's.
 struct CurveFit {
-    Mat3 rotation = Mat3::Identity();
-    double scale = 1.0;
-    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+    SimilarityMap map = {};
     /// True for loops that coincide as they lie: no point moves, to the bit.
     bool stays = true;
     /// Vertices of both loops that lie at one place of the curve, and the places of the others.
     LoopPair pair = {};
 
-    Vec3 operator()(const Vec3& p) const {
-        return stays ? p : Vec3(to + scale * (rotation * (p - from)));
-    }
+    Vec3 operator()(const Vec3& p) const { return stays ? p : map(p); }
 };
 
 /// Finds whether two loops that run the same way coincide as they lie: each vertex of one lies on

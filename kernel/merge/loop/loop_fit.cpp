@@ -15,11 +15,9 @@ LoopSamples::LoopSamples(const Loop& loop, const std::vector<Mat3>& frames, doub
     }
 }
 
-SimilarityMap Matches::fit() const {
-    SimilarityMap s;
-    const double n = from.size();
-    for (const Vec3& p : from) s.from += p / n;
-    for (const Vec3& p : to) s.to += p / n;
+SimilarityMap similarity_about(std::span<const Vec3> from, std::span<const Vec3> to,
+                               const Vec3& from_center, const Vec3& to_center) {
+    SimilarityMap s{Mat3::Identity(), 1.0, from_center, to_center};
     Mat3 products = Mat3::Zero();
     double from_squares = 0.0, to_squares = 0.0;
     for (std::size_t i = 0; i < from.size(); ++i) {
@@ -31,6 +29,14 @@ SimilarityMap Matches::fit() const {
     s.rotation = nearest_rotation(products / std::sqrt(from_squares * to_squares));
     s.scale = std::sqrt(to_squares / from_squares);
     return s;
+}
+
+SimilarityMap Matches::fit() const {
+    const double n = from.size();
+    Vec3 a = Vec3::Zero(), b = Vec3::Zero();
+    for (const Vec3& p : from) a += p / n;
+    for (const Vec3& p : to) b += p / n;
+    return similarity_about(from, to, a, b);
 }
 
 SimilarityMap similarity_of(const Loop& source, const Loop& target, const LoopPair& pair) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "kernel/core/geometry.h"
@@ -29,6 +30,11 @@ struct SimilarityMap {
 
     Vec3 operator()(const Vec3& p) const { return to + scale * (rotation * (p - from)); }
 };
+
+/// Returns the similarity of least squares (Umeyama 1991) that takes the center of `from` to that
+/// of `to`; its scale is that of the sizes.
+SimilarityMap similarity_about(std::span<const Vec3> from, std::span<const Vec3> to,
+                               const Vec3& from_center, const Vec3& to_center);
 
 /// Points that are to meet.
 struct Matches {

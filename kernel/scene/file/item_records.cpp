@@ -197,31 +197,12 @@ Mesh mesh_of(MeshRecord record, const Context& context,
 }
 
 StrandsRecord record_of(const Strands& strands) {
-    StrandsRecord record{{strands.points().begin(), strands.points().end()},
-                         {strands.offsets().begin(), strands.offsets().end()},
-                         strands.widths(),
-                         strands.roots(),
-                         strands.groups(),
-                         strands.group_names(),
-                         strands.ids(),
-                         strands.guides(),
-                         std::nullopt,
-                         strands.transparency(),
-                         strands.comment()};
-    if (strands.colors()) record.colors = *strands.colors();
-    return record;
+    return {frame_of(strands), {strands.points().begin(), strands.points().end()}};
 }
 
 Strands strands_of(StrandsRecord record, const Context& context) {
     Strands strands(std::move(record.points), std::move(record.offsets), context.memory());
-    strands.set_widths(std::move(record.widths));
-    strands.set_roots(std::move(record.roots));
-    strands.set_groups(std::move(record.groups), std::move(record.group_names));
-    strands.set_ids(std::move(record.ids));
-    strands.set_guides(std::move(record.guides));
-    if (record.colors) strands.set_colors(*std::move(record.colors));
-    strands.set_transparency(std::move(record.transparency));
-    strands.set_comment(std::move(record.comment));
+    set_frame(strands, std::move(record));
     return strands;
 }
 

@@ -21,6 +21,7 @@
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/report.h"
 #include "kernel/mesh/topology.h"
+#include "kernel/scene/strand_frame.h"
 
 namespace lissom {
 
@@ -45,18 +46,8 @@ struct MeshRecord {
     std::vector<Finding> findings;
 };
 
-struct StrandsRecord {
+struct StrandsRecord : StrandFrame {
     std::vector<float> points;
-    std::vector<Index> offsets;
-    StrandWidths widths;
-    StrandRoots roots;
-    std::vector<Index> groups;
-    std::vector<std::string> group_names;
-    std::vector<std::uint32_t> ids;
-    StrandGuides guides;
-    std::optional<StrandValues<Eigen::Vector3f>> colors;
-    StrandValues<float> transparency{0.0f};
-    std::string comment;
 };
 
 /// A deformation of the mesh that is item `mesh` of the file.
