@@ -12,7 +12,7 @@
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/merge/sew/seam_guard.h"
-#include "kernel/merge/sew/seam_sheet.h"
+#include "kernel/merge/sheet/seam_sheet.h"
 
 namespace lissom {
 namespace {

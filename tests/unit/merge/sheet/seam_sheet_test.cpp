@@ -1,6 +1,6 @@
 // Triangles of a sheet while they are changed: flat ones become round, and nothing turns over.
 
-#include "kernel/merge/sew/seam_sheet.h"
+#include "kernel/merge/sheet/seam_sheet.h"
 
 #include <doctest/doctest.h>
 
