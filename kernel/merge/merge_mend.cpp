@@ -20,8 +20,7 @@ JudgedSides sewn_judged(const PreparationReport& prepared, const Boundaries& bou
                         const MergeOptions& options, const Matching& matching,
                         const DeformedSource& moved, const Context& context) {
     JudgedSides sides{sew_sides(boundaries, options, matching, moved, context), {}};
-    sides.report =
-        report_of(prepared, boundaries, options, matching, moved, sides.merged, context);
+    sides.report = report_of(prepared, boundaries, options, matching, moved, sides.merged, context);
     return sides;
 }
 
@@ -64,7 +63,8 @@ JudgedSides judged_sides(const PreparationReport& prepared, const Boundaries& bo
         way = name;
         taken = options;
     }
-    if (!best.report.ok && relax_best(prepared, boundaries, *taken, matching, moved, best, context)) {
+    if (!best.report.ok &&
+        relax_best(prepared, boundaries, *taken, matching, moved, best, context)) {
         way += (way.empty() ? "" : " and ") + std::string("the folds beside it are smoothed");
     }
     if (!way.empty()) note_mended(faults, way, best.report);
