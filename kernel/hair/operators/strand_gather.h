@@ -34,7 +34,7 @@ void gather(Strands& strands, const GatherOptions& options = {}, const Context& 
 
 struct TwistOptions : StrandOperatorOptions {
     TwistOptions() { keep_length = false; }
-
+    /// Same as GatherOptions::guides.
     Index guides = 0;
     /// Length in metres of the guide over which strands turn about it once; negative turns the
     /// other way. Not 0.
@@ -48,7 +48,7 @@ void twist(Strands& strands, const TwistOptions& options = {}, const Context& co
 
 struct PinchOptions : StrandOperatorOptions {
     PinchOptions() { keep_length = false; }
-
+    /// Same as GatherOptions::guides.
     Index guides = 0;
     /// The place that is pinched, 0 at the root and 1 at the tip, and the part of the length to
     /// both sides over which the effect falls off; positive.

@@ -17,7 +17,7 @@ enum class MaskKind {
 /// fits any head.
 struct MaskStroke {
     MaskKind kind = MaskKind::length;
-    /// The way of the brush over the head; one point is a dab.
+    /// Path of the brush over the head; one point is a dab.
     std::vector<Vec3> points;
     /// Painted value: 0 to kMaxLengthMask, for a density to 1. 1 erases.
     double value = 0.5;
@@ -38,7 +38,7 @@ void require_mask(const MaskStroke& stroke);
 /// The strokes of one kind as a function on the head.
 class ScalpMask {
   public:
-    /// Takes those of `kind`, in their order.
+    /// Takes the strokes of `kind`, in their order.
     ScalpMask(std::span<const MaskStroke> strokes, MaskKind kind);
 
     bool is_empty() const { return layers_.empty(); }

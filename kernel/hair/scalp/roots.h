@@ -37,7 +37,7 @@ struct RootOptions {
     /// Relative density for every vertex of the head, finite and not negative; even if absent.
     /// Multiplied by the thinning at the hairline. Only ratios count.
     std::vector<double> density = {};
-    /// Multiply the density, those of the density alone.
+    /// Multiply the density; those of lengths have no effect.
     std::vector<MaskStroke> masks = {};
 
     bool operator==(const RootOptions&) const = default;
@@ -55,10 +55,10 @@ struct Root {
     Vec3 normal = Vec3::Zero();
 };
 
-/// Roots in an order of which every beginning is spread alike: the first n of a larger count are
-/// those of count n, but for RootPattern::steps; for a seed, on any number of threads. Darts are
-/// thrown at the scalp with a radius that shrinks as roots are added (McCool and Fiume 1992); a
-/// lower density widens them. Time is about linear in the count. `head` must be the mesh that
+/// Returns roots, the first n spread as evenly as all: with one seed the first n of a larger count
+/// are those of count n, except in RootPattern::steps. Threads do not matter. Throws darts at the
+/// scalp with a radius that shrinks as roots are added (McCool and Fiume 1992), and grows with
+/// lower density. Time is about linear in the count. `head` must be the mesh that
 /// `scalp` was made for. Errors: out_of_range for a count; invalid_argument for a density of the
 /// wrong size; not_finite; region_empty if the density is 0 on the whole scalp; topology_mismatch;
 /// memory_limit; cancelled.

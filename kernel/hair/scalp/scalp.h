@@ -26,7 +26,7 @@ struct ScalpOptions {
     /// Skin with hair. If absent it is the mesh's region "scalp", and without one the skin above
     /// the hairline, except the ears.
     std::optional<Region> region = std::nullopt;
-    /// Ascending azimuths in [0, pi], radians; elevations between the points change smoothly.
+    /// Edge of the hair by ascending azimuths in [0, pi], radians; smooth between the points.
     std::vector<HairlinePoint> hairline = default_hairline();
     /// Width of the band over which hair thins out at the hairline, in metres of the scalp's frame;
     /// 0 to 0.1.

@@ -165,59 +165,69 @@ void Welding::weld_seam(std::span<const OpenEdge> edges) {
     for (const OpenEdge& e : edges) is_seam_[e.corner] = twin_[e.corner] != kNoIndex;
 }
 
-FanVertices Welding::fans() const {
-    const auto corner_count = count_of(twin_);
-    FanVertices result;
-    result.of_corner.assign(twin_.size(), kNoIndex);
-    result.source.reserve(positions_.size());
-    for (Index c = 0; c < corner_count; ++c) {
-        if (result.of_corner[c] != kNoIndex) continue;
-        const auto fan = count_of(result.source);
-        Index lowest = work_->faces.vertices[c];
-        const auto add = [&](Index at) {
-            result.of_corner[at] = fan;
-            lowest = std::min(lowest, work_->faces.vertices[at]);
-        };
-        // Once around; if that ends at an open edge, the other way for the rest.
-        Index at = c;
-        do {
-            add(at);
-            at = twin_[work_->previous(at)];
-        } while (at != kNoIndex && at != c);
-        if (at == kNoIndex) {
-            for (Index across = twin_[c]; across != kNoIndex; across = twin_[at]) {
-                at = work_->next(across);
-                add(at);
-            }
-        }
-        result.source.push_back(lowest);
+// Gives the corners around the vertex of one corner the number of their fan: once around; if that
+// ends at an open edge, the other way for the rest. Returns the lowest vertex that they have.
+Index Welding::number_fan(Index corner, Index fan, std::vector<Index>& of_corner) const {
+    Index lowest = work_->faces.vertices[corner];
+    const auto add = [&](Index at) {
+        of_corner[at] = fan;
+        lowest = std::min(lowest, work_->faces.vertices[at]);
+    };
+    Index at = corner;
+    do {
+        add(at);
+        at = twin_[work_->previous(at)];
+    } while (at != kNoIndex && at != corner);
+    if (at != kNoIndex) return lowest;
+    for (Index across = twin_[corner]; across != kNoIndex; across = twin_[at]) {
+        at = work_->next(across);
+        add(at);
     }
+    return lowest;
+}
 
-    // The first fan of each vertex keeps its place, further ones go to the end.
-    const auto fan_count = count_of(result.source);
-    std::vector<Index> first_fan(positions_.size(), kNoIndex);
+namespace {
+
+// The order of fans: the first of each of `vertices` keeps its place, further ones go to the end.
+std::vector<Index> order_of_fans(const std::vector<Index>& source, std::size_t vertices) {
+    const auto fan_count = count_of(source);
+    std::vector<Index> first_fan(vertices, kNoIndex);
     for (Index fan = 0; fan < fan_count; ++fan) {
-        Index& first = first_fan[result.source[fan]];
+        Index& first = first_fan[source[fan]];
         if (first == kNoIndex) first = fan;
     }
     std::vector<Index> order;
-    order.reserve(result.source.size());
+    order.reserve(source.size());
     for (const Index fan : first_fan) {
         if (fan != kNoIndex) order.push_back(fan);
     }
     const auto first_count = std::ssize(order);
     for (Index fan = 0; fan < fan_count; ++fan) {
-        if (first_fan[result.source[fan]] != fan) order.push_back(fan);
+        if (first_fan[source[fan]] != fan) order.push_back(fan);
     }
     std::stable_sort(order.begin() + first_count, order.end(),
-                     [&](Index a, Index b) { return result.source[a] < result.source[b]; });
-    std::vector<Index> number(order.size()), source(order.size());
-    for (Index i = 0; i < fan_count; ++i) {
+                     [&](Index a, Index b) { return source[a] < source[b]; });
+    return order;
+}
+
+}  // namespace
+
+FanVertices Welding::fans() const {
+    FanVertices result;
+    result.of_corner.assign(twin_.size(), kNoIndex);
+    std::vector<Index> source;
+    source.reserve(positions_.size());
+    for (Index c = 0; c < count_of(twin_); ++c) {
+        if (result.of_corner[c] != kNoIndex) continue;
+        source.push_back(number_fan(c, count_of(source), result.of_corner));
+    }
+    const std::vector<Index> order = order_of_fans(source, positions_.size());
+    std::vector<Index> number(order.size());
+    for (Index i = 0; i < count_of(order); ++i) {
         number[order[i]] = i;
-        source[i] = result.source[order[i]];
+        result.source.push_back(source[order[i]]);
     }
     for (Index& fan : result.of_corner) fan = number[fan];
-    result.source = std::move(source);
     result.unchanged =
         result.of_corner == work_->faces.vertices && result.source.size() == positions_.size();
     return result;

@@ -67,6 +67,7 @@ class Welding {
     void weld_around_edge(std::span<const DirectedCorner> corners, const Vec3& axis);
     void weld_seam(std::span<const OpenEdge> edges);
     bool back_to_back(Index a, Index b) const;
+    Index number_fan(Index corner, Index fan, std::vector<Index>& of_corner) const;
     FanVertices fans() const;
     // Corners on edges that join the same two vertices as another edge does.
     std::vector<Index> doubled_edges(const FanVertices& vertices);

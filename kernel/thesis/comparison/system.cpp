@@ -90,31 +90,38 @@ void LeastSquares::assemble(std::span<const char> known, const Context& context)
     }
 }
 
+// W (b - A x); an empty `b` is zero.
+std::vector<double> LeastSquares::weighted_residual(std::span<const double> b,
+                                                    std::span<const double> x) const {
+    std::vector<double> residual(at(rows_.rows()));
+    for (Index r = 0; r < rows_.rows(); ++r) {
+        double sum = b.empty() ? 0.0 : b[r];
+        for (Index e = rows_.begin[r]; e < rows_.begin[r + 1]; ++e) {
+            sum -= rows_.value[e] * x[rows_.column[e]];
+        }
+        residual[r] = weight_[r] * sum;
+    }
+    return residual;
+}
+
 void LeastSquares::solve(std::span<const double> b, std::span<double> x, Index columns,
                          const Context& context) const {
     if (free_.empty()) return;
-    const std::size_t unknowns = rows_.columns;
-    const std::size_t rows = rows_.rows();
-    const std::size_t count = free_.size();
-    std::vector<Extended> right(count * columns);
-    std::vector<double> residual(rows);
+    const std::size_t unknowns = rows_.columns, rows = rows_.rows(), count = free_.size();
+    std::vector<Extended> right;
+    right.reserve(count * columns);
     for (Index c = 0; c < columns; ++c) {
         context.checkpoint();
         const std::span<double> values = x.subspan(c * unknowns, unknowns);
         for (const Index i : free_) values[i] = 0.0;
-        for (Index r = 0; r < rows_.rows(); ++r) {
-            double sum = b.empty() ? 0.0 : b[c * rows + r];
-            for (Index e = rows_.begin[r]; e < rows_.begin[r + 1]; ++e) {
-                sum -= rows_.value[e] * values[rows_.column[e]];
-            }
-            residual[r] = weight_[r] * sum;
-        }
-        for (std::size_t f = 0; f < count; ++f) {
+        const std::vector<double> residual =
+            weighted_residual(b.empty() ? b : b.subspan(c * rows, rows), values);
+        for (const Index i : free_) {
             Extended sum = 0.0;
-            for (Index t = columns_.begin[free_[f]]; t < columns_.begin[free_[f] + 1]; ++t) {
+            for (Index t = columns_.begin[i]; t < columns_.begin[i + 1]; ++t) {
                 sum += static_cast<Extended>(columns_.value[t]) * residual[columns_.column[t]];
             }
-            right[c * count + f] = sum;
+            right.push_back(sum);
         }
     }
     std::vector<double> solution(right.size());

@@ -1,5 +1,5 @@
 /// Linear least squares with some of the unknowns known, as the comparison methods need it; private
-/// to kernel/deform.
+/// to kernel/thesis.
 #pragma once
 
 #include <span>
@@ -44,6 +44,8 @@ class LeastSquares {
     const FactorStats& stats() const { return system_.stats(); }
 
   private:
+    std::vector<double> weighted_residual(std::span<const double> b,
+                                          std::span<const double> x) const;
     void transpose();
     void assemble(std::span<const char> known, const Context& context);
 

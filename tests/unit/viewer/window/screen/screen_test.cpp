@@ -1,5 +1,9 @@
 #include "viewer/window/screen/screen.h"
 
+#include <epoxy/gl.h>
+
+#include <memory>
+
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/viewer/viewer_support.h"
 #include "viewer/render/gl/platform.h"
@@ -7,6 +11,21 @@
 
 using namespace lissom;
 using namespace lissom::window;
+
+namespace {
+
+// Objects of OpenGL that are there, by the names that drivers give first.
+int objects_alive() {
+    int count = 0;
+    for (GLuint name = 1; name < 4096; ++name) {
+        count += glIsBuffer(name) + glIsTexture(name) + glIsVertexArray(name) +
+                 glIsFramebuffer(name) + glIsRenderbuffer(name) + glIsProgram(name) +
+                 glIsShader(name);
+    }
+    return count;
+}
+
+}  // namespace
 
 TEST_CASE("screen: a camera that moves sends nothing, a mesh that moves its vertices alone") {
     const auto platform = test::make_platform();
@@ -72,4 +91,51 @@ TEST_CASE(
     };
     CHECK(blue(false) == 0);
     CHECK(blue(true) == doctest::Approx(0.5 * 8 * 56).epsilon(0.05));
+}
+
+TEST_CASE("screen: an orbit and a drag make no objects, and a screen frees what it has made") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    const int before = objects_alive();
+    auto screen = std::make_unique<Screen>();
+    Picture picture;
+    picture.meshes = {{std::make_shared<const Mesh>(make_sphere())}};
+    const auto drawn = [&](double distance, int width) {
+        screen->update(quick_snapshot(picture, {}));
+        screen->draw(test::front_camera(distance), {0, 0, width, 60}, kWhite, 1);
+        return objects_alive();
+    };
+    const int alive = drawn(4.0, 80);
+    CHECK(alive > before);
+    CHECK(drawn(5.0, 80) == alive);
+    Mesh moved = *picture.meshes[0].mesh;
+    for (Vec3& p : moved.edit_positions()) p.x() *= 1.2;
+    picture.meshes[0].mesh = std::make_shared<const Mesh>(std::move(moved));
+    CHECK(drawn(5.0, 80) == alive);
+    CHECK(drawn(5.0, 120) == alive);
+    screen.reset();
+    CHECK(objects_alive() == before);
+}
+
+TEST_CASE("screen: a hidden mesh is left out of the picture, and nothing is sent for it") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    Screen screen;
+    Picture picture;
+    Mesh beside = make_sphere();
+    for (Vec3& p : beside.edit_positions()) p.x() += 1.5;
+    picture.meshes = {{std::make_shared<const Mesh>(make_sphere())},
+                      {std::make_shared<const Mesh>(std::move(beside))}};
+    const auto drawn = [&](const DisplaySettings& settings, bool sends) {
+        CHECK((screen.update(quick_snapshot(picture, settings)).bytes() > 0) == sends);
+        screen.draw(test::front_camera(6.0), {0, 0, 80, 60}, kWhite, 1);
+        return screen.picture();
+    };
+    const Image both = drawn({}, true);
+    const Image one = drawn({.hidden = {false, true}}, false);
+    CHECK(test::difference(both, one) > 50);
+    picture.meshes.pop_back();
+    CHECK(drawn({}, false) == one);
 }
