@@ -30,7 +30,7 @@ constexpr double kGoodSeamAngle = 15.0 * kDegree, kSameQuality = 1e-6;
 // Lengths that are this much greater are greater, so that rounding does not decide.
 constexpr double kClearlyLonger = 1.0 + 1e-9;
 
-double median(std::vector<double> values) {
+double median_edge(std::vector<double> values) {
     const auto middle = values.begin() + (values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
@@ -128,7 +128,7 @@ class CollarSide {
     // to the seam.
     double side_edge() const {
         const RingEdges edges = ring_edges();
-        return edges.inner.empty() ? to_seam(edges) : median(edges.inner);
+        return edges.inner.empty() ? to_seam(edges) : median_edge(edges.inner);
     }
 
     // The median edge between the seam and the first ring beside it. Needles that stand on the
@@ -182,7 +182,7 @@ class CollarSide {
     };
 
     static double to_seam(const RingEdges& edges) {
-        return edges.outer.empty() ? 0.0 : median(edges.outer);
+        return edges.outer.empty() ? 0.0 : median_edge(edges.outer);
     }
 
     RingEdges ring_edges() const {
