@@ -51,6 +51,7 @@ const std::vector<Rule>& rules() {
          {"Eigen", "tinygltf", "JSON", "platform"}},
         {"kernel/io/gltf/file/draco.cpp", {"kernel/core", "kernel/io"}, {"Draco"}},
         {"kernel/io/gltf/file/meshopt.cpp", {"kernel/core", "kernel/io"}, {"meshoptimizer"}},
+        {"kernel/io/png16.cpp", {"kernel/core", "kernel/io"}, {"Eigen", "stb"}},
         {"bindings/c", {"kernel", "bindings/c"}, {"Eigen"}},
         {"bindings/c/lissom.h", {}, {"platform"}},
         {"bindings/c/script", {"kernel", "bindings/c", "bindings/lua"}, {"Eigen", "Lua", "JSON"}},
