@@ -180,7 +180,7 @@ std::vector<PlacePair> head_pairs() {
     Random random(12);
     std::vector<PlacePair> pairs;
     for (std::size_t i = 0; i < models.size(); ++i) {
-        for (const std::size_t step : {1, 2, 4}) {
+        for (const std::size_t step : {1, 4}) {
             const Upright &head = models[i], &body = models[(i + step) % models.size()];
             PlacePair pair{head.name + " on " + body.name, head.head.mesh, body.body.mesh,
                            head.head.boundary, body.body.boundary};

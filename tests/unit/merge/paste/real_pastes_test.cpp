@@ -62,8 +62,8 @@ TEST_CASE("real pastes: near the boundary no more distortion than the bounds") {
         if (!models) continue;
         Paste paste = placed(real, *models);
         PasteMergeOptions as_marked, whole;
-        as_marked.compare = false;
-        as_marked.find_intersections = whole.find_intersections = false;
+        as_marked.compare = whole.find_intersections = false;
+        as_marked.draft = true;
         const PasteResult marked = paste.merge(as_marked);
         paste.optimize();
         const PasteResult result = paste.merge(whole);
