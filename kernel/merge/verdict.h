@@ -39,18 +39,20 @@ struct Verdict {
 /// - the surface does not fold back within one radius of the seam and did not before, but for .15
 ///   radii in all;
 /// - within half a radius it is at most 1.4 times as rough as both sides were, or turns by less
-///   than 8 degrees an edge;
-/// - each part keeps three fifths of its volume at its scale;
+///   than 8 degrees an edge; the source by itself 1.6 times and the target 1.3 times as rough as it
+///   was, or it turns by less than 11 degrees;
+/// - each part keeps two fifths of its volume at its scale;
 /// - planes fitted to either side of the seam differ by at most 35 degrees in the mean, 60 along a
 ///   tenth of it, and by the crease of a paste, or 1.3 times as much as they did beside the
 ///   boundaries;
-/// - the rim of the source turns outward by at most 33 degrees more than at rest; not measured of
-///   a paste, whose rim is tilted on purpose;
-/// - tips and pits within half a radius of the seam lack at most 75 degrees to full turns, or 1.3
-///   times as much as the sharpest did before;
-/// - the surface turns by no more than 30 degrees at an edge of the seam and 20 in the mean (two
-///   thirds of the crease of a paste), or by no more than at edges beside the boundaries, 1.3 times
-///   as much in the mean;
+/// - the rim of the source turns outward by at most 65 degrees more than at rest, or 22.5 if the
+///   source became rougher as well; not measured of a paste, whose rim is tilted on purpose;
+/// - tips and pits within half a radius of the seam lack at most 45 degrees to full turns and 1.5
+///   times as much as the sharpest did before, or 88 degrees if that is less, or 1.35 times as
+///   much;
+/// - the surface turns by no more than 30 degrees at the edges of the seam, but for a thirtieth of
+///   its length, and 20 in the mean (two thirds of the crease of a paste), or by no more than at
+///   edges beside the boundaries, 1.3 times as much in the mean;
 /// - a paste takes no sharp edge of its target along more than .3 of its radius, or deeper than
 ///   .15;
 /// - its place is not a toss;

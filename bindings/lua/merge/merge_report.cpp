@@ -74,9 +74,14 @@ void push_join_place(const Call& call, const JoinReport& join) {
 }
 
 void push_band_quality(const Call& call, const BandQuality& band) {
-    lua_createtable(call.lua(), 0, 14);
+    lua_createtable(call.lua(), 0, 19);
     call.set_field("roughness", call.push(kDegrees * band.roughness));
     call.set_field("rest_roughness", call.push(kDegrees * band.rest_roughness));
+    call.set_field("source_roughness", call.push(kDegrees * band.source_roughness));
+    call.set_field("rest_source_roughness", call.push(kDegrees * band.rest_source_roughness));
+    call.set_field("target_roughness", call.push(kDegrees * band.target_roughness));
+    call.set_field("rest_target_roughness", call.push(kDegrees * band.rest_target_roughness));
+    call.set_field("steep", call.push(kDegrees * band.steep));
     call.set_field("bend", call.push(kDegrees * band.bend));
     call.set_field("rest_bend", call.push(kDegrees * band.rest_bend));
     call.set_field("max_bend", call.push(kDegrees * band.max_bend));
@@ -516,6 +521,11 @@ std::vector<Record> merge_records() {
            "The RMS angle at the edges within half a radius of the seam, weighted by length, "
            "without the seam's own."},
           {"number", "rest_roughness", "The same beside both boundaries before."},
+          {"number", "source_roughness", "The same of the source alone."},
+          {"number", "rest_source_roughness", "The same of the source before."},
+          {"number", "target_roughness", "The same of the target alone."},
+          {"number", "rest_target_roughness", "The same of the target before."},
+          {"number", "steep", "Angle of the seam's edges that a thirtieth of its length exceeds."},
           {"number", "bend",
            "The RMS angle between planes fitted to the surface on either side of points of the "
            "seam, to strips a third of the radius wide."},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <unordered_set>
 #include <utility>
 
@@ -117,6 +118,26 @@ Bends bends_between(std::span<const Vec3> first, std::span<const Vec3> second) {
     return {std::sqrt(squares / count), *few};
 }
 
+// A shorter part of a seam that turns does not show.
+constexpr double kSteepPart = 1.0 / 30.0;
+
+// The dihedral angle that this part of a closed line of edges exceeds.
+double steep_angle(const Mesh& mesh, std::span<const Index> loop) {
+    std::vector<std::pair<double, double>> edges;
+    double rest = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Index a = loop[k], b = loop[(k + 1) % loop.size()];
+        edges.emplace_back(edge_dihedral(mesh, a, b), (mesh.position(b) - mesh.position(a)).norm());
+        rest += kSteepPart * edges.back().second;
+    }
+    std::sort(edges.begin(), edges.end(), std::greater<>());
+    for (const auto& [angle, length] : edges) {
+        rest -= length;
+        if (rest < 0.0) return angle;
+    }
+    return 0.0;
+}
+
 // One side as it is measured: its loop's size, and how far its faces are from it.
 class Side {
   public:
@@ -210,6 +231,26 @@ class Side {
     double radius_ = 0.0;
 };
 
+// The edges of both sides.
+struct EdgeSums {
+    EdgeSum target, source;
+
+    double rms(double source_size) const {
+        const double length = target.length + source_size * source.length;
+        const double squares = target.squares + source_size * source.squares;
+        return length > 0.0 ? std::sqrt(squares / length) : 0.0;
+    }
+};
+
+void note_roughness(const EdgeSums& made, const EdgeSums& rest, double scale, BandQuality& band) {
+    band.roughness = made.rms(1.0);
+    band.rest_roughness = rest.rms(scale);
+    band.source_roughness = made.source.rms();
+    band.rest_source_roughness = rest.source.rms();
+    band.target_roughness = made.target.rms();
+    band.rest_target_roughness = rest.target.rms();
+}
+
 // Part of the volume that was kept, for surfaces that are inside out as well.
 double volume_kept(double after, double before, double radius) {
     return std::abs(before) > kBandFlat * radius * radius * radius ? after / before : 1.0;
@@ -232,12 +273,9 @@ BandQuality band_quality(const BandSide& made_target, const BandSide& made_sourc
     const Side old_target(target, context), old_source(source, context);
     BandQuality result;
     result.radius = on_target.radius();
-    const auto rms = [](const EdgeSum& a, const EdgeSum& b, double size) {
-        const double length = a.length + size * b.length;
-        return length > 0.0 ? std::sqrt((a.squares + size * b.squares) / length) : 0.0;
-    };
-    result.roughness = rms(on_target.edges(kBand), on_source.edges(kBand), 1.0);
-    result.rest_roughness = rms(old_target.edges(kBand), old_source.edges(kBand), scale);
+    note_roughness({on_target.edges(kBand), on_source.edges(kBand)},
+                   {old_target.edges(kBand), old_source.edges(kBand)}, scale, result);
+    result.steep = steep_angle(*made_target.mesh, made_target.loop);
     const Bends across =
         bends_between(on_target.planes(0.0, kStrip), on_source.planes(0.0, kStrip));
     const Bends own[] = {old_target.own_bends(), old_source.own_bends()};

@@ -18,6 +18,11 @@ struct BandQuality {
     /// The RMS dihedral angle of the edges within half a radius of the seam, without the seam's,
     /// weighted by length; and the same of both sides beside their boundaries before.
     double roughness = 0.0, rest_roughness = 0.0;
+    /// The same of each side by itself: a smooth part that crumples beside a rough one shows.
+    double source_roughness = 0.0, rest_source_roughness = 0.0;
+    double target_roughness = 0.0, rest_target_roughness = 0.0;
+    /// Dihedral angle of the seam's edges that a thirtieth of its length exceeds.
+    double steep = 0.0;
     /// Angles between planes fitted to the surface on either side of points of the seam, each to a
     /// strip a third of the radius wide: the RMS, and the angle that a tenth of them exceed. And
     /// those on either side before, from the strip next to the boundary to the one behind it, of

@@ -89,7 +89,19 @@ TEST_CASE("the verdict weighs the whole band, and tells each fault with its figu
     CHECK(reason.join == 0);
     CHECK(reason.value == doctest::Approx(19.0 * kDegree));
     CHECK(reason.limit == doctest::Approx(1.4 * 12.0 * kDegree));
+    // A side by itself, though both together are no rougher than before.
+    band = good_band();
+    band.source_roughness = 14.0 * kDegree;
+    band.rest_source_roughness = 8.0 * kDegree;
+    reason = only_reason(report_with(band));
+    CHECK(reason.fault == MergeFault::roughness);
+    CHECK(reason.text.find("the source beside the seam is rough") != std::string::npos);
+    CHECK(reason.limit == doctest::Approx(1.6 * 8.0 * kDegree));
+    std::swap(band.source_roughness, band.target_roughness);
+    std::swap(band.rest_source_roughness, band.rest_target_roughness);
+    CHECK(only_reason(report_with(band)).text.find("the target beside") != std::string::npos);
     // Beside flat sides edges that turn by little do not show.
+    band = good_band();
     band.rest_roughness = 0.1 * kDegree;
     band.roughness = 7.0 * kDegree;
     CHECK(verdict_of(report_with(band), {}).good);
@@ -105,14 +117,14 @@ TEST_CASE("the verdict weighs the whole band, and tells each fault with its figu
     CHECK(verdict_of(report_with(band), {}).good);
 
     band = good_band();
-    band.source_volume = 0.55;
+    band.source_volume = 0.35;
     reason = only_reason(report_with(band));
     CHECK(reason.fault == MergeFault::volume);
-    CHECK(reason.text.find("source lost 45 %") != std::string::npos);
+    CHECK(reason.text.find("source lost 65 %") != std::string::npos);
     band.source_volume = -0.4;
     CHECK(only_reason(report_with(band)).text.find("inside out") != std::string::npos);
     band = good_band();
-    band.target_volume = 0.55;
+    band.target_volume = 0.35;
     CHECK(only_reason(report_with(band)).text.find("target lost") != std::string::npos);
 
     band = good_band();
@@ -129,14 +141,23 @@ TEST_CASE("the verdict weighs the whole band, and tells each fault with its figu
 TEST_CASE(
     "a rim that stands out beside the seam is not good, though the surface bends nowhere else") {
     BandQuality band = good_band();
-    band.flare = 30.0 * kDegree;
+    band.flare = 55.0 * kDegree;
     CHECK(verdict_of(report_with(band), {}).good);
-    band.flare = 40.0 * kDegree;
+    band.flare = 70.0 * kDegree;
     const MergeReason reason = only_reason(report_with(band));
     CHECK(reason.fault == MergeFault::flare);
     CHECK(reason.join == 0);
-    CHECK(reason.value == doctest::Approx(40.0 * kDegree));
-    CHECK(reason.text.find("turns outward by 40 degrees more than before") != std::string::npos);
+    CHECK(reason.value == doctest::Approx(70.0 * kDegree));
+    CHECK(reason.text.find("turns outward by 70 degrees more than before") != std::string::npos);
+    // One that crumples as well may stand out less.
+    BandQuality bag = good_band();
+    bag.flare = 25.0 * kDegree;
+    CHECK(verdict_of(report_with(bag), {}).good);
+    bag.rest_source_roughness = 10.0 * kDegree;
+    bag.source_roughness = 12.0 * kDegree;
+    CHECK(only_reason(report_with(bag)).text.find("crumples and stands out") != std::string::npos);
+    bag.flare = 20.0 * kDegree;
+    CHECK(verdict_of(report_with(bag), {}).good);
     // Parts that fit move as a whole.
     MergeReport fits = report_with(band);
     fits.joins.front().fits = true;
@@ -151,6 +172,24 @@ TEST_CASE("a point beside the seam is not good, but where the parts had one as s
     CHECK(reason.value == doctest::Approx(200.0 * kDegree));
     band.rest_spike = 180.0 * kDegree;
     CHECK(verdict_of(report_with(band), {}).good);
+    // A smaller one shows beside smooth surfaces alone.
+    band.spike = 60.0 * kDegree;
+    band.rest_spike = 2.0 * kDegree;
+    CHECK(only_reason(report_with(band)).limit == doctest::Approx(48.0 * kDegree));
+    band.rest_spike = 20.0 * kDegree;
+    CHECK(verdict_of(report_with(band), {}).good);
+}
+
+TEST_CASE("a few steep edges of a seam do not decide, a thirtieth of it does") {
+    MergeReport report = report_with(75.0, 20.0);
+    BandQuality& band = report.joins.front().band;
+    band = good_band();
+    band.radius = 1.0;
+    band.steep = 25.0 * kDegree;
+    CHECK(verdict_of(report, {}).good);
+    CHECK(says(verdict_of(report, {}), "all but a thirtieth"));
+    band.steep = 60.0 * kDegree;
+    CHECK(!verdict_of(report, {}).good);
 }
 
 TEST_CASE("surfaces that only touch are told, and are no reason against a merge") {
