@@ -29,8 +29,39 @@ Number nearest_integer(double value) {
     return static_cast<Number>(std::clamp(std::nearbyint(value), least, most));
 }
 
+// Half floats, IEEE 754 binary16: 11 bits of a number, the least of 2^-24.
+constexpr double kMaxHalf = 65504.0;
+constexpr int kHalfBits = 11, kLeastHalf = -24, kHalfBias = 25;
+
+double number_of_half(std::uint16_t half) {
+    const int exponent = half >> 10 & 31, digits = half & 1023;
+    double size = std::ldexp(digits, kLeastHalf);
+    if (exponent == 31) {
+        size = digits == 0 ? std::numeric_limits<double>::infinity()
+                           : std::numeric_limits<double>::quiet_NaN();
+    } else if (exponent > 0) {
+        size = std::ldexp(1024 + digits, exponent - kHalfBias);
+    }
+    return half & 0x8000 ? -size : size;
+}
+
+// The nearest, and of two the even one.
+std::uint16_t nearest_half(double value) {
+    if (std::isnan(value)) return 0x7e00;
+    const int sign = std::signbit(value) ? 0x8000 : 0;
+    const double size = std::min(std::abs(value), kMaxHalf);
+    if (size == 0.0) return static_cast<std::uint16_t>(sign);
+    int exponent = 0;
+    std::frexp(size, &exponent);
+    const int unit = std::max(exponent - kHalfBits, kLeastHalf);
+    const int digits = static_cast<int>(std::nearbyint(std::ldexp(size, -unit)));
+    const bool is_normal = exponent - kHalfBits >= kLeastHalf;
+    const int bits = is_normal ? ((unit + kHalfBias) << 10) + digits - 1024 : digits;
+    return static_cast<std::uint16_t>(sign | bits);
+}
+
 bool is_known(lissom_format format) {
-    return format >= LISSOM_FLOAT32 && format <= LISSOM_SNORM16;
+    return format >= LISSOM_FLOAT32 && format <= LISSOM_FLOAT16;
 }
 
 // Bytes from one element to the next. The stride may not be less than an element is long.
@@ -73,6 +104,8 @@ double number_at(const unsigned char* place, lissom_format format) {
             return std::max(get<std::int8_t>(place) / 127.0, -1.0);
         case LISSOM_SNORM16:
             return std::max(get<std::int16_t>(place) / 32767.0, -1.0);
+        case LISSOM_FLOAT16:
+            return number_of_half(get<std::uint16_t>(place));
     }
     return 0.0;
 }
@@ -120,6 +153,7 @@ std::size_t size_of(lissom_format format) {
         case LISSOM_UINT16:
         case LISSOM_UNORM16:
         case LISSOM_SNORM16:
+        case LISSOM_FLOAT16:
             return 2;
         default:
             return 4;
@@ -127,7 +161,7 @@ std::size_t size_of(lissom_format format) {
 }
 
 bool is_float(lissom_format format) {
-    return format == LISSOM_FLOAT32 || format == LISSOM_FLOAT64;
+    return format == LISSOM_FLOAT32 || format == LISSOM_FLOAT64 || format == LISSOM_FLOAT16;
 }
 
 bool is_normalized(lissom_format format) {
@@ -156,12 +190,14 @@ void put_number(unsigned char* place, lissom_format format, double value) {
             return put(place, nearest_integer<std::int8_t>(127.0 * value));
         case LISSOM_SNORM16:
             return put(place, nearest_integer<std::int16_t>(32767.0 * value));
+        case LISSOM_FLOAT16:
+            return put(place, nearest_half(value));
     }
 }
 
 std::vector<Vec3> read_points(const lissom_input* input, const Space& space, const char* name) {
     require_list(input, name);
-    if (!is_float(input->format)) refuse_format(name, "FLOAT32 or FLOAT64");
+    if (!is_float(input->format)) refuse_format(name, "FLOAT16, FLOAT32 or FLOAT64");
     const std::size_t size = size_of(input->format);
     const std::size_t stride = stride_of(input->stride, 3 * size, name);
     const auto* place = static_cast<const unsigned char*>(input->data);
@@ -250,7 +286,7 @@ void require_directions(const lissom_output* output, std::size_t count, std::siz
         output->format == LISSOM_SNORM16) {
         return;
     }
-    refuse_format(name, "FLOAT32, FLOAT64, SNORM8 or SNORM16");
+    refuse_format(name, "FLOAT16, FLOAT32, FLOAT64, SNORM8 or SNORM16");
 }
 
 void write_integers(const lissom_output* output, std::span<const Index> values, const char* name,

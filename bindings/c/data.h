@@ -70,7 +70,7 @@ template <typename Point>
 void write_points(const lissom_output* output, std::size_t count, const char* name,
                   const Point& point) {
     require_room(output, count, 3, name);
-    if (!is_float(output->format)) refuse_format(name, "FLOAT32 or FLOAT64");
+    if (!is_float(output->format)) refuse_format(name, "FLOAT16, FLOAT32 or FLOAT64");
     const std::size_t size = size_of(output->format);
     const std::size_t stride = output->stride != 0 ? output->stride : 3 * size;
     auto* place = static_cast<unsigned char*>(output->data);

@@ -301,13 +301,14 @@ typedef enum lissom_format {
     LISSOM_UNORM8 = 6,   ///< 0 to 255 for numbers from 0 to 1
     LISSOM_UNORM16 = 7,  ///< 0 to 65535 for numbers from 0 to 1
     LISSOM_SNORM8 = 8,   ///< -127 to 127 for numbers from -1 to 1
-    LISSOM_SNORM16 = 9   ///< -32767 to 32767 for numbers from -1 to 1
+    LISSOM_SNORM16 = 9,  ///< -32767 to 32767 for numbers from -1 to 1
+    LISSOM_FLOAT16 = 10  ///< IEEE 754 binary16, up to 65504
 } lissom_format;
 
 /// A list in the host's memory that is read, for instance the positions among the vertices of an
 /// engine. Its elements are numbers or triples of numbers, as the function says. Positions are
-/// FLOAT32 or FLOAT64; integers are UINT8, UINT16, UINT32 or INT32; attributes have any format. An
-/// element may not overlap the next: such a stride is refused (INVALID_ARGUMENT).
+/// FLOAT16, FLOAT32 or FLOAT64; integers are UINT8, UINT16, UINT32 or INT32; attributes have any
+/// format. An element may not overlap the next: such a stride is refused (INVALID_ARGUMENT).
 typedef struct lissom_input {
     const void* data;
     size_t count;

@@ -166,7 +166,7 @@ lissom_status lissom_render_map_read_positions(lissom_context* context, lissom_r
         const Mesh& shape = shown_mesh(*context, mesh);
         require_mesh(own, shape);
         require_room(positions, own.vertex.size(), 3, "positions");
-        if (!is_float(positions->format)) refuse_format("positions", "FLOAT32 or FLOAT64");
+        if (!is_float(positions->format)) refuse_format("positions", "FLOAT16, FLOAT32 or FLOAT64");
         Vec3 point = Vec3::Zero();
         write_elements(
             *positions, own.vertex.size(), 3,

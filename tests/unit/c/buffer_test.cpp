@@ -530,6 +530,75 @@ TEST_CASE("colours of bytes are numbers from 0 to 1, and shapes that no mesh has
     CHECK(lissom_mesh_attribute_count(host, mesh) == 1);
 }
 
+// The value of a half float, from its bits.
+double half_value(int bits) {
+    const int exponent = bits >> 10 & 31, digits = bits & 1023;
+    const double size =
+        exponent == 0 ? digits * std::exp2(-24.0) : (1024 + digits) * std::exp2(exponent - 25.0);
+    return bits & 0x8000 ? -size : size;
+}
+
+TEST_CASE("half floats go in and out bit by bit, and numbers go to the nearest of them") {
+    const Host host;
+    const Mesh own = make_sphere({.segments = 104});
+    const lissom_mesh mesh = host.add(own);
+    const std::size_t count = at(own.vertex_count());
+    constexpr int kInfinity = 0x7c00;
+    REQUIRE(count > 2 * std::size_t{kInfinity});
+    std::vector<std::uint16_t> halves(count, 0);
+    for (int i = 0; i < kInfinity; ++i) {
+        halves[at(2 * i)] = static_cast<std::uint16_t>(i);
+        halves[at(2 * i + 1)] = static_cast<std::uint16_t>(i | 0x8000);
+    }
+    const lissom_input in{halves.data(), count, 0, LISSOM_FLOAT16};
+    const auto write = [&](const lissom_input& list) {
+        return lissom_mesh_write_attribute(host, mesh, "heat", LISSOM_ON_VERTICES, 1, &list);
+    };
+    REQUIRE(write(in) == LISSOM_OK);
+    std::vector<std::uint16_t> back(count, 7);
+    std::vector<double> numbers(count, 0.0);
+    const lissom_output out{back.data(), count, 0, LISSOM_FLOAT16};
+    const lissom_output plain{numbers.data(), count, 0, LISSOM_FLOAT64};
+    REQUIRE(lissom_mesh_read_attribute(host, mesh, "heat", &out) == LISSOM_OK);
+    REQUIRE(lissom_mesh_read_attribute(host, mesh, "heat", &plain) == LISSOM_OK);
+    CHECK(back == halves);
+    std::size_t right = 0;
+    for (std::size_t i = 0; i < count; ++i) right += numbers[i] == half_value(halves[i]);
+    CHECK(right == count);
+
+    // Between two neighbours, nearer to either, and at the middle, where the even one is taken.
+    for (int i = 0; i + 1 < kInfinity; ++i) {
+        const double a = half_value(i), b = half_value(i + 1);
+        const double share = i % 3 == 0 ? 0.5 : i % 3 == 1 ? 0.375 : 0.625;
+        numbers[at(i)] = a + share * (b - a);
+    }
+    REQUIRE(write({numbers.data(), count, 0, LISSOM_FLOAT64}) == LISSOM_OK);
+    REQUIRE(lissom_mesh_read_attribute(host, mesh, "heat", &out) == LISSOM_OK);
+    right = 0;
+    for (int i = 0; i + 1 < kInfinity; ++i) {
+        const int up = i % 3 == 0 ? i % 2 : i % 3 == 1 ? 0 : 1;
+        right += back[at(i)] == i + up;
+    }
+    CHECK(right == kInfinity - 1);
+    numbers[0] = 1e6;
+    numbers[1] = -1e6;
+    REQUIRE(write({numbers.data(), count, 0, LISSOM_FLOAT64}) == LISSOM_OK);
+    REQUIRE(lissom_mesh_read_attribute(host, mesh, "heat", &out) == LISSOM_OK);
+    CHECK(back[0] == 0x7bff);
+    CHECK(back[1] == 0xfbff);
+    for (const int bits : {kInfinity, kInfinity | 0x8000, 0x7e00}) {
+        halves[5] = static_cast<std::uint16_t>(bits);
+        CHECK(write(in) == LISSOM_NOT_FINITE);
+    }
+    std::vector<std::uint16_t> places(3 * count);
+    const lissom_output triples{places.data(), count, 0, LISSOM_FLOAT16};
+    REQUIRE(lissom_mesh_read_positions(host, mesh, &triples) == LISSOM_OK);
+    CHECK(half_value(places[30]) == doctest::Approx(own.position(10).x()).epsilon(1e-3));
+    CHECK(lissom_mesh_read_normals(host, mesh, &triples) == LISSOM_OK);
+    const lissom_input moved{places.data(), count, 0, LISSOM_FLOAT16};
+    CHECK(lissom_mesh_set_positions(host, mesh, &moved) == LISSOM_OK);
+}
+
 TEST_CASE("labels of faces are lists of numbers and names") {
     const Host host;
     const lissom_mesh mesh = host.add(make_box({}));

@@ -167,7 +167,7 @@ TEST_CASE("numbers that no enumeration has are refused") {
               LISSOM_INVALID_ARGUMENT);
         std::vector<double> points(300);
         // 4 is UINT8.
-        const auto format = static_cast<lissom_format>(number == 4 ? 10 : number);
+        const auto format = static_cast<lissom_format>(number == 4 ? LISSOM_FLOAT16 + 1 : number);
         const lissom_input in{points.data(), 100, 0, format};
         const lissom_output out{points.data(), 100, 0, format};
         CHECK(lissom_mesh_create(world, &in, &in, nullptr, &world.made_mesh) ==
