@@ -1,4 +1,6 @@
-// Vertex animation textures: what a shader reads from the pictures are the shapes.
+// Vertex animation textures: what a shader reads from the pictures are the shapes. Without
+// stb_image nothing can read them.
+#if __has_include(<stb/stb_image.h>)
 #include "kernel/io/vertex_texture.h"
 
 #include <doctest/doctest.h>
@@ -131,3 +133,5 @@ TEST_CASE("textures refuse times that do not ascend, too many frames and other m
     for (int f = 1; f < 16384; ++f) baker.add(f, rest);
     CHECK_THROWS_AS(baker.add(16384.0, rest), Error);
 }
+
+#endif
