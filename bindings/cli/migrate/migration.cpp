@@ -35,6 +35,13 @@ bool is_open(const LuaTokens& tokens, std::size_t i) {
     return tokens.is(i, "(") || tokens.is(i, "{");
 }
 
+bool has_old_options(std::string_view function) {
+    const auto names = lua::old_names();
+    return std::any_of(names.begin(), names.end(), [&](const OldName& old) {
+        return old.kind == OldKind::option && function == old.owner;
+    });
+}
+
 // Reads a script and collects its edits.
 class Migrator {
   public:
@@ -66,6 +73,7 @@ class Migrator {
     bool is_last_of_list(std::size_t first, std::size_t last) const;
     bool has_key(std::size_t open, std::string_view key) const;
     std::size_t second_argument(std::size_t open) const;
+    std::size_t options_of_call(std::size_t open) const;
     std::string_view source(std::size_t first, std::size_t last) const;
     bool knows_new_names() const;
 
@@ -114,10 +122,16 @@ void Migrator::visit_method(std::size_t colon) {
         ask(colon, "if '" + std::string(method) + "' is called on an object of type " + old.owner +
                        ", write " + old.usage);
     }
-    if (method == "fill" && tokens_.is(colon + 2, "(")) {
-        const std::size_t options = second_argument(colon + 2);
-        if (tokens_.is(options, "{")) visit_options("fill", options);
+    if (has_old_options(method)) {
+        const std::size_t options = options_of_call(colon + 2);
+        if (tokens_.is(options, "{")) visit_options(method, options);
     }
+}
+
+// The token that can open the options of a call: those of `f{`, `f({` or `f(x, {`.
+std::size_t Migrator::options_of_call(std::size_t open) const {
+    if (!tokens_.is(open, "(")) return open;
+    return tokens_.is(open + 1, "{") ? open + 1 : second_argument(open);
 }
 
 // Whether the method is `at` of a hairstyle or a scalp, which returned the normal as well.

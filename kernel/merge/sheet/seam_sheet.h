@@ -1,6 +1,7 @@
 /// A part of one side of a seam while its triangles are changed; private to kernel/merge.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

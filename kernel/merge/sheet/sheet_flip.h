@@ -10,6 +10,7 @@
 #include "kernel/core/index.h"
 #include "kernel/merge/sheet/sheet_star.h"
 #include "kernel/merge/sheet/sheet_triangles.h"
+#include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
 

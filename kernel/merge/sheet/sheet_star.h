@@ -7,6 +7,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/merge/sheet/sheet_triangles.h"
+#include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
 
