@@ -7,6 +7,7 @@
 
 #include "bindings/c/data.h"
 #include "bindings/c/jobs.h"
+#include "bindings/c/thesis_parts.h"
 #include "kernel/deform/deform_report.h"
 #include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer.h"
@@ -17,7 +18,7 @@ namespace {
 
 DeformOptions deform_options(const lissom_deformer_options* given) {
     const auto taken = take_options(given, lissom_default_deformer_options());
-    DeformOptions options = taken.thesis ? DeformOptions::thesis() : DeformOptions();
+    DeformOptions options = taken.thesis ? literal_deform_options() : DeformOptions();
     require(taken.second >= LISSOM_SECOND_BLEND && taken.second <= LISSOM_SECOND_POISSON,
             "there is no such second system");
     if (!taken.thesis) options.second = static_cast<SecondSystem>(taken.second);

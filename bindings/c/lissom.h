@@ -813,7 +813,7 @@ typedef struct lissom_deformer_options {
     /// Geodesic distance from the region's outline within which the deformation fades; in units of
     /// length.
     double transition;
-    /// The thesis to the letter, for comparison.
+    /// The thesis to the letter, for comparison; UNSUPPORTED in a library built without it.
     bool thesis;
 } lissom_deformer_options;
 
@@ -1030,7 +1030,7 @@ typedef struct lissom_merge_options {
     bool transition;
     /// Finds new self-intersections.
     bool find_intersections;
-    /// The thesis to the letter, for comparison.
+    /// The thesis to the letter, for comparison; UNSUPPORTED in a library built without it.
     bool thesis;
 } lissom_merge_options;
 

@@ -9,6 +9,7 @@
 
 #include "bindings/c/data.h"
 #include "bindings/c/origins.h"
+#include "bindings/c/thesis_parts.h"
 #include "kernel/merge/merge_once.h"
 #include "kernel/merge/paste/erase/erase_feature.h"
 #include "kernel/merge/paste/paste.h"
@@ -127,7 +128,7 @@ MergeOptions merge_options(const lissom_merge_options* given) {
     options.collar = taken.collar;
     options.auto_transition = taken.transition;
     options.find_intersections = taken.find_intersections;
-    options.thesis = taken.thesis;
+    if (taken.thesis) options.thesis = &literal_formulas();
     return options;
 }
 

@@ -75,16 +75,6 @@ std::string_view method_name(DeformMethod method) {
     return kNames[static_cast<int>(method)];
 }
 
-DeformOptions DeformOptions::thesis() {
-    DeformOptions options;
-    options.second = SecondSystem::laplacian;
-    options.coherence = 2;
-    options.degenerate_threshold = 2e5;
-    options.scale_free = false;
-    options.flat = FlatVertices::displaced;
-    return options;
-}
-
 const Context& own_context() {
     static const Context context;
     return context;

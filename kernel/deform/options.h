@@ -108,10 +108,6 @@ struct DeformOptions {
     /// Makes `method` unless it is `implicit`; null refuses the others as `unsupported`.
     /// make_comparison of kernel/thesis makes all of them.
     ComparisonMaker comparison = nullptr;
-
-    /// The thesis to the letter: coherence 2, threshold 2e5, literal weights, flat vertices
-    /// displaced, second system (2.10).
-    static DeformOptions thesis();
 };
 
 /// Values that a handle prescribes at its vertices: positions, deformation gradients, or both.

@@ -98,8 +98,7 @@ std::vector<CurveId> bend_streams(Hairstyle& style, std::span<const Vec3> stroke
 }
 
 CurveId add_stream(Hairstyle& style, std::span<const Vec3> stroke) {
-    StreamCurve stream =
-        style.options().fidelity == HairFidelity::thesis ? StreamCurve::thesis() : StreamCurve{};
+    auto stream = curve_with<StreamCurve>(style.options().fidelity);
     stream.points.assign(stroke.begin(), stroke.end());
     // Hair continues beyond the comb.
     stream.options.stop_length = 0.0;

@@ -108,11 +108,22 @@ HairField hair_field(const Mesh& head, const HairstyleOptions& options, const Co
 
 }  // namespace
 
-HairstyleOptions HairstyleOptions::thesis() {
+HairstyleOptions style_options_with(HairFidelity fidelity) {
     HairstyleOptions options;
-    options.field.boundary = GridBoundary::thesis;
-    options.field.tension = 0.0;
-    options.fidelity = HairFidelity::thesis;
+    options.fidelity = fidelity;
+    if (fidelity == HairFidelity::thesis) {
+        options.field.boundary = GridBoundary::thesis;
+        options.field.tension = 0.0;
+    }
+    return options;
+}
+
+GrowthOptions growth_options_with(HairFidelity fidelity) {
+    GrowthOptions options;
+    if (fidelity == HairFidelity::lissom) return options;
+    options.variation = options.lift = 0.0;
+    options.max_turn = kPi;
+    options.avoid = options.start_outward = options.cap_speed = false;
     return options;
 }
 
@@ -418,7 +429,7 @@ HairOptions Hairstyle::default_hair() const {
     if (options().fidelity == HairFidelity::lissom) return {};
     HairOptions hair;
     hair.roots.pattern = RootPattern::steps;
-    hair.growth = GrowthOptions::thesis();
+    hair.growth = growth_options_with(options().fidelity);
     hair.growth.length = longest_hair(layout());
     return hair;
 }

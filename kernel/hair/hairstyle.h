@@ -46,11 +46,16 @@ struct HairstyleOptions {
     /// Defaults of curves, for scripts and style files, and of hair
     /// (Hairstyle::default_hair).
     HairFidelity fidelity = HairFidelity::lissom;
-
-    /// Chapter 4 to the letter: the Laplacian's weights of section 4.4.1 at the faces of the grid,
-    /// no tension, and curves and hair of the same fidelity.
-    static HairstyleOptions thesis();
 };
+
+/// Returns the default options of a fidelity. The thesis has the Laplacian's weights of section
+/// 4.4.1 at the faces of the grid, and no tension.
+HairstyleOptions style_options_with(HairFidelity fidelity);
+
+/// Returns the default options of growth of a fidelity. In section 4.6 of the thesis strands follow
+/// the field alone, l v(p) a segment, even into the head, with any turn and any length, and do not
+/// vary in length.
+GrowthOptions growth_options_with(HairFidelity fidelity);
 
 /// A vector that the style gives the field at a grid point.
 struct StyleConstraint {
@@ -172,8 +177,8 @@ class Hairstyle {
     void forget_scalp();
     bool avoids_scalp() const;
 
-    /// Returns the options of its fidelity: for the thesis roots in steps of angles, and strands
-    /// that are as long as the field carries them (GrowthOptions::thesis).
+    /// Returns the default options of its fidelity. In the thesis roots lie in steps of angles, and
+    /// strands are as long as the field carries them.
     HairOptions default_hair() const;
     /// Grows hair into `strands`, whose memory is used again; solves first if needed. Groups are
     /// named after the ponytails through whose tie strands pass. The first n strands of a larger

@@ -121,7 +121,7 @@ class Reader {
     void fidelity(HairstyleOptions& options) {
         HairFidelity fidelity = HairFidelity::lissom;
         choice("fidelity", fidelity, {kDefaultName, kThesisName});
-        if (fidelity == HairFidelity::thesis) options = HairstyleOptions::thesis();
+        options = style_options_with(fidelity);
     }
     template <typename Enum>
     void choice(const char* key, Enum& value, std::initializer_list<const char*> names) {

@@ -34,7 +34,7 @@
 
 namespace lissom {
 
-class OverlapTransition;
+struct ThesisFormulas;
 
 /// Whether the source comes to the target from any place, turned and scaled to fit (3.3.1), or
 /// stays in place and only bends to meet the target (3.3.2).
@@ -105,9 +105,6 @@ struct MergeOptions {
     bool auto_transition = false;
     /// w_T of 3.3.3, of the thesis's transition.
     double transition_weight = 0.1;
-    /// Makes the thesis's transition, which `thesis` with widths asks for: literal_transition of
-    /// kernel/thesis. Without it such a merge is refused as `unsupported`. Not owned.
-    const OverlapTransition* overlap = nullptr;
     /// Trims boundaries that turn at their vertices, in the mean, by `max_turn` radians more
     /// than a regular polygon: the seam would show every tooth of them.
     bool trim = true;
@@ -132,13 +129,9 @@ struct MergeOptions {
     /// The thesis's formulas (3.3): arc length, normals and frames of the loops without smoothing,
     /// scales from tangent lengths, vertices that meet only if they coincide; its operators, |M| /
     /// sqrt 3 and (2.11); umbrella steps without a guard, no edges flipped after them, no collar;
-    /// its transition. The other options are as chosen: `literal` chooses them too.
-    bool thesis = false;
-
-    /// Section 3.3 to the letter: `thesis`, seams by a band, no collar, no trimming, no refinement,
-    /// and in the fixed configuration frames that keep their directions. `smooth` stays: the thesis
-    /// makes "several" umbrella steps, but none with a transition, which needs 0.
-    static MergeOptions literal(Configuration configuration = Configuration::free);
+    /// its transition. The other options are as chosen: thesis_merge_options of kernel/thesis
+    /// chooses them too, and thesis_formulas makes these. Null: ours. Not owned.
+    const ThesisFormulas* thesis = nullptr;
 };
 
 /// Results at one join.

@@ -57,6 +57,12 @@ void require_options(const MergeOptions& options, std::size_t joins, std::size_t
     require(options.source_transition >= 0.0 && options.target_transition >= 0.0 &&
                 std::isfinite(options.source_transition + options.target_transition),
             "widths of transition regions must be finite and not negative");
+    require(!(options.thesis && options.auto_transition),
+            "the thesis's transition needs its widths: it does not choose them");
+    const bool both = options.source_transition > 0.0 && options.target_transition > 0.0;
+    require(!options.thesis || both || !widths,
+            "the thesis's transition needs a region on both sides: give widths above 0 for source "
+            "and target");
     require(!options.reach || *options.reach > 0.0, "the reach of a merge must be above 0");
     require(options.max_turn >= 0.0, "the greatest turn must not be negative");
     const bool stays = options.configuration == Configuration::fixed;
@@ -529,48 +535,17 @@ void factor(MergePreparation& made, const Context& context) {
 
 }  // namespace
 
-MergeOptions MergeOptions::literal(Configuration configuration) {
-    MergeOptions options;
-    options.configuration = configuration;
-    options.turn_frames = configuration == Configuration::free;
-    options.feature_motion = FeatureMotion::common;
-    options.seam = SeamKind::band;
-    options.collar = options.trim = options.refine = false;
-    options.thesis = true;
-    return options;
-}
-
-namespace {
-
-const OverlapTransition& overlap_of(const MergeOptions& options) {
-    if (!(options.source_transition > 0.0 && options.target_transition > 0.0)) {
-        throw Error(ErrorCode::invalid_argument,
-                    "the thesis's transition needs a region on both sides: give widths above 0 for "
-                    "source and target");
-    }
-    if (options.overlap) return *options.overlap;
-    throw Error(ErrorCode::unsupported,
-                "the thesis's transition is not part of this program, which was built without "
-                "kernel/thesis; leave the thesis's formulas or the widths out");
-}
-
-}  // namespace
-
 MergeMethod method_of(const MergeOptions& options) {
     MergeMethod method;
     method.values.turn = options.configuration == Configuration::free || options.turn_frames;
     if (!options.thesis) return method;
-    if (options.auto_transition) {
-        throw Error(ErrorCode::invalid_argument,
-                    "the thesis's transition needs its widths: it does not choose them");
-    }
-    method.deform = BoundaryDeformOptions::thesis();
+    method.deform = options.thesis->deform;
     method.values.sigma = 0.0;
     method.values.tangent_scales = true;
     method.loops = LoopMeasure::raw;
     method.guard = false;
     if (options.source_transition > 0.0 || options.target_transition > 0.0) {
-        method.overlap = &overlap_of(options);
+        method.overlap = &options.thesis->overlap;
     }
     return method;
 }

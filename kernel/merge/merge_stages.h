@@ -52,7 +52,6 @@ struct MergeMethod {
     /// Its own transition, if one is asked for; else null.
     const OverlapTransition* overlap = nullptr;
 };
-/// Errors: invalid_argument for options that do not go together or are out of range.
 MergeMethod method_of(const MergeOptions& options);
 
 /// The place of a boundary's vertices in the mesh that was given.

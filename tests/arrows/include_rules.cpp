@@ -54,6 +54,7 @@ const std::vector<Rule>& rules() {
         {"kernel/io/png16.cpp", {"kernel/core", "kernel/io"}, {"Eigen", "stb"}},
         {"bindings/c", {"kernel", "bindings/c"}, {"Eigen"}},
         {"bindings/c/lissom.h", {}, {"platform"}},
+        {"bindings/c/thesis_parts.cpp", {"kernel", "kernel/thesis", "bindings/c"}, {}},
         {"bindings/c/script", {"kernel", "bindings/c", "bindings/lua"}, {"Eigen", "Lua", "JSON"}},
         {"bindings/engine", {}, {"platform"}},
         {"bindings/lua", {"kernel", "bindings/lua"}, {"Eigen", "Lua"}},

@@ -26,6 +26,7 @@
 #include "tests/bench/limits.h"
 #include "tests/bench/report.h"
 #ifdef LISSOM_BENCH_CGAL
+#include "kernel/thesis/fidelity.h"
 #include "tests/bench/peers/cgal_deform.h"
 #endif
 
@@ -217,7 +218,7 @@ void run_table(Report& report) {
         }
         const double share = column.file.empty() ? 1e-6 : 0.08;
         const Task task(*mesh, share);
-        const Times literal = time_deformer(task, DeformOptions::thesis(), 9);
+        const Times literal = time_deformer(task, thesis_deform_options(), 9);
         const Times ours = time_deformer(task, {}, 9);
         const auto add = [&](const std::string& what, double thesis, double same, double best) {
             report.add({column.name + ": " + what + ", thesis", 1e6 * thesis / column.free, "us"});

@@ -22,6 +22,7 @@
 #include "kernel/core/error.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/merge/paste/paste.h"
+#include "kernel/thesis/fidelity.h"
 #include "tests/bench/report.h"
 #include "tests/unit/merge/paste/real_pastes.h"
 
@@ -67,7 +68,7 @@ std::optional<Mesh> model(const std::string& file) {
 
 PasteResult pasted(const RealPaste& real, const Mesh& source, const Mesh& target, Way way) {
     PasteOptions options;
-    options.thesis = way == Way::thesis;
+    if (way == Way::thesis) options.thesis = &thesis_formulas();
     Paste paste(source, target, real.region(source), real.feature(source), std::nullopt,
                 real.placement, options);
     if (way != Way::outline) paste.optimize();

@@ -11,6 +11,7 @@
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "kernel/thesis/fidelity.h"
 #include "tests/bench/report.h"
 
 namespace lissom::bench {
@@ -139,7 +140,7 @@ void add_row(Report& report, const ThesisColumn& column, const char* what, doubl
 
 void run_column(Report& report, const ThesisColumn& column) {
     const Index vertices = column.free_vertices * 4 / 3;
-    const Times same = measure(vertices, 1, MergeOptions::literal()), ours = measure(vertices, 1);
+    const Times same = measure(vertices, 1, thesis_merge_options()), ours = measure(vertices, 1);
     char text[160];
     std::snprintf(text, sizeof text, "  %s: free vertices %d, %d, %d; degenerate %d, %d, %d",
                   column.name, column.free_vertices, same.free_vertices, ours.free_vertices,

@@ -20,7 +20,7 @@ void take_number(const Call& call, const char* path, double& target) {
 
 DeformOptions deform_options(const Call& call) {
     const bool thesis = call.integer("fidelity") == 1;
-    DeformOptions options = thesis ? DeformOptions::thesis() : DeformOptions{};
+    DeformOptions options = thesis ? literal_deform_options() : DeformOptions{};
     take_choice(call, "method", options.method);
     options.comparison = comparison_maker();
     take_choice(call, "second", options.second);

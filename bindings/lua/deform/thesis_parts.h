@@ -1,4 +1,5 @@
-/// Parts of kernel/thesis that options take. A build without that folder has none of them.
+/// Options of fidelity = "thesis", which kernel/thesis makes. A build without that folder refuses
+/// them as `unsupported`.
 #pragma once
 
 #include "kernel/deform/options.h"
@@ -6,10 +7,12 @@
 
 namespace lissom::lua {
 
-/// Returns the maker of the comparison methods, or null.
+/// Returns the maker of the comparison methods, or null in such a build.
 ComparisonMaker comparison_maker();
 
-/// Returns the thesis's transition of merging, or null.
-const OverlapTransition* thesis_overlap();
+/// Errors: unsupported.
+DeformOptions literal_deform_options();
+const ThesisFormulas& literal_formulas();
+MergeOptions literal_merge_options(Configuration configuration);
 
 }  // namespace lissom::lua

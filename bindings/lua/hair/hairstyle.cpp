@@ -27,7 +27,8 @@ namespace {
 
 HairstyleOptions style_options(const Call& call) {
     const bool thesis = call.integer("fidelity") == 1;
-    HairstyleOptions options = thesis ? HairstyleOptions::thesis() : HairstyleOptions{};
+    HairstyleOptions options =
+        style_options_with(thesis ? HairFidelity::thesis : HairFidelity::lissom);
     options.resolution = call.integer("resolution");
     if (call.has("volume"))
         options.volume = Box{call.vector("volume.min"), call.vector("volume.max")};

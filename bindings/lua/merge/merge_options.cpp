@@ -243,9 +243,8 @@ void check_directions(const Call& call) {
 MergeOptions merge_options(const Call& call) {
     MergeOptions options;
     if (call.integer("fidelity") == 1) {
-        options = MergeOptions::literal(call.choice<Configuration>("configuration"));
+        options = literal_merge_options(call.choice<Configuration>("configuration"));
     }
-    options.overlap = thesis_overlap();
     for (const OptionRow& row : option_rows(true)) {
         if (row.read && call.has(row.parameter.name.c_str())) row.read(call, options);
     }

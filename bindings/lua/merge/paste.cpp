@@ -1,5 +1,6 @@
 // lissom.paste: features put onto other surfaces.
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/deform/thesis_parts.h"
 #include "bindings/lua/merge/paste_object.h"
 
 namespace lissom::lua {
@@ -70,7 +71,7 @@ int new_paste(Call& call) {
         options.share = call.number("ring");
         options.normals = call.number("normals");
         options.crease = kDegree * call.number("crease");
-        options.thesis = call.integer("fidelity") == 1;
+        if (call.integer("fidelity") == 1) options.thesis = &literal_formulas();
         std::optional<Region> feature, onto;
         if (given) feature = call.object<RegionObject>("feature")->current();
         read_clearing(call, options);

@@ -60,17 +60,6 @@ void require_features(const Region& region, const Region& held,
 
 }  // namespace
 
-BoundaryDeformOptions BoundaryDeformOptions::thesis() {
-    BoundaryDeformOptions options;
-    const DeformOptions literal = DeformOptions::thesis();
-    options.size = SizeField::gradient;
-    options.second = literal.second;
-    options.coherence = literal.coherence;
-    options.degenerate_threshold = literal.degenerate_threshold;
-    options.scale_free = literal.scale_free;
-    return options;
-}
-
 struct BoundaryDeformer::State {
     State(const Mesh& mesh, const Region& region, const Region& held,
           const BoundaryDeformOptions& options, const Context& context)

@@ -48,10 +48,6 @@ struct BoundaryDeformOptions {
     /// the part as a whole (the extension of thesis section 3.5). None may hold a vertex of
     /// another, or one that is held.
     std::vector<Region> features = {};
-
-    /// Thesis to the letter: |M| / sqrt 3, second system (2.11), coherence 2, literal weights on
-    /// the surface brought to unit size.
-    static BoundaryDeformOptions thesis();
 };
 
 /// Seconds that the steps of a solve took: the first system (Eq 2.8), the rotations and sizes of

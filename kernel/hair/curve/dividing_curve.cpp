@@ -274,12 +274,6 @@ DividingOptions with_lengths(DividingOptions options, double step) {
     return options;
 }
 
-DividingOptions DividingOptions::thesis() {
-    DividingOptions options;
-    options.fidelity = HairFidelity::thesis;
-    return options;
-}
-
 DividingLine::DividingLine(std::span<const Vec3> points, std::span<const Vec3> normals) {
     require_curve(points);
     require(points.size() == normals.size(), "a dividing curve needs one normal for each point");

@@ -47,9 +47,6 @@ struct DividingOptions {
     /// and vectors lie in them; `ramp` is 0 if absent.
     HairFidelity fidelity = HairFidelity::lissom;
 
-    /// Section 4.5 to the letter.
-    static DividingOptions thesis();
-
     bool operator==(const DividingOptions&) const = default;
 };
 

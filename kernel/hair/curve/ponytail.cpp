@@ -486,13 +486,6 @@ PonytailOptions with_lengths(PonytailOptions options, double step) {
     return options;
 }
 
-PonytailOptions PonytailOptions::thesis() {
-    PonytailOptions options;
-    options.grip = options.spread = 0.0;
-    options.fidelity = HairFidelity::thesis;
-    return options;
-}
-
 PonytailShape ponytail_shape(std::span<const Vec3> spine, double step,
                              const PonytailOptions& options) {
     const Spine whole(spine);

@@ -60,9 +60,6 @@ struct PonytailOptions {
     /// `lead` half a step if absent; the spine is followed as StreamOptions::fidelity says.
     HairFidelity fidelity = HairFidelity::lissom;
 
-    /// Section 4.5 to the letter: also no grip and no spread.
-    static PonytailOptions thesis();
-
     bool operator==(const PonytailOptions&) const = default;
 };
 

@@ -14,12 +14,6 @@ constexpr double kMinWeight = 1e-9;
 
 }  // namespace
 
-StreamOptions StreamOptions::thesis() {
-    StreamOptions options;
-    options.fidelity = HairFidelity::thesis;
-    return options;
-}
-
 double steps_across(const GridLayout& layout) {
     return static_cast<double>(layout.counts[0]) + layout.counts[1] + layout.counts[2];
 }

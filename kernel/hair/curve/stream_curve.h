@@ -24,9 +24,6 @@ struct StreamOptions {
     /// mean, so that vectors along the curve are of unit length.
     HairFidelity fidelity = HairFidelity::lissom;
 
-    /// Section 4.5 to the letter.
-    static StreamOptions thesis();
-
     bool operator==(const StreamOptions&) const = default;
 };
 

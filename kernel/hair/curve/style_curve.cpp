@@ -15,16 +15,30 @@ struct DrawnPoints {
 
 }  // namespace
 
-StreamCurve StreamCurve::thesis() {
-    return {.points = {}, .options = StreamOptions::thesis(), .clearance = 0.0};
+template <>
+StreamCurve curve_with(HairFidelity fidelity) {
+    StreamCurve curve;
+    curve.options.fidelity = fidelity;
+    if (fidelity == HairFidelity::thesis) curve.clearance = 0.0;
+    return curve;
 }
 
-DividingCurve DividingCurve::thesis() {
-    return {.points = {}, .options = DividingOptions::thesis(), .gap = 0.0};
+template <>
+DividingCurve curve_with(HairFidelity fidelity) {
+    DividingCurve curve;
+    curve.options.fidelity = fidelity;
+    if (fidelity == HairFidelity::thesis) curve.gap = 0.0;
+    return curve;
 }
 
-Ponytail Ponytail::thesis() {
-    return {.spine = {}, .options = PonytailOptions::thesis(), .ragged = 0.0};
+template <>
+Ponytail curve_with(HairFidelity fidelity) {
+    Ponytail curve;
+    curve.options.fidelity = fidelity;
+    if (fidelity == HairFidelity::thesis) {
+        curve.options.grip = curve.options.spread = curve.ragged = 0.0;
+    }
+    return curve;
 }
 
 HairFidelity fidelity_of(const StyleCurve& curve) {

@@ -24,9 +24,6 @@ struct StreamCurve {
     /// The curve is moved outward to this height above the head.
     double clearance = 0.004;
 
-    /// Without points, as section 4.5 has it: it may lie on the head.
-    static StreamCurve thesis();
-
     bool operator==(const StreamCurve&) const = default;
 };
 
@@ -42,9 +39,6 @@ struct DividingCurve {
     /// They keep their positions when the curve moves; the ones it has left have no effect.
     std::vector<std::vector<Vec3>> hints = {};
 
-    /// Without points, as section 4.5 has it: there is no bare skin.
-    static DividingCurve thesis();
-
     bool operator==(const DividingCurve&) const = default;
 };
 
@@ -58,9 +52,6 @@ struct Ponytail {
     /// strand, up to `ragged`, 0 to 1, is missing at the tips.
     std::optional<double> tail_length = std::nullopt;
     double ragged = 0.45;
-
-    /// Without a spine, as section 4.5 has it: hair behind the tie is like any other.
-    static Ponytail thesis();
 
     bool operator==(const Ponytail&) const = default;
 };
@@ -81,11 +72,17 @@ std::string_view kind_name(const StyleCurve& curve);
 /// Returns how closely the curve keeps to the thesis.
 HairFidelity fidelity_of(const StyleCurve& curve);
 
-/// Returns a curve without points, as it is by default with a fidelity.
+/// Returns a curve without points, as it is by default with a fidelity. In section 4.5 of the
+/// thesis a stream may lie on the head, a dividing curve bares no skin, and a ponytail has no grip
+/// and no spread, and hair behind its tie is like any other.
 template <typename Shape>
-Shape curve_with(HairFidelity fidelity) {
-    return fidelity == HairFidelity::thesis ? Shape::thesis() : Shape{};
-}
+Shape curve_with(HairFidelity fidelity);
+template <>
+StreamCurve curve_with(HairFidelity fidelity);
+template <>
+DividingCurve curve_with(HairFidelity fidelity);
+template <>
+Ponytail curve_with(HairFidelity fidelity);
 
 /// Returns the points or spine that the curve was drawn with.
 const std::vector<Vec3>& drawn_points(const StyleCurve& curve);

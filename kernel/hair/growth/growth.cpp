@@ -237,14 +237,6 @@ QuadGrid grid_of(const HairField& field) {
 
 }  // namespace
 
-GrowthOptions GrowthOptions::thesis() {
-    GrowthOptions options;
-    options.variation = options.lift = 0.0;
-    options.max_turn = kPi;
-    options.avoid = options.start_outward = options.cap_speed = false;
-    return options;
-}
-
 struct StrandGrower::State {
     State(const Mesh& head, std::span<const Root> all, const Context& context)
         : roots(head, all, context) {}

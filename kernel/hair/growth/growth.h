@@ -102,10 +102,6 @@ struct GrowthOptions {
     /// From the coordinates of the field to those of the strands.
     Affine placement = {};
     std::uint64_t seed = 1;
-
-    /// Section 4.6 to the letter: strands follow the field alone, l v(p) a segment, even into the
-    /// head, with any turn and any length, and do not vary in length.
-    static GrowthOptions thesis();
 };
 
 /// Reason for the end of a strand.

@@ -1,5 +1,6 @@
 /// Interface of transitions by regions that overlap: a region of the source comes to lie on one of
-/// the target, whose faces go. kernel/thesis has that of the thesis (section 3.3.3).
+/// the target, whose faces go. kernel/thesis has that of the thesis (section 3.3.3), and the
+/// formulas that belong to it.
 #pragma once
 
 #include <memory>
@@ -87,6 +88,14 @@ class OverlapTransition {
     virtual std::shared_ptr<OverlapMerge> begin(const OverlapTarget& whole, const Mesh& opened,
                                                 const Mesh& source, std::vector<OverlapJoin> joins,
                                                 double weight, const Context& context) const = 0;
+};
+
+/// The formulas of merging that the thesis has: MergeOptions::thesis, PasteOptions::thesis.
+struct ThesisFormulas {
+    /// Deformation by boundaries.
+    BoundaryDeformOptions deform;
+    /// Makes the transitions of given widths.
+    const OverlapTransition& overlap;
 };
 
 }  // namespace lissom

@@ -17,9 +17,9 @@ constexpr int kSettlingRounds = 12;
 constexpr double kMinSlide = 0.25;
 
 // The thesis scales Laplacian coordinates by one factor, that of the boundary (section 3.4.4).
-BoundaryDeformOptions paste_deformation(bool thesis) {
+BoundaryDeformOptions paste_deformation(const ThesisFormulas* thesis) {
     if (!thesis) return {};
-    BoundaryDeformOptions options = BoundaryDeformOptions::thesis();
+    BoundaryDeformOptions options = thesis->deform;
     options.size = SizeField::harmonic;
     return options;
 }

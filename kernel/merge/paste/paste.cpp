@@ -72,7 +72,7 @@ void require_faces(const Mesh& mesh) {
 
 EnergyOptions energy_for(const PasteOptions& options, Index iterations) {
     EnergyOptions energy;
-    energy.thesis = options.thesis;
+    energy.thesis = options.thesis != nullptr;
     energy.normals = options.thesis ? 0.0 : options.normals;
     energy.iterations = iterations;
     return energy;

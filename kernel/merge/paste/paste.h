@@ -47,8 +47,8 @@ struct PasteOptions {
     /// more the part is distorted beside it. 0: no crease. 0 to pi; the thesis takes 0.
     double crease = 30.0 * kDegree;
     /// The thesis to the letter: maps that keep angles (LSCM), the energy of Eq 3.1 with its
-    /// similarity, a boundary along edges, its deformation.
-    bool thesis = false;
+    /// similarity, a boundary along edges, its deformation. Null: ours. As MergeOptions::thesis.
+    const ThesisFormulas* thesis = nullptr;
     /// Removes the target's features under the part first (erase_feature): those under its
     /// boundary, and nothing beyond that.
     bool clear = false;

@@ -1,4 +1,4 @@
-/// The thesis's transition of merging (section 3.3.3), for MergeOptions::overlap.
+/// The thesis's transition of merging (section 3.3.3); private to kernel/thesis.
 #pragma once
 
 #include "kernel/merge/blend/overlap_transition.h"

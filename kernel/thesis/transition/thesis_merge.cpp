@@ -14,6 +14,7 @@
 #include "kernel/merge/blend/band_system.h"
 #include "kernel/mesh/edit/extract.h"
 #include "kernel/mesh/measure/morph_maps.h"
+#include "kernel/thesis/fidelity.h"
 
 namespace lissom {
 namespace {
@@ -97,7 +98,7 @@ void hold(TransitionMesh& side, Index v, const Vec3& position, const Mat3& gradi
 
 // The second system of one mesh, with the scales of Eq 2.11.
 void remove_shear(const TransitionMesh& side, TransitionShape& shape, const Context& context) {
-    const DeformOptions options = DeformOptions::thesis();
+    const DeformOptions options = thesis_deform_options();
     const WorkingPatch work(build_patch(*side.mesh, Region::all(side.mesh->shared_topology()), 0),
                             options);
     const Patch& patch = work.patch;

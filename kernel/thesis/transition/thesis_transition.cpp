@@ -11,6 +11,7 @@
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/system/gradients.h"
 #include "kernel/solve/sparse/sparse_system.h"
+#include "kernel/thesis/fidelity.h"
 
 namespace lissom {
 namespace {
@@ -283,7 +284,7 @@ ThesisTransition thesis_transition(const TransitionMesh& target, const Transitio
     check(source, target);
     Progress progress(context, "transition");
     progress.step(0.5);
-    const DeformOptions options = DeformOptions::thesis();
+    const DeformOptions options = thesis_deform_options();
     const std::array<ThesisSide, 2> sides{ThesisSide(target, options), ThesisSide(source, options)};
     const Assembler assembler(sides[0], sides[1]);
     Matrix matrix;

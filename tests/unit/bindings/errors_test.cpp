@@ -27,6 +27,25 @@ TEST_CASE("messages count elements from one") {
     CHECK(lua_message(rows) == "row 3");
 }
 
+TEST_CASE("fidelity = thesis works in builds with kernel/thesis, and is refused as unsupported") {
+    LuaState lua;
+    const std::string shape = "local m = lissom.shapes.grid{} ";
+    for (const char* use : {"lissom.deformer(m, { fidelity = 'thesis' })",
+                            "lissom.merge(m, m:copy(), { fidelity = 'thesis' })",
+                            "lissom.paste{ source = m, target = m:copy(), region = m:region{ 1 }, "
+                            "fidelity = 'thesis' }"}) {
+        CAPTURE(use);
+        const std::string error = lua.run(shape + use);
+#ifdef LISSOM_HAS_THESIS
+        CHECK(error.find("unsupported") == std::string::npos);
+#else
+        CHECK(error.find("unsupported") != std::string::npos);
+        CHECK(error.find("leave it out") != std::string::npos);
+#endif
+    }
+    CHECK(lua.run("lissom.hairstyle(lissom.shapes.head{}, { fidelity = 'thesis' })") == "");
+}
+
 TEST_CASE("a long message is cut, not overrun") {
     Failure failure;
     failure.set(Error(ErrorCode::internal, std::string(10000, 'x')));

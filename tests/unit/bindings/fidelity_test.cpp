@@ -8,6 +8,7 @@
 #include "kernel/deform/options.h"
 #include "kernel/hair/hairstyle.h"
 #include "kernel/merge/merge.h"
+#include "kernel/thesis/fidelity.h"
 #include "tests/unit/bindings/lua_state.h"
 
 namespace lissom::lua {
@@ -25,7 +26,7 @@ Names of_deformer() {
     const auto& [method, second, size, weights, refine, coherence, coherence_weight, threshold,
                  flat, loose, free_rings, borders, displacement, scale_free, transition,
                  comparison] = DeformOptions{};
-    const DeformOptions t = DeformOptions::thesis();
+    const DeformOptions t = thesis_deform_options();
     Names names;
     note(names, "method", method != t.method);
     note(names, "second", second != t.second);
@@ -49,11 +50,11 @@ Names of_deformer() {
 
 Names of_merge() {
     const auto& [configuration, place, fixed, motion, reach, frames, seam, smooth, collar,
-                 source_width, target_width, suit, weight, overlap, trim, turn, refine,
-                 intersections, mend, directions, thesis] = MergeOptions{};
-    const MergeOptions t = MergeOptions::literal(Configuration::fixed);
-    CHECK(MergeOptions::literal().configuration == configuration);
-    CHECK(MergeOptions::literal().turn_frames);
+                 source_width, target_width, suit, weight, trim, turn, refine, intersections, mend,
+                 directions, thesis] = MergeOptions{};
+    const MergeOptions t = thesis_merge_options(Configuration::fixed);
+    CHECK(thesis_merge_options().configuration == configuration);
+    CHECK(thesis_merge_options().turn_frames);
     CHECK(place == t.place);
     Names names;
     note(names, "fixed", fixed.size() != t.fixed.size());
@@ -74,14 +75,13 @@ Names of_merge() {
     CHECK(mend == t.mend);
     CHECK(directions.size() == t.directions.size());
     CHECK(thesis != t.thesis);
-    CHECK((overlap == t.overlap));
     return names;
 }
 
 Names of_style() {
     const auto& [resolution, volume, field, fidelity] = HairstyleOptions{};
     const auto& [boundary, solver, tension, dense_limit, tolerance, refinements] = field;
-    const HairstyleOptions t = HairstyleOptions::thesis();
+    const HairstyleOptions t = style_options_with(HairFidelity::thesis);
     Names names;
     note(names, "resolution", resolution != t.resolution);
     note(names, "volume", volume.has_value() != t.volume.has_value());
@@ -98,7 +98,7 @@ Names of_style() {
 Names of_stream() {
     const auto& [points, options, clearance] = StreamCurve{};
     const auto& [stop_length, weight, fidelity] = options;
-    const StreamCurve t = StreamCurve::thesis();
+    const StreamCurve t = curve_with<StreamCurve>(HairFidelity::thesis);
     Names names;
     note(names, "points", points != t.points);
     note(names, "clearance", clearance != t.clearance);
@@ -112,7 +112,7 @@ Names of_dividing() {
     const auto& [points, options, gap, hints] = DividingCurve{};
     const auto& [left, right, sigma, height, reach, thickness, separation, wall_width, wall_height,
                  ramp, weight, fidelity] = options;
-    const DividingCurve t = DividingCurve::thesis();
+    const DividingCurve t = curve_with<DividingCurve>(HairFidelity::thesis);
     Names names;
     note(names, "points", points != t.points);
     note(names, "gap", gap != t.gap);
@@ -136,7 +136,7 @@ Names of_ponytail() {
     const auto& [spine, options, tail_length, ragged] = Ponytail{};
     const auto& [radius, section, profiles, share, fullness, inner, outer, ring, lead, tightness,
                  grip, spread, clearance, stop_length, weight, fidelity] = options;
-    const Ponytail t = Ponytail::thesis();
+    const Ponytail t = curve_with<Ponytail>(HairFidelity::thesis);
     Names names;
     note(names, "spine", spine != t.spine);
     note(names, "ragged", ragged != t.ragged);
@@ -165,7 +165,7 @@ Names of_growth() {
     const auto& [length, variation, length_map, masks, segment, min_speed, max_turn, max_segments,
                  lift, start_outward, cap_speed, avoid, clearance, layer, ramp, ties, cuts, spare,
                  placement, seed] = GrowthOptions{};
-    const GrowthOptions t = GrowthOptions::thesis();
+    const GrowthOptions t = growth_options_with(HairFidelity::thesis);
     Names names{"length", "roots"};
     note(names, "variation", variation != t.variation);
     note(names, "lengths", length_map != t.length_map);

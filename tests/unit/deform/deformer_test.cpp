@@ -11,6 +11,7 @@
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
+#include "tests/unit/deform/thesis_options.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -24,7 +25,7 @@ std::vector<DeformOptions> formulations() {
     list[2].second = SecondSystem::poisson;
     list[3].local_size = LocalSize::scale;
     list[4].weights = LaplacianWeights::uniform;
-    list[5] = DeformOptions::thesis();
+    list[5] = test::thesis_or_default();
     return list;
 }
 

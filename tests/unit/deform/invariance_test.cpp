@@ -7,6 +7,7 @@
 
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/scene.h"
+#include "tests/unit/deform/thesis_options.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -83,7 +84,8 @@ TEST_CASE("offset: a model far from the origin loses only the digits its coordin
 }
 
 TEST_CASE("literal weights of the thesis depend on scale, the default does not") {
-    DeformOptions literal = DeformOptions::thesis();
+    if (!test::kHasThesis) return;
+    const DeformOptions literal = test::thesis_or_default();
     CHECK(deviation(torus_scene(), similarity(100.0), literal) > 1e-4);
     CHECK(deviation(torus_scene(), similarity(100.0)) < 1e-9);
 }

@@ -8,6 +8,7 @@
 #include "kernel/deform/stats.h"
 #include "tests/unit/deform/models.h"
 #include "tests/unit/deform/scene.h"
+#include "tests/unit/deform/thesis_options.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -239,7 +240,7 @@ TEST_CASE("real meshes: every formulation gives a finite shape near the default 
         list[1].second = SecondSystem::poisson;
         list[2].coherence = 2;
         list[3].refine = 2;
-        list[4] = DeformOptions::thesis();
+        list[4] = test::thesis_or_default();
         for (const DeformOptions& options : list) {
             Edit edit = make_edit(scene, options);
             edit.deformer.set_transform(edit.high, move);

@@ -13,6 +13,7 @@
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/deform/models.h"
 #include "tests/unit/deform/scene.h"
+#include "tests/unit/deform/thesis_options.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -40,9 +41,9 @@ std::vector<std::pair<std::string, DeformOptions>> reference_formulations() {
     add("two rings", [](DeformOptions& o) { o.coherence = 2; });
     add("uniform", [](DeformOptions& o) { o.weights = LaplacianWeights::uniform; });
     add("coherence", [](DeformOptions& o) { o.coherence_weight = 7.0; });
-    add("thesis", [](DeformOptions& o) { o = DeformOptions::thesis(); });
+    add("thesis", [](DeformOptions& o) { o = test::thesis_or_default(); });
     add("thesis, blend", [](DeformOptions& o) {
-        o = DeformOptions::thesis();
+        o = test::thesis_or_default();
         o.second = SecondSystem::blend;
     });
     return list;

@@ -24,7 +24,7 @@ double ball_step() {
 
 // A ponytail outside the ball, straight in a direction, and what it constrains.
 struct LiteralTail {
-    PonytailOptions options = PonytailOptions::thesis();
+    PonytailOptions options = curve_with<Ponytail>(HairFidelity::thesis).options;
     Vec3 direction = -Vec3::UnitZ();
 
     PonytailShape shape() const {
@@ -48,7 +48,7 @@ bool same_constraints(const std::vector<GridConstraint>& a, const std::vector<Gr
 
 // A parting along -z on a plane at the top of the ball, whose right side is at -x or x.
 struct FlatParting {
-    DividingOptions options = DividingOptions::thesis();
+    DividingOptions options = curve_with<DividingCurve>(HairFidelity::thesis).options;
     std::vector<Vec3> points, normals;
 
     FlatParting() {
@@ -63,19 +63,19 @@ struct FlatParting {
 };
 
 Hairstyle literal_style() {
-    HairstyleOptions options = HairstyleOptions::thesis();
+    HairstyleOptions options = style_options_with(HairFidelity::thesis);
     options.resolution = 6000;
     return Hairstyle(test::small_head(), test::small_scalp(), options);
 }
 
 StyleCurve literal_stream(std::vector<Vec3> points) {
-    StreamCurve curve = StreamCurve::thesis();
+    StreamCurve curve = curve_with<StreamCurve>(HairFidelity::thesis);
     curve.points = std::move(points);
     return {curve};
 }
 
 StyleCurve literal_ponytail(const Hairstyle& style) {
-    Ponytail curve = Ponytail::thesis();
+    Ponytail curve = curve_with<Ponytail>(HairFidelity::thesis);
     curve.spine = std::get<Ponytail>(test::tail(style).shape).spine;
     return {curve};
 }
@@ -152,7 +152,7 @@ TEST_CASE("thesis: a tail along the head leaves hair alone only where it is aske
     const Vec3 tie(0.0, 0.03, -0.115);
     const std::vector<Vec3> spine{tie, Vec3(0, -0.02, -0.105), Vec3(0, -0.08, -0.08)};
     const auto sections = [&](std::optional<double> clearance) {
-        PonytailOptions options = PonytailOptions::thesis();
+        PonytailOptions options = curve_with<Ponytail>(HairFidelity::thesis).options;
         options.clearance = clearance;
         const PonytailShape shape = ponytail_shape(spine, ball_step(), options);
         Index low = 0;
@@ -199,7 +199,8 @@ TEST_CASE("thesis: stream curves give the tangents of segments, and vanish evenl
         smooth_curve(std::vector{Vec3(0.1, 0.05, 0), Vec3(0.12, 0, 0.02), Vec3(0.1, -0.06, 0.05)},
                      ball_step()),
         ball_step());
-    const auto all = stream_constraints(test::ball().layout(), points, StreamOptions::thesis());
+    const auto all = stream_constraints(test::ball().layout(), points,
+                                        curve_with<StreamCurve>(HairFidelity::thesis).options);
     const double extra = std::ceil(0.04 / ball_step());
     std::set<int> steps;
     for (const GridConstraint& c : all) {
@@ -361,7 +362,7 @@ TEST_CASE("thesis: a tie names the hair that it catches and leaves its length al
 }
 
 TEST_CASE("thesis: the field has the thesis's weights and no tension, by whichever solver") {
-    const HairstyleOptions literal = HairstyleOptions::thesis();
+    const HairstyleOptions literal = style_options_with(HairFidelity::thesis);
     CHECK(literal.field.boundary == GridBoundary::thesis);
     CHECK(literal.field.tension == 0.0);
     CHECK(literal.resolution == HairstyleOptions{}.resolution);
@@ -388,8 +389,9 @@ TEST_CASE("thesis: default hair is that of the style's fidelity") {
     const Hairstyle style = literal_style();
     CHECK(style.default_hair().roots.pattern == RootPattern::steps);
     CHECK(style.default_hair().growth.length == longest_hair(style.layout()));
-    CHECK(fidelity_of(StyleCurve{StreamCurve::thesis()}) == HairFidelity::thesis);
+    CHECK(fidelity_of(StyleCurve{curve_with<StreamCurve>(HairFidelity::thesis)}) ==
+          HairFidelity::thesis);
     CHECK(fidelity_of(StyleCurve{DividingCurve{}}) == HairFidelity::lissom);
-    CHECK(curve_with<Ponytail>(HairFidelity::thesis) == Ponytail::thesis());
+    CHECK(curve_with<Ponytail>(HairFidelity::thesis).ragged == 0.0);
     CHECK(curve_with<Ponytail>(HairFidelity::lissom) == Ponytail{});
 }

@@ -139,8 +139,8 @@ TEST_CASE("mistakes in a style are named") {
 
 TEST_CASE("the fidelity of a style is kept, and says what its curves have by default") {
     StyleContent content;
-    content.options = HairstyleOptions::thesis();
-    Ponytail tail = Ponytail::thesis();
+    content.options = style_options_with(HairFidelity::thesis);
+    Ponytail tail = curve_with<Ponytail>(HairFidelity::thesis);
     tail.spine = {Vec3(0, 0, -0.12), Vec3(0, -0.1, -0.15)};
     tail.options.grip = 2.0;
     content.curves.push_back({tail});
@@ -158,10 +158,11 @@ TEST_CASE("the fidelity of a style is kept, and says what its curves have by def
         R"( {"kind": "dividing"}, {"kind": "stream", "fidelity": "default"}])"));
     CHECK(brief.options.field.tension == 0.01);
     CHECK(brief.options.field.boundary == GridBoundary::thesis);
-    Ponytail expected = Ponytail::thesis();
+    Ponytail expected = curve_with<Ponytail>(HairFidelity::thesis);
     expected.options.spread = 1.0;
     CHECK(std::get<Ponytail>(brief.curves[0].shape) == expected);
-    CHECK(std::get<DividingCurve>(brief.curves[1].shape) == DividingCurve::thesis());
+    CHECK(std::get<DividingCurve>(brief.curves[1].shape) ==
+          curve_with<DividingCurve>(HairFidelity::thesis));
     CHECK(std::get<StreamCurve>(brief.curves[2].shape) == StreamCurve{});
 
     CHECK(encode_style(everything()).find("fidelity") == std::string::npos);

@@ -12,7 +12,7 @@
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/unit/merge/thesis_overlap.h"
+#include "tests/unit/merge/thesis_parts.h"
 #include "tests/unit/mesh/mesh_support.h"
 
 using namespace lissom;
@@ -102,8 +102,7 @@ MergeOptions random_options(Random& random, const Mesh& source, const Mesh& targ
     }
     options.refine = random.index(2) == 0;
     options.trim = random.index(2) == 0;
-    options.overlap = test::thesis_overlap();
-    options.thesis = random.index(5) == 0 && options.overlap;
+    if (random.index(5) == 0) options.thesis = test::thesis();
     options.turn_frames = options.configuration == Configuration::free || random.index(3) != 0;
     return options;
 }

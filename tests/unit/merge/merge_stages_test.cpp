@@ -9,7 +9,7 @@
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/failing_memory.h"
-#include "tests/unit/merge/thesis_overlap.h"
+#include "tests/unit/merge/thesis_parts.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -38,9 +38,8 @@ std::vector<MergeOptions> ways() {
     MergeOptions fair, blended, thesis, fixed;
     fair.seam = SeamKind::fair;
     blended.auto_transition = true;
-    thesis.thesis = true;
-    thesis.overlap = test::thesis_overlap();
-    if (thesis.overlap) thesis.source_transition = thesis.target_transition = 0.6;
+    thesis.thesis = test::thesis();
+    if (thesis.thesis) thesis.source_transition = thesis.target_transition = 0.6;
     fixed.configuration = Configuration::fixed;
     fixed.seam = SeamKind::band;
     return {fair, blended, thesis, fixed};

@@ -16,6 +16,7 @@
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/merge/thesis_parts.h"
 #include "tests/unit/mesh/mesh_support.h"
 #include "tests/unit/mesh/morph_support.h"
 #include "tests/unit/shapes.h"
@@ -183,7 +184,8 @@ TEST_CASE("a fixed feature keeps its shape in the free configuration, and moves 
     CHECK(bent > 1e-3);
     options.fixed = {feature};
     std::vector<std::vector<Vec3>> places;
-    for (const bool thesis : {false, true}) {
+    for (const ThesisFormulas* thesis :
+         {static_cast<const ThesisFormulas*>(nullptr), test::thesis()}) {
         for (const FeatureMotion motion : {FeatureMotion::common, FeatureMotion::fitted}) {
             options.thesis = thesis;
             options.feature_motion = motion;
@@ -398,7 +400,7 @@ TEST_CASE("a jagged boundary is trimmed, keys on it still count, and the report 
 TEST_CASE("the thesis to the letter still gives one surface, whatever the unit") {
     const Mesh source = bumpy_dome(40, 24), target = bowl(50, 20);
     MergeOptions options;
-    options.thesis = true;
+    options.thesis = test::thesis();
     const MergeResult result = merged(source, target, options, {{Vec3(1, 0, 0), Vec3(2, 0, 0)}});
     CHECK(result.mesh.topology().is_closed());
     Mesh large = source;
@@ -410,6 +412,7 @@ TEST_CASE("the thesis to the letter still gives one surface, whatever the unit")
 }
 
 TEST_CASE("section 3.3 to the letter: raw loops and a band, and nothing is mended") {
+    if (!test::thesis()) return;
     // A jagged loop of few vertices on a dense dome, so that everything would like to be mended.
     Mesh source = bumpy_dome(24, 40);
     const Path boundary = opening(source);
@@ -420,7 +423,7 @@ TEST_CASE("section 3.3 to the letter: raw loops and a band, and nothing is mende
     }
     const Mesh target = bowl(57, 20);
     const KeyPair key{boundary.vertices()[5], opening(target).vertices()[11]};
-    MergeOptions options = MergeOptions::literal();
+    MergeOptions options = test::thesis_or_default();
     options.smooth = 0;
     const MergeResult result = merged(source, target, options, {key});
     CHECK(result.report.seam.band_removed > 0);
@@ -556,7 +559,7 @@ TEST_CASE("a merge of the thesis does not depend on how vertices and faces are n
     const std::vector<KeyPair> keys = {{Vec3(1, 0, 0), Vec3(2, 0, 0)}};
     // Flips at the seam go in the order of faces; the thesis has none.
     for (const Configuration configuration : {Configuration::free, Configuration::fixed}) {
-        const MergeOptions options = MergeOptions::literal(configuration);
+        const MergeOptions options = test::thesis_or_default(configuration);
         const MergeResult first = merged(source, target, options, keys);
         for (const unsigned seed : {1u, 2u}) {
             const MergeResult other =
@@ -596,7 +599,8 @@ TEST_CASE("a transition wider than there is room is told, one that is chosen fit
     CHECK(chosen.warnings.empty());
     CHECK(chosen.transition.source[0].width > 1.0);
     CHECK(chosen.transition.target[0].width > 1.0);
-    options.thesis = true;
+    if (!test::thesis()) return;
+    options.thesis = test::thesis();
     CHECK(error_of([&] { (void)merged(source, target, options, keys); }).code() ==
           ErrorCode::invalid_argument);
 }

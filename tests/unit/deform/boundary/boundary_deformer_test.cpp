@@ -16,6 +16,7 @@
 #include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/deform/thesis_options.h"
 
 using namespace lissom;
 
@@ -89,7 +90,7 @@ TEST_CASE("a similarity of the boundary is one of the whole surface, in every fo
     const Mesh mesh = bowl();
     const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
     const Affine map = similarity(37.0, Vec3(1, 2, -1), 2.8, Vec3(1e4, -300, 8));
-    BoundaryDeformOptions poisson, thesis = BoundaryDeformOptions::thesis();
+    BoundaryDeformOptions poisson, thesis = test::thesis_or_default_boundary();
     poisson.second = SecondSystem::poisson;
     poisson.size = SizeField::gradient;
     BoundaryDeformOptions featured = thesis;
@@ -200,7 +201,7 @@ TEST_CASE("what cannot be solved is refused by name") {
 TEST_CASE("features keep their shape, each by a similarity of its own that is an unknown") {
     const Mesh mesh = bowl();
     const Region held = rim(mesh), all = Region::all(mesh.shared_topology());
-    BoundaryDeformOptions ours, thesis = BoundaryDeformOptions::thesis();
+    BoundaryDeformOptions ours, thesis = test::thesis_or_default_boundary();
     for (BoundaryDeformOptions how : {ours, thesis}) {
         BoundaryDeformer without(mesh, all, held, how);
         how.features = two_bumps(mesh);

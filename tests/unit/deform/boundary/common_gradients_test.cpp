@@ -10,6 +10,7 @@
 #include "kernel/deform/options.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/deform/thesis_options.h"
 
 using namespace lissom;
 
@@ -128,7 +129,7 @@ struct FeaturedBowl {
 }  // namespace
 
 TEST_CASE("no affine map of a feature has less energy than the common gradient's") {
-    for (const DeformOptions& how : {DeformOptions{}, DeformOptions::thesis()}) {
+    for (const DeformOptions& how : {DeformOptions{}, test::thesis_or_default()}) {
         const FeaturedBowl bowl(how);
         std::vector<Vec3> x;
         std::vector<Mat3> m;
@@ -152,7 +153,7 @@ TEST_CASE("no affine map of a feature has less energy than the common gradient's
 }
 
 TEST_CASE("in the second system no force is left on a feature") {
-    for (const DeformOptions& how : {DeformOptions{}, DeformOptions::thesis()}) {
+    for (const DeformOptions& how : {DeformOptions{}, test::thesis_or_default()}) {
         const FeaturedBowl bowl(how);
         std::vector<PaddedMat3> turns;
         std::vector<Vec4> x(bowl.work.patch.vertex_count, Vec4::Zero());

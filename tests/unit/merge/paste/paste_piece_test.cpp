@@ -14,6 +14,7 @@
 #include "kernel/merge/paste/region/paste_regions.h"
 #include "kernel/mesh/measure/measures.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
+#include "tests/unit/merge/thesis_parts.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -263,7 +264,7 @@ TEST_CASE(
     }
     PasteOptions mesh_loop, thesis, clear;
     mesh_loop.loop = PasteBoundary::mesh;
-    thesis.thesis = true;
+    thesis.thesis = test::thesis();
     clear.clear = true;
     for (const PasteOptions& options : {mesh_loop, thesis, clear}) {
         Paste paste = horn_on_egg(horn, egg(40), kHere, options);

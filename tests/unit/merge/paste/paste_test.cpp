@@ -7,6 +7,7 @@
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/measure/measures.h"
 #include "tests/unit/merge/paste/paste_shapes.h"
+#include "tests/unit/merge/thesis_parts.h"
 #include "tests/unit/support.h"
 
 using namespace lissom;
@@ -293,7 +294,7 @@ TEST_CASE("paste: the size can be locked; nearest points and the thesis's way wo
     CHECK(misfit.back() <= misfit.front());
     check_sound(near.merge());
     PasteOptions thesis;
-    thesis.thesis = true;
+    thesis.thesis = test::thesis();
     Paste literal = horn_on_egg(horn, target, {.at = {1, 1.2, 0.8}, .scale = 0.7}, thesis);
     literal.optimize();
     check_sound(literal.merge());

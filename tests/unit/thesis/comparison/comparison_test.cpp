@@ -14,6 +14,7 @@
 #include "kernel/mesh/shapes/shapes.h"
 #include "kernel/thesis/comparison/fields.h"
 #include "kernel/thesis/comparison/methods.h"
+#include "kernel/thesis/fidelity.h"
 #include "tests/unit/deform/scene.h"
 #include "tests/unit/support.h"
 
@@ -344,7 +345,7 @@ TEST_CASE("comparison: options without a use and the handle basis are refused") 
         return error_of([&] { Deformer d(scene.mesh, scene.all(), options); }).code();
     };
     for (const DeformMethod method : kMethods) {
-        DeformOptions options = DeformOptions::thesis();
+        DeformOptions options = thesis_deform_options();
         options.method = method;
         options.comparison = make_comparison;
         CHECK(refused(options) == ErrorCode::invalid_argument);

@@ -4,7 +4,7 @@
 
 #include "kernel/merge/merge.h"
 #include "kernel/mesh/edit/transform.h"
-#include "kernel/thesis/transition/literal_transition.h"
+#include "kernel/thesis/fidelity.h"
 #include "tests/unit/merge/blend/fairing_scenes.h"
 #include "tests/unit/merge/real_pairs.h"
 #include "tests/unit/merge/sew/seam_scenes.h"
@@ -33,8 +33,7 @@ struct Tubes {
                 boundaries(target)[test::boundary_towards(target, 1.0)]};
         join.keys = {{test::farthest(source, join.source, Vec3::UnitX()),
                       test::farthest(target, join.target, Vec3::UnitX())}};
-        options.thesis = true;
-        options.overlap = &literal_transition();
+        options.thesis = &thesis_formulas();
         options.smooth = 0;
         options.target_transition = kWidth;
         options.source_transition = kWidth * scale;
@@ -251,9 +250,9 @@ TEST_CASE("a source between two targets has a region at either end, and they mus
 TEST_CASE("it is another transition than the robust one, and needs regions that are bands") {
     Tubes tubes(0.1);
     const Index thesis = tubes.merged().mesh.face_count();
-    tubes.options.thesis = false;
+    tubes.options.thesis = nullptr;
     CHECK(tubes.merged().mesh.face_count() > thesis);
-    tubes.options.thesis = true;
+    tubes.options.thesis = &thesis_formulas();
     const auto refuses = [&](double source, double target) {
         tubes.options.source_transition = source;
         tubes.options.target_transition = target;
@@ -275,8 +274,7 @@ TEST_CASE(
         CAPTURE(pair.name);
         const Mesh* targets[] = {&target->mesh};
         MergeOptions options;
-        options.thesis = true;
-        options.overlap = &literal_transition();
+        options.thesis = &thesis_formulas();
         const Join join = test::join_of(pair, *source, *target);
         const MergeResult before = Merger(source->mesh, targets, {join}, options).solve();
         double radius = 0.0;

@@ -3,6 +3,7 @@
 #include "kernel/deform/deformer.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "kernel/thesis/fidelity.h"
 #include "tests/unit/mesh/mesh_support.h"
 
 using namespace lissom;
@@ -49,7 +50,7 @@ double transition_energy(const TransitionMesh& side, const TransitionMesh& other
                          const TransitionShape& shape, const TransitionShape& across) {
     const auto coordinates = [](const Mesh& mesh) {
         const WorkingPatch work(build_patch(mesh, Region::all(mesh.shared_topology()), 0),
-                                DeformOptions::thesis());
+                                thesis_deform_options());
         std::vector<Vec3> delta;
         for (Index i = 0; i < mesh.vertex_count(); ++i) {
             delta.push_back(work.laplacian.apply(work.rings, work.patch.rest, i));
@@ -102,7 +103,7 @@ TEST_CASE("without weight it is Eq 2.8 of each mesh by itself") {
     }
     const ThesisTransition result = thesis_transition(side, tube(mesh, {}), 0.0);
 
-    DeformOptions options = DeformOptions::thesis();
+    DeformOptions options = thesis_deform_options();
     options.subdivide_borders = false;
     Deformer deformer(mesh, Region::all(mesh.shared_topology()), options);
     deformer.add_handle(Region(mesh.shared_topology(), low));
