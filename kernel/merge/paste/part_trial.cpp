@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/merge/blend/overlap_transition.h"
 #include "kernel/merge/paste/part/draped_part.h"
 #include "kernel/merge/paste/placement/plane_line.h"
 
