@@ -217,8 +217,8 @@
 ---@field energy number[] For arap, before the first iteration and after each that was made: the mean squared distance of the map's derivative from a rotation.
 ---@field flipped integer[] Faces that are turned over.
 ---@field degenerate integer[] Faces that have hardly an area on the mesh.
----@field least_scale number Least factor by which it changes a length, in lengths of the mesh.
----@field greatest_scale number The greatest.
+---@field min_scale number Least factor by which it changes a length, in lengths of the mesh.
+---@field max_scale number The greatest.
 ---@field crossings integer Pairs of boundary edges that cross in the plane.
 ---@field boundaries integer Boundaries of the faces.
 
@@ -232,9 +232,9 @@
 
 ---How well seams are hidden; angles in degrees.
 ---@class lissom.SeamQuality
----@field greatest_dihedral number The greatest angle between faces across a seam.
+---@field max_dihedral number The greatest angle between faces across a seam.
 ---@field rms_dihedral number Their root mean square, weighted by edge length.
----@field greatest_near number The greatest angle on and next to a seam.
+---@field max_near number The greatest angle on and next to a seam.
 ---@field smallest_angle number The smallest angle of a triangle at a seam; 0 without any.
 ---@field low_angle number The 5th percentile of the triangles' smallest angles.
 
@@ -279,10 +279,15 @@
 ---@class lissom.BandQuality
 ---@field roughness number The RMS angle at the edges within half a radius of the seam, weighted by length, without the seam's own.
 ---@field rest_roughness number The same beside both boundaries before.
+---@field source_roughness number The same of the source alone.
+---@field rest_source_roughness number The same of the source before.
+---@field target_roughness number The same of the target alone.
+---@field rest_target_roughness number The same of the target before.
+---@field steep number Angle of the seam's edges that a thirtieth of its length exceeds.
 ---@field bend number The RMS angle between planes fitted to the surface on either side of points of the seam, to strips a third of the radius wide.
 ---@field rest_bend number The same before on the side that bends more, from the strip at the boundary to the one behind it.
----@field greatest_bend number Angle that a tenth of those in `bend` exceed.
----@field rest_greatest_bend number Angle that a tenth of those in `rest_bend` exceed.
+---@field max_bend number Angle that a tenth of those in `bend` exceed.
+---@field rest_max_bend number Angle that a tenth of those in `rest_bend` exceed.
 ---@field folded number Length of the edges within one radius at which the surface folds back by more than 135 degrees, in radii of the seam.
 ---@field rest_folded number That of the edges of both sides before that turned by more than 105 degrees.
 ---@field flare number The RMS angle by which the rim of the source turns outward beside the seam more than at rest; 0 of a paste.
@@ -357,8 +362,8 @@
 ---@field flipped integer Faces that are turned over.
 ---@field flipped_fill integer Number of turned triangles in the hole of the feature.
 ---@field crossings integer Pairs of boundary edges that cross.
----@field least_scale number Least factor by which it changes a length.
----@field greatest_scale number The greatest.
+---@field min_scale number Least factor by which it changes a length.
+---@field max_scale number The greatest.
 
 ---How much faces of the part were distorted.
 ---@class lissom.PasteDistortion
@@ -413,8 +418,8 @@
 ---@field removed_faces integer Faces that went.
 ---@field added_faces integer Faces of the patch.
 ---@field continuity string Continuity of the patch: curvature or tangents.
----@field greatest_dihedral number The greatest angle between neighbouring faces of which one is in the patch.
----@field greatest_around number The same of the surface within three rings around the patch.
+---@field max_dihedral number The greatest angle between neighbouring faces of which one is in the patch.
+---@field max_around number The same of the surface within three rings around the patch.
 ---@field density number Density of the patch, over that of the surface around it: 1, or up to 4 if it would have been too coarse to bend from a steep rim.
 ---@field ok boolean The patch turns by at most 30 degrees from face to face, or no more than the surface around it.
 ---@field verdict string The same in one line, with the reason.
@@ -518,13 +523,13 @@
 ---@class lissom.StrandStats
 ---@field strands integer Number of strands.
 ---@field points integer Number of points.
----@field least_points integer Fewest points of a strand.
----@field most_points integer Most points of a strand.
----@field least_length number Length of the shortest, in metres.
+---@field min_points integer Fewest points of a strand.
+---@field max_points integer Most points of a strand.
+---@field min_length number Length of the shortest, in metres.
 ---@field mean_length number Mean length, in metres.
----@field most_length number Length of the longest, in metres.
----@field greatest_turn number Greatest angle between two segments, in degrees.
----@field greatest_turn_strand integer|nil The strand that has it.
+---@field max_length number Length of the longest, in metres.
+---@field max_turn number Greatest angle between two segments, in degrees.
+---@field max_turn_strand integer|nil The strand that has it.
 ---@field sharp integer Strands with a sharp turn.
 ---@field zero_length integer Strands without length.
 ---@field zero_segments integer Strands with a segment without length.
@@ -549,6 +554,21 @@
 ---@field message string The finding, and its treatment.
 ---@field count integer Number of strands concerned.
 ---@field strands integer[] The strands, the first hundred of them.
+
+---Layers of hair and their operators.
+---@class lissom.Groom
+---@field evaluated integer Number of growths and operators that ran so far.
+---@field hair fun(self: any): lissom.Strands The hair of all layers that are on, new strands. Only what follows a change is evaluated again: a curve, an option, the order, a layer below.
+---@field set fun(self: any, layer: any, operator: integer, options: table): lissom.Groom Changes options of an operator. The layer by its name or number, the operator by its place.
+---@field switch fun(self: any, layer: any, operator: integer?, on: boolean): lissom.Groom Switches an operator off or on, or, without one, the layer.
+---@field insert fun(self: any, layer: any, operator: table, place: integer?): lissom.Groom Puts an operator before a place, or behind all.
+---@field remove fun(self: any, layer: any, operator: integer): lissom.Groom Takes an operator out.
+---@field grow fun(self: any, layer: any, options: table): lissom.Groom Changes options of the growth of a layer.
+---@field layer fun(self: any, layer: any): table A layer: its name, style, operators and so on.
+---@field show fun(self: any, scene: lissom.Scene, name: string): lissom.Groom Adds the hair to a scene. From then on the groom follows undo and redo there: its text is the comment of that hair. Styles that are objects of the scene too are undone in place, others are read from the text.
+---@field update fun(self: any, step: string?): lissom.Groom Evaluates the hair in the scene, as a step with this name, "groom" by default.
+---@field text fun(self: any): string The groom with its styles as JSON.
+---@field save fun(self: any, path: string): lissom.Groom Writes that text: lissom.save_groom.
 
 ---An object of a scene.
 ---@class lissom.SceneEntry
@@ -954,8 +974,8 @@ function Mesh:distortion(rest) end
 
 ---@class lissom.Mesh.SaveOptions
 ---@field normals? boolean Write the normals of the surface, one a vertex, for a mesh without the attribute "normal". STL has those of its triangles in any case. Default: false.
----@field compression? "none"|"meshopt"|"draco" Compression of .glb and .gltf: "meshopt" (EXT_meshopt_compression) of all vertices, morph targets and indices, "draco" (KHR_draco_mesh_compression) of objects that have one material. Vertices and faces keep their order. Default: "none".
----@field quantize? integer Bits of positions in a compressed file, relative to the size of the object: 14 keep a 16000th. Texture coordinates have as many, and directions half as many but at least 8; so have morph targets. Default: all numbers are kept.
+---@field compression? "none"|"meshopt"|"draco" Compression of .glb and .gltf: "meshopt" (EXT_meshopt_compression) of all vertices, morph targets and indices, "draco" (KHR_draco_mesh_compression). Vertices and faces keep their order, but for vertices of objects that have several materials under "draco". Default: "none".
+---@field quantize? integer Bits of positions in a .glb or .gltf file, relative to the size of the object: 14 keep a 16000th. Texture coordinates have as many, and directions half as many but at least 8; so have morph targets. Without compression they are integers (KHR_mesh_quantization), but for positions, if these are as fine and the numbers lie from -1 to 1. Default: all numbers are kept.
 ---@field up? "y"|"z" The up axis that the file shall have. Default: as it is.
 ---@field unit? number Length of the file's unit in the unit of the mesh: positions are divided by it. In mesh units. Default: 1.
 ---@field binary? boolean Binary or text, for .ply and .stl. Default: true.
@@ -1484,8 +1504,10 @@ function Deformer:basis() end
 
 ---@class lissom.Deformer.Save_basisOptions
 ---@field names? string[] Names of the handles, in the order of deformer:handles(): a program finds them by these. Default: that of the mesh's region with the same vertices.
+---@field pose? fun(key: number, number: integer) Moves handles to a key pose from their present place; called with each number of 'keys', and with its place in the list from 1. Default: there are no key poses.
+---@field keys? number[] Numbers of the key poses, at most 256 different poses; their meaning is that of 'pose'. Default: there are no key poses.
 
----Writes the basis to a file for a program without a solver: 4 floats a vertex and handle, relative to the middle of the region. bindings/engine/lissom_basis.h, one C header, describes the file and computes the result of preview.
+---Writes the basis to a file for a program without a solver: 4 floats a vertex and handle, relative to the middle of the region. bindings/engine/lissom_basis.h, one C header, describes the file and computes the result of preview. With key poses, 3 floats a vertex and key more, it computes the result of solve at each key, and blends between them by the turns, places and stretches of the handles; beyond the range of the keys the offsets stay. Turns are told apart up to half a turn. Handles and last result are restored afterwards.
 ---@param path string The file.
 ---@param options? lissom.Deformer.Save_basisOptions
 ---@return lissom.Deformer deformer # The deformer itself.
@@ -1499,12 +1521,27 @@ function Deformer:save_basis(path, options) end
 ---@field interpolation? "linear"|"step" Between frames the surface moves along straight lines, or stays and then jumps. Default: "linear".
 ---@field preview? boolean Poses as preview makes them: the first system only. Default: false.
 ---@field normals? boolean Gives a mesh without normals those of its surface, so that light follows the motion. Default: true.
+---@field tolerance? number Greatest distance of a vertex from its pose. Above 0 the targets are the principal components of the poses, as few as keep it and turn normals by about 1 degree at most: files become several times smaller. At 0 each different pose is a target. In mesh units. Default: 0.
 ---@field name? string Name of the animation. Default: "deformation".
 
 ---Makes an animation of a sequence of poses: a new mesh with a morph target for each different shape, which mesh:save writes as .glb or .gltf and any viewer of such files plays. For each frame the handles start from their present place, the function moves them, and the deformation is solved. Handles, mesh and last result are restored afterwards, even if the function fails.
 ---@param options lissom.Deformer.BakeOptions
 ---@return lissom.Mesh mesh # The rest shape with its targets and the animation.
+---@return table report # `keys` and `targets`, their numbers; `max_error`, the greatest distance of a vertex from its pose in mesh units; `max_direction_error`, that of a unit normal or tangent.
 function Deformer:bake(options) end
+
+---@class lissom.Deformer.Bake_textureOptions
+---@field pose fun(time: number, frame: integer) Moves handles; called for each frame with its time and its number from 1.
+---@field duration? number Length of the animation; it starts at 0 and has a frame at its end. In seconds. Default: times are given.
+---@field fps? number Frames a second. Default: 24.
+---@field times? number[] Time of each frame in seconds, ascending, instead of a duration. Default: duration is given.
+---@field preview? boolean Poses as preview makes them: the first system only. Default: false.
+
+---Writes a sequence of poses as a vertex animation texture: PATH_positions.png and PATH_normals.png with 16 bits a channel, a texel for each vertex and frame; PATH.glb, the mesh at rest, whose last texture coordinates are the texel of each vertex in the first frame; and PATH.json with the bounds, the times and `frame_step`, by which v goes on from frame to frame. The frames of a vertex stand below one another: a bilinear sampler blends between them. Pictures must be read as linear, without mip maps. Handles, mesh and last result are restored afterwards.
+---@param path string The files without their endings.
+---@param options lissom.Deformer.Bake_textureOptions
+---@return table report # `frames`; `width` and `height` of the pictures; `max_error`, the greatest distance of a vertex from its pose by 16 bits, in mesh units; `max_normal_error`, that of a unit normal.
+function Deformer:bake_texture(path, options) end
 
 ---@class lissom.Deformer.SkinOptions
 ---@field joints? integer Joints of the skin. One of them stays if the region is a part of the mesh. Default: 8.
@@ -1520,7 +1557,7 @@ function Deformer:bake(options) end
 ---Makes an ordinary skinned mesh of the deformation: joints that move rigidly, and weights of each vertex for a few of them, fitted to poses by least squares (Le and Deng 2012). With a function, the poses are the frames of its path and the joints are animated along it; without, each handle is turned about three axes. mesh:save writes the skin as .glb or .gltf. Handles, mesh and last result are restored afterwards.
 ---@param options? lissom.Deformer.SkinOptions
 ---@return lissom.Mesh mesh # The rest shape with the attributes "joints" and "weights", its skeleton, and the animation if there is a path.
----@return table report # `joints`, their number; `greatest_error` and `rms_error`, distances of the skinned vertices from the deformation's over all poses, in mesh units.
+---@return table report # `joints`, their number; `max_error` and `rms_error`, distances of the skinned vertices from the deformation's over all poses, in mesh units.
 function Deformer:skin(options) end
 
 ---Frees the contents of the object. It may be called again; any other use is an error then.
@@ -1975,9 +2012,9 @@ function Hairstyle:forget_scalp() end
 ---@field ramp? number Length over which strands rise to their height. For `avoid`. In metres. Default: 0.03.
 ---@field lift? number Share of the normal of the head in the first segment. Default: 0.15; as in the thesis 0.
 ---@field segment? number Length of a segment, in steps of the grid. Default: 0.5.
----@field least_speed? number A strand ends if the field is shorter than this. Default: 0.05.
----@field greatest_turn? number A strand ends before a segment that turns by more than this, as about a sink of the field; 180 lets strands turn as they like. In degrees. Default: 88; as in the thesis 180.
----@field most_segments? integer A strand has no more segments. Default: 400.
+---@field min_speed? number A strand ends if the field is shorter than this. Default: 0.05.
+---@field max_turn? number A strand ends before a segment that turns by more than this, as about a sink of the field; 180 lets strands turn as they like. In degrees. Default: 88; as in the thesis 180.
+---@field max_segments? integer A strand has no more segments. Default: 400.
 ---@field into? lissom.Strands Strands whose place the new ones take. After an error they are as they were, or empty if growth had begun. Default: new strands.
 ---@field count? integer How many strands; the first n of more are the same. Default: 100000.
 
@@ -2022,6 +2059,10 @@ function Hairstyle:clear_masks(options) end
 ---@param options lissom.Hairstyle.CombOptions
 ---@return lissom.CombReport report # The changes made.
 function Hairstyle:comb(options) end
+
+---The text of its file, as `save` writes it. See `lissom.read_style`.
+---@return string text # JSON.
+function Hairstyle:text() end
 
 ---@class lissom.Hairstyle.SketchOptions
 ---@field camera? lissom.Camera Camera of the first stroke, in mesh units. Default: the strokes say it.
@@ -2314,6 +2355,20 @@ function Strands:copy() end
 ---@return lissom.Strands strands # The strands themselves.
 function Strands:append(other) end
 
+---Takes the content of other strands, with all that they know.
+---@param other lissom.Strands They stay as they are.
+---@return lissom.Strands strands # The strands themselves.
+function Strands:assign(other) end
+
+---The comment of the strands, as of their file; that of hair which a groom keeps in a scene is the text of the groom.
+---@return string text # The comment, "" without one.
+function Strands:comment() end
+
+---Replaces the comment, which scenes and files of hair keep (.hair the first 88 bytes).
+---@param text string The comment.
+---@return lissom.Strands strands # The strands themselves.
+function Strands:set_comment(text) end
+
 ---@class lissom.Strands.TransformOptions.Rotate
 ---@field axis "x"|"y"|"z"|lissom.Vector Axis of the rotation.
 ---@field angle number Angle, counter-clockwise seen against the axis. In degrees.
@@ -2352,6 +2407,7 @@ function Strands:set_widths(options) end
 ---@class lissom.Strands.Set_colorsOptions
 ---@field color? lissom.Vector The colour of all strands.
 ---@field colors? lissom.Vector[] Colours, one a strand or one a point.
+---@field profile? lissom.Vector[] Colours at equal steps from the root to the tip, linear between: two or more.
 
 ---Sets the colours of strands as linear red, green and blue, each 0 to 1; pictures and files have them.
 ---@param options lissom.Strands.Set_colorsOptions
@@ -2678,6 +2734,7 @@ function Strands:cull(options) end
 
 ---@class lissom.Strands.Push_outOptions
 ---@field head lissom.Hairstyle A style on the head that they grew on.
+---@field layer? lissom.Strands Hair below: strands are lifted over it first, by the clearance above the thickness that it has over the head, and by up to 6 mm more at random. Default: none.
 ---@field clearance? number Distance that hair stays off the surface. In metres. Default: 0.0005.
 ---@field ramp? number Length from the root over which it comes to stay off so far. In metres. Default: 0.01.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
@@ -2705,6 +2762,53 @@ function Strands:push_out(options) end
 ---@return lissom.Strands strands # The strands themselves.
 function Strands:shrinkwrap(options) end
 
+---@class lissom.Strands.InterpolateOptions
+---@field style lissom.Hairstyle A style on the head of the guides.
+---@field count? integer Number of new strands. Default: 20000.
+---@field near? integer Number of guides around a root that a strand is between. Default: 4.
+---@field apart? number Guides that are combed to another side than the nearest, by more than this angle, do not count, as at a parting. In degrees. Default: 75.
+---@field points? integer Points of each strand. Default: 24.
+---@field seed? integer Another seed gives other roots. Default: 1.
+
+---Grows hair between these strands as guides: each new strand is the mean of the nearest, from a root of its own on the scalp.
+---@param options lissom.Strands.InterpolateOptions
+---@return lissom.Strands strands # The new strands.
+function Strands:interpolate(options) end
+
+---@class lissom.Strands.DuplicateOptions
+---@field copies? integer Copies of each strand. Default: 4.
+---@field radius? number Their roots lie so far from the strand at most. In metres. Default: 0.002.
+---@field tip? number Factor of that distance at the tip: 0 brings them to one point. Default: 1.
+---@field seed? integer Another seed gives other places. Default: 1.
+
+---Adds copies beside each strand, behind all others.
+---@param options? lissom.Strands.DuplicateOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:duplicate(options) end
+
+---@class lissom.Strands.BlendOptions
+---@field guides? integer Number of guides: the strands of the lowest ids. Default: 400.
+---@field near? integer Number of guides around a root that a strand is between. Default: 4.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Moves strands towards the mean of the guides around them, so that neighbours become alike.
+---@param options? lissom.Strands.BlendOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:blend(options) end
+
+---@class lissom.Strands.AttachOptions
+---@field head lissom.Hairstyle A style on the head.
+---@field snap? boolean Moves each strand so that its root lies on the surface. Default: true.
+
+---Roots strands at the nearest places of a head, as hair that was drawn or loaded: they get faces and texture coordinates.
+---@param options lissom.Strands.AttachOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:attach(options) end
+
 ---@class lissom.Strands.Feed_braidOptions
 ---@field spine lissom.Vector[] The middle of the braid.
 ---@field across lissom.Vector Direction across the braid at its beginning: its widest.
@@ -2715,8 +2819,8 @@ function Strands:shrinkwrap(options) end
 ---@field reach? number A strand joins where it first comes so near to the spine, else at its nearest point within 2.5 times of it. In metres. Default: 0.01.
 ---@field joined? number Part of the spine within which strands join; below 1 a ring closes that ends on its beginning. Default: 1.
 ---@field blend? number Over which hair comes into its tube. In metres. Default: 0.02.
----@field least_run? number Least length that a strand runs in the braid. In metres. Default: 0.06.
----@field most_run? number Greatest one. In metres. Default: 0.12.
+---@field min_run? number Least length that a strand runs in the braid. In metres. Default: 0.06.
+---@field max_run? number Greatest one. In metres. Default: 0.12.
 ---@field tail? number Part of the strands that run to the end. Default: 0.
 ---@field begin_size? number Size at the beginning as a part of that further on. Default: 1.
 ---@field end_size? number The same at the end. Default: 1.
@@ -3637,7 +3741,7 @@ function lissom.deformer(mesh, options) end
 ---@field collar? boolean Makes the faces of a side anew if its edges are more than 1.5 times as long as the seam's, from small to large; sharp edges keep their shape. Default: true; as in the thesis false.
 ---@field transition? lissom.MergeOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. If the surface has no room for a width, the band is narrower and a warning says so. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true; as in the thesis false.
----@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
+---@field max_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field subdivide? boolean Faces of the source at a boundary are split once if its edges are more than 1.5 times as long as those they meet. Edges more than 3 times as long as edges inside the source are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: true.
 ---@field mend? boolean If the verdict finds fault with the surface around the seams, and neither `seam` nor `transition` is given, sews again with the seam fair and then with a transition, and keeps the result with fewest faults; a warning says so. Takes the time of sewing up to three times. Not without smoothing or collar. Default: true.
@@ -3676,7 +3780,7 @@ function lissom.merge(source, target, options) end
 ---@field collar? boolean Makes the faces of a side anew if its edges are more than 1.5 times as long as the seam's, from small to large; sharp edges keep their shape. Default: true; as in the thesis false.
 ---@field transition? lissom.MergerOptions.Transition|boolean Bands on either side of the seam in which details of both fade into each other; `true` chooses widths that suit each seam: .9 of its radius, at least three edges, at most half of the side. If the surface has no room for a width, the band is narrower and a warning says so. Default: none.
 ---@field trim? boolean Boundaries with teeth are cut to smooth lines first, and the report says so. Default: true; as in the thesis false.
----@field greatest_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
+---@field max_turn? number Mean turn of a boundary at its vertices above which it is trimmed. In degrees. Default: 20.
 ---@field subdivide? boolean Faces of the source at a boundary are split once if its edges are more than 1.5 times as long as those they meet. Edges more than 3 times as long as edges inside the source are split until they are not, and those of the target with them (thesis 2.5). Default: true; as in the thesis false, as which boundaries have too few vertices is not said.
 ---@field intersections? boolean Looks for faces that run through one another and did not before, for the report. Default: false.
 ---@field mend? boolean If the verdict finds fault with the surface around the seams, and neither `seam` nor `transition` is given, sews again with the seam fair and then with a transition, and keeps the result with fewest faults; a warning says so. Takes the time of sewing up to three times. Not without smoothing or collar. Default: false.
@@ -3803,6 +3907,43 @@ function lissom.load_style(path, head, options) end
 ---@param options? lissom.HairstyleOptions
 ---@return lissom.Hairstyle style # The hairstyle.
 function lissom.hairstyle(head, options) end
+
+---@class lissom.Read_styleOptions
+---@field scalp? lissom.Scalp The scalp. Default: guessed.
+
+---Makes a style of the text of a style file.
+---@param text string JSON, as style:text gives it.
+---@param head lissom.Mesh The head that it goes on.
+---@param options? lissom.Read_styleOptions
+---@return lissom.Hairstyle style # The hairstyle.
+function lissom.read_style(text, head, options) end
+
+---@class lissom.GroomOptions
+---@field head lissom.Mesh The head of all styles.
+---@field layers? table A list of layers, tables with `style`, a lissom.Hairstyle; `grow`, options of style:grow; `mask`, the part of the scalp that it grows on: numbers for the vertices of the head, function(vertex, x, y, z) or a lissom.Region; `operators`, a list of tables that begin with the name of a method of lissom.Strands, with its options (push_out, shrinkwrap, cut, braid, bun and feed_braid get the layer's head or scalp), and are skipped with `off = true`; `name`; `on`, true by default; `over`, whether it is lifted over the layers below, true by default, by `gap` more than they are thick, 0.001 metres by default; `collide`, whether hair that operators moved is pushed out of the head at the end, true by default. Functions of vertices are asked once. Default: those of `hair`.
+---@field hair? lissom.Strands Hair of a groom in a scene, to go on with it. Default: none.
+---@field scalp? lissom.Scalp With `hair`: the scalp of its styles. Default: guessed.
+
+---Makes a groom: layers of hair, the first below the others, each of a style and an ordered stack of operators.
+---@param options lissom.GroomOptions
+---@return lissom.Groom groom # The groom.
+function lissom.groom(options) end
+
+---@class lissom.Load_groomOptions
+---@field scalp? lissom.Scalp The scalp of its styles. Default: guessed.
+
+---Reads a groom for a head, which may be another than it was made on.
+---@param path string The JSON file.
+---@param head lissom.Mesh The head that it goes on.
+---@param options? lissom.Load_groomOptions
+---@return lissom.Groom groom # The groom.
+function lissom.load_groom(path, head, options) end
+
+---Writes a groom with its styles as JSON that people can read and edit.
+---@param groom table A groom.
+---@param path string The file.
+---@return lissom.Groom groom # The groom.
+function lissom.save_groom(groom, path) end
 
 ---@class lissom.Load_strandsOptions
 ---@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: the file's own, else y.

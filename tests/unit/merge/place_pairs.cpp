@@ -200,7 +200,10 @@ std::vector<PlacePair> keyed_pairs() {
         const std::vector<Join> joins{join_of(real, *source, *target)};
         const MergePreparation made = prepare_merge(source->mesh, targets, joins, {}, {});
         const std::vector<std::vector<KeyPair>> keys{joins.front().keys};
-        const Vec3 turn = match_boundaries(made, keys, {}).joins.front().turn;
+        const Matching matching =
+            match_boundaries(made.given, made.boundaries, made.options, made.report.sides.joins,
+                             keys, [] { return FoundPlaces{}; });
+        const Vec3 turn = matching.joins.front().turn;
         PlacePair pair{real.name, source->mesh, target->mesh, source->boundary, target->boundary};
         pair.right = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
         pairs.push_back(std::move(pair));

@@ -54,8 +54,9 @@ TEST_CASE("forces where the free vertices would lie need no solution, from any g
         RotationSystem::Scratch scratch;
         std::vector<Vec3> forces;
         for (const RotationSystem::Response& response : responses) {
-            forces.push_back(system.solved_force(turns.data(), x, response, {}));
-            CHECK(system.solved_force(turns.data(), x, response, threads) == forces.back());
+            forces.push_back(system.solved_force(turns.data(), x, response, scratch, {}));
+            CHECK(system.solved_force(turns.data(), x, response, scratch, threads) ==
+                  forces.back());
         }
         system.solve(turns, x, false, {});
         for (std::size_t g = 0; g < 2; ++g) {
