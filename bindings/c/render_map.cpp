@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "bindings/c/attribute_space.h"
+#include "bindings/c/attributes/attribute_space.h"
 #include "bindings/c/data.h"
 #include "bindings/c/mesh_options.h"
 #include "kernel/io/mesh_file.h"

@@ -18,7 +18,7 @@ constexpr Index kMaxWidth = 4096, kMaxHeight = 16384;
 constexpr double kSteps = 65535.0;
 
 // Rows of vertices of one frame.
-Index blocks_of(Index vertex_count) {
+Index texel_blocks_of(Index vertex_count) {
     return (vertex_count + kMaxWidth - 1) / kMaxWidth;
 }
 
@@ -142,7 +142,7 @@ void VertexTextureBaker::add(double time, const Mesh& shape) {
     if (!std::isfinite(time) || (!times_.empty() && !(time > times_.back()))) {
         throw Error(ErrorCode::invalid_argument, "times must be finite and ascending");
     }
-    if (count_of(times_) >= kMaxHeight / blocks_of(rest_.vertex_count())) {
+    if (count_of(times_) >= kMaxHeight / texel_blocks_of(rest_.vertex_count())) {
         throw Error(ErrorCode::invalid_argument,
                     "a texture of 16384 rows has no room for more than " +
                         std::to_string(times_.size()) + " frames of so many vertices");
@@ -160,7 +160,7 @@ VertexTexture VertexTextureBaker::finish() const {
     const Index vertices = rest_.vertex_count(), frames = count_of(times_);
     VertexTexture texture{rest_, free_coordinates(rest_), times_, 0, 0, {}, {}, {}, 0.0, 0.0};
     texture.width = std::min(vertices, kMaxWidth);
-    texture.height = blocks_of(vertices) * frames;
+    texture.height = texel_blocks_of(vertices) * frames;
     const std::size_t size = 3 * at(texture.width) * at(texture.height);
     texture.positions.assign(size, 0);
     texture.normals.assign(size, 0);

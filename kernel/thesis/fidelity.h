@@ -9,6 +9,8 @@
 
 namespace lissom {
 
+struct ThesisFormulas;
+
 /// Returns the options of chapter 2: coherence 2, threshold 2e5, literal weights, flat vertices
 /// displaced, second system (2.10).
 DeformOptions thesis_deform_options();

@@ -24,6 +24,8 @@
 
 namespace lissom {
 
+struct ThesisFormulas;
+
 /// Image of a vertex of the ring: by the maps of both surfaces, or, after some rounds, the
 /// nearest point of the target's region. Rounds end if one does not lower the energy, and
 /// are kept if the surface near the boundary is distorted less. They belong to `optimize`

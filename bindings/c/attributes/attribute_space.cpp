@@ -1,4 +1,4 @@
-#include "bindings/c/attribute_space.h"
+#include "bindings/c/attributes/attribute_space.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <cstring>
 
-#include "bindings/c/attribute_space.h"
+#include "bindings/c/attributes/attribute_space.h"
 #include "bindings/c/data.h"
 #include "bindings/c/origins.h"
 #include "kernel/core/nearest.h"
