@@ -59,7 +59,7 @@ run_c_program() {
     libraries=$(dirname "$(find "$prefix" -name 'liblissom.so' | head -n 1)") &&
         flags=$(PKG_CONFIG_PATH=$libraries/pkgconfig pkg-config --cflags --libs lissom) || return 1
     # shellcheck disable=SC2086
-    cc -std=c99 -Wall -Wextra -Werror "$1" $flags -lm -o "$work/c_program" &&
+    cc -std=c11 -Wall -Wextra -Werror "$1" $flags -lm -o "$work/c_program" &&
         LD_LIBRARY_PATH=$libraries "$work/c_program"
 }
 

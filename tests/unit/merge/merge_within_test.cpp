@@ -57,7 +57,8 @@ TEST_CASE("merge within: boundaries of one mesh are joined and their seams measu
 }
 
 TEST_CASE("merge within: needles between boundaries of unlike counts are no fault of a bridge") {
-    for (const auto& [few, many] : {std::pair(8, 200), std::pair(200, 8), std::pair(12, 600)}) {
+    for (const auto& sides : {std::pair(8, 200), std::pair(200, 8), std::pair(12, 600)}) {
+        const int few = sides.first, many = sides.second;
         CAPTURE(few);
         Mesh mesh = make_cylinder({.segments = few, .rings = 2, .caps = false});
         Mesh other = make_cylinder({.segments = many, .rings = 2, .caps = false});
