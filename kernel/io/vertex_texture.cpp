@@ -64,8 +64,9 @@ Attribute coordinates_of(const VertexTexture& texture) {
     Attribute uv{texture.coordinates, Domain::vertex, 2, ScalarType::float32, {}};
     const auto frames = count_of(texture.times);
     for (Index v = 0; v < texture.mesh.vertex_count(); ++v) {
-        uv.values.push_back((v % texture.width + 0.5) / texture.width);
-        uv.values.push_back(1.0 - (v / texture.width * frames + 0.5) / texture.height);
+        const Index column = v % texture.width, row = v / texture.width * frames;
+        uv.values.push_back((column + 0.5) / texture.width);
+        uv.values.push_back(1.0 - (row + 0.5) / texture.height);
     }
     return uv;
 }
