@@ -214,6 +214,8 @@ test("operators are put in, taken out and named in errors", function()
     refused("out_of_range", "no operator 9", g.set, g, "upper", 9, {})
     refused("invalid_argument", "at least one layer", lissom.groom, { head = head, layers = {} })
     refused("invalid_argument", "needs a style", lissom.groom, { head = head, layers = { { name = "a" } } })
+    refused("invalid_argument", "must be a lissom.Hairstyle, not a number", lissom.groom,
+        { head = head, layers = { { style = 3 } } })
     refused("invalid_argument", "no option 'stile'", lissom.groom,
         { head = head, layers = { { stile = style_of(20) } } })
     refused("invalid_argument", "another head", lissom.groom,

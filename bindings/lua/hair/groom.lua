@@ -250,7 +250,8 @@ local function require_layer(one, where)
         local kind = layer_keys[key]
         if not kind then fail(where .. " has no option '" .. tostring(key) .. "'") end
         if kind ~= "any" and type(value) ~= kind then
-            fail(where .. "." .. key .. " must be a " .. kind .. ", not a " .. type(value))
+            local wanted = kind == "userdata" and "lissom.Hairstyle" or kind
+            fail(where .. "." .. key .. " must be a " .. wanted .. ", not a " .. type(value))
         end
     end
     if not one.style then fail(where .. " needs a style, a lissom.Hairstyle") end

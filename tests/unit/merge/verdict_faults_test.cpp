@@ -12,6 +12,7 @@
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/verdict.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/merge/seam_column.h"
 #include "tests/unit/shapes.h"
 #include "tests/unit/support.h"
 
@@ -63,33 +64,9 @@ namespace {
 
 constexpr Index kFaultAround = 96, kFaultRows = 72;
 
-// A closed cylinder of radius 1 from y = -2 to 2 with its seam at y = 0; the source is above.
-struct Column {
-    Mesh mesh = make_cylinder(
-        {.radius = 1.0, .height = 4.0, .segments = kFaultAround, .rings = kFaultRows});
-    std::vector<Index> seam, below, above;
-
-    Column() {
-        for (Index v = 0; v < mesh.vertex_count(); ++v) {
-            if (std::abs(mesh.position(v).y()) < 1e-9) seam.push_back(v);
-        }
-        const auto angle = [&](Index v) {
-            return std::atan2(mesh.position(v).x(), mesh.position(v).z());
-        };
-        std::sort(seam.begin(), seam.end(), [&](Index a, Index b) { return angle(a) < angle(b); });
-        for (Index f = 0; f < mesh.face_count(); ++f) {
-            double y = 0.0;
-            for (const Index v : mesh.topology().face(f)) y += mesh.position(v).y();
-            (y < 0.0 ? below : above).push_back(f);
-        }
-    }
-
-    template <typename Move>
-    Mesh moved(const Move& move) const {
-        Mesh made = mesh;
-        for (Vec3& p : made.edit_positions()) move(p);
-        return made;
-    }
+// The source is above.
+struct Column : SeamColumn {
+    Column() : SeamColumn(kFaultAround, kFaultRows) {}
 
     // The verdict on a merge that made `made` of the halves of `rest`.
     Verdict judged(const Mesh& made, const Mesh& rest) const {

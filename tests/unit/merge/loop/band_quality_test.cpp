@@ -11,6 +11,7 @@
 #include "kernel/merge/sew/seam_guard.h"
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/shapes/shapes.h"
+#include "tests/unit/merge/seam_column.h"
 #include "tests/unit/shapes.h"
 #include "tests/unit/support.h"
 
@@ -21,36 +22,12 @@ namespace {
 
 constexpr Index kAround = 48, kRows = 48;
 
-// A closed cylinder of radius 1 from y = -2 to 2, with the circle at y = 0 as its seam.
-struct Barrel {
-    Mesh mesh = make_cylinder({.radius = 1.0, .height = 4.0, .segments = kAround, .rings = kRows});
-    std::vector<Index> seam, below, above;
-
-    Barrel() {
-        for (Index v = 0; v < mesh.vertex_count(); ++v) {
-            if (std::abs(mesh.position(v).y()) < 1e-9) seam.push_back(v);
-        }
-        const auto angle = [&](Index v) {
-            return std::atan2(mesh.position(v).x(), mesh.position(v).z());
-        };
-        std::sort(seam.begin(), seam.end(), [&](Index a, Index b) { return angle(a) < angle(b); });
-        for (Index f = 0; f < mesh.face_count(); ++f) {
-            double y = 0.0;
-            for (const Index v : mesh.topology().face(f)) y += mesh.position(v).y();
-            (y < 0.0 ? below : above).push_back(f);
-        }
-    }
+struct Barrel : SeamColumn {
+    Barrel() : SeamColumn(kAround, kRows) {}
 
     BandQuality measured(const Mesh& made, double scale = 1.0, bool stays = false) const {
         return band_quality({&made, below, seam}, {&made, above, seam}, {&mesh, below, seam},
                             {&mesh, above, seam}, scale, stays);
-    }
-
-    template <typename Move>
-    Mesh moved(const Move& move) const {
-        Mesh made = mesh;
-        for (Vec3& p : made.edit_positions()) move(p);
-        return made;
     }
 };
 
