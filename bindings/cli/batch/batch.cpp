@@ -7,7 +7,7 @@
 
 #include "bindings/cli/batch/cluster/cluster.h"
 #include "bindings/cli/batch/job_process.h"
-#include "bindings/cli/batch/plan.h"
+#include "bindings/cli/batch/plan/plan.h"
 #include "bindings/cli/batch/run/batch_run.h"
 #include "bindings/cli/batch/run/progress_writer.h"
 #include "bindings/cli/batch/summary.h"

@@ -8,7 +8,7 @@
 
 #include "bindings/cli/batch/durable_files.h"
 #include "bindings/cli/batch/ledger.h"
-#include "bindings/cli/batch/plan.h"
+#include "bindings/cli/batch/plan/plan.h"
 
 namespace lissom::cli {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/cli/batch/axis.h"
+#include "bindings/cli/batch/plan/axis.h"
 #include "kernel/io/stream/file.h"
 
 namespace lissom::cli {

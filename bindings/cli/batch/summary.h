@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bindings/cli/batch/driver.h"
-#include "bindings/cli/batch/plan.h"
+#include "bindings/cli/batch/plan/plan.h"
 #include "bindings/cli/json.h"
 
 namespace lissom::cli {

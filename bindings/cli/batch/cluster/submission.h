@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bindings/cli/batch/driver.h"
-#include "bindings/cli/batch/plan.h"
+#include "bindings/cli/batch/plan/plan.h"
 
 namespace lissom::cli {
 

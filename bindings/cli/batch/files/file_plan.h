@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bindings/cli/batch/plan.h"
+#include "bindings/cli/batch/plan/plan.h"
 #include "bindings/cli/file_patterns.h"
 
 namespace lissom::cli {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bindings/cli/batch/driver.h"
-#include "bindings/cli/batch/plan.h"
+#include "bindings/cli/batch/plan/plan.h"
 #include "bindings/cli/program.h"
 
 namespace CLI {

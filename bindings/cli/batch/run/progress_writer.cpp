@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "bindings/cli/batch/axis.h"
+#include "bindings/cli/batch/plan/axis.h"
 
 namespace lissom::cli {
 namespace {

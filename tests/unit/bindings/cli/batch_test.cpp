@@ -2,10 +2,10 @@
 
 #include <fstream>
 
-#include "bindings/cli/batch/axis.h"
 #include "bindings/cli/batch/digest.h"
 #include "bindings/cli/batch/ledger.h"
-#include "bindings/cli/batch/output_name.h"
+#include "bindings/cli/batch/plan/axis.h"
+#include "bindings/cli/batch/plan/output_name.h"
 #include "kernel/core/error.h"
 #include "tests/unit/bindings/cli/program_run.h"
 

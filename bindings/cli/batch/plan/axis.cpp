@@ -1,4 +1,4 @@
-#include "bindings/cli/batch/axis.h"
+#include "bindings/cli/batch/plan/axis.h"
 
 #include <algorithm>
 #include <charconv>

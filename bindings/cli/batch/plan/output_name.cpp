@@ -1,4 +1,4 @@
-#include "bindings/cli/batch/output_name.h"
+#include "bindings/cli/batch/plan/output_name.h"
 
 #include <algorithm>
 

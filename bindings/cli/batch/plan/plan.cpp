@@ -1,4 +1,4 @@
-#include "bindings/cli/batch/plan.h"
+#include "bindings/cli/batch/plan/plan.h"
 
 #include <algorithm>
 #include <map>
@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "bindings/cli/batch/driver.h"
-#include "bindings/cli/batch/plan_axes.h"
+#include "bindings/cli/batch/plan/plan_axes.h"
 #include "bindings/cli/json.h"
 #include "bindings/cli/script.h"
 #include "kernel/core/error.h"

@@ -1,4 +1,4 @@
-#include "bindings/cli/batch/plan_axes.h"
+#include "bindings/cli/batch/plan/plan_axes.h"
 
 #include <algorithm>
 #include <cctype>

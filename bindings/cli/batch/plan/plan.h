@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/cli/batch/axis.h"
-#include "bindings/cli/batch/output_name.h"
+#include "bindings/cli/batch/plan/axis.h"
+#include "bindings/cli/batch/plan/output_name.h"
 #include "bindings/cli/program.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/core/error.h"

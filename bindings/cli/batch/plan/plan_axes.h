@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/cli/batch/axis.h"
-#include "bindings/cli/batch/output_name.h"
-#include "bindings/cli/batch/plan.h"
+#include "bindings/cli/batch/plan/axis.h"
+#include "bindings/cli/batch/plan/output_name.h"
+#include "bindings/cli/batch/plan/plan.h"
 #include "bindings/lua/core/script_parameters.h"
 
 namespace lissom::cli {
