@@ -137,8 +137,8 @@ void complete(Request& request) {
 
 // Returns the defect of the choice of files; empty if there is none.
 std::string misuse(const CLI::App& app, const Request& request) {
-    const std::string stray = request.many.stray_option(app);
-    if (!stray.empty()) return stray + " is for many files, which --in names";
+    const std::string wrong = request.many.misuse(app, {request.in});
+    if (!wrong.empty()) return wrong;
     if (!request.is_for_many()) {
         return request.out.empty() ? "IN and OUT are required, or --in and --out" : "";
     }

@@ -433,8 +433,8 @@ void declare_inspect(CLI::App& app, InspectRequest& request) {
 }
 
 std::string inspect_misuse(const CLI::App& app, const InspectRequest& request) {
-    const std::string stray = request.many.stray_option(app);
-    if (!stray.empty()) return stray + " is for many files, which --in names";
+    const std::string wrong = request.many.misuse(app, request.files);
+    if (!wrong.empty()) return wrong;
     if (!request.many.is_for_many()) return request.files.empty() ? "FILE is required" : "";
     if (!request.files.empty()) return "FILE does not go with --in";
     return request.many.files.out_folder.empty() ? "--out is missing: the folder to write to" : "";

@@ -6,6 +6,7 @@ import fcntl
 import glob
 import json
 import os
+import pty
 import random
 import shutil
 import signal
@@ -142,7 +143,8 @@ class Plans(Folder):
                 ("both write o/1", "make.lua", "--sweep", "number=1,2", "--out", "o/1"),
                 ("outside of", "make.lua", "--sweep", "number=1", "--out", "o/{n}/../../x"),
                 ("never ends", "make.lua", "--sweep", "number=0:9:-1", "--out", "o/{n}"),
-                ("matches 'nothing/*.obj'", "make.lua", "--over", "nothing/*.obj", "--out", "o/{n}"),
+                ("there is no folder 'nothing'", "make.lua", "--over", "nothing/*.obj", "--out", "o/{n}"),
+                ("matches '*.obj'", "make.lua", "--over", "*.obj", "--out", "o/{n}"),
                 ("torn.csv:3: the row has 1 value for 2 columns", "make.lua", "--over", "torn.csv", "--out", "o/{n}"),
                 ("did you mean 'number'", "make.lua", "--over", "strange.csv", "--out", "o/{n}"),
                 ("given twice", "make.lua", "--sweep", "number=1", "--set", "number=2", "--out", "o/{n}"),
@@ -150,10 +152,64 @@ class Plans(Folder):
                 ("declares no parameters", "none.lua", "--out", "o/{n}"),
                 ("no such file", "nix.lua", "--out", "o/{n}"),
                 ("write over the input", "make.lua", "--set", "mesh=word.lua", "--out", "word.lua"),
-                ("--out are needed", "make.lua")):
+                ("--out is missing", "make.lua"),
+                ("SCRIPT is missing", "--out", "o/{n}")):
             run = self.batch(*words, status=2)
             self.assertIn(text, run.stderr)
         self.assertFalse(os.path.exists(self.path("o")))
+
+    def test_mistakes_of_beginners_are_told_with_what_to_write(self):
+        for name in ("in/a.obj", "in/b.obj", "in/c.obj"):
+            self.write(name, TRIANGLE)
+        self.write("no_out.lua", 'require("lissom").params{ mesh = { type = "file" }, size = { type = "number", default = 1 } }')
+        self.write("no_file.lua", 'require("lissom").params{ mesh = { type = "string" }, out = { type = "file" } }')
+        out = ("--out", "o/{name}.obj")
+        for text, *words in (
+                # The shell has replaced a pattern without quotes.
+                ("--over 'in/*.obj'", "make.lua", "--over", "in/a.obj", "in/b.obj", "in/c.obj", *out),
+                ("files are given by --over 'in/*.obj'", "make.lua", "in/*.obj", *out),
+                ("files are given by --over", "make.lua", "--in", "in/*.obj", *out),
+                ("given by --set number=VALUE, or by --sweep number=", "make.lua", "--number", "3", "--out", "o/{n}"),
+                ("did you mean '--sweep'", "make.lua", "--swep", "number=3", "--out", "o/{n}"),
+                ("there is: mesh, name, stem, ext, dir, count, mode, number, text, n", "make.lua", "--over", "in/*.obj",
+                 "--out", "o/{filename}.obj"),
+                ("o/ is a folder: add the name of the file, as o/{name}.obj", "make.lua", "--over", "in/*.obj", "--out", "o/"),
+                ("needs a placeholder that tells them apart, as {name}", "make.lua", "--over", "in/*.obj", "--out", "o"),
+                ("needs a placeholder that tells them apart, as {count}", "make.lua", "--over", "in/*.obj",
+                 "--sweep", "count=1,2", *out),
+                ("FROM:TO:STEP", "make.lua", "--sweep", "number=-30:30", "--out", "o/{n}"),
+                ("FROM:TO:STEP", "make.lua", "--sweep", "number=[1,2]", "--out", "o/{n}"),
+                ('declare out = { type = "file"', "no_out.lua", "--over", "in/*.obj", *out),
+                ("or name another (mesh): --out NAME=", "no_out.lua", "--sweep", "size=1,2", *out),
+                ("name the one that takes the files: --over NAME=in/*.obj", "no_file.lua", "--over", "in/*.obj", *out),
+                ("--timeout: Value 1m not in range 0", "make.lua", "--timeout", "1m", "--out", "o/{n}"),
+                ("not in range 1 to 1024", "make.lua", "--jobs", "0", "--out", "o/{n}")):
+            self.assertIn(text, self.batch(*words, status=2).stderr)
+        self.assertFalse(os.path.exists(self.path("o")))
+        jobs = self.plan("no_file.lua", "--over", "mesh=in/*.obj", *out)
+        self.assertEqual([job["output"] for job in jobs], ["o/a.obj", "o/b.obj", "o/c.obj"])
+
+    def test_tables_of_spreadsheets_are_read(self):
+        for text in ("\ufeffnumber;text\r\n1;a,b\r\n2;c\r\n", "number\ttext\n1\ta,b\n2\tc\n",
+                     'number, text\n 1, "a,b"\n2 ,c \n', 'number,text,\r\n1,"a,b",\r\n,,\r\n2,c,\r\n'):
+            self.write("t.csv", text)
+            self.assertEqual([job["arguments"] for job in self.plan("make.lua", "--over", "t.csv", "--out", "o/{n}")],
+                             [{"number": "1", "text": "a,b"}, {"number": "2", "text": "c"}])
+        for told, content in (("UTF-16", "number\n1\n".encode("utf-16")),
+                              ("t.csv:2: the table is not in UTF-8", b"text\ngr\xfcn\n"),
+                              ("job 2 (t.csv:4): parameter 'number': number from -1000 to 1000 expected, got '1,5'; "
+                               "decimals stand behind a point", b"number;count\n1;1\n\n1,5;2\n"),
+                              ("job 1 (t.csv:2): parameter 'mesh': in/a.ply: there is no", b"mesh\nin/a.ply\n")):
+            with open(self.path("t.csv"), "wb") as file:
+                file.write(content)
+            self.assertIn(told, self.batch("make.lua", "--over", "t.csv", "--out", "o/{n}", status=2).stderr)
+
+    def test_a_folder_may_end_with_a_slash(self):
+        self.write("many.lua", '''
+            local p = require("lissom").params{ n = { type = "integer", default = 1 }, out = { type = "folder", default = "" } }
+            assert(io.open(p.out .. "/x", "w")):write(p.n):close()''')
+        self.batch("many.lua", "--sweep", "n=1,2", "--out", "out/{n}/")
+        self.assertEqual(sorted(self.outputs()), ["1/x", "2/x"])
 
     def test_whole_numbers_are_written_out(self):
         jobs = self.plan("make.lua", "--sweep", "count=99999:100001:1", "--out", "out/{count}.txt")
@@ -433,10 +489,39 @@ class Runs(Folder):
         self.assertIn("1good.txt", self.outputs())
         self.assertTrue(os.path.exists(self.path("out", "index.html")))
 
-    def test_progress_is_told_as_json(self):
+    def test_progress_is_told_as_json_and_plainly(self):
         run = self.batch(*self.SWEEP, "--progress", "json")
         last = json.loads(run.stderr.splitlines()[-1])
         self.assertEqual((last["all"], last["done"], last["failed"]), (3, 3, 0))
+        self.assertGreater(last["rate"], 0)
+        self.assertEqual(last["seconds_left"], 0)
+        shutil.rmtree(self.path("out"))
+        plain = self.batch(*self.SWEEP[:-2], "--sweep", "mode=good,fails", "--out", "out/{number}{mode}.txt", "--retries", "0",
+                           "--progress", "plain", status=1).stderr.splitlines()[-1]
+        self.assertRegex(plain, r"^6 of 6 jobs, 3 failed, [0-9.]+ a (second|minute), 0 s left$")
+
+    def test_a_terminal_has_one_line_of_progress(self):
+        terminal, other = pty.openpty()
+        environment = dict(os.environ, TERM="xterm")
+        process = subprocess.Popen(self.words("make.lua", "--sweep", "number=1:60:1", "--out", "out/{number}.txt"),
+                                   cwd=self.folder, stdout=subprocess.PIPE, stderr=other, stdin=other, env=environment)
+        os.close(other)
+        process.communicate(timeout=120)
+        os.set_blocking(terminal, False)
+        shown = os.read(terminal, 1 << 20).decode()
+        os.close(terminal)
+        self.assertRegex(shown, r"[0-9]+ of 60 jobs, [0-9.]+ a (second|minute), [0-9]+ s left")
+        self.assertNotIn("\n", shown.rstrip())
+
+    def test_a_changed_program_runs_all_again(self):
+        program = self.path("program")
+        shutil.copy(PROGRAM, program)
+        words = ["batch", *self.SWEEP]
+        subprocess.run([program, *words], cwd=self.folder, check=True, capture_output=True)
+        with open(program, "ab") as file:
+            file.write(b"\0")
+        run = subprocess.run([program, *words, "--list"], cwd=self.folder, check=True, capture_output=True, text=True)
+        self.assertEqual(run.stdout.count("[the program has changed]"), 3)
 
 
 class Files(Folder):
@@ -587,7 +672,12 @@ class Files(Folder):
                              ("--jobs is for many files", "inspect", "in/a.obj", "--jobs", "2"),
                              ("belong to --slurm", "inspect", "--in", "in", "--out", "out", "--", "--mem=2G"),
                              ("FILE does not go with --in", "inspect", "in/a.obj", "--in", "in", "--out", "out"),
-                             ("--to", "convert", "--in", "in", "--out", "out", "--to", "doc")):
+                             ("--to", "convert", "--in", "in", "--out", "out", "--to", "doc"),
+                             ("several are given by --in, as --in 'in/*.obj' --out FOLDER", "convert", "in/a.obj", "in/b.obj",
+                              "in/c.obj", "--to", "glb"),
+                             ("its files are given by --in in", "convert", "in", "out"),
+                             ("its files are given by --in in", "inspect", "in"),
+                             ("did you mean '--out'", "inspect", "--in", "in", "--otu", "out")):
             self.assertIn(text, self.run_verb(*words, status=2).stderr)
         self.assertFalse(os.path.exists(self.path("out")))
 
@@ -597,9 +687,13 @@ class Kills(Folder):
 
     WORDS = ("make.lua", "--sweep", "number=1:25:1", "--jobs", "3", "--out")
 
-    def kill_at_random(self, rng, process):
+    def start(self, rng):
+        isolate = rng.choice(("process", "state"))
+        return subprocess.Popen(self.words(*self.WORDS, "out/{number}.txt", "--isolate", isolate), cwd=self.folder,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def kill_at_random(self, rng, process, victims):
         time.sleep(rng.uniform(0.0, 0.25))
-        victims = rng.choice((["driver"], ["driver"], ["worker"], ["driver", "worker"]))
         children = children_of(process)
         if "driver" in victims:
             process.kill()
@@ -616,21 +710,31 @@ class Kills(Folder):
     def test_random_kills_change_nothing(self):
         self.batch(*self.WORDS, "undisturbed/{number}.txt")
         rng = random.Random(1)
-        for _ in range(TRIALS):
-            isolate = rng.choice(("process", "state"))
-            process = subprocess.Popen(self.words(*self.WORDS, "out/{number}.txt", "--isolate", isolate), cwd=self.folder,
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            self.kill_at_random(rng, process)
+        for trial in range(TRIALS):
+            victims = (["driver"], ["driver"], ["worker"], ["driver", "worker"])[trial % 4]
+            # Another batch may work in the folder, or take it over from the one that is killed.
+            second = self.start(rng) if rng.random() < 0.3 else None
+            self.kill_at_random(rng, self.start(rng), victims)
+            if second:
+                self.kill_at_random(rng, second, victims)
             if rng.random() < 0.2:
                 made = list(self.outputs())
                 if made:
                     os.remove(self.path("out", rng.choice(made)))
+            if rng.random() < 0.2:
+                self.tear_a_record(rng)
             if rng.random() < 0.1:
                 shutil.rmtree(self.path("out"), ignore_errors=True)
         self.batch(*self.WORDS, "out/{number}.txt")
         self.assertEqual(self.outputs(), self.outputs("undisturbed"))
         self.assertEqual(set(self.reasons(*self.WORDS, "out/{number}.txt")), {""})
         self.assertEqual(os.listdir(self.path("out", ".batch", "work")), [])
+
+    def tear_a_record(self, rng):
+        files = glob.glob(self.path("out", ".batch", "results", "*"))
+        if files:
+            name = rng.choice(sorted(files))
+            os.truncate(name, rng.randrange(os.path.getsize(name) + 1))
 
     def test_what_a_dead_job_has_started_holds_its_place(self):
         words = ("make.lua", "--set", "mode=orphan", "--out", "out/x.txt")

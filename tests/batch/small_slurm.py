@@ -2,15 +2,17 @@
 """A Slurm on the loopback, in a folder of its own: for tests and benches. Needs slurmctld, slurmd, munged, and root.
 Usage: small_slurm.py start FOLDER NODES | stop FOLDER NODES"""
 import os
+import random
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import time
 
 CONFIGURATION = """ClusterName=test
 SlurmctldHost=localhost(127.0.0.1)
-SlurmctldPort=16817
+SlurmctldPort={port}
 CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
 AuthInfo=socket={folder}/munge.socket
 SlurmUser=root
@@ -31,7 +33,7 @@ SlurmdTimeout=10
 KillWait=2
 MinJobAge=2
 MaxArraySize=1001
-NodeName=n[1-{nodes}] NodeHostname=localhost NodeAddr=127.0.0.1 Port=[17001-{last}] CPUs=2
+NodeName=n[1-{nodes}] NodeHostname=localhost NodeAddr=127.0.0.1 Port=[{first}-{last}] CPUs=2
 PartitionName=main Nodes=ALL Default=YES MaxTime=60
 """
 
@@ -44,6 +46,20 @@ def missing_parts():
     return "" if os.geteuid() == 0 else "needs root"
 
 
+def free_ports(count):
+    """Returns the first of so many neighbouring ports that no program uses now."""
+    for _ in range(100):
+        first = random.randrange(20000, 32000)
+        try:
+            for port in range(first, first + count):
+                with socket.socket() as probe:
+                    probe.bind(("127.0.0.1", port))
+            return first
+        except OSError:
+            pass
+    raise RuntimeError("no ports are free")
+
+
 class Cluster:
     """Slurm in a folder of its own."""
 
@@ -54,7 +70,9 @@ class Cluster:
 
     def start(self):
         with open(self.path("slurm.conf"), "w", encoding="ascii") as file:
-            file.write(CONFIGURATION.format(folder=self.folder, nodes=self.nodes, last=17000 + self.nodes))
+            port = free_ports(1 + self.nodes)
+            file.write(CONFIGURATION.format(folder=self.folder, nodes=self.nodes, port=port, first=port + 1,
+                                            last=port + self.nodes))
         for name in ["state"] + [f"spool.n{i + 1}" for i in range(self.nodes)]:
             os.mkdir(self.path(name))
         with open(self.path("munge.key"), "wb", opener=lambda path, flags: os.open(path, flags, 0o600)) as file:

@@ -248,10 +248,14 @@ void declare(CLI::App& app, Request& request) {
 
 // Returns the defect of the choice of files; empty if there is none.
 std::string misuse(const CLI::App& app, const Request& request) {
-    const std::string stray = request.many.stray_option(app);
-    if (!stray.empty()) return stray + " is for many files, which --in names";
+    const std::string wrong = request.many.misuse(app, request.files);
+    if (!wrong.empty()) return wrong;
     if (request.many.is_for_many()) return request.files.empty() ? "" : "FILE goes without --in";
-    return request.files.empty() ? "FILE is required" : "";
+    if (request.files.empty()) return "FILE is required";
+    if (std::filesystem::path(request.out).has_extension()) return "";
+    return "the picture " + request.out +
+           " needs the extension .png; --in draws each file into a " +
+           "folder, as --in 'models/*.obj' -o " + request.out;
 }
 
 int render_many(Program& program, const CLI::App& app, Request& request) {

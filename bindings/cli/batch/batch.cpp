@@ -10,6 +10,7 @@
 #include "bindings/cli/batch/plan/plan.h"
 #include "bindings/cli/batch/run/batch_run.h"
 #include "bindings/cli/batch/run/progress_writer.h"
+#include "bindings/cli/batch/run/stray_words.h"
 #include "bindings/cli/batch/summary.h"
 #include "bindings/cli/json.h"
 #include "bindings/cli/verbs.h"
@@ -46,6 +47,21 @@ void declare(CLI::App& app, Wanted& wanted) {
     app.add_option("--submission", wanted.submission)->group("");
     app.add_option("--task", wanted.task)->group("");
     app.add_flag("--collect", wanted.collect)->group("");
+    app.allow_extras();
+}
+
+// The error of words that are missing or too many, or "".
+std::string wrong_words(const CLI::App& app, const Wanted& wanted) {
+    if (const std::vector<std::string> stray = app.remaining(); !stray.empty()) {
+        std::vector<std::string> names;
+        for (const CLI::Option* option : app.get_options()) {
+            if (!option->get_group().empty()) names.push_back(option->get_name());
+        }
+        return stray_words_error(stray, {names.begin(), names.end()}, !wanted.words.over.empty());
+    }
+    if (wanted.words.script.empty()) return "SCRIPT is missing";
+    if (wanted.words.out.empty()) return "--out is missing, as --out 'out/{name}.obj'";
+    return {};
 }
 
 // Tells each failure at once, and counts at the end.
@@ -120,9 +136,8 @@ int batch(Program& program, const std::vector<std::string>& words) {
     if (!program.parse(app, take_sbatch_words(words, wanted.run), status)) return status;
     if (!wanted.submission.empty()) return run_submitted(program, wanted);
     if (!wanted.job.empty()) return run_jobs(program, wanted.job);
-    if (wanted.words.script.empty() || wanted.words.out.empty()) {
-        return program.fail("lissom batch: SCRIPT and --out are needed (see lissom batch --help)",
-                            kUsage);
+    if (const std::string error = wrong_words(app, wanted); !error.empty()) {
+        return program.fail("lissom batch: " + error + " (see lissom batch --help)", kUsage);
     }
     BatchPlan plan;
     try {

@@ -2,7 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <utility>
+
+#include "bindings/cli/batch/run/stray_words.h"
+#include "bindings/cli/scene_input.h"
 
 namespace lissom::cli {
 namespace {
@@ -14,6 +18,12 @@ std::set<std::string> option_names(const CLI::App& app) {
     }
     names.erase("--help");
     return names;
+}
+
+// The error of words behind all that a verb takes.
+std::string stray_error(const CLI::App& app, const std::vector<std::string>& stray) {
+    const std::set<std::string> names = option_names(app);
+    return stray_files_error(stray, {names.begin(), names.end()});
 }
 
 }  // namespace
@@ -33,11 +43,30 @@ void FilesVerb::declare(CLI::App& app) {
 bool FilesVerb::parse(Program& program, CLI::App& app, const std::vector<std::string>& words,
                       int& status) {
     const bool is_many = std::find(words.begin(), words.end(), "--in") != words.end();
-    return program.parse(app, is_many ? take_sbatch_words(words, run_) : words, status);
+    app.allow_extras();
+    if (!program.parse(app, is_many ? take_sbatch_words(words, run_) : words, status)) return false;
+    std::vector<std::string> stray = app.remaining();
+    // The mark before names of files.
+    std::erase(stray, "--");
+    if (stray.empty()) return true;
+    const std::string error = app.get_name() + ": " + stray_error(app, stray);
+    status = program.fail(error + " (see " + app.get_name() + " --help)", kUsage);
+    return false;
+}
+
+std::string FilesVerb::misuse(const CLI::App& app, const std::vector<std::string>& few) const {
+    if (is_for_many()) return {};
+    const std::string stray = stray_option(app);
+    if (!stray.empty()) return stray + " is for many files, which --in names";
+    for (const std::string& file : few) {
+        std::error_code error;
+        if (!std::filesystem::is_directory(file, error) || is_scene_path(file)) continue;
+        return file + " is a folder: its files are given by --in " + file;
+    }
+    return {};
 }
 
 std::string FilesVerb::stray_option(const CLI::App& app) const {
-    if (is_for_many()) return {};
     const auto given = std::find_if(of_many_.begin(), of_many_.end(),
                                     [&](const std::string& name) { return app.count(name) > 0; });
     return given != of_many_.end() ? *given : std::string();

@@ -25,8 +25,9 @@ class FilesVerb {
 
     /// Returns whether files are given by --in.
     bool is_for_many() const { return !files.in.empty(); }
-    /// Returns an option that only many files have, and that is given; or "".
-    std::string stray_option(const CLI::App& app) const;
+    /// Returns the defect of words for few files, those that are given without --in; or "": an
+    /// option that only many files have, or a folder.
+    std::string misuse(const CLI::App& app, const std::vector<std::string>& few) const;
 
     /// Runs the verb for each file, with `out_option` (see `plan_files`). The options `own` do not
     /// go to the jobs. Returns the exit status.
@@ -36,6 +37,7 @@ class FilesVerb {
     ManyFiles files;
 
   private:
+    std::string stray_option(const CLI::App& app) const;
     std::vector<std::string> job_words(const CLI::App& app, const std::set<std::string>& own) const;
 
     std::string name_;

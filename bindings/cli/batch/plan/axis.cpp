@@ -92,86 +92,6 @@ std::optional<std::vector<std::string>> range(const std::string& text) {
     return text[next] == ':' ? stepped(*from, *to, *last, text) : counted(*from, *to, *last, text);
 }
 
-// ---- Tables
-
-class TableReader {
-  public:
-    TableReader(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {
-        if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;
-    }
-
-    bool has_row() {
-        while (at_ < text_.size() && (text_[at_] == '\n' || text_[at_] == '\r')) {
-            line_ += text_[at_++] == '\n';
-        }
-        return at_ < text_.size();
-    }
-    int line() const { return line_; }
-    std::string place() const { return name_ + ":" + std::to_string(line_); }
-
-    std::vector<std::string> row() {
-        std::vector<std::string> values;
-        for (bool more = true; more;) {
-            values.push_back(at_ < text_.size() && text_[at_] == '"' ? quoted() : plain());
-            more = at_ < text_.size() && text_[at_] == ',';
-            if (more) ++at_;
-        }
-        return values;
-    }
-
-  private:
-    std::string plain() {
-        const std::size_t end = std::min(text_.find_first_of(",\r\n", at_), text_.size());
-        std::string value(text_.substr(at_, end - at_));
-        at_ = end;
-        return value;
-    }
-
-    std::string quoted() {
-        const std::string begin = place();
-        std::string value;
-        for (++at_; at_ < text_.size(); ++at_) {
-            if (text_[at_] == '"') {
-                if (at_ + 1 == text_.size() || text_[at_ + 1] != '"') return after_quote(value);
-                ++at_;
-            }
-            line_ += text_[at_] == '\n';
-            value += text_[at_];
-        }
-        refuse(begin + ": the quoted value has no end");
-    }
-
-    std::string after_quote(const std::string& value) {
-        ++at_;
-        if (at_ < text_.size() &&
-            std::string_view(",\r\n").find(text_[at_]) == std::string_view::npos) {
-            refuse(place() + ": a comma or the end of the line must follow a quoted value");
-        }
-        return value;
-    }
-
-    std::string_view text_;
-    std::string name_;
-    std::size_t at_ = 0;
-    int line_ = 1;
-};
-
-void require_names(const Axis& axis, const std::string& place) {
-    for (std::size_t i = 0; i < axis.names.size(); ++i) {
-        if (axis.names[i].empty()) {
-            refuse(place + ": column " + std::to_string(i + 1) + " of the table has no name");
-        }
-        if (std::find(axis.names.begin(), axis.names.begin() + static_cast<std::ptrdiff_t>(i),
-                      axis.names[i]) != axis.names.begin() + static_cast<std::ptrdiff_t>(i)) {
-            refuse(place + ": two columns of the table are called '" + axis.names[i] + "'");
-        }
-    }
-}
-
-std::string column_count(std::size_t count) {
-    return std::to_string(count) + (count == 1 ? " value" : " values");
-}
-
 std::string file_name_value(std::string_view kind, const fs::path& file, const fs::path& relative) {
     if (kind == "ext") return file.extension().string().erase(0, 1);
     if (kind == "dir") return relative.parent_path().generic_string();
@@ -224,6 +144,10 @@ Axis files_axis(const std::string& name, const std::string& pattern) {
     const PatternMatches matches = expand_pattern(pattern);
     std::error_code error;
     const bool names_one = matches.files.size() == 1 && !fs::exists(matches.files[0].path, error);
+    if (matches.files.empty() && !matches.base.empty() && !fs::exists(matches.base, error)) {
+        throw Error(ErrorCode::file_not_found,
+                    pattern + ": " + missing_file_text(matches.base / "file"));
+    }
     if (matches.files.empty() || names_one) {
         throw Error(ErrorCode::file_not_found,
                     names_one ? pattern + ": " + missing_file_text(pattern)
@@ -239,27 +163,6 @@ Axis files_axis(const std::string& name, const std::string& pattern) {
         relative.push_back(file.relative);
     }
     add_columns(axis, relative);
-    return axis;
-}
-
-Axis table_axis(const fs::path& file) {
-    const FileContent content = read_file(file);
-    TableReader reader(content.bytes, display_name(file));
-    if (!reader.has_row()) refuse(reader.place() + ": the table has no first line of names");
-    Axis axis;
-    axis.names = reader.row();
-    axis.given = axis.names.size();
-    require_names(axis, reader.place());
-    while (reader.has_row()) {
-        const std::string place = reader.place();
-        std::vector<std::string> row = reader.row();
-        if (row.size() != axis.names.size()) {
-            refuse(place + ": the row has " + column_count(row.size()) + " for " +
-                   std::to_string(axis.names.size()) + " columns");
-        }
-        axis.rows.push_back(std::move(row));
-    }
-    if (axis.rows.empty()) refuse(reader.place() + ": the table has no row below its names");
     return axis;
 }
 

@@ -19,6 +19,9 @@ struct Axis {
     std::size_t given = 0;
     /// Its first names are those of files that a pattern has found.
     bool is_pattern = false;
+    /// Table that it was read from, as messages name it, and the line of each row; or nothing.
+    std::string table;
+    std::vector<int> lines;
 };
 
 /// Names that an axis of files gives to outputs: the file's name without extension (also as
@@ -36,11 +39,6 @@ Axis sweep_axis(const std::string& text);
 /// Makes the axis of the files that a pattern names, see `expand_pattern`: values of the parameter
 /// `name` and of `kFileNames`. Errors: file_not_found if nothing matches.
 Axis files_axis(const std::string& name, const std::string& pattern);
-
-/// Reads a table of comma-separated values: names in its first line, a row in each other; values in
-/// double quotes may hold commas, lines and doubled quotes. Errors: as `read_file`;
-/// invalid_argument for a row that has too few or too many values, with its line.
-Axis table_axis(const std::filesystem::path& file);
 
 /// Adds the values of `kFileNames` that the axis lacks, from its column of files `name`.
 void add_file_names(Axis& axis, const std::string& name);

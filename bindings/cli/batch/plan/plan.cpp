@@ -21,36 +21,49 @@ using lua::ParameterSet;
 using lua::ParameterType;
 using lua::ScriptParameter;
 
-std::string canonical_text(const ScriptParameter& p, const std::string& text,
-                           const std::string& place) {
-    try {
-        const lua::ParameterValue value = p.from_text(text);
-        if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-        if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
-        return std::get<std::string>(value);
-    } catch (const lua::ParameterError& error) {
-        refuse_plan(place + ": " + error.message);
-    }
+bool is_numeric(const ScriptParameter& p) {
+    return p.type == ParameterType::number || p.type == ParameterType::integer;
+}
+
+// Advice on a value that seems to be several values, or a number of another country.
+std::string value_advice(const ScriptParameter& p, const std::string& text) {
+    if (!is_numeric(p)) return {};
+    const bool seems_several =
+        text.find_first_of(":[]{}") != std::string::npos || text.find("..") != std::string::npos;
+    if (seems_several) return "; --sweep takes a,b,c, FROM:TO:STEP and FROM:TO/COUNT";
+    return text.find(',') != std::string::npos ? "; decimals stand behind a point" : "";
+}
+
+std::string text_of(const lua::ParameterValue& value) {
+    if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+    if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
+    return std::get<std::string>(value);
 }
 
 std::string default_text(const ScriptParameter& p) {
-    if (!p.default_value) return {};
-    if (const auto* flag = std::get_if<bool>(&*p.default_value)) return *flag ? "true" : "false";
-    if (const auto* number = std::get_if<double>(&*p.default_value)) return number_text(*number);
-    return std::get<std::string>(*p.default_value);
+    return p.default_value ? text_of(*p.default_value) : std::string();
+}
+
+bool takes_paths(const ScriptParameter& p) {
+    return p.type == ParameterType::file || p.type == ParameterType::folder ||
+           p.type == ParameterType::string;
+}
+
+[[noreturn]] void refuse_script_without_output(const ParameterSet& parameters) {
+    std::string names;
+    for (const ScriptParameter& p : parameters.list) {
+        if (takes_paths(p)) names += (names.empty() ? "" : ", ") + p.name;
+    }
+    refuse_plan("--out: the script has no parameter 'out' for the file that it writes: declare " +
+                std::string("out = { type = \"file\", default = \"out.obj\" } and write to it") +
+                (names.empty() ? "" : ", or name another (" + names + "): --out NAME=TEMPLATE"));
 }
 
 const ScriptParameter& out_parameter(const ParameterSet& parameters, const ScriptParameter* given) {
     const ScriptParameter* p = given ? given : find_parameter(parameters, "out");
     if (!p) p = find_parameter(parameters, "output");
-    if (!p) {
-        refuse_plan(
-            "--out: the script has no parameter 'out'; name the one that takes the output: "
-            "--out NAME=TEMPLATE");
-    }
-    const bool takes_paths = p->type == ParameterType::file || p->type == ParameterType::folder ||
-                             p->type == ParameterType::string;
-    if (!takes_paths) refuse_plan("--out: parameter '" + p->name + "' takes no path");
+    if (!p) refuse_script_without_output(parameters);
+    if (!takes_paths(*p)) refuse_plan("--out: parameter '" + p->name + "' takes no path");
     return *p;
 }
 
@@ -64,7 +77,7 @@ class JobMaker {
         BatchJob job;
         job.number = index + 1;
         JobValues values = values_of(axes_, index);
-        for (const ScriptParameter& p : parameters_.list) take(p, values.given, job);
+        for (const ScriptParameter& p : parameters_.list) take(p, index, values.given, job);
         values.of_files.emplace("n", std::to_string(job.number));
         job.output = output_.fill([&](const std::string& name) {
             for (const Values* known : {&values.given, &values.of_files}) {
@@ -78,7 +91,7 @@ class JobMaker {
     }
 
   private:
-    void take(const ScriptParameter& p, Values& values, BatchJob& job) {
+    void take(const ScriptParameter& p, std::size_t index, Values& values, BatchJob& job) {
         if (&p == &out_) return;
         if (!values.contains(p.name)) {
             if (!p.default_value) {
@@ -87,22 +100,30 @@ class JobMaker {
             }
             return;
         }
-        const std::string place = "job " + std::to_string(job.number) + ", " + p.name;
         std::string& value = values[p.name];
-        value = canonical_text(p, value, place);
+        value = canonical_text(p, value, index);
         if (p.type == ParameterType::file && !value.empty()) {
-            require_input(value, place);
+            require_input(p, value, index);
             job.inputs.emplace_back(value);
         }
         job.arguments.emplace_back(p.name, value);
     }
 
-    void require_input(const std::string& file, const std::string& place) {
+    void require_input(const ScriptParameter& p, const std::string& file, std::size_t index) {
         if (!seen_.insert(file).second) return;
         std::error_code error;
         if (fs::is_regular_file(file, error)) return;
-        throw Error(ErrorCode::file_not_found,
-                    place + ": " + file + ": " + missing_file_text(file));
+        throw Error(ErrorCode::file_not_found, job_place(axes_, index) + ": parameter '" + p.name +
+                                                   "': " + file + ": " + missing_file_text(file));
+    }
+
+    std::string canonical_text(const ScriptParameter& p, const std::string& text,
+                               std::size_t index) const {
+        try {
+            return text_of(p.from_text(text));
+        } catch (const lua::ParameterError& error) {
+            refuse_plan(job_place(axes_, index) + ": " + error.message + value_advice(p, text));
+        }
     }
 
     const ParameterSet& parameters_;
@@ -111,6 +132,17 @@ class JobMaker {
     const OutputName& output_;
     std::set<std::string> seen_;
 };
+
+// A path that ends with "/" is that of a folder.
+void complete_output(const ScriptParameter& out, BatchJob& job) {
+    if (job.output.has_filename()) return;
+    if (out.type != ParameterType::folder) {
+        refuse_plan("--out: " + job.output.string() +
+                    " is a folder: add the name of the file, as " + job.output.string() +
+                    "{name}.obj");
+    }
+    job.output = job.output.parent_path();
+}
 
 void require_inside(const fs::path& folder, const BatchJob& job) {
     const fs::path inside = job.output.lexically_relative(folder);
@@ -153,6 +185,26 @@ std::string argument_text(const BatchJob& job) {
     return "job " + std::to_string(job.number) + " (" + text.erase(0, text.empty() ? 0 : 1) + ")";
 }
 
+// "name" or "dir", by which the input `file` of a job differs from inputs of another.
+std::optional<std::string> file_placeholder(const BatchJob& a, const BatchJob& b,
+                                            const fs::path& file) {
+    if (std::find(b.inputs.begin(), b.inputs.end(), file) == b.inputs.end()) return {};
+    const auto has_its_name = [&](const fs::path& other) { return other.stem() == file.stem(); };
+    const bool is_of_both = std::any_of(a.inputs.begin(), a.inputs.end(), has_its_name);
+    return is_of_both ? "dir" : "name";
+}
+
+// ", as {angle}": a value in which the jobs differ.
+std::string placeholder_advice(const BatchJob& a, const BatchJob& b) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : b.arguments) {
+        const bool is_common = std::find(a.arguments.begin(), a.arguments.end(),
+                                         std::pair(name, value)) != a.arguments.end();
+        if (!is_common) names.push_back(file_placeholder(a, b, value).value_or(name));
+    }
+    return names.empty() ? "" : ", as {" + names[0] + "}";
+}
+
 void require_own_outputs(const BatchPlan& plan) {
     std::unordered_map<std::string, const BatchJob*> jobs;
     std::set<std::string> inputs;
@@ -165,7 +217,8 @@ void require_own_outputs(const BatchPlan& plan) {
         if (!is_new) {
             refuse_plan(argument_text(*other->second) + " and " + argument_text(job) +
                         " both write " + job.output.string() +
-                        ": --out needs a placeholder that tells them apart");
+                        ": --out needs a placeholder that tells them apart" +
+                        placeholder_advice(*other->second, job));
         }
         if (inputs.contains(fs::absolute(job.output).lexically_normal())) {
             refuse_plan(argument_text(job) + " would write over the input " + job.output.string());
@@ -181,7 +234,9 @@ lua::ParameterSet script_parameters(Program& program, const std::string& path) {
     if (result.status != kSuccess) refuse_plan(result.message);
     if (!script.state().parameters) {
         refuse_plan(path +
-                    " declares no parameters: a batch gives values to those of lissom.params");
+                    " declares no parameters: a batch gives values to those of lissom.params, as "
+                    "local params = lissom.params{ mesh = { type = \"file\" }, out = { type = "
+                    "\"file\" } }");
     }
     return *script.state().parameters;
 }
@@ -192,7 +247,7 @@ BatchPlan make_plan(const lua::ParameterSet& parameters, const BatchWords& words
     const OutputName output(text);
     Axes axes = read_axes(parameters, out, words);
     for (Axis& axis : axes.list) leave_outputs_out(axis, output.base());
-    require_known_names(parameters, axes, output);
+    require_known_names(parameters, out, axes, output);
     BatchPlan plan;
     plan.script = words.script;
     plan.out_parameter = out.name;
@@ -203,6 +258,7 @@ BatchPlan make_plan(const lua::ParameterSet& parameters, const BatchWords& words
     JobMaker maker(parameters, out, axes, output);
     for (std::size_t i = 0; i < count; ++i) {
         plan.jobs.push_back(maker.make(i));
+        complete_output(out, plan.jobs.back());
         require_inside(plan.folder, plan.jobs.back());
     }
     require_own_outputs(plan);

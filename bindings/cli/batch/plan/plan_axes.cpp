@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "bindings/cli/batch/plan/table.h"
 #include "kernel/core/error.h"
 #include "kernel/core/nearest.h"
 
@@ -47,8 +48,12 @@ const ScriptParameter& input_parameter(const ParameterSet& parameters, const Scr
     }
     if (files.size() == 1) return *files[0];
     if (required.size() == 1) return *required[0];
-    if (files.empty())
-        refuse_plan("--over " + pattern + ": the script has no parameter of type file");
+    if (files.empty()) {
+        refuse_plan("--over " + pattern +
+                    ": the script has no parameter of type file; name the one that takes the "
+                    "files: --over NAME=" +
+                    pattern);
+    }
     refuse_plan("--over " + pattern + ": the script has several parameters of type file (" +
                 listed_names(files) + "); name one: --over " + files[0]->name + "=" + pattern);
 }
@@ -57,7 +62,7 @@ bool is_table(const std::string& word) {
     std::string extension = fs::path(word).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".csv";
+    return extension == ".csv" || extension == ".tsv";
 }
 
 Axis over_axis(const ParameterSet& parameters, const ScriptParameter& out,
@@ -91,6 +96,22 @@ void require_given_once(const Axes& axes, const ScriptParameter& out) {
     for (const Axis& axis : axes.list) {
         for (std::size_t i = 0; i < axis.given; ++i) give(axis.names[i]);
     }
+}
+
+std::vector<std::string_view> placeholder_names(const ParameterSet& parameters, const Axes& axes,
+                                                const ScriptParameter& out) {
+    std::vector<std::string_view> names;
+    const auto add = [&names](std::string_view name) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    for (const Axis& axis : axes.list) {
+        for (const std::string& name : axis.names) add(name);
+    }
+    for (const ScriptParameter& p : parameters.list) {
+        if (&p != &out) add(p.name);
+    }
+    add("n");
+    return names;
 }
 
 }  // namespace
@@ -139,13 +160,10 @@ Axes read_axes(const ParameterSet& parameters, const ScriptParameter& out,
 
 // Every value that parameters and axes have is a value for a placeholder; every column that is no
 // parameter must be one.
-void require_known_names(const ParameterSet& parameters, const Axes& axes,
-                         const OutputName& output) {
+void require_known_names(const ParameterSet& parameters, const ScriptParameter& out,
+                         const Axes& axes, const OutputName& output) {
     const std::vector<std::string> used = output.placeholders();
-    std::vector<std::string_view> known = parameters.names();
-    for (const Axis& axis : axes.list)
-        known.insert(known.end(), axis.names.begin(), axis.names.end());
-    known.emplace_back("n");
+    const std::vector<std::string_view> known = placeholder_names(parameters, axes, out);
     for (const std::string& name : used) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         refuse_plan("--out: there is no value for {" + name + "}" + name_hint(name, known));
@@ -181,6 +199,18 @@ JobValues values_of(const Axes& axes, std::size_t index) {
         index /= axis->rows.size();
     }
     return values;
+}
+
+std::string job_place(const Axes& axes, std::size_t index) {
+    std::string place = "job " + std::to_string(index + 1);
+    for (auto axis = axes.list.rbegin(); axis != axes.list.rend(); ++axis) {
+        const std::size_t row = index % axis->rows.size();
+        if (!axis->lines.empty()) {
+            place += " (" + axis->table + ":" + std::to_string(axis->lines[row]) + ")";
+        }
+        index /= axis->rows.size();
+    }
+    return place;
 }
 
 }  // namespace lissom::cli

@@ -36,9 +36,10 @@ Axes read_axes(const lua::ParameterSet& parameters, const lua::ScriptParameter& 
                const BatchWords& words);
 
 /// Checks that each placeholder has a value, and that each column is a parameter or a placeholder.
+/// `out` is the parameter of the output.
 /// Errors: invalid_argument.
-void require_known_names(const lua::ParameterSet& parameters, const Axes& axes,
-                         const OutputName& output);
+void require_known_names(const lua::ParameterSet& parameters, const lua::ScriptParameter& out,
+                         const Axes& axes, const OutputName& output);
 
 /// Returns the number of jobs, a million at most. Errors: invalid_argument.
 std::size_t job_count(const Axes& axes);
@@ -53,5 +54,8 @@ struct JobValues {
 
 /// Returns the values of a job, from 0: the last axis varies fastest.
 JobValues values_of(const Axes& axes, std::size_t index);
+
+/// Returns the place of a job, from 0, for messages: "job 3 (table.csv:4)".
+std::string job_place(const Axes& axes, std::size_t index);
 
 }  // namespace lissom::cli

@@ -72,7 +72,7 @@ void declare_run(CLI::App& app, RunWords& words) {
                    "How often a failed job is tried again (default: 1)")
         ->check(CLI::Range(0, 100));
     app.add_option("--timeout", words.options.timeout, "Seconds a job may take; 0: any (default)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(0.0, 1e9));
     app.add_option_function<std::string>(
            "--isolate",
            [&words](const std::string& word) { words.options.packs = word == "state"; },

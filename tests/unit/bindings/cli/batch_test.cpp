@@ -6,6 +6,7 @@
 #include "bindings/cli/batch/ledger.h"
 #include "bindings/cli/batch/plan/axis.h"
 #include "bindings/cli/batch/plan/output_name.h"
+#include "bindings/cli/batch/plan/table.h"
 #include "kernel/core/error.h"
 #include "tests/unit/bindings/cli/program_run.h"
 
@@ -44,8 +45,14 @@ TEST_CASE("a table reads quotes, lines within values and any line ends") {
         folder.write("t.csv", "\xef\xbb\xbfname,text\r\na,\"x, \"\"y\"\"\nz\"\r\n\r\nb,\r\n"));
     CHECK(axis.names == Values{"name", "text"});
     CHECK(axis.rows == std::vector<Values>{{"a", "x, \"y\"\nz"}, {"b", ""}});
-    for (const char* text :
-         {"", "\n\n", "a,b\n", "a,\n1,2\n", "a,a\n1,2\n", "a,b\n1\n", "a\n\"1\n", "a\n\"1\"2\n"}) {
+    const Axis other = table_axis(
+        folder.write("o.csv", "a; b ;\r\n 1;x,\ty;\r\n;;\r\n2;\" z \";\r\n\"\";\"\";\r\n"));
+    CHECK(other.names == Values{"a", "b"});
+    CHECK(other.rows == std::vector<Values>{{"1", "x,\ty"}, {"2", " z "}, {"", ""}});
+    CHECK(other.lines == std::vector<int>{2, 4, 5});
+    CHECK(table_axis(folder.write("t.tsv", "a\tb\n1\t\n")).rows == std::vector<Values>{{"1", ""}});
+    for (const char* text : {"", "\n\n", "a,b\n", "\xff\xfex\n", "a\n\xfc\n", "a;\n1;2\n",
+                             "a,\n1,2\n", "a,a\n1,2\n", "a,b\n1\n", "a\n\"1\n", "a\n\"1\"2\n"}) {
         CAPTURE(text);
         CHECK_THROWS_AS(table_axis(folder.write("bad.csv", text)), Error);
     }
