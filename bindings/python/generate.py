@@ -48,6 +48,84 @@ INPUTS = {"positions": 3, "points": 3, "spine": 3, "normals": 3, "corners": 1, "
           "offsets": 1, "uvs": 2}
 # Names of methods that are other than those of C.
 NAMES = {"mesh_attribute": "attribute_at", "mesh_find_attribute": "attribute_named", "object_numbers_create": "of_numbers"}
+# Help for functions whose comments in C are those of a group.
+DOCS = {
+    "mesh_save": "Saves by extension, whole or not at all. Data that the format cannot hold is named in the log.",
+    "mesh_begin_load": "Starts the load as a job, whose result is a mesh.",
+    "mesh_begin_save": "Starts to save as a job. The mesh may be changed meanwhile.",
+    "mesh_encode": "Returns the bytes of a file; `extension` is \"obj\", \"glb\", ...",
+    "mesh_copy": "Returns a copy.",
+    "mesh_read_boundary": "Returns the vertices of open boundary `number`, in order. Errors: out_of_range.",
+    "mesh_vertex_count": "The number of vertices.",
+    "mesh_face_count": "The number of faces. Polygons are counted as their triangles.",
+    "mesh_corner_count": "The number of corners of all faces.",
+    "mesh_triangle_count": "The number of triangles.",
+    "mesh_boundary_count": "The number of open boundaries.",
+    "mesh_read_positions": "Returns the positions, one row a vertex.",
+    "mesh_read_normals": "Returns normals of unit length, weighted by the angles of faces, one row a vertex; zero if no face "
+                         "of the vertex has area.",
+    "mesh_attribute_count": "The number of attributes.",
+    "mesh_label_count": "Returns the number of labels of a kind: \"material\", \"group\", \"object\", \"smoothing\".",
+    "mesh_find_attribute": "Returns the name, domain, width and count of an attribute. Errors: out_of_range if there is none.",
+    "merge": "Merges this mesh with a target; both stay as they are. Returns the merged mesh and a report. Without joins their "
+             "nearest boundaries meet. Errors: not_a_boundary for a closed mesh; as `Merger.create` and `Merger.solve`.",
+    "begin_erase": "Starts to erase as a job, whose result is a mesh.",
+    "region_size": "The number of vertices.",
+    "deformer_row_count": "The number of vertices of the region: the rows of `positions` and `normals`.",
+    "deformer_read_rows": "Returns the ascending ids of the vertices of the region.",
+    "merger_create": "Prepares a merge of `source` onto targets, to be solved again with other keys. Without joins each target "
+                     "meets the source at their nearest boundaries. The meshes stay as they are. Errors: invalid_argument; "
+                     "out_of_range for a boundary; boundary_conflict; unconstrained; zero_area; memory_limit; cancelled.",
+    "paste_begin_create": "Starts to prepare as a job, whose result is a paste.",
+    "paste_begin_optimize": "Starts to optimize as a job.",
+    "paste_begin_merge": "Starts the merge as a job, whose results are a mesh and a report.",
+    "hairstyle_curve_count": "The number of curves.",
+    "hairstyle_read_curves": "Returns the numbers of all curves in order.",
+    "hairstyle_grow": "Grows hair into new strands. Errors: invalid_argument without a curve; cancelled.",
+    "strands_size": "The number of strands.",
+    "strands_point_count": "The number of points of all strands.",
+    "strands_has": "Returns 1 if strands have these values, else 0. Widths, transparency and ids are always there.",
+    "strands_read": "Returns one element a strand; `value` is \"width\", \"color\", \"root_uv\", ... Errors: out_of_range if there "
+                    "are none.",
+    "strands_read_at_points": "Returns one element a point, for \"width\", \"color\" and \"transparency\".",
+    "render_map_size": "The number of render vertices.",
+    "render_map_triangle_count": "The number of triangles. They may be fewer than were given: those that were dropped are not "
+                                 "drawn.",
+    "numbers_size": "The number of elements.",
+    "numbers_width": "The number of numbers in an element.",
+    "mesh_remove_attribute": "Removes an attribute. Errors: out_of_range if there is none.",
+    "mesh_label_name": "Returns the name of a label of a kind. Errors: out_of_range.",
+    "region_all": "Makes a region of all vertices of a mesh.",
+    "region_sphere": "Makes a region of the vertices in a ball.",
+    "region_box": "Makes a region of the vertices in a box.",
+    "region_plane": "Makes a region of the vertices on the side of a plane that `normal` points to.",
+    "region_geodesic": "Makes a region of the vertices within `radius` over the surface from the one nearest to `point`.",
+    "region_combine": "Returns the \"union\", \"intersection\" or \"difference\" with another region. Errors: topology_mismatch.",
+    "region_invert": "Returns the region of all other vertices.",
+    "deformer_remove_handle": "Removes a handle: its vertices are free. The numbers of others stay.",
+    "deformer_get_transform": "Returns the transform of a handle from its rest shape.",
+    "deformer_begin_prepare": "Starts to prepare as a job.",
+    "deformer_begin_solve": "Starts the solve as a job; read the result when it has ended.",
+    "hairstyle_encode": "Returns the style as the text of a file (JSON).",
+    "hairstyle_add_stream": "Adds a curve through points, along which hair flows; returns its number. Errors: "
+                            "invalid_argument if fewer than two points differ; out_of_range outside of the volume; not_finite.",
+    "hairstyle_add_dividing": "Adds a curve at which hair parts; returns its number. Errors: as `Hairstyle.add_stream`.",
+    "hairstyle_add_ponytail": "Adds a ponytail, in which hair gathers at the beginning of its spine; returns its number. A "
+                              "radius of 0 is the default. Errors: as `Hairstyle.add_stream`.",
+    "curve_set_points": "Replaces the points of a curve (triples).",
+    "curve_enable": "Lets a curve act, or not.",
+    "curve_remove": "Removes a curve; the numbers of others stay.",
+    "strands_load": "Loads .hair, .data or .usda. Files are in metres.",
+    "strands_save": "Saves as .hair, .data, .usda, .rib, .glb or .obj. Files are in metres.",
+    "strands_begin_load": "Starts the load as a job, whose result is new strands.",
+    "strands_begin_save": "Starts to save as a job. The strands are busy until it is finished.",
+    "strands_read_points": "Returns all points, strand after strand.",
+    "strands_read_offsets": "Returns the number of the first point of each strand, and at the end the number of all points.",
+    "strands_group_count": "The number of groups.",
+    "strands_group_name": "Returns the name of a group. Errors: out_of_range.",
+}
+# Words in capitals that are no names.
+KEPT = ("JSON", "ARAP")
 OPTIONS = ("_options", "lissom_placement", "lissom_buffer")
 ARRAY = "Array"
 
@@ -60,20 +138,20 @@ def quoted(text, indent):
     return f'{indent}"""' + ("\n" + indent).join(lines) + f'\n{indent}"""'
 
 
-def plain(doc):
-    """A comment of C in the words of Python: codes of errors as texts, and without what only C has."""
-    doc = re.sub(r"\[any thread\]", "", doc)
-    doc = re.sub(r"\b(Errors:)(.*?)(?=\. [A-Z]|\.?$)",
-                 lambda m: m.group(1) + re.sub(r"\b[A-Z][A-Z_]{3,}\b", lambda w: w.group().lower(), m.group(2)), doc)
-    doc = re.sub(r"\b(?:LISSOM_)?([A-Z]+(?:_[A-Z]+)+|CANCELLED|BUSY)\b", lambda m: m.group(1).lower(), doc)
-    for pattern in (r"[^.;]*\bNULL\b[^.;]*[.;] ?", r", or -1 for an invalid handle"):
-        doc = re.sub(pattern, " ", doc)
+def plain(doc, returns_list=False):
+    """A comment of C in the words of Python: names in small letters, and without what only C has."""
+    doc = re.sub(r"\[any thread\]|, or -1 for an(other| invalid) handle", "", doc)
+    doc = re.sub(r"[^.;]*\bNULL\b[^.;]*[.;] ?", " ", doc)
+    doc = re.sub(r"\bLISSOM_([A-Z_]+)", lambda m: m.group(1).lower(), doc)
+    doc = re.sub(r"\b[A-Z][A-Z_]{3,}\b", lambda m: m.group().lower() if m.group() not in KEPT else m.group(), doc)
     doc = re.sub(r"\s*; ?\s+(?=[A-Z])", ". ", doc)
-    for c, python in (("Receives", "Returns"), ("Writes", "Returns"), ("Write ", "Return ")):
+    words = (("Receives", "Returns"),) + ((("Writes", "Returns"), ("Write ", "Return ")) if returns_list else ())
+    for c, python in words:
         doc = re.sub(rf"^{c}", python, doc)
+    doc = re.sub(r"^(Return|Start|Load|Write|Replace|Add|Find|Make|Save)(?= )", r"\1s", doc)
     doc = re.sub(r"lissom_(\w+?)_(read_)?(\w+)\b", lambda m: f"`{KINDS[m.group(1)]}.{m.group(3)}`"
                  if m.group(1) in KINDS else m.group(), doc)
-    doc = re.sub(r"\blissom_(\w+)", r"`\1`", doc)
+    doc = re.sub(r"\blissom_(\w+)\b(?!\.h)", r"`\1`", doc)
     return re.sub(r"\s+", " ", doc).strip()
 
 
@@ -243,7 +321,9 @@ class Method:
             self.results.append((f"_text({name}.value)", "str"))
         elif base in SCALARS:
             self.before.append(f"{name} = {BASE[base]}()")
-            self.results.append((f"{name}.value", SCALARS[base]))
+            # The length of the list says it.
+            if self.function.name != "lissom_mesh_read_boundary":
+                self.results.append((f"{name}.value", SCALARS[base]))
         elif base == "lissom_transform":
             self.before.append(f"{name} = _abi.lissom_transform()")
             self.results.append((f"tuple({name}.m)", "Transform"))
@@ -333,7 +413,11 @@ class Method:
         return lines + [f"        context = {context}", "        with context._lock:"] + body
 
     def doc(self):
-        doc = plain(self.function.doc) or self.name().replace("_", " ").capitalize() + "."
+        name = self.function.name[len("lissom_"):]
+        returns_list = any(p.type.base == "lissom_output" for p in self.function.parameters)
+        doc = DOCS.get(name) or plain(self.function.doc, returns_list)
+        if not doc:
+            raise SystemExit(f"generate.py: {self.function.name} has no comment")
         if self.function.experimental:
             doc += " Experimental: the next minor version may change it."
         fields = [f for s in self.objects.header.structs for f in s.fields

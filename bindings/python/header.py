@@ -57,7 +57,7 @@ class Header:
 
 def declarations(lines, separator, inherits=False):
     """Yields (comment, text) of each declaration that ends with `separator` outside of brackets. If it `inherits`, a
-    declaration that follows another without a gap and a comment has the comment of that one."""
+    declaration that follows another without a gap and a comment has the comment of that one, if it is in the plural."""
     comment, before, text, depth = [], "", "", 0
     for line in lines:
         code, _, trailing = line.partition("///")
@@ -73,7 +73,9 @@ def declarations(lines, separator, inherits=False):
         text += " " + code if code else ""
         depth += sum(code.count(c) for c in "({") - sum(code.count(c) for c in ")}")
         if text and depth == 0 and code.endswith(separator):
-            before = comment or (before if inherits else "")
+            # "Return the numbers of ..." speaks of several.
+            is_of_several = inherits and before and not before[0].split()[0].endswith("s")
+            before = comment or (before if is_of_several else "")
             yield " ".join(before), re.sub(r"\s+", " ", text).strip().rstrip(separator)
             comment, text = [], ""
     if text.strip():

@@ -65,7 +65,7 @@ class Interface(unittest.TestCase):
                 self.assertTrue(method.__doc__, name)
                 self.assertIn("return", method.__annotations__, name)
                 for word in ("NULL", "LISSOM_", "lissom_"):
-                    self.assertNotIn(word, method.__doc__, f"{kind.__name__}.{name}")
+                    self.assertNotIn(word, method.__doc__.replace("lissom_basis.h", ""), f"{kind.__name__}.{name}")
         self.assertGreater(count, 100)
         self.assertTrue(os.path.exists(os.path.join(os.path.dirname(lissom.__file__), "py.typed")))
 
@@ -79,8 +79,7 @@ class Meshes(unittest.TestCase):
         corners, sizes = mesh.faces()
         self.assertEqual((corners.tolist(), sizes.tolist()), (CORNERS, [3, 3]))
         self.assertEqual(mesh.bounds(), ((0, 0, 0), (1, 1, 0)))
-        vertices, count = mesh.boundary(0)
-        self.assertEqual((sorted(vertices.tolist()), count), ([0, 1, 2, 3], 4))
+        self.assertEqual(sorted(mesh.boundary(0).tolist()), [0, 1, 2, 3])
 
     def test_memory_is_read_and_written_in_place(self):
         given = array.array("f", [number for row in POSITIONS for number in row])
