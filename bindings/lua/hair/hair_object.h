@@ -83,6 +83,11 @@ std::vector<Function> option_methods();
 std::vector<Function> style_stroke_methods();
 std::vector<Record> style_stroke_records();
 
+/// Methods of hairstyles: the field with its constraints, growth, and `save`.
+std::vector<Function> style_field_methods();
+std::vector<Function> style_growth_methods();
+Function style_save_method();
+
 /// Start of examples: kStyle, and a parting.
 extern const std::string kParting;
 
