@@ -165,7 +165,7 @@ class JobProgress {
     double fraction_ = 0.0;
 };
 
-/// What a job leaves: handles of new objects in the order of the function's parameters.
+/// Result of a job: handles of new objects in the order of the function's parameters.
 struct JobResult {
     std::uint64_t objects[2] = {0, 0};
     std::optional<lissom_merge_report> report = {};

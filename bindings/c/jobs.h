@@ -1,4 +1,4 @@
-/// What jobs and contexts know of each other; private to bindings/c.
+/// Links between jobs and contexts; private to bindings/c.
 #pragma once
 
 #include "bindings/c/context.h"

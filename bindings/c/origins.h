@@ -1,4 +1,4 @@
-/// Where the elements of a merged mesh come from, kept beside its handle; private to bindings/c.
+/// Origins of the elements of a merged mesh, kept beside its handle; private to bindings/c.
 #pragma once
 
 #include <memory>

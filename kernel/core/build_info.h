@@ -11,8 +11,8 @@
 namespace lissom {
 
 struct BuildInfo {
-    /// Whether the program has taken in lissom::cholmod, for which it links CHOLMOD, parts of which
-    /// are under the GNU GPL.
+    /// Whether the program has taken in lissom::cholmod and so links CHOLMOD, whose supernodal
+    /// modules are under the GNU GPL.
     bool gpl = false;
     /// Whether oneTBB runs parallel loops (CMake: LISSOM_TBB); without it they are serial unless
     /// a host runs them.

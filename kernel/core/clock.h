@@ -1,4 +1,4 @@
-/// How long steps take.
+/// Durations of steps.
 #pragma once
 
 #include <chrono>

@@ -29,7 +29,7 @@ struct ComparisonProblem {
     const DeformOptions& options;
 };
 
-/// How a source has moved: its deformation gradient, and the rotation in it as a vector along the
+/// Motion of a source: its deformation gradient, and the rotation in it as a vector along the
 /// axis whose length is the angle, which may exceed pi.
 struct SourceMotion {
     Mat3 gradient = Mat3::Identity();

@@ -1,4 +1,4 @@
-/// How good a deformed surface is.
+/// Quality of a deformed surface.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct DeformReportOptions {
 /// Two vertices that are held by different handles, at most two edges apart, and go different ways.
 struct Tear {
     std::array<Index, 2> vertices{kNoIndex, kNoIndex};
-    /// How far apart their handles take the middle between them, in lengths of the edges between.
+    /// Distance of the two places that their handles give the middle between them, in edge lengths.
     double slip = 0.0;
 };
 

@@ -39,9 +39,9 @@ enum class FlatVertices { extended, displaced };
 /// follows the nearest held part as a rigid piece.
 enum class UnheldParts { error, stay, follow };
 
-/// How the region follows its handles. All but `implicit` are the methods that the thesis compares
-/// its own with (sections 2.3 to 2.5), and need DeformOptions::comparison. They use the same
-/// operators and keep the same promises: hard positions, the rest shape to the bit, nothing moves
+/// Method by which the region follows its handles. All but `implicit` are those that the thesis
+/// compares (sections 2.3 to 2.5), and need DeformOptions::comparison. They use the same operators
+/// and keep the same promises: hard positions, the rest shape to the bit, nothing moves
 /// outside the region, no factorisation for a new transform. They have one quality only, so
 /// `preview` and `solve_draft` give the result of `solve`, and no handle basis; weights of handles,
 /// and points that are not vertices, are refused as `unsupported`.
@@ -72,7 +72,7 @@ struct DeformOptions {
     SecondSystem second = SecondSystem::blend;
     LocalSize local_size = LocalSize::keep;
     LaplacianWeights weights = LaplacianWeights::cotangent;
-    /// How often, 0 to 2, the rotations are fitted to the result and it is solved for again: less
+    /// Rounds, 0 to 2, of fitting the rotations to the result and solving for it again: less
     /// distortion, for half a frame each. ARAP iterations, over-relaxed: two do the work of four or
     /// five; more thin twisted parts. Left alone are places that no rotation fits, as the surface
     /// has caved in, and places that handles scale. Refined parts get thinner. A full frame
@@ -131,7 +131,7 @@ struct MirrorPlane {
     double tolerance = 0.0;
 };
 
-/// How far the mirror image of a handle lies from the surface, in parts of the surface's radius.
+/// Distance of a handle's mirror image from the surface, in parts of the surface's radius.
 struct MirrorResidual {
     double max = 0.0, mean = 0.0;
     /// A sentence with a remedy if it is more than the tolerance of the plane; else empty.

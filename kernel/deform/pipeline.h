@@ -52,7 +52,7 @@ struct DeformFrame {
     /// null at rest.
     std::vector<Vec3> inserted;
     std::shared_ptr<const WorkingPatch> patch;
-    /// How vertices of the region that have no faces have turned.
+    /// Rotations of the region's vertices without faces.
     std::vector<Mat3> turns_without_faces;
     /// Deformation gradients, if they are known already; see frame_gradients.
     std::optional<std::vector<Mat3>> gradients;

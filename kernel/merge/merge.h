@@ -49,7 +49,7 @@ enum class Place { as_placed, shape };
 /// Criterion that decided which points of two boundaries meet.
 enum class Placing { keys, as_placed, directions, shape };
 
-/// How a feature that keeps its shape in the free configuration finds the similarity it moves by.
+/// Similarity of a feature that keeps its shape in the free configuration.
 enum class FeatureMotion {
     /// Its Laplacian coordinates share a deformation gradient that is an unknown of the systems
     /// (section 3.5). One factorisation less; the surface around features is distorted more.
@@ -65,7 +65,7 @@ enum class FeatureMotion {
 struct Join {
     /// An open boundary of the source, and one of a target.
     Path source, target;
-    /// Which of the targets.
+    /// Number of the target.
     Index target_mesh = 0;
     /// Points that meet. Without any, MergeOptions::directions or MergeOptions::place decide.
     std::vector<KeyPair> keys = {};
@@ -73,7 +73,7 @@ struct Join {
 
 struct MergeOptions {
     Configuration configuration = Configuration::free;
-    /// How joins without keys are placed. In the fixed configuration the source keeps its place, so
+    /// Placement of joins without keys. In the fixed configuration the source keeps its place, so
     /// that only `as_placed` applies.
     Place place = Place::as_placed;
     /// Features of the source that keep their shape. In the free configuration each moves as a
@@ -138,7 +138,7 @@ struct MergeOptions {
 struct JoinReport {
     /// Vertices of the two loops as they were joined.
     Index source_size = 0, target_size = 0;
-    /// How much the source grew at it.
+    /// Growth of the source at it, as a factor.
     double scale = 1.0;
     /// Criterion of the source's rotation.
     Placing placed = Placing::keys;
@@ -149,8 +149,8 @@ struct JoinReport {
     double certainty = 1.0;
     /// Whether the parts are round, so that no turn is better than another.
     bool any_turn = false;
-    /// How the source turns at this join from how it lies: the unit axis times an angle in radians,
-    /// 0 to pi.
+    /// Rotation of the source at this join from its given place: the unit axis times an angle
+    /// in radians, 0 to pi.
     Vec3 turn = Vec3::Zero();
     /// Points of the boundaries that meet: given as the only key they make the same result, but for
     /// rounding. None in the thesis's transition.
@@ -224,7 +224,7 @@ struct CrossingGroup {
     bool hidden = false;
 };
 
-/// Why a merge is not good.
+/// Reason why a merge is not good.
 struct MergeReason {
     MergeFault fault = MergeFault::crossings;
     /// The join concerned; kNoIndex if it is all of them.

@@ -24,7 +24,7 @@ struct MergeSide {
     /// Radians a loop's edges turn in the mean, as given, and whether it was trimmed.
     std::vector<double> turns;
     std::vector<char> trimmed;
-    /// Why jagged loops could not be trimmed.
+    /// Reasons why jagged loops could not be trimmed.
     std::vector<std::string> untrimmed;
     bool flipped = false;
     /// By loop, or empty for none: those that fit as they are are neither trimmed nor refined.

@@ -33,7 +33,7 @@ MeshMap composed_of_two(const MeshMap& outer, const Topology& first_between, con
                         const MeshMap& second, const Topology& first_origin);
 /// For each old vertex the new one that is nothing but it, or kNoIndex.
 std::vector<Index> kept_vertices(const ElementMap& map, Index old_count);
-/// For each new vertex its place on `second`, the second of two appended meshes, of which the first
+/// For each new vertex its place on `second`, the second of two appended meshes, if the first
 /// has `first_count` vertices: the weighted mean of its origins there, or NaN without any.
 std::vector<Vec3> places_on_second(const MeshMap& map, const Mesh& second, Index first_count);
 

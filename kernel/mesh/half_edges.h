@@ -23,7 +23,7 @@ inline bool ArrayKernel::is_valid_handle(FaceHandle f) const {
     return f.idx() >= 0 && static_cast<std::size_t>(f.idx()) < n_faces();
 }
 
-// If this one is defined, the type of properties is, for whoever asks for it at run time.
+// Defining this one defines the type of properties too, for queries of it at run time.
 inline void BaseProperty::stats(std::ostream& out) const {
     out << name() << '\n';
 }

@@ -23,7 +23,7 @@ struct MorphTarget {
 class MorphAsset {
   public:
     /// Returns the targets, in the order of their numbers, that the faces with the label `object`
-    /// have by the names and weights in the asset; there may be more, of which it tells nothing.
+    /// have by the names and weights in the asset; there may be more, which it does not describe.
     virtual std::vector<MorphTarget> morphs_of(std::string_view object) const = 0;
     /// Returns the asset in which every object has these targets, paired with its own by name;
     /// their weights are its own, or else those given, and animations of weights follow. Null if

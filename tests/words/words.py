@@ -5,7 +5,8 @@
     tests/words/words.py --show FOLDER [ROOT]  the lines of FOLDER with such words
 
 Counted per 1,000 words: "what", "where", sentences that begin with Of, As, What, Where or Whose; at most LIMITS.
-Docstrings (comments with three slashes in C and C++ headers) say "return" at least LEAST_RETURNS times per 1,000 words.
+Docstrings (comments with three slashes in C and C++ headers) say "return" at least LEAST_RETURNS times per 1,000 words,
+and none begins with a clause ("How a loop is measured"): a verb or the field's noun stands there.
 A limit is rounded to the next count that allows more, so that one word in a short folder is none too many.
 """
 import re
@@ -19,7 +20,9 @@ FOLDERS = ("kernel", "bindings", "viewer", "scripts", "examples", "docs")
 CODE = {".h", ".hpp", ".cpp", ".c", ".lua"}
 PATTERNS = {"what": re.compile(r"\bwhat\b", re.I), "where": re.compile(r"\bwhere\b", re.I),
             "openings": re.compile(r"(?:(?<=\A)|(?<=[.!?] )|(?<=[.!?]\) ))(?:Of|As|What|Where|Whose)\b"),
-            "returns": re.compile(r"\breturn(?:s|ed)?\b", re.I)}
+            "returns": re.compile(r"\breturn(?:s|ed)?\b", re.I),
+            "clauses": re.compile(r"\A(?:How|What|When|Where|Which|Who|Whose|Why)\b")}
+IN_DOCSTRINGS = ("returns", "clauses")
 WORD = re.compile(r"[A-Za-z][A-Za-z']*")
 CPP_TOKEN = re.compile(r"""(?P<block>/\*.*?\*/)|(?P<line>//[^\n]*)|R"(?P<mark>\w*)\((?P<raw>.*?)\)(?P=mark)"|(?P<string>"(?:\\.|[^"\\\n])*")"""
                        r"""|'(?:\\.|[^'\\\n])+'""", re.S)
@@ -132,7 +135,8 @@ class Count:
             self.hits[name] += len(PATTERNS[name].findall(text))
         if passage.docstring:
             self.docstring_words += words
-            self.hits["returns"] += len(PATTERNS["returns"].findall(text))
+            for name in IN_DOCSTRINGS:
+                self.hits[name] += len(PATTERNS[name].findall(text))
 
     def merge(self, other):
         self.words += other.words
@@ -141,7 +145,7 @@ class Count:
             self.hits[name] += hits
 
     def rate(self, name):
-        words = self.docstring_words if name == "returns" else self.words
+        words = self.docstring_words if name in IN_DOCSTRINGS else self.words
         return 1000 * self.hits[name] / words if words else 0.0
 
     def excess(self):
@@ -149,6 +153,8 @@ class Count:
         found = [name for name, limit in LIMITS.items() if self.hits[name] > -(-limit * self.words // 1000)]
         if self.hits["returns"] < LEAST_RETURNS * self.docstring_words // 1000:
             found.append("returns")
+        if self.hits["clauses"]:
+            found.append("clauses")
         return found
 
 
@@ -196,7 +202,7 @@ def findings(root, counts=None):
         if count.words == 0:
             found.append(f"{folder}: no prose is there")
         for name in count.excess():
-            bound = f"at least {LEAST_RETURNS}" if name == "returns" else f"at most {LIMITS[name]}"
+            bound = f"at least {LEAST_RETURNS}" if name == "returns" else f"at most {LIMITS.get(name, 0)}"
             found.append(f"{folder}: {name} {count.rate(name):.1f} per 1,000 words, {bound} (--show {folder})")
     return found
 
@@ -224,7 +230,7 @@ def show(root, folder):
             continue
         hits = set()
         for passage in passages(root / name):
-            for key in LIMITS:
+            for key in [*LIMITS, *(["clauses"] if passage.docstring else [])]:
                 hits |= {passage.line_at(match.start()) for match in PATTERNS[key].finditer(passage.text())}
         lines += [f"{name}:{number}: {line}" for number, line in sorted(hits)]
     return "\n".join(lines)

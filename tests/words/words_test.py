@@ -44,6 +44,10 @@ class CountTest(unittest.TestCase):
         self.assertEqual(total.hits["returns"], 1)
         self.assertEqual(total.docstring_words, 16)
 
+    def test_a_docstring_begins_with_no_clause(self):
+        self.assertEqual(count("/// How a loop is measured.\nint a;\n/// Why. Which of them.\nint b;\n").hits["clauses"], 2)
+        self.assertEqual(count("/// Sums faces. How many there are.\nint a;\n// How it works.\n").hits["clauses"], 0)
+
     def test_lua(self):
         total = count('--- Of all.\n--[[ what ]] local s = "it says what" -- where\nlocal t = [[what is there]]\n', ".lua")
         self.assertEqual((total.hits["openings"], total.hits["what"], total.hits["where"]), (1, 3, 1))

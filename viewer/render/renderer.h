@@ -1,6 +1,6 @@
 /// Renderer: pictures of snapshots, drawn with OpenGL into framebuffers of its own: no window, no
 /// display; strands over them without OpenGL. A picture is one update of a GpuScene and one
-/// draw_scene; whoever draws a scene again and again keeps it and calls these.
+/// draw_scene; a caller that draws a scene many times keeps it and calls these.
 #pragma once
 
 #include <memory>

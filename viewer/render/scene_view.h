@@ -1,4 +1,4 @@
-/// How a camera sees a scene: matrices and the range of depths.
+/// View of a scene by a camera: matrices and the range of depths.
 #pragma once
 
 #include "kernel/sketch/camera.h"

@@ -12,7 +12,7 @@
 
 namespace lissom::cli {
 
-/// How a batch stands.
+/// Progress of a batch.
 struct BatchProgress {
     /// Jobs of the plan; done before, done now, and failed in all their attempts.
     std::size_t all = 0, kept = 0, done = 0, failed = 0;

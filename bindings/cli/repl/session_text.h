@@ -1,4 +1,4 @@
-/// Lines typed at the prompt, each of which Lua compiles by itself.
+/// Lines typed at the prompt; Lua compiles each by itself.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// Which files hold tests.
+/// Finds files of tests.
 #pragma once
 
 #include <filesystem>

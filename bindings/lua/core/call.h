@@ -75,7 +75,7 @@ class Call {
 
     /// Whether the script gave a value or the table has a default.
     bool has(const char* path) const;
-    /// Which alternative was given.
+    /// Returns the alternative that was given.
     Kind kind(const char* path) const;
     bool boolean(const char* path) const;
     int integer(const char* path) const;

@@ -32,7 +32,7 @@ struct Listeners {
     /// Messages of the operation that runs, from any thread; delivered when it has ended.
     std::mutex mutex;
     std::vector<Message> messages, delivered;
-    /// How many objects were collected while the operation ran.
+    /// Number of objects collected while the operation ran.
     int collected = 0;
 };
 

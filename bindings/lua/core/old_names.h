@@ -30,7 +30,7 @@ struct OldName {
     const char* owner;
     const char* old_name;
     const char* new_name;
-    /// How it is written now, for messages: "deformer:add_handle(region)".
+    /// The call as it is written now, for messages: "deformer:add_handle(region)".
     const char* usage;
 };
 

@@ -66,7 +66,7 @@ enum class Kind {
     table,
     /// One of `alternatives`, told apart by the Lua type of the value.
     either,
-    /// {x, y, z} of which some, but not all, may be nil or infinite; nil is read as NaN.
+    /// {x, y, z}; some, but not all, may be nil or infinite; nil is read as NaN.
     open_vector,
 };
 

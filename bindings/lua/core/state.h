@@ -44,7 +44,7 @@ struct HostOptions {
 
 struct ParameterSet;
 
-/// Why a script was ended: its help was asked for, or its command line is wrong. The text is the
+/// Reason for a script's end: its help was asked for, or its command line is wrong. The text is the
 /// message of the Lua error that was raised.
 enum class ScriptEnd { none, help, usage };
 

@@ -27,10 +27,10 @@ std::vector<Page> reference_pages(const Registry& registry);
 /// The LuaCATS type of a parameter: "number", "\"a\"|\"b\"", "lissom.Mesh", ...
 std::string annotation_type(const Parameter& parameter);
 
-/// How a function is called: "mesh:save(path, [{...}])" for `call` "mesh:save".
+/// Returns the call of a function: "mesh:save(path, [{...}])" for `call` "mesh:save".
 std::string signature(const Function& function, const std::string& call);
 
-/// How an entry is called: "lissom.load", "mesh:save".
+/// Returns the name in a call: "lissom.load", "mesh:save".
 std::string call_of(const Entry& entry);
 
 /// Returns a function's help for terminals: call, summary, arguments, results, errors, example.

@@ -1,4 +1,4 @@
-/// Which files a script may use.
+/// Rights of a script to read and write files.
 #pragma once
 
 #include <cstddef>

@@ -37,7 +37,7 @@ struct SandboxLimits {
     std::vector<std::filesystem::path> module_folders;
 };
 
-/// Why a script was ended.
+/// Reason for a script's end.
 enum class SandboxEnd { none, seconds, instructions, output, cancelled };
 
 class Sandbox {

@@ -1,4 +1,4 @@
-/// When a script has to end: asked by everything that can take long.
+/// Limits of a script's run: everything that can take long asks for them.
 #pragma once
 
 #include <atomic>

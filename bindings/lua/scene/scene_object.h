@@ -38,7 +38,7 @@ class ScriptItem {
 /// The argument that an object of a scene is given by.
 Parameter item_argument(std::string name, std::string help);
 
-/// Which type of object the argument `path` at stack index `index` is; read in step 1.
+/// The object given by the argument `path` at stack index `index`; read in step 1.
 struct ItemArgument {
     Holder* holder;
     int index;

@@ -1,4 +1,4 @@
-/// How scripts move a camera as a hand does.
+/// Moves of a camera by drags and wheel, for scripts.
 #pragma once
 
 #include <vector>

@@ -165,7 +165,7 @@ function Host:event(kind, fields)
     return setmetatable(event, Event)
 end
 
--- ---- Steps. A gesture, from press to release, is one; whatever else a tool does is one of its own.
+-- ---- Steps. A gesture, from press to release, is one; any other work of a tool is one of its own.
 
 -- By scene: the host whose step is open. Hosts of one scene take turns.
 local holders = setmetatable({}, { __mode = "kv" })

@@ -28,7 +28,7 @@ struct BoundaryValue {
     Mat3 upright = Mat3::Identity();
 };
 
-/// How much details grow away from the held vertices: exp of the harmonic interpolation of log
+/// Growth of details away from the held vertices: exp of the harmonic interpolation of log
 /// scale, or |M| / sqrt 3 of the deformation gradients of the first system (Eq 2.11), which
 /// averaged rotations make too small.
 enum class SizeField { harmonic, gradient };
@@ -60,7 +60,7 @@ struct BoundaryTimes {
 struct BoundaryDeformation {
     /// Positions of the region's vertices, in its order; those of held ones as given, to the bit.
     std::vector<Vec3> positions;
-    /// How the surface turned and grew at them: scale times rotation.
+    /// Turn and growth of the surface at them: scale times rotation.
     std::vector<Mat3> transforms;
     /// For each held vertex, in the order of `held().vertices()`, how far the edges at it would
     /// draw it to be as long and turned as those around them are.

@@ -1,4 +1,4 @@
-/// How near parts of a surface come to one another that lie apart at rest; private to
+/// Distances of parts of a surface that lie apart at rest; private to
 /// kernel/deform.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace lissom {
 
-/// Samples of a mesh at rest, of which those at `moving` vertices may move.
+/// Samples of a mesh at rest; those at `moving` vertices may move.
 class Closeness {
   public:
     /// `moving` is ascending. Samples are spread evenly, so that the time does not depend on the

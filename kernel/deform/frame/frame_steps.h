@@ -101,7 +101,7 @@ struct FrameScratch::State {
     TurnPartRoom part;
     WindingRoom winding;
     std::vector<TakenStretch> taken;
-    /// Rotations in place of which those of `taken` stand.
+    /// Rotations that those of `taken` replace.
     Rotations untaken;
     /// Sized, and zero outside the region, for `sized_for`.
     Rotations rotations;

@@ -1,4 +1,4 @@
-/// How sound the surface is that a frame moves, beside the rest shape; private to kernel/deform.
+/// Quality of a frame's surface, compared with the rest shape; private to kernel/deform.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-/// Which positions and gradients the constraints give; private to kernel/deform.
+/// Masks of positions and gradients given by constraints; private to kernel/deform.
 #pragma once
 
 #include <vector>

@@ -17,7 +17,7 @@ struct FollowingPart {
     std::vector<Index> members;
     /// Corners of the triangles nearest to its vertices, all of the part nearest to it.
     std::vector<Index> guides;
-    /// Who holds all of the guides, or kFree.
+    /// The handle or pin that holds all of the guides, or kFree.
     Index owner = kFree;
 };
 

@@ -62,7 +62,7 @@ class TieRows {
     }
 
     /// Takes w c (the tied mean - anchor) off the residual of each unknown, for positions of all
-    /// local vertices of which `free` are the unknowns.
+    /// local vertices; `free` are the unknowns.
     void subtract_from(std::span<const Vec4> positions, const std::vector<Index>& free,
                        std::vector<Vec3>& residual) const;
 

@@ -29,7 +29,7 @@ Mat3 turned_further(const Mat3& rotation, double part);
 struct Screw {
     Vec3 turn = Vec3::Zero(), velocity = Vec3::Zero(), remainder = Vec3::Zero();
 
-    /// How far the centre has moved when `part` of the screw is done.
+    /// Returns the move of the centre when `part` of the screw is done.
     Vec3 shift(double part) const;
 };
 

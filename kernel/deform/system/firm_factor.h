@@ -8,7 +8,7 @@
 
 namespace lissom {
 
-/// Analyses and factors `matrix`, of which it is known that the constraints determine it. If
+/// Analyses and factors `matrix`, which the constraints are known to determine. If
 /// rounding hides that, the diagonal is enlarged by up to a millionth: the unknowns, which are
 /// deviations from a similarity, then become a little smaller. `matrix` is the one factored.
 /// Errors: not_positive_definite if that does not help; memory_limit; cancelled.

@@ -112,7 +112,7 @@ class GradientSystem {
     }
 
     std::vector<Index> free_;
-    /// Rows of points beside flat vertices, of which the unknown is x_p - x_v, and of v: positions
+    /// Rows of points beside flat vertices, with the unknown x_p - x_v, and of v: positions
     /// within a plane and distances from it then have no entries in common in A.
     std::vector<std::pair<Index, Index>> relative_;
     SymmetricMatrix matrix_;

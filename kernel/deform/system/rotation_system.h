@@ -76,7 +76,7 @@ class RotationSystem {
     Vec3 force(const PaddedMat3* transforms, std::span<const Vec4> x,
                std::span<const Index> vertices, Scratch& scratch, const Context& context) const;
 
-    /// How known vertices that move together are bound to the rest.
+    /// Coupling of known vertices that move together to the rest.
     struct Response {
         /// Position of each local vertex once `solve` has followed one unit of their motion: 1 at
         /// themselves and 0 at other known ones.

@@ -1,4 +1,4 @@
-/// How closely hair keeps to the thesis.
+/// Fidelity of hair to the thesis.
 #pragma once
 
 namespace lissom {

@@ -9,7 +9,7 @@ namespace lissom {
 
 class BraidSpine {
   public:
-    /// Takes points in metres, of which two differ, evenly spaced and smoothed. The frame begins
+    /// Takes points in metres, evenly spaced and smoothed; two must differ. The frame begins
     /// with the direction `across` and turns as little as possible.
     BraidSpine(const std::vector<Vec3>& points, const Vec3& across);
 

@@ -37,7 +37,7 @@ class GuideTable {
     std::vector<double> arcs_;
 };
 
-/// Assigns so many guides, or if `guides` is 0 and strands have none, the usual number.
+/// Assigns `guides` guides, or if that is 0 and strands have none, the usual number.
 void ensure_guides(Strands& strands, Index guides, const Context& context);
 
 }  // namespace lissom

@@ -18,7 +18,7 @@
 
 namespace lissom {
 
-/// How much an operator does, and where: its effect on a point is multiplied by the factor, by the
+/// Strength of an operator by place: its effect on a point is multiplied by the factor, by the
 /// mask of the strand, and by the profile at the point's place along the strand.
 struct StrandOperatorOptions {
     /// Part of the effect, 0 to 1; 0 changes nothing.

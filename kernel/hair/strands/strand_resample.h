@@ -25,14 +25,14 @@ Strands at_places(const Strands& strands,
                   const Context& context = {});
 
 /// Part of a strand's length to keep, 0 to 1; `fractions` are those of its points
-/// (`arc_fractions`), of which there are at least two.
+/// (`arc_fractions`), at least two.
 using KeptPart = std::function<double(Index strand, const std::vector<double>& fractions)>;
 
 /// Shortens strands at their tips. `part` is called on several threads. Errors: as at_places.
 Strands shortened(const Strands& strands, const KeptPart& part, const Context& context = {});
 
 /// Returns the place on a strand at the arc length fraction `t`; `fractions` are those of its
-/// points (`arc_fractions`), of which there are at least two.
+/// points (`arc_fractions`), at least two.
 StrandPlace place_at(const std::vector<double>& fractions, double t);
 
 /// One of the two must be set.

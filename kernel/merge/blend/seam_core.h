@@ -59,7 +59,7 @@ class SeamCore {
     std::vector<Index> vertices_;
     // Unknown of each local vertex in `fill`, or kNoIndex outside the core.
     std::vector<Index> unknown_;
-    // How much of the way an umbrella step goes, for each vertex of the core.
+    // Length of an umbrella step, 0 to 1, for each vertex of the core.
     std::vector<double> strength_;
 };
 

@@ -12,7 +12,7 @@ namespace lissom {
 
 struct Sewn;
 
-/// How far a transition reaches from one seam, in geodesic distance on the merged mesh: a width of
+/// Reach of a transition from one seam, in geodesic distance on the merged mesh: a width of
 /// the source is in the merged mesh's unit too, which is the source's times the scale of its join.
 /// A side of width 0 does not move; then the other one takes over all of its shape at the seam,
 /// read from a band as wide as its own.

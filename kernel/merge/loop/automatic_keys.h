@@ -1,4 +1,4 @@
-/// Which points of boundaries meet if the user gives no keys: the offset along the loop that turns
+/// Correspondence of boundaries without keys: the offset along the loop that turns
 /// the source least from how it lies, or the one under which a similarity fits best.
 #pragma once
 

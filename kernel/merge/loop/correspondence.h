@@ -24,7 +24,7 @@ struct ParameterPair {
 std::vector<ParameterPair> key_parameters(const Loop& source, const Loop& target,
                                           std::span<const KeyPair> keys);
 
-/// Returns the pair of loops with places by arc length between `keys`, of which there is at least
+/// Returns the pair of loops with places by arc length between `keys`; there must be at least
 /// one. With `snap` a vertex of the source that comes closer to one of the target than .3 of the
 /// smaller spacing there meets it; without, only if the two coincide but for rounding.
 LoopPair corresponding(const Loop& source, const Loop& target, std::span<const ParameterPair> keys,

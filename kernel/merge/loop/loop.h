@@ -12,7 +12,7 @@
 
 namespace lissom {
 
-/// How a loop is measured: so that a jagged one counts as the smooth line along it and its normals
+/// Measure of a loop: a jagged one counts as the smooth line along it, and its normals
 /// are those on the boundary itself; or as it is (the thesis).
 enum class LoopMeasure { robust, raw };
 

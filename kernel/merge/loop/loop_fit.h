@@ -47,7 +47,7 @@ struct Matches {
 /// The similarity that moves a source by the correspondence of one of its loops.
 SimilarityMap similarity_of(const Loop& source, const Loop& target, const LoopPair& pair);
 
-/// How many times as long as wide the outline of a loop is, along the principal axes of its points.
+/// Returns the ratio of length to width of a loop, along the principal axes of its points.
 double loop_aspect(const Loop& loop);
 
 /// Rotates one unit vector onto another by the least angle; the identity if either is zero.

@@ -1,4 +1,4 @@
-/// Which points of two boundary loops meet when a source mesh is merged to a target mesh (thesis
+/// Correspondence of two boundary loops when a source mesh is merged to a target mesh (thesis
 /// section 3.3.1).
 #pragma once
 

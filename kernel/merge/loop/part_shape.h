@@ -17,8 +17,8 @@ struct PartShape {
     /// RMS distance of mirrored points from the surface, in sizes of the part: of the best plane,
     /// and of the best of those that lie at another angle.
     double asymmetry = 0.0, next_asymmetry = 0.0;
-    /// How far the centroid of the part, and that of its surface within two radii of the boundary,
-    /// lie beside the boundary's axis, in radii of the boundary.
+    /// Offsets from the boundary's axis, in radii of the boundary: of the centroid of the part, and
+    /// of that of its surface within two radii of the boundary.
     Vec3 mass = Vec3::Zero(), neck = Vec3::Zero();
     /// Whether turning the part about the boundary's axis leaves it as it is.
     bool round = false;

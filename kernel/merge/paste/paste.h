@@ -112,7 +112,7 @@ struct PasteReport {
     /// Neither an angle nor a way was given, and the part's `up` was turned to that of the target,
     /// as far as the surface allows.
     bool upright = false;
-    /// How much the part grew.
+    /// Growth of the part, as a factor.
     double scale = 1.0;
     /// Within three rings of the boundary, by its image, and of the feature's faces.
     PasteDistortion near, feature;
@@ -220,7 +220,7 @@ class PasteSource {
     /// The feature on a target. Errors: as Paste's constructor for the target and the placement.
     Paste on(const Mesh& target, const std::optional<Region>& onto, const PastePlacement& placement,
              const Context& context = {}) const;
-    /// How far the feature with its ring reaches over a surface from its middle, at a scale.
+    /// Returns the reach of the feature with its ring over a surface from its middle, at a scale.
     double reach(double scale) const;
 
   private:

@@ -66,11 +66,11 @@ struct PasteClearing {
     /// Their number and their area, of the target as it is split there.
     Index faces = 0;
     double area = 0.0;
-    /// How far they stand out of the surface that takes their place, at most, or are sunk in it.
+    /// Their greatest height over the surface that takes their place, or depth in it.
     double height = 0.0;
 };
 
-/// How much the part was distorted; see PasteReport.
+/// Distortion of the part; see PasteReport.
 struct PasteDistortion {
     /// 95th percentile over faces of the ratio of the singular values of the face's map.
     double anisotropy = 1.0;

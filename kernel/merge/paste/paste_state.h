@@ -51,7 +51,7 @@ struct TargetOnMap {
     std::optional<std::vector<SharpEdge>> edges = std::nullopt;
 };
 
-/// How long a boundary is sought.
+/// Effort of the search for a boundary.
 struct PasteEffort {
     /// 0: the boundary keeps its start.
     Index iterations = 0;
@@ -187,7 +187,7 @@ struct Paste::State {
     bool bound_to_boundary() const { return options.clear && !options.cleared && gone; }
 };
 
-/// How the energy of a paste is sought.
+/// Returns the options of the search for the least energy.
 EnergyOptions energy_for(const PasteOptions& options, Index iterations);
 
 }  // namespace lissom

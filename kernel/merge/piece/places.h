@@ -1,4 +1,4 @@
-/// Which elements of a mesh stand in the place of which of another.
+/// Source elements of a mesh that was made from another.
 #pragma once
 
 #include <vector>

@@ -36,7 +36,7 @@ struct PieceWork {
     Index first_source_vertex = 0, first_source_face = 0;
 };
 
-/// How many elements of a whole are the target's, which come first.
+/// Numbers of the target's elements in a whole, which come first.
 struct TargetCounts {
     Index vertices = 0, faces = 0;
 };

@@ -12,7 +12,7 @@ namespace lissom {
 /// The side of a seam that a face comes from.
 enum class SeamSide : char { target, source };
 
-/// How two meshes meet at a seam.
+/// Form in which two meshes meet at a seam.
 enum class SeamKind {
     /// The seam runs along the target's loop: vertices of either loop are inserted into the faces
     /// of the other side.

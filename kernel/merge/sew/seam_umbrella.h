@@ -10,7 +10,7 @@
 
 namespace lissom {
 
-/// How a seam is smoothed: steps at most, and whether each is guarded.
+/// Smoothing of a seam: steps at most, and whether each is guarded.
 struct SeamSmoothing {
     Index times = 0;
     bool guarded = true;

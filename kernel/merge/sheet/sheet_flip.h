@@ -26,8 +26,8 @@ std::optional<SheetQuad> quad_at(const SheetTriangles& sheet, Index a, Index c);
 /// Puts the other diagonal in.
 void turn_diagonal(SheetTriangles& sheet, const SheetQuad& quad);
 
-/// When each edge of a triangle was last found to be no better flipped: on account of its two ends,
-/// or of all four vertices. Such edges are not measured again until a triangle there has changed.
+/// Times at which each edge of a triangle was found to be no better flipped: by its two ends,
+/// or by all four vertices. Such edges are not measured again until a triangle there has changed.
 struct FlipMemory {
     std::vector<std::array<std::uint32_t, 3>> useless, refused;
     /// Limits that `refused` holds for.

@@ -20,7 +20,7 @@ using ChordTaken = std::function<bool(Index, Index)>;
 /// with nearly equal areas, as in a plane, the better shape. They name points by their places in
 /// `loop` and turn as it runs. Up to 300 points by dynamic programming over all chords (Barequet
 /// and Sharir 1995), in cubic time; a longer line over the chords near those of the line with every
-/// second point, in linear time: mostly within 1 % of the least area. Empty if the chords that are
+/// second point, in linear time: usually within 1 % of the least area. Empty if the chords that are
 /// left give no triangulation. Errors: invalid_argument for fewer than 3 points; cancelled.
 std::vector<Triangle> minimum_area_triangles(std::span<const Vec3> loop,
                                              const ChordTaken& taken = {},

@@ -1,4 +1,4 @@
-/// How far the surface of a mesh is stretched, sheared and folded beside another shape of it.
+/// Stretch, shear and folds of a mesh's surface, compared with another shape of it.
 #pragma once
 
 #include <span>

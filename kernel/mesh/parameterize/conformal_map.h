@@ -11,7 +11,7 @@
 namespace lissom {
 
 /// Returns the map with the least conformal energy (Dirichlet energy less area) beside the spread
-/// of its open boundary, each point of which counts by length (Mullen et al. 2008, section 3, with
+/// of its open boundary, whose points count by length (Mullen et al. 2008, section 3, with
 /// lengths for their counts of vertices). It is the eigenvector of the least eigenvalue, one
 /// complex number a vertex, found by Lanczos iteration with the inverse. Scale and rotation are
 /// arbitrary. Errors: not_positive_definite; memory_limit; cancelled.

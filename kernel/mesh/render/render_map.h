@@ -1,4 +1,4 @@
-/// RenderMap: the vertices that a renderer draws, of which one vertex of a mesh has several where
+/// RenderMap: the vertices that a renderer draws; one vertex of a mesh has several of them if
 /// texture coordinates or normals differ from face to face.
 #pragma once
 

@@ -22,7 +22,7 @@ namespace lissom {
 /// for three right-hand sides, with G holding the entries of A0+ at the constrained points and W
 /// their weights. With total = 0 and g the known vectors, A0+ U lambda + a is the field that
 /// minimises (4.1) with the soft constraints of (4.2). Up to `dense_limit` rows it is solved with a
-/// dense factor of M = G + W^-2 + shift 1 1', of which an edit renews the rows from the first
+/// dense factor of M = G + W^-2 + shift 1 1'; an edit renews its rows from the first
 /// changed one on; beyond, by conjugate gradients.
 class DualSystem {
   public:

@@ -19,7 +19,7 @@ class GridCholesky {
     GridCholesky(const GridCholesky&) = delete;
     GridCholesky& operator=(const GridCholesky&) = delete;
 
-    /// Brings the factor to these constraints, of which there is at least one. After an error the
+    /// Brings the factor to these constraints, at least one. After an error the
     /// next update factors from nothing. Errors: not_positive_definite; memory_limit; cancelled,
     /// between the stages.
     virtual void update(const ConstraintRows& rows, const Context& context) = 0;

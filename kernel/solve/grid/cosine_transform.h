@@ -22,7 +22,7 @@ struct FieldSink {
     /// Component by component, all points of each.
     double* components = nullptr;
     Vec3* vectors = nullptr;
-    /// Four numbers a point, of which the last is left as it is.
+    /// Four numbers a point; the last is left as it is.
     float* quads = nullptr;
     /// Added to every point.
     Vec3 constant = Vec3::Zero();

@@ -1,4 +1,4 @@
-/// How a GridField is solved.
+/// Options of a GridField.
 #pragma once
 
 #include <cstddef>

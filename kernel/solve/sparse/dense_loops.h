@@ -89,7 +89,7 @@ LISSOM_INLINE void multiply_rows(const DenseProduct& p, const double* a, double*
     }
 }
 
-/// The last one to three rows: a tile that begins above them, of which only these are kept.
+/// The last one to three rows: a tile that begins above them; only these are kept.
 LISSOM_INLINE void multiply_last_rows(const DenseProduct& p, const double* a, double* c, Index rows,
                                       Index depth, bool accumulate) {
     FourRows::Sums sum;

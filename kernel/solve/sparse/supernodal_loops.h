@@ -11,7 +11,7 @@ namespace lissom {
 
 /// A supernodal factor L. Supernode s holds the columns super[s] ..
 /// super[s + 1] - 1 as one dense column-major block at value[first_value[s]]; its rows are
-/// row[first_row[s]] .. row[first_row[s + 1] - 1], of which the first are those columns themselves.
+/// row[first_row[s]] .. row[first_row[s + 1] - 1]; the first of them are those columns.
 template <typename Real>
 struct SupernodalView {
     const Index* super = nullptr;

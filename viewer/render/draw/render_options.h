@@ -1,4 +1,4 @@
-/// How a drawing becomes pixels: the size of the picture, its samples and its shading.
+/// Options of a picture: the size of the picture, its samples and its shading.
 #pragma once
 
 #include <optional>

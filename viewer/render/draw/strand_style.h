@@ -1,4 +1,4 @@
-/// How strands are drawn. Plain data.
+/// Appearance of strands. Plain data.
 #pragma once
 
 #include <optional>

@@ -39,7 +39,7 @@ struct StrandScene {
     double min_width = 0.0;
 };
 
-/// Returns the least width in pixels at which all of so many strands can be seen: 1.5 for up to 50,
+/// Returns the least width in pixels that shows each of `strands` strands: 1.5 for up to 50,
 /// falling to 0 for 500 and more, which are seen together.
 double min_visible_width(Index strands);
 

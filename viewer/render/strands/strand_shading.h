@@ -1,4 +1,4 @@
-/// How a point of a strand is lit: Kajiya and Kay's model with two shifted reflections, as
+/// Light on a point of a strand: Kajiya and Kay's model with two shifted reflections, as
 /// Marschner et al. (2003) found in real hair. View space: x right, y up, z towards the viewer.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// How much light reaches each place in and around hair: the density of strands on a grid, and the
+/// Light at each place in and around hair: the density of strands on a grid, and the
 /// light that is left after passing through it.
 #pragma once
 

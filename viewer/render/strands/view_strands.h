@@ -16,7 +16,7 @@ namespace lissom {
 struct ViewStrands {
     const Strands* strands = nullptr;
     const StrandStyle* style = nullptr;
-    /// The first so many are drawn.
+    /// Number of strands that are drawn, the first ones.
     Index count = 0;
     /// Map from metres of the strands to view space.
     Eigen::Matrix3f linear = Eigen::Matrix3f::Identity();

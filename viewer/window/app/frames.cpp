@@ -41,7 +41,7 @@ bool Frames::has_to_show() const {
     return !state_.is_icon() && (state_.window.is_exposed() || other_size);
 }
 
-// Whoever has changed them: another picture is to be seen.
+// Any change of settings needs a new picture.
 void Frames::see_settings() {
     if (settings_ == state_.settings) return;
     settings_ = state_.settings;

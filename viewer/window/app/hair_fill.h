@@ -11,7 +11,7 @@ namespace lissom::window {
 
 class HairFill {
   public:
-    /// Makes strands with so many threads; `state` must outlive it.
+    /// Makes strands with `threads` threads; `state` must outlive it.
     HairFill(ViewState& state, int threads);
 
     /// `snapshot` is on the graphics card now.

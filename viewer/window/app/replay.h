@@ -32,7 +32,7 @@ class Replay {
     ViewState& state_;
     double speed_;
     std::optional<Player> player_;
-    // How many events were posted, and when that was.
+    // Number of events posted, and the time of the last.
     std::size_t posted_ = 0;
     Clock::time_point last_ = Clock::now();
 };

@@ -16,7 +16,7 @@ namespace lissom::window {
 
 class SceneUpload {
   public:
-    /// Makes surfaces ready with so many threads; both must outlive it.
+    /// Makes surfaces ready with `threads` threads; both must outlive it.
     SceneUpload(ViewState& state, HairFill& hair, int threads);
 
     /// Returns whether the shown picture is on the graphics card.

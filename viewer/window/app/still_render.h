@@ -10,7 +10,7 @@ namespace lissom::window {
 
 class StillRender {
   public:
-    /// Draws with so many threads; `state` must outlive it.
+    /// Draws with `threads` threads; `state` must outlive it.
     StillRender(ViewState& state, int threads);
 
     /// A person wants it in a file, which is a new one in this folder.

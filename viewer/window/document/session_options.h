@@ -14,7 +14,7 @@ struct SessionOptions {
     std::string record = {};
     /// File that keeps the calls of tools as a script; empty for none but that of `copy_scene`.
     std::string journal = {};
-    /// How mesh files are read.
+    /// Options for reading mesh files.
     LoadOptions load = {};
 };
 

@@ -24,7 +24,7 @@ struct PanelHost {
     std::function<const char*()> clipboard = {};
 };
 
-/// Which parts of a window are drawn.
+/// Parts of a window to draw.
 enum class PanelPart { all, over_picture };
 
 class Panel {

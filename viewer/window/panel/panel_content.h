@@ -15,7 +15,7 @@
 
 namespace lissom::window {
 
-/// How far a recording is played.
+/// Progress of a recording that is played.
 struct PlayedPart {
     std::string name;
     std::size_t done = 0, count = 0;
@@ -30,7 +30,7 @@ struct PanelContent {
     /// Names of the presets of the parameters; none without a script to keep them for.
     std::optional<std::vector<std::string>> presets;
     std::vector<ConsoleLine> lines;
-    /// How the line of the console may go on; the panel takes it.
+    /// Completion of the console's line; the panel takes it.
     std::optional<Completion> completion;
     std::optional<PlayedPart> playing;
     /// Scenes of windows that were killed, the newest first.

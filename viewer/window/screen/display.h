@@ -18,7 +18,7 @@ struct DisplaySettings {
     bool vertex_normals = false, face_normals = false;
     /// Occlusion and all samples once nothing moves.
     bool sharp = true;
-    /// Pixels in a unit of length: lines and points are so many times as wide as in a picture that
+    /// Pixels in a unit of length, by which lines and points are wider than in a picture that
     /// a script draws.
     double scale = 1.0;
     /// One for each mesh of the picture; those behind the end are visible.

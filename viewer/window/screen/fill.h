@@ -1,4 +1,4 @@
-/// Fill: draws many strands in slices that measure themselves, so that whoever draws can look for
+/// Fill: draws many strands in slices that measure themselves, so that its caller can look for
 /// events in between. Knows nothing of OpenGL or of clocks.
 #pragma once
 
@@ -8,10 +8,10 @@
 
 namespace lissom::window {
 
-/// How many strands are drawn within a time, by how long the last ones took.
+/// Number of strands that fit into a time, by the time that the last ones took.
 class StrandPace {
   public:
-    /// Aims at `aim` seconds, and begins with so many strands.
+    /// Aims at `aim` seconds, and begins with `first` strands.
     explicit StrandPace(double aim, Index first = 300) : aim_(aim), count_(first) {}
 
     /// Those it begins with, then as many as take so long; never many times more than the last

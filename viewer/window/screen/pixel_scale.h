@@ -10,7 +10,7 @@ struct PixelScale {
     /// Size of the window in the desktop's units, those of cursors, and of its framebuffer in
     /// pixels.
     gl::Extent window = {1, 1}, framebuffer = {1, 1};
-    /// How many times larger than usual the desktop wants letters to be, in pixels.
+    /// The desktop's scale of letters, as a factor of their usual size in pixels.
     double content = 1.0;
 
     /// Returns the pixel under a cursor.

@@ -14,8 +14,8 @@ class Player {
     Player(std::vector<double> times, double speed);
 
     /// `seconds` have passed: the number of events that are due by now. The recording's own time
-    /// goes on by a tenth of a second times its speed at most, so that whoever is slower than the
-    /// recording sees it slowed down, and never has much of it waiting.
+    /// goes on by a tenth of a second times its speed at most, so that a machine slower than the
+    /// recording shows it slowed down, and never has much of it waiting.
     std::size_t advance(double seconds);
     /// Returns seconds until the next event is due, if nothing is slower; a large number if there
     /// is none.

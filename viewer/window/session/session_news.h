@@ -22,7 +22,7 @@ enum class LineKind { message, result, input, warning, error };
 struct ConsoleLine {
     LineKind kind = LineKind::message;
     std::string text;
-    /// How often it was told, one after the other.
+    /// Number of times that it came in a row.
     int times = 1;
 };
 
@@ -41,7 +41,7 @@ struct Shown {
     std::uint64_t number = 0;
 };
 
-/// How a line of the console may go on.
+/// Completion of a line of the console.
 struct Completion {
     /// The line up to the cursor, as it was asked for.
     std::string text;

@@ -1,4 +1,4 @@
-/// SnapshotBounds: the box around the shown objects. A picture that follows another has mostly the
+/// SnapshotBounds: the box around the shown objects. The next picture usually has the
 /// same meshes and strands, which are not looked at again.
 #pragma once
 

@@ -9,7 +9,7 @@
 
 namespace lissom::window {
 
-/// Returns a warning if the largest of some meshes, called `names`, is so many times as large as
+/// Returns a warning if the largest of some meshes, called `names`, is so much larger than
 /// the smallest that this is hardly seen beside it; "" if all can be seen. Vertices that are not
 /// finite do not count.
 std::string unlike_sizes(std::span<const DrawnMesh> meshes, std::span<const std::string> names);

@@ -41,7 +41,7 @@ SlurmArray submit(const Submission& submission, const std::filesystem::path& fil
 /// Returns the state of an array, by one call of squeue.
 SlurmState slurm_state(const SlurmArray& array);
 
-/// Ends the tasks of an array, of which there is nothing left to do. Failures are passed over.
+/// Ends the tasks of an array that have nothing left to do. Failures are passed over.
 void cancel(const SlurmArray& array);
 
 }  // namespace lissom::cli

@@ -2,7 +2,7 @@
 ///
 /// tinygltf parses the text once it was checked and freed of buffers and images, so that it opens
 /// no file and decodes nothing. Its model places numbers and shapes; a defect that it finds in the
-/// rest is an error. The rest is kept as JSON, of which nothing is lost when it is saved again.
+/// rest is an error. The rest is kept as JSON, and is complete when it is saved again.
 #pragma once
 
 #include <cstddef>

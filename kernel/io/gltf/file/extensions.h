@@ -1,4 +1,4 @@
-/// Which extensions of glTF are understood; private to kernel/io and not installed.
+/// Supported extensions of glTF; private to kernel/io and not installed.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// VertexPool: the vertices of one glTF mesh, of which a vertex of the surface has as many as its
+/// VertexPool: the vertices of one glTF mesh: for a vertex of the surface as many as its
 /// corners have different values; private to kernel/io.
 #pragma once
 

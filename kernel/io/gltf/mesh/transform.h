@@ -1,4 +1,4 @@
-/// How vertex values turn with a node; private to kernel/io.
+/// Transforms of vertex values by nodes; private to kernel/io.
 #pragma once
 
 #include <span>

@@ -17,8 +17,8 @@
 namespace lissom {
 
 struct EraseOptions {
-    /// How far around the region the surface may be cut, along edges, in radii of the region's
-    /// outline (its length over 2 pi); 0 cuts along the outline itself. Less is used if the surface
+    /// Distance from the region, along edges, within which the surface may be cut, in radii of
+    /// its outline (its length over 2 pi); 0 cuts along the outline. Less is used if the surface
     /// around is no ring that far.
     double ring = 0.5;
     /// Weight of curvature in the cost of the cut: an edge costs |e| (1 + bend R k), with the
@@ -40,7 +40,7 @@ struct EraseReport {
     Index loop_size = 0;
     double loop_cost = 0.0, ring = 0.0;
     Index removed_vertices = 0, removed_faces = 0;
-    /// Order of continuity of the patch, and the greatest angle between neighbouring faces of which
+    /// Order of continuity of the patch, and the greatest angle between neighbouring faces when
     /// one is in the patch, in radians.
     FairContinuity continuity = FairContinuity::curvature;
     double max_dihedral = 0.0;

@@ -35,7 +35,7 @@ class Drape {
     const Vec3& axis() const { return axis_; }
     /// Mean distance of the images from their mean.
     double radius() const { return radius_; }
-    /// How far the boundary is drawn, at most.
+    /// Returns the longest way that the boundary is drawn.
     double depth() const;
     /// The place of a point of the source before it is drawn.
     Vec3 stood(const Vec3& point) const;

@@ -54,7 +54,7 @@ PasteDistortion near_distortion(const PastePart& part, const Mesh& moved, double
 PasteDistortion feature_distortion(const PastePart& part, const Mesh& moved, double scale,
                                    std::span<const Index> feature);
 
-/// Which points of the part's loop and of the hole meet: those whose images are nearest, in order.
+/// Returns pairs of points of the part's loop and of the hole: nearest images, in order.
 LoopPair paste_pair(const PastePart& part, const OpenedTarget& target,
                     std::span<const RingPoint> rim);
 

@@ -36,7 +36,7 @@ struct RingTriangles {
     Vec2 middle = Vec2::Zero();
 };
 
-/// The ring as a surface of which every point has an image: vertices have the given ones, points of
+/// The ring as a surface with an image of every point: vertices have the given ones, points of
 /// triangles the interpolated ones in the plane of the target.
 class RingSurface {
   public:

@@ -17,7 +17,7 @@
 
 namespace lissom {
 
-/// How the source is turned and scaled onto its image.
+/// Rotation and scale that take the source to its image.
 struct PasteSimilarity {
     Mat3 rotation = Mat3::Identity();
     double scale = 1.0;

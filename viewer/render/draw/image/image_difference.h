@@ -1,4 +1,4 @@
-/// How far two pictures of the same thing differ, drawn by unlike drivers perhaps.
+/// Difference of two pictures of the same scene, which different drivers may have drawn.
 #pragma once
 
 #include <cstddef>
