@@ -6,7 +6,7 @@ namespace lissom::cli {
 
 void LoadFlags::declare(CLI::App& app) {
     app.add_option("--weld", weld,
-                   "Which vertices at the same place become one: those along seams, all, or none "
+                   "Vertices at the same place that become one: those along seams, all, or none "
                    "(default: all for .stl, else seams)")
         ->check(CLI::IsMember({"seams", "all", "none"}));
     app.add_flag("--keep-unused", keep_unused,

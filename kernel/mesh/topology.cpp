@@ -16,6 +16,25 @@ using OpenMesh::VertexHandle;
 
 namespace {
 
+// Returns the half-edge from `from` to `to` of the next edge, whose ends go behind `edges`.
+HalfedgeHandle add_edge(OpenMesh::PolyConnectivity& mesh, std::vector<Index>& edges, Index from,
+                        Index to) {
+    const HalfedgeHandle halfedge(count_of(edges));
+    mesh.set_vertex_handle(halfedge, VertexHandle(to));
+    mesh.set_vertex_handle(mesh.opposite_halfedge_handle(halfedge), VertexHandle(from));
+    edges.push_back(from);
+    edges.push_back(to);
+    return halfedge;
+}
+
+void link_face(OpenMesh::PolyConnectivity& mesh, FaceHandle face,
+               std::span<const HalfedgeHandle> around) {
+    mesh.set_halfedge_handle(face, around.front());
+    for (std::size_t k = 0; k < around.size(); ++k) {
+        mesh.set_next_halfedge_handle(around[k], around[(k + 1) % around.size()]);
+    }
+}
+
 // Links the half-edges outside the surface, which have no face.
 void link_boundary(OpenMesh::PolyConnectivity& mesh, const std::vector<Index>& twin,
                    const std::vector<HalfedgeHandle>& of_corner) {
@@ -33,10 +52,6 @@ void link_boundary(OpenMesh::PolyConnectivity& mesh, const std::vector<Index>& t
         mesh.set_next_halfedge_handle(halfedge, mesh.halfedge_handle(to));
     }
 }
-
-}  // namespace
-
-namespace {
 
 // Returns the bytes of a topology's lists. OpenMesh keeps one index a vertex and face, and two
 // half-edges of four indices an edge.
@@ -91,43 +106,29 @@ std::shared_ptr<const Topology> Topology::create_paired(Index vertex_count, Face
 // The faces were validated, so the half-edges are linked directly instead of by add_face.
 void Topology::build_halfedges(const std::vector<Index>& twin) {
     OpenMesh::PolyConnectivity& mesh = *halfedges_;
-    const Index corners = corner_count();
     boundary_edge_count_ = index_of(boundary_edges_of(twin));
-    const auto edge_total = (at(corners) + boundary_edge_count_) / 2;
+    const auto edge_total = (at(corner_count()) + boundary_edge_count_) / 2;
     mesh.resize(vertex_count_, edge_total, face_count());
     edges_.reserve(2 * edge_total);
 
-    std::vector<HalfedgeHandle> of_corner(corners);
+    std::vector<HalfedgeHandle> of_corner(corner_count());
     for (Index f = 0; f < face_count(); ++f) {
         const std::span<const Index> face = faces_[f];
-        triangle_mesh_ = triangle_mesh_ && face.size() == 3;
         const Index first = first_corner(f);
-        const FaceHandle face_handle(f);
+        triangle_mesh_ = triangle_mesh_ && face.size() == 3;
         for (std::size_t k = 0; k < face.size(); ++k) {
-            const Index corner = first + index_of(k);
+            const Index corner = first + index_of(k), other = twin[corner];
             const Index from = face[k], to = face[(k + 1) % face.size()];
-            const Index other = twin[corner];
-            if (other != kNoIndex && other < corner) {
-                of_corner[corner] = mesh.opposite_halfedge_handle(of_corner[other]);
-            } else {
-                of_corner[corner] = HalfedgeHandle(count_of(edges_));
-                mesh.set_vertex_handle(of_corner[corner], VertexHandle(to));
-                mesh.set_vertex_handle(mesh.opposite_halfedge_handle(of_corner[corner]),
-                                       VertexHandle(from));
-                edges_.push_back(from);
-                edges_.push_back(to);
-            }
-            mesh.set_face_handle(of_corner[corner], face_handle);
+            const bool paired = other != kNoIndex && other < corner;
+            of_corner[corner] = paired ? mesh.opposite_halfedge_handle(of_corner[other])
+                                       : add_edge(mesh, edges_, from, to);
+            mesh.set_face_handle(of_corner[corner], FaceHandle(f));
             // A boundary vertex keeps its outgoing boundary halfedge, as OpenMesh expects.
             if (!mesh.halfedge_handle(VertexHandle(from)).is_valid()) {
                 mesh.set_halfedge_handle(VertexHandle(from), of_corner[corner]);
             }
         }
-        mesh.set_halfedge_handle(face_handle, of_corner[first]);
-        for (std::size_t k = 0; k < face.size(); ++k) {
-            const Index next = first + index_of((k + 1) % face.size());
-            mesh.set_next_halfedge_handle(of_corner[first + index_of(k)], of_corner[next]);
-        }
+        link_face(mesh, FaceHandle(f), std::span(of_corner).subspan(first, face.size()));
     }
     if (boundary_edge_count_ > 0) link_boundary(mesh, twin, of_corner);
 }

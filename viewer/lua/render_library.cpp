@@ -402,8 +402,7 @@ void check_scene_options(const Call& call) {
     }
 }
 
-// Options that exclude each other, or would do nothing without another.
-void check_options(const Call& call) {
+void check_content(const Call& call) {
     if (call.has("scene")) check_scene_options(call);
     if (call.has("mesh") && call.has("meshes")) {
         call.reject("mesh", "give either 'mesh', one, or 'meshes', a list");
@@ -415,34 +414,24 @@ void check_options(const Call& call) {
     if (!has_mesh && call.integer("columns") > 0) {
         call.reject("columns", "it needs 'mesh' or 'meshes'");
     }
-    if (call.has("hair") && !call.has("strands")) call.reject("hair", "it needs 'strands'");
-    if (call.has("hair.level") && call.has("hair.count")) {
-        call.reject("hair.count", "give either 'level', a share, or 'count', a number");
-    }
-    for (const char* option : {"view", "up", "parallel", "margin"}) {
-        if (call.has(option) && call.has("camera")) {
-            call.reject(option, "it describes a standard view; leave it out or leave out 'camera'");
-        }
-    }
-    for (const char* option : {"range", "legend", "label"}) {
-        if (call.has(option) && !call.has("scalars")) call.reject(option, "it needs 'scalars'");
-    }
-    for (const char* option : {"fit", "captions"}) {
-        if (call.has(option) && call.integer("columns") == 0) {
-            call.reject(option, "it needs 'columns'");
-        }
-    }
-    if (call.has("regions") && call.has("scalars")) {
-        call.reject("regions", "give either 'regions' or 'scalars'");
-    }
-    if (call.has("wire_width") && !call.boolean("wire")) {
-        call.reject("wire_width", "it needs 'wire = true'");
-    }
-    if (call.has("crease") && call.choice<Shading>("shading") == Shading::flat) {
-        call.reject("crease", "it is for smooth shading");
-    }
-    if (call.has("style_marks") && !call.has("style")) {
-        call.reject("style_marks", "it needs 'style'");
+}
+
+// Options that do nothing without another.
+void check_needs(const Call& call) {
+    const struct {
+        const char* option;
+        bool met;
+        const char* need;
+    } needs[] = {{"hair", call.has("strands"), "it needs 'strands'"},
+                 {"range", call.has("scalars"), "it needs 'scalars'"},
+                 {"legend", call.has("scalars"), "it needs 'scalars'"},
+                 {"label", call.has("scalars"), "it needs 'scalars'"},
+                 {"fit", call.integer("columns") > 0, "it needs 'columns'"},
+                 {"captions", call.integer("columns") > 0, "it needs 'columns'"},
+                 {"wire_width", call.boolean("wire"), "it needs 'wire = true'"},
+                 {"style_marks", call.has("style"), "it needs 'style'"}};
+    for (const auto& row : needs) {
+        if (call.has(row.option) && !row.met) call.reject(row.option, row.need);
     }
     for (const char* option : {"style_marks.point", "style_marks.normal", "style_marks.spacing"}) {
         if (call.has("style_marks") && call.has(option) && !call.boolean("style_marks.field")) {
@@ -456,8 +445,28 @@ void check_options(const Call& call) {
     }
 }
 
+// Options that exclude each other.
+void check_alternatives(const Call& call) {
+    if (call.has("hair.level") && call.has("hair.count")) {
+        call.reject("hair.count", "give either 'level', a share, or 'count', a number");
+    }
+    for (const char* option : {"view", "up", "parallel", "margin"}) {
+        if (call.has(option) && call.has("camera")) {
+            call.reject(option, "it describes a standard view; leave it out or leave out 'camera'");
+        }
+    }
+    if (call.has("regions") && call.has("scalars")) {
+        call.reject("regions", "give either 'regions' or 'scalars'");
+    }
+    if (call.has("crease") && call.choice<Shading>("shading") == Shading::flat) {
+        call.reject("crease", "it is for smooth shading");
+    }
+}
+
 int render(Call& call) {
-    check_options(call);
+    check_content(call);
+    check_needs(call);
+    check_alternatives(call);
     const ViewRequest view = ViewRequest::read(call);
     const SizeRequest size = SizeRequest::read(call, "size");
     const char* file = call.string("file");
@@ -485,8 +494,8 @@ std::string text_of(double value) {
 
 std::vector<Parameter> lobe_options(const std::string& name, const char* help) {
     return {number(name, help).at_least(0.0),
-            number(name + "_exponent", "How sharp it is.").at_least(0.0),
-            number(name + "_shift", "How far it leans towards the tip; negative: to the root.")
+            number(name + "_exponent", "Its sharpness.").at_least(0.0),
+            number(name + "_shift", "Its lean towards the tip; negative: to the root.")
                 .between(-180.0, 180.0)
                 .in("degrees")};
 }
@@ -520,11 +529,11 @@ std::vector<Parameter> hair_options() {
     const auto share = [&](const char* name, const char* help, double usual) {
         result.push_back(number(name, help).between(0.0, 1.0).optional(text_of(usual)));
     };
-    result.push_back(number("shift_jitter", "How much reflections lean at random, by strand.")
+    result.push_back(number("shift_jitter", "Random lean of reflections, by strand.")
                          .between(0.0, 180.0)
                          .in("degrees")
                          .optional(text_of(s.shift_jitter / kDegree)));
-    share("strand_tone", "How much brighter or darker strands are at random.", s.strand_tone);
+    share("strand_tone", "Random difference of strands' brightness.", s.strand_tone);
     share("clump_tone", "The same for clumps of strands with neighbouring roots.", s.clump_tone);
     result.push_back(number("clump_size", "Distance of the middles of these clumps at the roots.")
                          .above(0.0)
@@ -536,10 +545,12 @@ std::vector<Parameter> hair_options() {
     result.push_back(number("tip_tone", "Factor of the colour at the tip.")
                          .between(0.0, 10.0)
                          .optional(text_of(s.tip_tone)));
-    result.push_back(number("shadow", "How much strands shade each other and the meshes; 0: none.")
-                         .between(0.0, 100.0)
-                         .optional(text_of(s.shadow)));
-    share("scalp_tint", "How far the scalp takes the hair's colour at dense roots.", s.scalp_tint);
+    result.push_back(
+        number("shadow", "Strength of the shadows of strands on each other and on meshes; 0: none.")
+            .between(0.0, 100.0)
+            .optional(text_of(s.shadow)));
+    share("scalp_tint", "Part of the hair's colour that the scalp takes at dense roots.",
+          s.scalp_tint);
     return result;
 }
 
@@ -581,7 +592,7 @@ std::vector<Parameter> content_options() {
                         "Several on the only mesh, or one for each of several.")},
                "Hair to draw, in metres. It hides paths and points.")
             .optional(),
-        options("hair", hair_options(), "How the strands are drawn.").optional(),
+        options("hair", hair_options(), "Appearance of the strands.").optional(),
         object("style", "lissom.Hairstyle",
                "A hairstyle whose curves to draw: streams cyan, dividing curves red, ponytails "
                "purple. Without a mesh or strands on its head.")
@@ -658,7 +669,7 @@ std::vector<Parameter> picture_options() {
                 "Pixels drawn along each side of one in the picture; 2 is for print.")
             .defaults(options.supersample)
             .between(1, 4),
-        number("occlusion", "How much folds and contacts darken; 0 draws faster.")
+        number("occlusion", "Darkness of folds and contacts; 0 draws faster.")
             .defaults(options.occlusion)
             .between(0.0, 1.0)};
 }

@@ -138,7 +138,7 @@ void declare_quality(CLI::App& app, Request& request) {
     app.add_option("--supersample", options.supersample,
                    "Draw larger by this factor and average (default: 1)")
         ->check(CLI::Range(1, 4));
-    app.add_option("--occlusion", options.occlusion, "How much folds darken, 0 to 1 (default: 1)")
+    app.add_option("--occlusion", options.occlusion, "Darkness of folds, 0 to 1 (default: 1)")
         ->check(CLI::Range(0.0, 1.0));
 }
 

@@ -154,7 +154,7 @@ std::vector<Record> kernel_records() {
            "Unit normal of the triangle; zero for a triangle without area."},
           {"number", "distance", "Distance from the query point, or along the ray."}}},
         {"lissom.Distortion",
-         "How a surface differs from its rest, at every vertex.",
+         "Differences of a surface from its rest, at every vertex.",
          {{"lissom.Buffer", "stretch",
            "Length of the edge that changed most, over its length at rest: 1 as at rest."},
           {"lissom.Buffer", "area", "Area of the faces around it, over their area at rest."},

@@ -5,6 +5,7 @@
 
 #include "bindings/lua/core/call.h"
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/core/nearest.h"
 
@@ -150,6 +151,16 @@ void take_arguments(State& state, ParameterSet& set, std::vector<std::string>& r
     state.script_end = ScriptEnd::none;
 }
 
+void take_command_line(State& state, ParameterSet& set, std::vector<std::string>& rest,
+                       bool drops_rest) {
+    try {
+        take_arguments(state, set, rest, drops_rest);
+    } catch (const ParameterError& error) {
+        state.script_end_text = error.message;
+        throw Error(ErrorCode::invalid_argument, error.message);
+    }
+}
+
 int declare(Call& call) {
     State& state = call.state();
     const bool of_script = call.boolean("command_line");
@@ -175,20 +186,11 @@ int declare(Call& call) {
         result.set(set);
         if (!of_script) return set->require_values();
         state.parameters = set;
-        try {
-            take_arguments(state, *set, rest, drops_rest);
-        } catch (const ParameterError& error) {
-            state.script_end_text = error.message;
-            throw Error(ErrorCode::invalid_argument, error.message);
-        }
+        take_command_line(state, *set, rest, drops_rest);
     });
     if (!done) return call.fail();
     call.charge(result);
-    lua_createtable(call.lua(), count_of(rest), 0);
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-        call.push(std::string_view(rest[i]));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+    push_list(call, rest, [&](const std::string& name) { call.push(std::string_view(name)); });
     return 2;
 }
 
@@ -288,21 +290,13 @@ void push_parameter(const Call& call, const ScriptParameter& p) {
     call.set_field("help", call.push(std::string_view(p.help)));
     if (!p.of.empty()) call.set_field("of", call.push(std::string_view(p.of)));
     if (p.choices.empty()) return;
-    lua_createtable(L, count_of(p.choices), 0);
-    for (std::size_t i = 0; i < p.choices.size(); ++i) {
-        call.push(std::string_view(p.choices[i]));
-        lua_rawseti(L, -2, index_of(i) + 1);
-    }
+    push_list(call, p.choices, [&](const std::string& name) { call.push(std::string_view(name)); });
     lua_setfield(L, -2, "choices");
 }
 
 int schema(Call& call) {
     const auto self = call.self<ParameterSet>();
-    lua_createtable(call.lua(), count_of(self->list), 0);
-    for (std::size_t i = 0; i < self->list.size(); ++i) {
-        push_parameter(call, self->list[i]);
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+    push_list(call, self->list, [&](const ScriptParameter& one) { push_parameter(call, one); });
     return 1;
 }
 

@@ -1,5 +1,6 @@
 // lissom.deformer: Deformer.
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/deform/deform_object.h"
 #include "bindings/lua/deform/deform_options.h"
 #include "bindings/lua/deform/deform_points.h"
@@ -206,13 +207,11 @@ int stats(Call& call) {
 }
 
 void push_tears(Call& call, const std::vector<Tear>& tears) {
-    lua_createtable(call.lua(), count_of(tears), 0);
-    for (std::size_t i = 0; i < tears.size(); ++i) {
+    push_list(call, tears, [&](const auto& tear) {
         lua_createtable(call.lua(), 0, 2);
-        call.set_field("vertices", call.push_ids(tears[i].vertices));
-        call.set_field("slip", call.push(tears[i].slip));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+        call.set_field("vertices", call.push_ids(tear.vertices));
+        call.set_field("slip", call.push(tear.slip));
+    });
 }
 
 const char* list_of(ElementKind kind) {
@@ -220,17 +219,14 @@ const char* list_of(ElementKind kind) {
 }
 
 void push_warnings(Call& call, const std::vector<DeformWarning>& warnings) {
-    lua_createtable(call.lua(), count_of(warnings), 0);
-    for (std::size_t i = 0; i < warnings.size(); ++i) {
-        const DeformWarning& warning = warnings[i];
+    push_list(call, warnings, [&](const DeformWarning& warning) {
         lua_createtable(call.lua(), 0, 3);
         call.set_field("kind", call.push(std::string_view(harm_name(warning.harm))));
         call.set_field("message", call.push(std::string_view(warning.message)));
         if (warning.elements.kind != ElementKind::none) {
             call.set_field(list_of(warning.elements.kind), call.push_ids(warning.elements.ids));
         }
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+    });
 }
 
 int report_tostring(lua_State* L) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/parse/expectation.h"
 #include "bindings/lua/deform/thesis_parts.h"
 
 namespace lissom::lua {
@@ -50,11 +51,6 @@ Deformer made_deformer(const Call& call, const MeshObject& mesh) {
 
 std::vector<Parameter> deform_parameters() {
     const DeformOptions defaults;
-    const auto shown = [](double value) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%g", value);
-        return std::string(text);
-    };
     return {
         object("region", "lissom.Region", "The part that may move. Outside nothing does.")
             .optional("all"),
@@ -88,7 +84,7 @@ std::vector<Parameter> deform_parameters() {
         choice("weights", {"cotangent", "uniform"}, "Weights of the Laplacian coordinates.")
             .optional("\"cotangent\""),
         integer("refine",
-                "How often, 0 to 2, rotations are fitted to the result and it is solved for again: "
+                "Rounds, 0 to 2, of fitting the rotations to the result and solving for it again: "
                 "less distortion for half a frame each. For bars and limbs that bend and twist. "
                 "Less of it is kept the nearer parts of the surface come to one another and the "
                 "more edges stretch, and nothing crosses that would not without; a draft does not "
@@ -112,22 +108,22 @@ std::vector<Parameter> deform_parameters() {
                 "beside the region; the mesh keeps its faces.")
             .optional("true"),
         choice("flat", {"extended", "displaced"},
-               "How a vertex whose surroundings are flat knows how it turns: extended, by an "
+               "Rotation of a vertex whose surroundings are flat: extended, by an "
                "unknown of its own beside it, so that a flat part that is moved within its plane "
                "stays flat; displaced, by moving it out of the plane while solving.")
             .optional("\"extended\"")
             .thesis("2.4.3", "\"displaced\""),
         number("displacement",
-               "How far degenerate vertices are displaced, and how far beside flat ones their "
+               "Distance by which degenerate vertices are displaced, and beside flat ones their "
                "unknown lies.")
             .above(0)
             .in("mean lengths of their edges")
-            .optional(shown(defaults.displacement)),
+            .optional(plain_number(defaults.displacement)),
         number("degenerate_threshold",
                "Condition number from which a vertex counts as degenerate and is displaced. Below "
                "about 100 that is nearly every vertex.")
             .above(1)
-            .optional(shown(defaults.degenerate_threshold))
+            .optional(plain_number(defaults.degenerate_threshold))
             .thesis("2.4.3", "200000"),
         number("transition",
                "Width of the zone along the region's outline, in geodesic distance, over which "

@@ -1,6 +1,7 @@
 // lissom.Curve: a curve of a hairstyle.
 #include "kernel/hair/curve/curve.h"
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "kernel/hair/curve/hint.h"
 
@@ -58,12 +59,8 @@ int push_curve_points(Call& call, const Points& points_of) {
         scalp = &style.scalp();
     });
     if (!done) return call.fail();
-    lua_createtable(call.lua(), count_of(*list), 0);
-    for (std::size_t i = 0; i < list->size(); ++i) {
-        call.push_vector(scalp->from_metres((*list)[i]));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
-    return 1;
+    return push_list(call, *list,
+                     [&](const Vec3& point) { call.push_vector(scalp->from_metres(point)); });
 }
 
 int curve_points(Call& call) {

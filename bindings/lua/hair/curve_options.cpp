@@ -78,7 +78,7 @@ Parameter metres_field(const std::string& name, const std::string& help) {
 std::vector<Parameter> common_fields() {
     return {string("name", "For people, and for groups of strands.").optional(),
             boolean("enabled", "Curves that are not have no effect.").optional("true"),
-            number("weight", "How firmly the field is held to the curve (omega of the thesis).")
+            number("weight", "Weight of the curve in the field (omega of the thesis).")
                 .between(1e-6, 1e9)
                 .optional("100")};
 }
@@ -86,7 +86,7 @@ std::vector<Parameter> common_fields() {
 Parameter stop_field() {
     return either("stop",
                   {boolean("on", "Whether it does."),
-                   metres_field("length", "How far behind the end.").at_least(0)},
+                   metres_field("length", "Length behind the end.").at_least(0)},
                   "Keeps hair from growing on beyond the end of the curve, by vectors that vanish "
                   "over a length.")
         .optional("true, 0.04 metres");
@@ -114,19 +114,19 @@ std::vector<Parameter> own_dividing_fields() {
         metres_field("height", "h of the thesis: the crest is 0.39 times as high.")
             .at_least(0)
             .optional("half a grid step"),
-        metres_field("reach", "How far from the line hair is shaped.")
+        metres_field("reach", "Distance from the line within which hair is shaped.")
             .above(0)
             .optional("2.5 sigma"),
-        metres_field("thickness", "How far above and below its line hair is shaped.")
+        metres_field("thickness", "Distance above and below its line within which hair is shaped.")
             .above(0)
             .optional("0.8 grid steps"),
         number("separation", "Magnitude of the vectors that keep both sides apart.")
             .between(0, 1)
             .optional("0.3"),
-        metres_field("wall_width", "How far from the line these stand.")
+        metres_field("wall_width", "Distance of these from the line.")
             .above(0)
             .optional("1.2 grid steps"),
-        metres_field("wall_height", "How high.").at_least(0).optional("2.6 grid steps"),
+        metres_field("wall_height", "Their height.").at_least(0).optional("2.6 grid steps"),
         metres_field("ramp", "Nearer to the line, vectors away from it fade; 0 as in the thesis.")
             .at_least(0)
             .optional("0.87 grid steps")
@@ -173,13 +173,13 @@ std::vector<Parameter> own_ponytail_fields() {
             .optional("1.5 grid steps")
             .thesis("4.5", "half a grid step"),
         number("grip",
-               "How strongly the tail holds its hair together: by how much vectors just "
-               "outside turn inward, a grid step. 0 as in the thesis.")
+               "Strength with which the tail holds its hair together: the turn inward of vectors "
+               "just outside, a grid step. 0 as in the thesis.")
             .at_least(0)
             .optional("4")
             .thesis("4.5", "0"),
         number("spread",
-               "How strongly hair spreads again behind the tie and fills the tail. 0 as in "
+               "Strength with which hair spreads again behind the tie and fills the tail. 0 as in "
                "the thesis.")
             .at_least(0)
             .optional("2")

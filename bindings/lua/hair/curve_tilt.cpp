@@ -1,5 +1,6 @@
 // lissom.Curve: the tilts of a parting, from hint strokes beside it.
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/hair/hair_object.h"
 
 namespace lissom::lua {
@@ -65,17 +66,10 @@ int curve_hints(Call& call) {
         scalp = &curve->owner->style().scalp();
     });
     if (!done) return call.fail();
-    lua_State* L = call.lua();
-    lua_createtable(L, count_of(*hints), 0);
-    for (std::size_t h = 0; h < hints->size(); ++h) {
-        lua_createtable(L, count_of((*hints)[h]), 0);
-        for (std::size_t i = 0; i < (*hints)[h].size(); ++i) {
-            call.push_vector(scalp->from_metres((*hints)[h][i]));
-            lua_rawseti(L, -2, index_of(i) + 1);
-        }
-        lua_rawseti(L, -2, index_of(h) + 1);
-    }
-    return 1;
+    return push_list(call, *hints, [&](const auto& hint) {
+        push_list(call, hint,
+                  [&](const Vec3& point) { call.push_vector(scalp->from_metres(point)); });
+    });
 }
 
 int remove_hints(Call& call) {

@@ -1,5 +1,6 @@
 // lissom.Curve: the options of a curve as they act.
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/hair/hair_object.h"
 
 namespace lissom::lua {
@@ -110,12 +111,8 @@ bool find_tail(Call& call, const PonytailOptions*& options, const Scalp*& scalp)
 }
 
 int push_in_mesh_units(const Call& call, const Scalp& scalp, const std::vector<Vec3>& metres) {
-    lua_createtable(call.lua(), count_of(metres), 0);
-    for (std::size_t i = 0; i < metres.size(); ++i) {
-        call.push_vector(scalp.from_metres(metres[i]));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
-    return 1;
+    return push_list(call, metres,
+                     [&](const Vec3& point) { call.push_vector(scalp.from_metres(point)); });
 }
 
 int curve_section(Call& call) {

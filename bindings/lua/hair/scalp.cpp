@@ -137,12 +137,12 @@ std::vector<Function> scalp_methods() {
          .example = kScalp + "assert(#scalp:center() == 3)"},
         {.name = "up",
          .body = scalp_up,
-         .summary = "Which way is up.",
+         .summary = "Direction upwards.",
          .results = direction,
          .example = kScalp + "assert(scalp:up()[2] > 0.99)"},
         {.name = "front",
          .body = scalp_front,
-         .summary = "Which way the head looks.",
+         .summary = "Direction that the head looks in.",
          .results = direction,
          .example = kScalp + "assert(scalp:front()[3] > 0.99)"},
         {.name = "left",
@@ -152,7 +152,7 @@ std::vector<Function> scalp_methods() {
          .example = kScalp + "assert(scalp:left()[1] > 0.99)"},
         {.name = "unit",
          .body = scalp_unit,
-         .summary = "How long a unit of the mesh is.",
+         .summary = "Length of a unit of the mesh.",
          .results = {{"number", "unit", "Metres in one unit of the mesh."}},
          .example = kScalp + "assert(scalp:unit() == 1)"},
         {.name = "knows_unit",
@@ -164,7 +164,7 @@ std::vector<Function> scalp_methods() {
          .example = kScalp + "assert(scalp:knows_unit())"},
         {.name = "scale",
          .body = scalp_scale,
-         .summary = "How large the head is: styles are made in metres of an average head.",
+         .summary = "Size of the head: styles are made in metres of an average head.",
          .results = {{"number", "scale", "Mesh units in one metre of a style."}},
          .example = kScalp + "assert(scalp:scale() > 0.9 and scalp:scale() < 1.1)"},
         {.name = "from_metres",
@@ -187,7 +187,7 @@ std::vector<Function> scalp_methods() {
 std::vector<Parameter> direction_fields() {
     return {number("azimuth", "0 in front, 90 at the head's left, 180 behind.").in("degrees"),
             number("elevation", "0 is level, 90 up.").in("degrees"),
-            number("lift", "How far above the head.").in("metres").defaults(0.0)};
+            number("lift", "Height above the head.").in("metres").defaults(0.0)};
 }
 
 Function point_at_method(Body body, const std::string& example) {
@@ -253,9 +253,9 @@ std::vector<Function> scalp_functions() {
          .arguments = {object("head", "lissom.Mesh", "The head.")},
          .options = {object("region", "lissom.Region", "The hairy part.")
                          .optional("the region \"scalp\", or the part above an average hairline"),
-                     axis("up", "Which way is up.").optional("guessed"),
-                     axis("front", "Which way the head looks.").optional("guessed"),
-                     number("unit", "How long a unit of the mesh is.")
+                     axis("up", "Direction upwards.").optional("guessed"),
+                     axis("front", "Direction that the head looks in.").optional("guessed"),
+                     number("unit", "Length of a unit of the mesh.")
                          .above(0)
                          .in("metres")
                          .optional("m, cm, mm, dm or inch, if one makes this the width of a head; "

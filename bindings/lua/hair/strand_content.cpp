@@ -1,6 +1,7 @@
 // lissom.Strands: contents and measures.
 #include <cstdio>
 
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/hair/strand_effect.h"
 #include "bindings/lua/hair/strands_methods.h"
@@ -85,12 +86,8 @@ int point_counts(Call& call) {
 
 int groups(Call& call) {
     const std::vector<std::string>& names = strands_of(call).group_names();
-    lua_createtable(call.lua(), count_of(names), 0);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        call.push(std::string_view(names[i]));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
-    return 1;
+    return push_list(call, names,
+                     [&](const std::string& name) { call.push(std::string_view(name)); });
 }
 
 int strands_bounds(Call& call) {
@@ -110,22 +107,7 @@ int strands_hash(Call& call) {
     return call.push(std::string_view(text));
 }
 
-int strand_stats(Call& call) {
-    const double sharp = call.number("sharp_turn") * kDegree;
-    const bool on_head = call.has("style"), has_depth = call.has("depth");
-    StrandStatistics found;
-    const bool done = call.attempt([&] {
-        StrandStatisticsOptions options;
-        options.sharp_turn = sharp;
-        if (on_head) {
-            const Hairstyle& style = call.object<HairstyleObject>("style")->style();
-            options.distance = distance_to_head(style);
-            options.depth = kSkin * style.scalp().scale() * style.scalp().unit();
-        }
-        if (has_depth) options.depth = call.number("depth");
-        found = strand_statistics(strands_of(call), options, call.context());
-    });
-    if (!done) return call.fail();
+void push_statistics(const Call& call, const StrandStatistics& found) {
     lua_createtable(call.lua(), 0, 13);
     const struct {
         const char* name;
@@ -146,6 +128,25 @@ int strand_stats(Call& call) {
     if (found.max_turn_strand != kNoIndex) {
         call.set_field("max_turn_strand", call.push_id(found.max_turn_strand));
     }
+}
+
+int strand_stats(Call& call) {
+    const double sharp = call.number("sharp_turn") * kDegree;
+    const bool on_head = call.has("style"), has_depth = call.has("depth");
+    StrandStatistics found;
+    const bool done = call.attempt([&] {
+        StrandStatisticsOptions options;
+        options.sharp_turn = sharp;
+        if (on_head) {
+            const Hairstyle& style = call.object<HairstyleObject>("style")->style();
+            options.distance = distance_to_head(style);
+            options.depth = kSkin * style.scalp().scale() * style.scalp().unit();
+        }
+        if (has_depth) options.depth = call.number("depth");
+        found = strand_statistics(strands_of(call), options, call.context());
+    });
+    if (!done) return call.fail();
+    push_statistics(call, found);
     if (on_head) {
         call.set_field("penetrating", call.push(found.penetrating));
         call.set_field("deepest", call.push(found.deepest));
@@ -186,7 +187,7 @@ std::vector<Function> strand_content_methods() {
          .example = kTwoStrands + "assert(hair:points():count() == 5)"},
         {.name = "point_counts",
          .body = point_counts,
-         .summary = "How many points each strand has.",
+         .summary = "Numbers of points of the strands.",
          .results = {{"integer[]", "counts", "One number a strand."}},
          .example = kTwoStrands + "assert(hair:point_counts()[2] == 2)"},
         {.name = "groups",
@@ -217,7 +218,7 @@ std::vector<Function> strand_content_methods() {
                      "Measures too how many strands are inside its head, on which they grew, by "
                      "the distance to its surface.")
                   .optional("not measured"),
-              number("depth", "How deep they must be to count.")
+              number("depth", "Depth from which on they count.")
                   .in("metres")
                   .optional("0.0005, as the head is larger than an average one")},
          .results = {{"lissom.StrandStats", "stats", "The measures."}},

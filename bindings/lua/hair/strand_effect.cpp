@@ -71,7 +71,7 @@ std::vector<Parameter> effect_fields(const StrandOperatorOptions& d, bool length
                 numbers("shape",
                         "Parts of the effect, 0 to 1, at equal steps from the root to the "
                         "tip.")},
-               "How the effect goes along the strand.")
+               "Course of the effect along the strand.")
             .optional(d.profile.empty() ? (d.shape == 0.0 ? "0" : "0.7") : "from 0 to 1")};
     if (d.profile.empty() && d.shape == 1.0) fields.back() = fields.back().optional("1");
     if (lengths) {

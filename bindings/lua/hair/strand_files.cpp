@@ -103,7 +103,7 @@ Function strands_save_method() {
                     options("camera",
                             {vector("eye", "Its position, in units of the head."),
                              vector("target", "The middle of the picture."),
-                             axis("up", "Which way is up.").defaults("y"),
+                             axis("up", "Direction upwards.").defaults("y"),
                              number("fov", "Vertical opening angle.")
                                  .above(0)
                                  .between(0, 179)

@@ -171,7 +171,7 @@ Function guides_method() {
                             .defaults(d.count)
                             .at_least(1),
                         number("apart",
-                               "How much it counts for the choice of a guide that strands are "
+                               "Weight of it in the choice of a guide that strands are "
                                "combed apart, as at a parting.")
                             .defaults(d.apart)
                             .at_least(0),
@@ -242,19 +242,18 @@ Function frizz_method() {
     return {.name = "frizz",
             .body = frizz_strands,
             .summary = "Lets single hairs leave their lock, each on its own.",
-            .options = with_fields({meters("amplitude", "Distance, about, that tips move.")
-                                        .defaults(d.amplitude)
-                                        .at_least(0),
-                                    meters("wavelength", "Length along the strand of one bend.")
-                                        .defaults(d.wavelength)
-                                        .above(0),
-                                    number("flyaways", "Part of the strands that move more.")
-                                        .defaults(d.flyaways)
-                                        .between(0, 1),
-                                    number("flyaway", "How many times as far those move.")
-                                        .defaults(d.flyaway)
-                                        .at_least(0)},
-                                   effect_fields(d)),
+            .options = with_fields(
+                {meters("amplitude", "Distance, about, that tips move.")
+                     .defaults(d.amplitude)
+                     .at_least(0),
+                 meters("wavelength", "Length along the strand of one bend.")
+                     .defaults(d.wavelength)
+                     .above(0),
+                 number("flyaways", "Part of the strands that move more.")
+                     .defaults(d.flyaways)
+                     .between(0, 1),
+                 number("flyaway", "Factor of their moves.").defaults(d.flyaway).at_least(0)},
+                effect_fields(d)),
             .results = kSelfStrands,
             .errors = kOperatorErrors,
             .example = kTwoStrands + "hair:frizz{ amplitude = 0.002, seed = 3 }"};

@@ -113,7 +113,7 @@ Function clump_method() {
                      .above(0)
                      .or_infinite(),
                  number("apart",
-                        "How much it counts for the choice of a guide that strands are "
+                        "Weight of it in the choice of a guide that strands are "
                         "combed apart, as at a parting.")
                      .defaults(d.apart)
                      .at_least(0),

@@ -268,7 +268,7 @@ Function roll_method() {
         .summary = "Rolls up the ends of strands, as on curlers; lengths stay.",
         .options = with_fields(
             {meters("radius", "Radius of the roll.").defaults(d.radius).above(0),
-             number("start", "Where it begins: 0 at the root, 1 at the tip.")
+             number("start", "Its beginning: 0 at the root, 1 at the tip.")
                  .defaults(d.start)
                  .between(0, 0.999),
              boolean("outward", "Rolls away from the head.").defaults(d.outward), center_field()},

@@ -67,7 +67,7 @@ std::vector<Function> strand_functions() {
              .body = make_strands,
              .summary = "Strands of given points.",
              .options = {points("points", "The points of all strands, root to tip, in metres."),
-                         integers("counts", "How many of them each strand has.").at_least(1)},
+                         integers("counts", "Number of points of each strand.").at_least(1)},
              .results = {{"lissom.Strands", "strands", "The new strands."}},
              .errors = {ErrorCode::invalid_argument},
              .example = kTwoStrands + "assert(#hair == 2)"}};

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "kernel/hair/comb.h"
 
@@ -36,11 +37,8 @@ int add_mask(Call& call) {
 int push_mask(const Call& call, const Scalp& scalp, const MaskStroke& mask) {
     lua_State* L = call.lua();
     lua_createtable(L, 0, 5);
-    lua_createtable(L, count_of(mask.points), 0);
-    for (std::size_t i = 0; i < mask.points.size(); ++i) {
-        call.push_vector(scalp.from_metres(mask.points[i]));
-        lua_rawseti(L, -2, index_of(i) + 1);
-    }
+    push_list(call, mask.points,
+              [&](const Vec3& point) { call.push_vector(scalp.from_metres(point)); });
     call.set_field("points");
     call.set_field("kind", call.push(kMaskKinds[static_cast<int>(mask.kind)]));
     call.set_field("value", call.push(mask.value));
@@ -53,11 +51,7 @@ int list_masks(Call& call) {
     const auto style = call.self<HairstyleObject>();
     const Hairstyle* own = nullptr;
     if (!call.attempt_quick([&] { own = &style->style(); })) return call.fail();
-    lua_createtable(call.lua(), count_of(own->masks()), 0);
-    for (std::size_t i = 0; i < own->masks().size(); ++i) {
-        push_mask(call, own->scalp(), own->masks()[i]);
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+    push_list(call, own->masks(), [&](const auto& mask) { push_mask(call, own->scalp(), mask); });
     return 1;
 }
 

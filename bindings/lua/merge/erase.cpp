@@ -162,24 +162,25 @@ std::vector<Function> erase_methods_of_mesh() {
              "continued over the patch.",
          .arguments = {object("region", "lissom.Region",
                               "The feature to remove, marked casually.")},
-         .options = {number("ring",
-                            "How far around the region the mesh may be cut, in radii of the "
-                            "region's outline. 0: along the outline itself.")
-                         .at_least(0)
-                         .defaults(defaults.ring),
-                     number("bend",
-                            "How much a cut through bent surface costs: an edge costs its length "
-                            "times 1 + bend R k, with the outline's radius R and k the sum of both "
-                            "principal curvatures, without signs. 0: the shortest loop.")
-                         .at_least(0)
-                         .defaults(defaults.bend),
-                     choice("continuity", {"tangents", "curvature"},
-                            "Continuity of the patch with the surface around it: curvature if that "
-                            "is even around the cut, else tangents.")
-                         .defaults("curvature"),
-                     integer("maximum_vertices", "Vertices that the patch may have.")
-                         .at_least(0)
-                         .defaults(defaults.maximum_vertices)},
+         .options =
+             {number("ring",
+                     "Distance from the region within which the mesh may be cut, in radii of the "
+                     "region's outline. 0: along the outline itself.")
+                  .at_least(0)
+                  .defaults(defaults.ring),
+              number("bend",
+                     "Cost of a cut through bent surface: an edge costs its length "
+                     "times 1 + bend R k, with the outline's radius R and k the sum of both "
+                     "principal curvatures, without signs. 0: the shortest loop.")
+                  .at_least(0)
+                  .defaults(defaults.bend),
+              choice("continuity", {"tangents", "curvature"},
+                     "Continuity of the patch with the surface around it: curvature if that "
+                     "is even around the cut, else tangents.")
+                  .defaults("curvature"),
+              integer("maximum_vertices", "Vertices that the patch may have.")
+                  .at_least(0)
+                  .defaults(defaults.maximum_vertices)},
          .results = {{"lissom.Mesh", "mesh", "The mesh without the feature."},
                      {"lissom.EraseReport", "report", "Measures of the result."}},
          .errors = {ErrorCode::topology_mismatch, ErrorCode::region_empty, ErrorCode::not_a_disk,

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/merge/merge_object.h"
 #include "bindings/lua/merge/merge_options.h"
 #include "kernel/merge/merge_once.h"
@@ -202,12 +203,7 @@ int merger_warnings(Call& call) {
     const auto merger = call.self<MergerObject>();
     auto& warnings = call.hold<std::vector<std::string>>();
     if (!call.attempt_quick([&] { warnings = merger->merger().warnings(); })) return call.fail();
-    lua_createtable(call.lua(), count_of(warnings), 0);
-    for (std::size_t i = 0; i < warnings.size(); ++i) {
-        call.push(warnings[i]);
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
-    return 1;
+    return push_list(call, warnings, [&](const auto& warning) { call.push(warning); });
 }
 
 void close_merger(void* object) {

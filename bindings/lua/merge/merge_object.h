@@ -66,8 +66,6 @@ std::span<const JoinSpec> read_joins(const Call& call, const char* path);
 /// Reads a list of key pairs.
 JoinSpec read_keys(const Call& call, const char* path);
 
-/// Pushes {x, y, z}.
-void push_point(const Call& call, const Vec3& point);
 /// Pushes the list of reasons of a verdict.
 void push_reasons(const Call& call, const std::vector<MergeReason>& reasons);
 /// Sets the fields ok, verdict and reasons of the report on top of the stack, and its text for

@@ -50,7 +50,7 @@ std::vector<OptionRow> option_rows(bool slow) {
                        "join for each target"),
          Bridge::taken, nullptr},
         {choice("place", {"as placed", "shape"},
-                "How joins without keys and directions are turned about the axis of the boundary. "
+                "Turn of joins without keys and directions about the axis of the boundary. "
                 "as placed: least from how the source lies beside the target, so that a part that "
                 "was laid roughly, or both as they were modelled, come right; the result is the "
                 "same if both are moved together, or if the source is moved without a turn and "
@@ -97,13 +97,12 @@ std::vector<OptionRow> option_rows(bool slow) {
                  to.fixed.push_back(call.object_at<RegionObject>("fixed", i)->current());
              }
          }},
-        {choice(
-             "features", {"common", "fitted"},
-             "How those of the free configuration find the similarity they move by. common: each "
-             "has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the "
-             "surface is deformed without them first, and again with the fitted similarity: "
-             "less distortion around them, by 5 to 44 % on four merges of real models, in up "
-             "to twice the time.")
+        {choice("features", {"common", "fitted"},
+                "Similarity by which those of the free configuration move. common: each "
+                "has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the "
+                "surface is deformed without them first, and again with the fitted similarity: "
+                "less distortion around them, by 5 to 44 % on four merges of real models, in up "
+                "to twice the time.")
              .optional("\"fitted\"")
              .thesis("3.5", "\"common\""),
          Bridge::refused,

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/merge/merge_object.h"
 
 namespace lissom::lua {
@@ -47,17 +48,16 @@ constexpr const char* kPlacings[] = {"keys", "as placed", "directions", "shape"}
 // A key whose ends are points, as those of the report are.
 void push_key(const Call& call, const KeyPair& key) {
     lua_createtable(call.lua(), 2, 0);
-    push_point(call, std::get<Vec3>(key.source));
+    call.push_vector(std::get<Vec3>(key.source));
     lua_rawseti(call.lua(), -2, 1);
-    push_point(call, std::get<Vec3>(key.target));
+    call.push_vector(std::get<Vec3>(key.target));
     lua_rawseti(call.lua(), -2, 2);
 }
 
 void push_turn(const Call& call, const Vec3& turn) {
     const double angle = turn.norm();
     lua_createtable(call.lua(), 0, 2);
-    push_point(call, angle > 0.0 ? Vec3(turn / angle) : Vec3::UnitY());
-    call.set_field("axis");
+    call.set_field("axis", call.push_vector(angle > 0.0 ? Vec3(turn / angle) : Vec3::UnitY()));
     call.set_field("angle", call.push(kDegrees * angle));
 }
 
@@ -167,22 +167,6 @@ void push_join(const Call& call, const JoinReport& join) {
     call.set_field("band");
 }
 
-void push_joins(const Call& call, const std::vector<JoinReport>& joins) {
-    lua_createtable(call.lua(), count_of(joins), 0);
-    for (std::size_t j = 0; j < joins.size(); ++j) {
-        push_join(call, joins[j]);
-        lua_rawseti(call.lua(), -2, index_of(j) + 1);
-    }
-}
-
-void push_texts(const Call& call, const std::vector<std::string>& texts) {
-    lua_createtable(call.lua(), count_of(texts), 0);
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-        call.push(texts[i]);
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
-}
-
 void push_times(const Call& call, const MergeReport& report) {
     call.set_field("free_vertices", call.push(report.deform.free_vertices));
     call.set_field("displaced_vertices", call.push(report.deform.displaced_vertices));
@@ -216,12 +200,10 @@ void push_flips(const Call& call, const MergeReport& report) {
 }
 
 void push_intersections(const Call& call, const std::vector<FacePair>& pairs) {
-    lua_createtable(call.lua(), count_of(pairs), 0);
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const Index ids[] = {pairs[i].first, pairs[i].second};
+    push_list(call, pairs, [&](const FacePair& pair) {
+        const Index ids[] = {pair.first, pair.second};
         call.push_ids(ids);
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+    });
 }
 
 void push_band(const Call& call, const TransitionBand& band) {
@@ -257,18 +239,15 @@ std::pair<std::size_t, Index> placed(const std::vector<Index>& counts, Index ele
 
 int push_sources(const Call& call, std::span<const ElementMap::Source> sources,
                  const std::vector<Index>& counts, const char* element) {
-    lua_createtable(call.lua(), count_of(sources), 0);
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-        const auto [mesh, id] = placed(counts, sources[i].element);
+    return push_list(call, sources, [&](const ElementMap::Source& source) {
+        const auto [mesh, id] = placed(counts, source.element);
         const bool from_source = mesh + 1 == counts.size();
         lua_createtable(call.lua(), 0, 4);
         call.set_field("side", call.push(from_source ? "source" : "target"));
         if (!from_source) call.set_field("target", call.push(index_of(mesh) + 1));
         call.set_field(element, call.push_id(id));
-        call.set_field("weight", call.push(sources[i].weight));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
-    return 1;
+        call.set_field("weight", call.push(source.weight));
+    });
 }
 
 int provenance_vertex(Call& call) {
@@ -314,22 +293,96 @@ void push_bite(const Call& call, const TargetBite& bite) {
     call.set_field("depth", call.push(bite.depth));
 }
 
-}  // namespace
+// ---- The result of a merge
 
-void push_point(const Call& call, const Vec3& point) {
-    lua_createtable(call.lua(), 3, 0);
-    for (int k = 0; k < 3; ++k) {
-        call.push(point[k]);
-        lua_rawseti(call.lua(), -2, k + 1);
-    }
+struct MergedObjects {
+    Ref<MeshObject> mesh;
+    Ref<ProvenanceObject> provenance;
+    Ref<RegionObject> source, target, seam, band;
+};
+
+// Places on the stack from the mesh on; two values that the call holds follow the objects.
+constexpr int kProvenancePlace = 1, kSourcePlace = 2, kTargetPlace = 3, kSeamPlace = 4,
+              kBandPlace = 5, kMergedValues = 8;
+
+MergedObjects create_merged_objects(const Call& call) {
+    return {call.create<MeshObject>(),   call.create<ProvenanceObject>(),
+            call.create<RegionObject>(), call.create<RegionObject>(),
+            call.create<RegionObject>(), call.create<RegionObject>()};
 }
 
-void push_reasons(const Call& call, const std::vector<MergeReason>& reasons) {
-    lua_createtable(call.lua(), count_of(reasons), 0);
-    for (std::size_t i = 0; i < reasons.size(); ++i) {
-        push_reason(call, reasons[i]);
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+std::vector<Path> seam_paths(const MergeResult& result) {
+    std::vector<Path> paths;
+    for (const std::vector<Index>& seam : result.seams) {
+        paths.emplace_back(result.mesh.shared_topology(), seam, true);
     }
+    return paths;
+}
+
+std::shared_ptr<ProvenanceObject> provenance_of(MergeResult& result, const MergeInputs& inputs) {
+    auto from = std::make_shared<ProvenanceObject>();
+    from->vertices = std::move(result.provenance.vertices);
+    from->faces = std::move(result.provenance.faces);
+    from->inputs = inputs;
+    return from;
+}
+
+// Moves the mesh and the provenance out of `result`. Returns the object of the mesh.
+std::shared_ptr<MeshObject> fill_merged_objects(const MergedObjects& objects, MergeResult& result,
+                                                const MergeInputs& inputs) {
+    Region source = side_region(result.mesh, result.side_of_face, SeamSide::source);
+    Region target = side_region(result.mesh, result.side_of_face, SeamSide::target);
+    Region seam = seam_region(result);
+    Region band(result.mesh.shared_topology(), result.report.transition.moved);
+    auto owner = std::make_shared<MeshObject>(std::move(result.mesh));
+    objects.mesh.set(owner);
+    objects.source.set(std::make_shared<RegionObject>(owner, std::move(source)));
+    objects.target.set(std::make_shared<RegionObject>(owner, std::move(target)));
+    objects.seam.set(std::make_shared<RegionObject>(owner, std::move(seam)));
+    objects.band.set(std::make_shared<RegionObject>(owner, std::move(band)));
+    objects.provenance.set(provenance_of(result, inputs));
+    return owner;
+}
+
+// Gives the table on top of the stack the value at `index`.
+void set_from_stack(const Call& call, const char* field, int index) {
+    lua_pushvalue(call.lua(), index);
+    call.set_field(field);
+}
+
+void set_outcome(const Call& call, const MergeReport& report) {
+    call.set_field("joins", push_list(call, report.joins,
+                                      [&](const JoinReport& join) { push_join(call, join); }));
+    set_verdict(call, report.ok, report.verdict, report.reasons);
+    push_bite(call, report.bite);
+    call.set_field("bite");
+    call.set_field("loose_parts", call.push(report.loose_parts));
+    call.set_field("warnings", push_list(call, report.warnings,
+                                         [&](const std::string& text) { call.push(text); }));
+    push_flips(call, report);
+    call.set_field("flipped");
+    push_intersections(call, report.intersections);
+    call.set_field("intersections");
+    call.set_field("known_intersections", call.push(report.known_intersections));
+}
+
+// The seam and the transition with their regions, which lie behind the mesh at `first`.
+void set_stages(const Call& call, const MergeReport& report, int first) {
+    push_seam(call, report.seam);
+    set_from_stack(call, "region", first + kSeamPlace);
+    call.set_field("seam");
+    const bool blended = !report.transition.source.empty();
+    push_transition(call, report.transition);
+    if (blended) set_from_stack(call, "region", first + kBandPlace);
+    call.set_field("transition");
+    if (blended) call.set_field("transition_kept", call.push(report.transition.kept));
+    push_times(call, report);
+}
+
+}  // namespace
+
+void push_reasons(const Call& call, const std::vector<MergeReason>& reasons) {
+    push_list(call, reasons, [&](const MergeReason& reason) { push_reason(call, reason); });
 }
 
 void set_verdict(const Call& call, bool ok, const std::string& verdict,
@@ -345,79 +398,28 @@ void set_verdict(const Call& call, bool ok, const std::string& verdict,
 }
 
 int push_merge_result(Call& call, MergeResult& result, const MergeInputs& inputs) {
-    const auto mesh = call.create<MeshObject>();
-    const auto provenance = call.create<ProvenanceObject>();
-    const auto source = call.create<RegionObject>();
-    const auto target = call.create<RegionObject>();
-    const auto sewn = call.create<RegionObject>();
-    const auto band = call.create<RegionObject>();
+    const MergedObjects objects = create_merged_objects(call);
     auto& owner = call.hold<std::shared_ptr<MeshObject>>();
     auto& seams = call.hold<std::vector<Path>>();
-    const bool told = result.provenance.vertices.size() > 0;
+    const int first = lua_gettop(call.lua()) - kMergedValues + 1;
+    const bool has_provenance = result.provenance.vertices.size() > 0;
     const bool done = call.attempt_quick([&] {
-        Region at_seam = seam_region(result);
-        Region in_band(result.mesh.shared_topology(), result.report.transition.moved);
-        for (std::vector<Index>& seam : result.seams) {
-            seams.emplace_back(result.mesh.shared_topology(), std::move(seam), true);
-        }
-        Region from_source = side_region(result.mesh, result.side_of_face, SeamSide::source);
-        Region from_target = side_region(result.mesh, result.side_of_face, SeamSide::target);
-        owner = std::make_shared<MeshObject>(std::move(result.mesh));
-        mesh.set(owner);
-        source.set(std::make_shared<RegionObject>(owner, std::move(from_source)));
-        target.set(std::make_shared<RegionObject>(owner, std::move(from_target)));
-        sewn.set(std::make_shared<RegionObject>(owner, std::move(at_seam)));
-        band.set(std::make_shared<RegionObject>(owner, std::move(in_band)));
-        const auto from = std::make_shared<ProvenanceObject>();
-        from->vertices = std::move(result.provenance.vertices);
-        from->faces = std::move(result.provenance.faces);
-        from->inputs = inputs;
-        provenance.set(from);
+        seams = seam_paths(result);
+        owner = fill_merged_objects(objects, result, inputs);
     });
     if (!done) return call.fail();
-    const int first = lua_gettop(call.lua()) - 7;
-    call.charge(mesh);
-    call.charge(provenance);
+    call.charge(objects.mesh);
+    call.charge(objects.provenance);
     lua_pushvalue(call.lua(), first);
     call.remember(owner.get());
     lua_createtable(call.lua(), 0, 25);
-    push_joins(call, result.report.joins);
-    call.set_field("joins");
-    set_verdict(call, result.report.ok, result.report.verdict, result.report.reasons);
-    push_bite(call, result.report.bite);
-    call.set_field("bite");
-    call.set_field("loose_parts", call.push(result.report.loose_parts));
-    push_texts(call, result.report.warnings);
-    call.set_field("warnings");
-    push_flips(call, result.report);
-    call.set_field("flipped");
-    push_seam(call, result.report.seam);
-    lua_pushvalue(call.lua(), first + 4);
-    call.set_field("region");
-    call.set_field("seam");
-    push_transition(call, result.report.transition);
-    if (!result.report.transition.source.empty()) {
-        lua_pushvalue(call.lua(), first + 5);
-        call.set_field("region");
-    }
-    call.set_field("transition");
-    if (!result.report.transition.source.empty()) {
-        call.set_field("transition_kept", call.push(result.report.transition.kept));
-    }
-    push_intersections(call, result.report.intersections);
-    call.set_field("intersections");
-    call.set_field("known_intersections", call.push(result.report.known_intersections));
-    push_times(call, result.report);
+    set_outcome(call, result.report);
+    set_stages(call, result.report, first);
     if (push_paths(call, owner, seams) != 1) return call.fail();
     call.set_field("seams");
-    if (told) {
-        lua_pushvalue(call.lua(), first + 1);
-        call.set_field("provenance");
-    }
-    lua_pushvalue(call.lua(), first + 2);
-    call.set_field("source");
-    lua_pushvalue(call.lua(), first + 3);
-    call.set_field("target");
+    if (has_provenance) set_from_stack(call, "provenance", first + kProvenancePlace);
+    set_from_stack(call, "source", first + kSourcePlace);
+    set_from_stack(call, "target", first + kTargetPlace);
     return 2;
 }
 
@@ -455,12 +457,12 @@ std::vector<Record> merge_records() {
         {"lissom.Origin",
          "An element that another comes from.",
          {{"string", "side", "source or target."},
-          {"integer|nil", "target", "Which of the targets."},
+          {"integer|nil", "target", "Number of the target."},
           {"integer|nil", "vertex", "A vertex of that mesh."},
           {"integer|nil", "face", "A face of that mesh."},
-          {"number", "weight", "How much it counts."}}},
+          {"number", "weight", "Its part of all."}}},
         {"lissom.SeamQuality",
-         "How well seams are hidden; angles in degrees.",
+         "Visibility of seams; angles in degrees.",
          {{"number", "max_dihedral", "The greatest angle between faces across a seam."},
           {"number", "rms_dihedral", "Their root mean square, weighted by edge length."},
           {"number", "max_near", "The greatest angle on and next to a seam."},
@@ -487,7 +489,7 @@ std::vector<Record> merge_records() {
          "Report of one join; angles in degrees.",
          {{"integer", "source_size", "Vertices of the source's boundary as it was joined."},
           {"integer", "target_size", "Vertices of the target's."},
-          {"number", "scale", "How much the source grew there."},
+          {"number", "scale", "Growth of the source there, as a factor."},
           {"string", "placed",
            "Criterion of the source's rotation: keys, as placed, directions or shape."},
           {"boolean", "guessed", "The shapes decided, or directions that contradict each other."},
@@ -495,7 +497,8 @@ std::vector<Record> merge_records() {
            "For a guess: the probability, 0 to 1, that it is right; below .75 give a key."},
           {"boolean", "any_turn", "The parts are round: no turn is better than another."},
           {"table", "turn",
-           "How the source turns from how it lies: axis, a unit vector, and angle in degrees."},
+           "Rotation of the source from its given place: axis, a unit vector, and angle in "
+           "degrees."},
           {"number[][]|nil", "key",
            "A point of the source's boundary and the point of the target's that it meets: "
            "keys = { key } makes the same result. nil in the thesis's transition."},
@@ -553,7 +556,7 @@ std::vector<Record> merge_records() {
           {"number", "target_volume", "The same of the target; 1 of a paste."},
           {"number", "radius", "Radius of the seam."}}},
         {"lissom.MergeReason",
-         "Why a merge is not good. tostring gives text and remedy.",
+         "Reason why a merge is not good. tostring gives text and remedy.",
          {{"string", "fault",
            "crossings, side, folds, roughness, volume, bend, flare, spike, bite, seam, place or "
            "slivers; "
@@ -571,7 +574,7 @@ std::vector<Record> merge_records() {
          "Loss of the target's edges that turn by more than 35 degrees, by a paste: parts of "
          "them stand out of the result, or lie below the surface still left of the target.",
          {{"number", "length", "Their length, in radii of the seam."},
-          {"number", "depth", "How far they are from the result, at most, in these radii."}}},
+          {"number", "depth", "Their greatest distance from the result, in these radii."}}},
         {"lissom.MergeReport",
          "Report of a merge.",
          {{"lissom.TargetBite", "bite", "Loss of the sharp edges of its target, by a paste."},
@@ -608,7 +611,7 @@ std::vector<Record> merge_records() {
           {"integer[][]", "intersections",
            "Pairs of faces that run through one another and come from faces that did not."},
           {"integer", "known_intersections",
-           "How many pairs of moved or made faces come from faces that did."},
+           "Number of pairs of moved or made faces that come from faces that did."},
           {"lissom.Path[]", "seams", "The seams on the merged mesh."},
           {"lissom.Region", "source", "The vertices of the merged mesh that are the source's."},
           {"lissom.Region", "target", "Those that are the targets'."},

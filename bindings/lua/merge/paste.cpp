@@ -469,7 +469,7 @@ assert(#loop:points() == #image:points()))"},
                          "target as it was given: to draw it, or to ask before `merge`.",
               .results = {{"lissom.Region", "region",
                            "The vertices of the faces that go; nil if nothing goes."},
-                          {"lissom.PasteClearing", "report", "How much that is."}},
+                          {"lissom.PasteClearing", "report", "Its extent."}},
               .errors = {ErrorCode::handle_removed},
               .example = horn + R"(local nosed = lissom.paste{
     source = source, target = source, clear = true,

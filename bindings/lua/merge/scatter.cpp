@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/merge/paste_object.h"
 
 namespace lissom::lua {
@@ -50,46 +51,37 @@ std::vector<PastePlacement> read_places(const Call& call) {
 }
 
 void push_shrunk(const Call& call, const std::vector<ShrunkPlace>& shrunk) {
-    lua_createtable(call.lua(), count_of(shrunk), 0);
-    for (std::size_t i = 0; i < shrunk.size(); ++i) {
+    push_list(call, shrunk, [&](const auto& place) {
         lua_createtable(call.lua(), 0, 2);
-        call.set_field("place", call.push(shrunk[i].place + 1));
-        call.set_field("scale", call.push(shrunk[i].scale));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+        call.set_field("place", call.push(place.place + 1));
+        call.set_field("scale", call.push(place.scale));
+    });
 }
 
 void push_moved(const Call& call, const std::vector<MovedPlace>& moved) {
-    lua_createtable(call.lua(), count_of(moved), 0);
-    for (std::size_t i = 0; i < moved.size(); ++i) {
+    push_list(call, moved, [&](const auto& place) {
         lua_createtable(call.lua(), 0, 2);
-        call.set_field("place", call.push(moved[i].place + 1));
-        push_point(call, moved[i].at);
-        call.set_field("at");
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+        call.set_field("place", call.push(place.place + 1));
+        call.set_field("at", call.push_vector(place.at));
+    });
 }
 
 void push_faulty(const Call& call, const std::vector<FaultyPlace>& faulty) {
-    lua_createtable(call.lua(), count_of(faulty), 0);
-    for (std::size_t i = 0; i < faulty.size(); ++i) {
+    push_list(call, faulty, [&](const auto& place) {
         lua_createtable(call.lua(), 0, 2);
-        call.set_field("place", call.push(faulty[i].place + 1));
-        push_reasons(call, faulty[i].reasons);
+        call.set_field("place", call.push(place.place + 1));
+        push_reasons(call, place.reasons);
         call.set_field("reasons");
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+    });
 }
 
 void push_refused(const Call& call, const std::vector<RefusedPlace>& refused) {
-    lua_createtable(call.lua(), count_of(refused), 0);
-    for (std::size_t i = 0; i < refused.size(); ++i) {
+    push_list(call, refused, [&](const auto& place) {
         lua_createtable(call.lua(), 0, 3);
-        call.set_field("place", call.push(refused[i].place + 1));
-        call.set_field("code", call.push(std::string_view(code_name(refused[i].code))));
-        call.set_field("message", call.push(std::string_view(refused[i].message)));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+        call.set_field("place", call.push(place.place + 1));
+        call.set_field("code", call.push(std::string_view(code_name(place.code))));
+        call.set_field("message", call.push(std::string_view(place.message)));
+    });
 }
 
 // The vertices of faces that belong to a place.
@@ -102,6 +94,35 @@ Region region_of_parts(const Mesh& mesh, const std::vector<Index>& place_of_face
     return {mesh.shared_topology(), std::move(vertices)};
 }
 
+ScatterOptions read_scatter_options(const Call& call) {
+    ScatterOptions options;
+    options.iterations = call.integer("iterations");
+    options.paste.share = call.number("ring");
+    options.paste.normals = call.number("normals");
+    options.merge.smooth = call.integer("smooth");
+    options.merge.collar = call.boolean("collar");
+    options.merge.lock_scale = call.integer("size") == 1;
+    options.crossings = call.choice<ScatterCrossings>("crossings");
+    return options;
+}
+
+void push_scatter_report(const Call& call, const ScatterResult& found) {
+    lua_createtable(call.lua(), 0, 12);
+    set_verdict(call, found.ok, found.verdict, found.reasons);
+    call.set_field("placed", call.push(found.placed));
+    push_moved(call, found.moved);
+    call.set_field("moved");
+    push_faulty(call, found.faulty);
+    call.set_field("faulty");
+    push_refused(call, found.refused);
+    call.set_field("refused");
+    push_shrunk(call, found.shrunk);
+    call.set_field("shrunk");
+    call.set_field("crossings", call.push(found.crossings));
+    call.set_field("rounds", call.push(found.rounds));
+    call.set_field("place_of_face", call.push_ids(found.place_of_face));
+}
+
 int scatter_part(Call& call) {
     const auto source = call.object<MeshObject>("source");
     const auto target = call.object<MeshObject>("target");
@@ -111,14 +132,7 @@ int scatter_part(Call& call) {
     auto& made = call.hold<std::shared_ptr<MeshObject>>();
     const auto mesh = call.create<MeshObject>();
     const bool done = call.attempt([&] {
-        ScatterOptions options;
-        options.iterations = call.integer("iterations");
-        options.paste.share = call.number("ring");
-        options.paste.normals = call.number("normals");
-        options.merge.smooth = call.integer("smooth");
-        options.merge.collar = call.boolean("collar");
-        options.merge.lock_scale = call.integer("size") == 1;
-        options.crossings = call.choice<ScatterCrossings>("crossings");
+        const ScatterOptions options = read_scatter_options(call);
         std::optional<Region> feature;
         if (given) feature = call.object<RegionObject>("feature")->current();
         found = std::make_unique<ScatterResult>(
@@ -130,20 +144,7 @@ int scatter_part(Call& call) {
     if (!done) return call.fail();
     call.remember(made.get());
     call.charge(mesh);
-    lua_createtable(call.lua(), 0, 12);
-    set_verdict(call, found->ok, found->verdict, found->reasons);
-    call.set_field("placed", call.push(found->placed));
-    push_moved(call, found->moved);
-    call.set_field("moved");
-    push_faulty(call, found->faulty);
-    call.set_field("faulty");
-    push_refused(call, found->refused);
-    call.set_field("refused");
-    push_shrunk(call, found->shrunk);
-    call.set_field("shrunk");
-    call.set_field("crossings", call.push(found->crossings));
-    call.set_field("rounds", call.push(found->rounds));
-    call.set_field("place_of_face", call.push_ids(found->place_of_face));
+    push_scatter_report(call, *found);
     const auto parts = call.create<RegionObject>();
     call.set_field("parts");
     const bool set = call.attempt_quick([&] {

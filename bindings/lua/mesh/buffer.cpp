@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 
 namespace lissom::lua {
 
@@ -319,18 +320,14 @@ int mesh_attribute(Call& call) {
 
 int mesh_attributes(Call& call) {
     const auto& all = call.self<MeshObject>()->mesh.attributes().all();
-    lua_createtable(call.lua(), count_of(all), 0);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const Attribute& attribute = all[i];
+    return push_list(call, all, [&](const Attribute& attribute) {
         lua_createtable(call.lua(), 0, 5);
         call.set_field("name", call.push(std::string_view(attribute.name)));
         call.set_field("domain", call.push(name_of(kDomainNames, attribute.domain)));
         call.set_field("width", call.push(attribute.width));
         call.set_field("type", call.push(name_of(kTypeNames, attribute.type)));
         call.set_field("count", call.push(attribute.size()));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
-    return 1;
+    });
 }
 
 // The attribute's numbers: one value for all, one row for all, or all of them.

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "kernel/mesh/cut/trim.h"
 
@@ -67,15 +68,12 @@ auto with_cut(const Call& call, const Work& work) {
 }
 
 void push_warnings(Call& call, const std::vector<CutWarning>& warnings) {
-    lua_createtable(call.lua(), count_of(warnings), 0);
-    for (std::size_t i = 0; i < warnings.size(); ++i) {
-        const CutWarning& warning = warnings[i];
+    push_list(call, warnings, [&](const CutWarning& warning) {
         lua_createtable(call.lua(), 0, 3);
         call.set_field("kind", call.push(kConcerns[static_cast<std::size_t>(warning.concern)]));
         call.set_field("message", call.push(std::string_view(warning.message)));
         call.set_field("vertices", call.push_ids(warning.elements.ids));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+    });
 }
 
 void push_report(Call& call, const CutReport& report) {
@@ -263,7 +261,7 @@ std::vector<Function> trim_methods_of_path() {
              "along a smooth line just inside. Paths and regions of before are then of an "
              "older topology.",
          .options = {number("smoothing",
-                            "How smooth: standard deviation of the Gaussian that smooths the "
+                            "Smoothing: standard deviation of the Gaussian that smooths the "
                             "loop, as a fraction of its length.")
                          .defaults(defaults.smoothing)
                          .between(0, 0.1)

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/mesh/weld_option.h"
@@ -142,12 +143,9 @@ int mesh_self_intersections(Call& call) {
     if (!call.attempt([&] { pairs = self_intersections(own_mesh(call), {}, call.context()); })) {
         return call.fail();
     }
-    lua_createtable(call.lua(), count_of(pairs), 0);
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        call.push_ids(std::array{pairs[i].first, pairs[i].second});
-        lua_rawseti(call.lua(), -2, static_cast<lua_Integer>(i) + 1);
-    }
-    return 1;
+    return push_list(call, pairs, [&](const auto& pair) {
+        call.push_ids(std::array{pair.first, pair.second});
+    });
 }
 
 // ---- Elements

@@ -187,7 +187,7 @@ std::vector<Function> new_mesh_methods() {
         {.name = "subdivide",
          .body = subdivide_mesh,
          .summary = "A finer mesh. Old vertices keep their ids.",
-         .arguments = {integer("levels", "How often each face is split.")
+         .arguments = {integer("levels", "Number of times that each face is split.")
                            .defaults(SubdivideOptions{}.levels)
                            .between(0, 12)},
          .options = {choice("scheme", {"midpoint", "loop", "catmull_clark"},

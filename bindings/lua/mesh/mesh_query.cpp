@@ -175,7 +175,7 @@ local d = grid:distances{ from = 1, method = "edges" }
 assert(d[1] == 0 and #d == #grid))"},
             {.name = "distortion",
              .body = mesh_distortion,
-             .summary = "How far this mesh is stretched, sheared and folded beside another shape "
+             .summary = "Stretch, shear and folds of this mesh, compared with another shape "
                         "of it, as numbers of the vertices that lissom.render draws in colours: "
                         "lissom.render{ mesh = mesh, scalars = mesh:distortion(rest).area, ... }.",
              .arguments = {object("rest", "lissom.Mesh",

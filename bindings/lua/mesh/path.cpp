@@ -1,5 +1,6 @@
 // lissom.Path, and the methods of a mesh that make paths and close boundaries.
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "kernel/mesh/fill/bridge.h"
 #include "kernel/mesh/fill/fill.h"
@@ -123,12 +124,7 @@ int path_points(Call& call) {
     if (!call.attempt([&] { points = self->current().points(self->mesh->mesh); })) {
         return call.fail();
     }
-    lua_createtable(call.lua(), count_of(points), 0);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        call.push_vector(points[i]);
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
-    return 1;
+    return push_list(call, points, [&](const Vec3& point) { call.push_vector(point); });
 }
 
 int path_length(Call& call) {
@@ -300,77 +296,79 @@ Type path_type() {
 
 std::vector<Function> path_methods_of_mesh() {
     const FillOptions fill_defaults;
-    return {{.name = "boundaries",
-             .body = mesh_boundaries,
-             .summary = "The open boundaries, ordered by their smallest vertex.",
-             .results = {{"lissom.Path[]", "boundaries",
-                          "Closed paths with the surface on their left."}},
-             .example = "assert(#lissom.shapes.cylinder{ caps = false }:boundaries() == 2)"},
-            {.name = "path",
-             .body = make_path,
-             .summary = "The shortest line along edges that visits the given vertices in order.",
-             .options = {either("points",
-                                {points("positions",
-                                        "Points; each stands for the vertex nearest to it."),
-                                 ids("vertices", "Ids of vertices.")},
-                                "Points to visit."),
-                         boolean("closed", "Returns to the first.").defaults(false)},
-             .results = {{"lissom.Path", "path", "The line."}},
-             .errors = {ErrorCode::invalid_argument, ErrorCode::out_of_range, ErrorCode::mesh_empty,
-                        ErrorCode::cancelled},
-             .example = R"(local grid = lissom.shapes.grid()
+    return {
+        {.name = "boundaries",
+         .body = mesh_boundaries,
+         .summary = "The open boundaries, ordered by their smallest vertex.",
+         .results = {{"lissom.Path[]", "boundaries",
+                      "Closed paths with the surface on their left."}},
+         .example = "assert(#lissom.shapes.cylinder{ caps = false }:boundaries() == 2)"},
+        {.name = "path",
+         .body = make_path,
+         .summary = "The shortest line along edges that visits the given vertices in order.",
+         .options = {either(
+                         "points",
+                         {points("positions", "Points; each stands for the vertex nearest to it."),
+                          ids("vertices", "Ids of vertices.")},
+                         "Points to visit."),
+                     boolean("closed", "Returns to the first.").defaults(false)},
+         .results = {{"lissom.Path", "path", "The line."}},
+         .errors = {ErrorCode::invalid_argument, ErrorCode::out_of_range, ErrorCode::mesh_empty,
+                    ErrorCode::cancelled},
+         .example = R"(local grid = lissom.shapes.grid()
 local path = grid:path{ points = { { -0.5, 0, -0.5 }, { 0.5, 0, -0.5 } } }
 assert(#path == 11))"},
-            {.name = "fill",
-             .body = fill_boundary,
-             .summary =
-                 "Closes an open boundary by a patch of triangles that continues the surface, in "
-                 "place. Old ids stay.",
-             .arguments = {object("boundary", "lissom.Path", "An open boundary of this mesh.")},
-             .options = {choice("method", {"angle", "area"},
-                                "Begins with the triangles whose greatest angle to one another and "
-                                "to the mesh is least, or with those of the least area, a lid.")
-                             .defaults("angle"),
-                         boolean("subdivide", "Makes the patch as dense as the mesh around it.")
-                             .defaults(fill_defaults.refine),
-                         number("density",
-                                "How dense, over the mesh around it; more than 1 lets a patch bend "
-                                "whose rim has few vertices.")
-                             .above(0)
-                             .defaults(fill_defaults.density),
-                         boolean("fair", "Bends the patch to continue the surface smoothly.")
-                             .defaults(fill_defaults.fair),
-                         choice("continuity", {"tangents", "curvature"},
-                                "Order of continuity of a faired patch with the surface. With "
-                                "curvature a large patch in a round surface is round.")
-                             .defaults("tangents"),
-                         integer("maximum_vertices", "Vertices that `subdivide` may insert.")
-                             .defaults(fill_defaults.maximum_vertices)
-                             .at_least(0)},
-             .results = {{"lissom.Mesh", "mesh", "The mesh itself."},
-                         {"lissom.FillReport", "report", "The added elements."}},
-             .effect = Effect::changes,
-             .errors = {ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
-                        ErrorCode::unsupported, ErrorCode::memory_limit, ErrorCode::cancelled},
-             .example = R"(local tube = lissom.shapes.cylinder{ caps = false }
+        {.name = "fill",
+         .body = fill_boundary,
+         .summary =
+             "Closes an open boundary by a patch of triangles that continues the surface, in "
+             "place. Old ids stay.",
+         .arguments = {object("boundary", "lissom.Path", "An open boundary of this mesh.")},
+         .options =
+             {choice("method", {"angle", "area"},
+                     "Begins with the triangles whose greatest angle to one another and "
+                     "to the mesh is least, or with those of the least area, a lid.")
+                  .defaults("angle"),
+              boolean("subdivide", "Makes the patch as dense as the mesh around it.")
+                  .defaults(fill_defaults.refine),
+              number("density",
+                     "Its density over that of the mesh around it; more than 1 lets a patch bend "
+                     "whose rim has few vertices.")
+                  .above(0)
+                  .defaults(fill_defaults.density),
+              boolean("fair", "Bends the patch to continue the surface smoothly.")
+                  .defaults(fill_defaults.fair),
+              choice("continuity", {"tangents", "curvature"},
+                     "Order of continuity of a faired patch with the surface. With "
+                     "curvature a large patch in a round surface is round.")
+                  .defaults("tangents"),
+              integer("maximum_vertices", "Vertices that `subdivide` may insert.")
+                  .defaults(fill_defaults.maximum_vertices)
+                  .at_least(0)},
+         .results = {{"lissom.Mesh", "mesh", "The mesh itself."},
+                     {"lissom.FillReport", "report", "The added elements."}},
+         .effect = Effect::changes,
+         .errors = {ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
+                    ErrorCode::unsupported, ErrorCode::memory_limit, ErrorCode::cancelled},
+         .example = R"(local tube = lissom.shapes.cylinder{ caps = false }
 while #tube:boundaries() > 0 do tube:fill(tube:boundaries()[1]) end
 assert(tube:is_closed()))"},
-            {.name = "bridge",
-             .body = bridge_boundaries,
-             .summary =
-                 "Joins two open boundaries by a strip of triangles between their vertices, in "
-                 "place: two parts become one, holes on both sides of a part a tunnel. Boundaries "
-                 "are matched by arc length at their closest points. All ids stay; a triangle "
-                 "has the groups and attributes of the face at its boundary edge.",
-             .arguments = {object("a", "lissom.Path", "An open boundary of this mesh."),
-                           object("b", "lissom.Path", "Another one.")},
-             .results = {{"lissom.Mesh", "mesh", "The mesh itself."},
-                         {"integer", "first_face", "The first of the triangles."},
-                         {"integer", "face_count", "How many there are; the last of all faces."}},
-             .errors = {ErrorCode::topology_mismatch, ErrorCode::not_a_boundary,
-                        ErrorCode::boundary_conflict, ErrorCode::inconsistent_orientation,
-                        ErrorCode::memory_limit, ErrorCode::cancelled},
-             .example = R"(local tube = lissom.shapes.cylinder{ caps = false }
+        {.name = "bridge",
+         .body = bridge_boundaries,
+         .summary =
+             "Joins two open boundaries by a strip of triangles between their vertices, in "
+             "place: two parts become one, holes on both sides of a part a tunnel. Boundaries "
+             "are matched by arc length at their closest points. All ids stay; a triangle "
+             "has the groups and attributes of the face at its boundary edge.",
+         .arguments = {object("a", "lissom.Path", "An open boundary of this mesh."),
+                       object("b", "lissom.Path", "Another one.")},
+         .results = {{"lissom.Mesh", "mesh", "The mesh itself."},
+                     {"integer", "first_face", "The first of the triangles."},
+                     {"integer", "face_count", "Their number; they are the last of all faces."}},
+         .errors = {ErrorCode::topology_mismatch, ErrorCode::not_a_boundary,
+                    ErrorCode::boundary_conflict, ErrorCode::inconsistent_orientation,
+                    ErrorCode::memory_limit, ErrorCode::cancelled},
+         .example = R"(local tube = lissom.shapes.cylinder{ caps = false }
 tube:append(tube:copy():transform{ translate = { 0, 5, 0 } })
 local rims = tube:boundaries()
 tube:bridge(rims[2], rims[3])

@@ -7,7 +7,7 @@ Parameter weld_option() {
         "weld",
         {choice("name", {"seams", "all"}, "Vertices that are joined."),
          boolean("off", "false: no vertices are joined.")},
-        "Which vertices at the same place become one. \"seams\": those that join open edges "
+        "Vertices at the same place that become one. \"seams\": those that join open edges "
         "at the same place and of opposite direction, so that surfaces that only touch, as "
         "closed lips do, stay apart; \"all\": all of them; false: none.");
 }

@@ -32,9 +32,7 @@ std::string standard_text(const Parameter& p) {
     if (p.required) return "required";
     if (const auto* flag = std::get_if<bool>(&p.default_value)) return *flag ? "true" : "false";
     if (const auto* number = std::get_if<double>(&p.default_value)) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.14g", *number);
-        return std::string("default ") + text;
+        return "default " + plain_number(*number);
     }
     if (const auto* word = std::get_if<std::string>(&p.default_value)) return "default " + *word;
     return p.default_text.empty() ? "optional" : "default: " + p.default_text;

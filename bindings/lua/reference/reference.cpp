@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "bindings/lua/core/failure.h"
@@ -13,12 +12,6 @@
 
 namespace lissom::lua {
 namespace {
-
-std::string plain_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.14g", value);
-    return text;
-}
 
 std::string default_text(const Parameter& p) {
     if (const auto* flag = std::get_if<bool>(&p.default_value)) return *flag ? "true" : "false";

@@ -71,73 +71,75 @@ const Capture& Matcher::capture(int i) const {
 std::size_t Matcher::match(std::size_t s, std::size_t p) {
     if (depth_ == kMaximumDepth) throw PatternError("pattern too complex");
     ++depth_;
-    std::size_t result = kNone;
-    while (true) {
+    std::optional<std::size_t> end;
+    while (!end) {
         stop_.tick(ticks_);
-        if (p == pattern_.size()) {
-            result = s;
-            break;
-        }
-        const char next = p + 1 < pattern_.size() ? pattern_[p + 1] : '\0';
-        if (pattern_[p] == '(') {
-            result =
-                next == ')' ? open(s, p + 2, Capture::kPosition) : open(s, p + 1, Capture::kOpen);
-            break;
-        }
-        if (pattern_[p] == ')') {
-            result = close(s, p + 1);
-            break;
-        }
-        if (pattern_[p] == '$' && p + 1 == pattern_.size()) {
-            if (s == text_.size()) result = s;
-            break;
-        }
-        if (pattern_[p] == '%' && next == 'b') {
-            s = balanced(s, p + 2);
-            if (s == kNone) break;
-            p += 4;
-            continue;
-        }
-        if (pattern_[p] == '%' && next == 'f') {
-            p += 2;
-            if (p >= pattern_.size() || pattern_[p] != '[') {
-                throw PatternError("missing '[' after '%f' in pattern");
-            }
-            if (!at_frontier(s, p)) break;
-            p = set_end(p);
-            continue;
-        }
-        if (pattern_[p] == '%' && std::isdigit(byte_of(next))) {
-            s = repeated(s, next);
-            if (s == kNone) break;
-            p += 2;
-            continue;
-        }
-        const std::size_t after = item_end(p);
-        tick(after - p);
-        const char suffix = after < pattern_.size() ? pattern_[after] : '\0';
-        if (suffix == '*' || suffix == '+') {
-            result = longest(s, p, after, suffix == '+');
-            break;
-        }
-        if (suffix == '-') {
-            result = shortest(s, p, after);
-            break;
-        }
-        if (suffix == '?') {
-            if (fits(s, p, after)) {
-                result = match(s + 1, after + 1);
-                if (result != kNone) break;
-            }
-            p = after + 1;
-            continue;
-        }
-        if (!fits(s, p, after)) break;
-        ++s;
-        p = after;
+        end = step(s, p);
     }
     --depth_;
-    return result;
+    return *end;
+}
+
+// Takes one item of the pattern. Returns the end of the match, or kNone, once that is known; if
+// not, moves `s` and `p` past the item.
+std::optional<std::size_t> Matcher::step(std::size_t& s, std::size_t& p) {
+    if (p == pattern_.size()) return s;
+    const char next = p + 1 < pattern_.size() ? pattern_[p + 1] : '\0';
+    switch (pattern_[p]) {
+        case '(':
+            return next == ')' ? open(s, p + 2, Capture::kPosition)
+                               : open(s, p + 1, Capture::kOpen);
+        case ')':
+            return close(s, p + 1);
+        case '$':
+            if (p + 1 == pattern_.size()) return s == text_.size() ? s : kNone;
+            break;
+        case '%':
+            if (next == 'f') return step_frontier(s, p);
+            if (next == 'b' || std::isdigit(byte_of(next))) return step_part(s, p, next);
+            break;
+        default:
+            break;
+    }
+    return step_characters(s, p);
+}
+
+// "%f[set]"
+std::optional<std::size_t> Matcher::step_frontier(std::size_t s, std::size_t& p) const {
+    p += 2;
+    if (p >= pattern_.size() || pattern_[p] != '[') {
+        throw PatternError("missing '[' after '%f' in pattern");
+    }
+    if (!at_frontier(s, p)) return kNone;
+    p = set_end(p);
+    return std::nullopt;
+}
+
+// "%bxy", or an earlier capture again: "%1".
+std::optional<std::size_t> Matcher::step_part(std::size_t& s, std::size_t& p, char kind) const {
+    s = kind == 'b' ? balanced(s, p + 2) : repeated(s, kind);
+    p += kind == 'b' ? 4 : 2;
+    return s == kNone ? std::optional(kNone) : std::nullopt;
+}
+
+// A character or a class, with the suffix that says how many times it stands.
+std::optional<std::size_t> Matcher::step_characters(std::size_t& s, std::size_t& p) {
+    const std::size_t after = item_end(p);
+    tick(after - p);
+    const char suffix = after < pattern_.size() ? pattern_[after] : '\0';
+    if (suffix == '*' || suffix == '+') return longest(s, p, after, suffix == '+');
+    if (suffix == '-') return shortest(s, p, after);
+    const bool fit = fits(s, p, after);
+    if (suffix == '?') {
+        const std::size_t end = fit ? match(s + 1, after + 1) : kNone;
+        if (end != kNone) return end;
+        p = after + 1;
+        return std::nullopt;
+    }
+    if (!fit) return kNone;
+    ++s;
+    p = after;
+    return std::nullopt;
 }
 
 std::size_t Matcher::open(std::size_t s, std::size_t p, std::size_t length) {

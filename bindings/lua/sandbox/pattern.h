@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -46,6 +47,10 @@ class Matcher {
 
     void tick(std::size_t characters);
     std::size_t match(std::size_t s, std::size_t p);
+    std::optional<std::size_t> step(std::size_t& s, std::size_t& p);
+    std::optional<std::size_t> step_frontier(std::size_t s, std::size_t& p) const;
+    std::optional<std::size_t> step_part(std::size_t& s, std::size_t& p, char kind) const;
+    std::optional<std::size_t> step_characters(std::size_t& s, std::size_t& p);
     std::size_t open(std::size_t s, std::size_t p, std::size_t length);
     std::size_t close(std::size_t s, std::size_t p);
     std::size_t balanced(std::size_t s, std::size_t p) const;

@@ -140,7 +140,7 @@ std::vector<Record> scene_records() {
           {"string", "kind", "mesh, deformation, strands, hairstyle or polyline."},
           {"number[][]", "transform", "Rows of the 4 x 4 matrix from its space to the scene's."},
           {"boolean", "visible", "Whether it is drawn."},
-          {"table", "style", "How it is drawn; the fields are the options of scene:set."}}},
+          {"table", "style", "Its appearance; the fields are the options of scene:set."}}},
         {"lissom.HistoryStep",
          "A step of a scene's history.",
          {{"string", "name", "Its name."},
@@ -148,10 +148,10 @@ std::vector<Record> scene_records() {
         {"lissom.History",
          "The steps of a scene's history, oldest first.",
          {{"lissom.HistoryStep", "[integer]", "The steps in order."},
-          {"integer", "place", "How many of them can be undone; the others can be done again."},
+          {"integer", "place", "Number of those that can be undone; the others can be done again."},
           {"integer", "bytes", "Memory of all steps, beside one copy of the present content."},
           {"integer", "limit", "Limit of `bytes`."},
-          {"integer", "dropped", "How many steps were forgotten because of it."}}}};
+          {"integer", "dropped", "Number of steps that were forgotten because of it."}}}};
 }
 
 }  // namespace lissom::lua

@@ -1,5 +1,6 @@
 // lissom.polyline: Polyline.
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/mesh/transform_options.h"
 #include "bindings/lua/scene/polyline_object.h"
 
@@ -22,12 +23,7 @@ int make_polyline(Call& call) {
 
 int polyline_points(Call& call) {
     const auto& points = call.self<PolylineObject>()->polyline.points;
-    lua_createtable(call.lua(), count_of(points), 0);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        call.push_vector(points[i]);
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
-    return 1;
+    return push_list(call, points, [&](const Vec3& point) { call.push_vector(point); });
 }
 
 int set_polyline_points(Call& call) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/scene/scene_object.h"
 #include "kernel/core/nearest.h"
 
@@ -111,12 +112,8 @@ int object_info(Call& call) {
 
 int object_names(Call& call) {
     const ObjectList& objects = call.self<SceneObject>()->scene.objects();
-    lua_createtable(call.lua(), count_of(objects), 0);
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        call.push(std::string_view(objects[i]->name));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
-    return 1;
+    return push_list(call, objects,
+                     [&](const auto& object) { call.push(std::string_view(object->name)); });
 }
 
 // ---- Steps

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/core/script_parameters.h"
 #include "bindings/lua/scene/scene_object.h"
 #include "kernel/scene/scene_file.h"
@@ -28,11 +29,7 @@ int save_scene_file(Call& call) {
     });
     if (!done) return call.fail();
     call.push_argument();
-    lua_createtable(call.lua(), count_of(left_out), 0);
-    for (std::size_t i = 0; i < left_out.size(); ++i) {
-        call.push(std::string_view(left_out[i]));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+    push_list(call, left_out, [&](const std::string& name) { call.push(std::string_view(name)); });
     return 2;
 }
 

@@ -232,7 +232,7 @@ Type camera_type() {
     type.name = CameraObject::kTypeName;
     type.is_heard = false;
     type.summary =
-        "How a world is seen in a picture. It does not change. Pixels count from the top left "
+        "View of a world in a picture. It does not change. Pixels count from the top left "
         "corner of the picture.";
     type.operators = {
         {"__tostring", camera_text, "tostring(camera)", "its position and direction"}};

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/sketch/gizmo_object.h"
 
@@ -89,34 +90,24 @@ void push_look(const Call& call, GizmoPart part, GizmoRole role, bool highlighte
 
 void push_lines(const Call& call, const GizmoShape& shape, const std::optional<GizmoPart>& held) {
     lua_State* L = call.lua();
-    lua_createtable(L, count_of(shape.lines), 0);
-    for (std::size_t i = 0; i < shape.lines.size(); ++i) {
-        const GizmoLine& line = shape.lines[i];
+    push_list(call, shape.lines, [&](const GizmoLine& line) {
         lua_createtable(L, 0, 7);
         push_look(call, line.part, line.role, held == line.part);
-        lua_createtable(L, count_of(line.points), 0);
-        for (std::size_t k = 0; k < line.points.size(); ++k) {
-            call.push_vector(line.points[k]);
-            lua_rawseti(L, -2, index_of(k) + 1);
-        }
+        push_list(call, line.points, [&](const Vec3& point) { call.push_vector(point); });
         call.set_field("points");
         call.set_field("closed", call.push(line.closed));
         call.set_field("width", call.push(line.width));
-        lua_rawseti(L, -2, index_of(i) + 1);
-    }
+    });
 }
 
 void push_points(const Call& call, const GizmoShape& shape, const std::optional<GizmoPart>& held) {
     lua_State* L = call.lua();
-    lua_createtable(L, count_of(shape.points), 0);
-    for (std::size_t i = 0; i < shape.points.size(); ++i) {
-        const GizmoPoint& point = shape.points[i];
+    push_list(call, shape.points, [&](const GizmoPoint& point) {
         lua_createtable(L, 0, 6);
         push_look(call, point.part, point.role, held == point.part);
         call.set_field("position", call.push_vector(point.position));
         call.set_field("radius", call.push(point.radius));
-        lua_rawseti(L, -2, index_of(i) + 1);
-    }
+    });
 }
 
 // ---- Bodies
@@ -314,8 +305,10 @@ std::vector<Function> gizmo_methods() {
          .summary = "The part under a pixel. Axes that are seen end-on and planes from the side "
                     "are not offered.",
          .arguments = cursor_arguments(),
-         .options =
-             {number("reach", "How near is near enough.").at_least(0).defaults(7.0).in("pixels")},
+         .options = {number("reach", "Distance within which a part is picked.")
+                         .at_least(0)
+                         .defaults(7.0)
+                         .in("pixels")},
          .results =
              {{"string?", "part",
                "\"move-x\", \"move-yz\", \"rotate-view\", \"scale-all\", ...; nil for none."}},

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/sketch/pick_targets.h"
 #include "kernel/sketch/picking.h"
@@ -125,12 +126,7 @@ int pick_everything(Call& call) {
         return call.fail();
     }
     targets.charge(call);
-    lua_createtable(call.lua(), count_of(hits), 0);
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        push_hit(call, targets, hits[i]);
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
-    return 1;
+    return push_list(call, hits, [&](const auto& hit) { push_hit(call, targets, hit); });
 }
 
 std::vector<Parameter> pick_fields() {
@@ -147,7 +143,7 @@ std::vector<Parameter> pick_fields() {
                "Kinds to look for, in this order of preference regardless of the order given: "
                "point, polyline, vertex, boundary, edge, face.")
             .optional("\"face\""),
-        number("radius", "How far from the pixel all but faces may be seen.")
+        number("radius", "Distance from the pixel within which all but faces are picked.")
             .at_least(0)
             .defaults(8.0)
             .in("pixels"),
@@ -213,7 +209,7 @@ std::vector<Record> pick_records() {
           {"integer[]?", "ends", "The two vertices of an edge, or of a segment of a boundary."},
           {"integer?", "segment",
            "Segment of a line or boundary: it lies between this point and the next."},
-          {"number?", "along", "How far along the edge or segment, 0 to 1."},
+          {"number?", "along", "Place along the edge or segment, 0 to 1."},
           {"number", "depth", "Along the view, in the unit of the world."},
           {"number", "pixels", "From the pixel that was asked about; 0 for faces."}}},
         {"lissom.Selected",

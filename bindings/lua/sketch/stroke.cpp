@@ -1,6 +1,7 @@
 // lissom.Camera: strokes drawn on a picture, in the world.
 #include "kernel/sketch/stroke.h"
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/hair/strands_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
@@ -128,12 +129,10 @@ int push_drawn(const Call& call, const DrawnStroke& drawn) {
         lua_rawseti(L, -2, index_of(i) + 1);
     }
     call.set_field("points");
-    lua_createtable(L, count_of(drawn.stroke.points), 0);
-    for (std::size_t i = 0; i < drawn.stroke.points.size(); ++i) {
-        const double pixel[] = {drawn.stroke.points[i].x(), drawn.stroke.points[i].y()};
+    push_list(call, drawn.stroke.points, [&](const auto& pixel_place) {
+        const double pixel[] = {pixel_place.x(), pixel_place.y()};
         call.push_numbers(pixel);
-        lua_rawseti(L, -2, index_of(i) + 1);
-    }
+    });
     call.set_field("pixels");
     call.set_field("corners", call.push_ids(drawn.stroke.corners));
     call.set_field("times", call.push_numbers(drawn.stroke.times));
@@ -202,7 +201,7 @@ Function stroke_method_of_camera() {
                     "scalp, and beyond it as deep as it was left (section 4.5).")
                  .defaults("envelope"),
              number("lift",
-                    "How far in front of the surface; of a scalp in metres of an average head.")
+                    "Distance in front of the surface; of a scalp in metres of an average head.")
                  .optional("0.02 on a scalp by the envelope, else 0"),
              number("smoothing",
                     "Multiple of the smoothing that suits a mouse; 0 keeps every wiggle.")
@@ -238,7 +237,7 @@ std::vector<Record> stroke_records() {
           {"number[]", "pressures", "Pressure of each pixel."},
           {"boolean", "click", "Whether the pen only touched the picture."},
           {"integer", "beside",
-           "How many of the points lay beside the supporting surface that was drawn on; their "
+           "Number of points that lay beside the supporting surface that was drawn on; their "
            "depth is a guess."}}}};
 }
 

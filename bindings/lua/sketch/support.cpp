@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "bindings/lua/sketch/camera_object.h"
@@ -158,11 +159,7 @@ int read_hint(Call& call) {
     const auto name = [&](HintOperation o) { return kOperationNames[static_cast<int>(o)]; };
     call.set_field("operation", call.push(name(hint.reading.operation)));
     call.set_field("sure", call.push(hint.reading.sure));
-    lua_createtable(call.lua(), count_of(hint.reading.others), 0);
-    for (std::size_t i = 0; i < hint.reading.others.size(); ++i) {
-        call.push(name(hint.reading.others[i]));
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+    push_list(call, hint.reading.others, [&](const auto& other) { call.push(name(other)); });
     call.set_field("others", 1);
     call.set_field("pixels", call.push(hint.pixels));
     return 1;
@@ -193,13 +190,13 @@ std::vector<Function> support_methods_of_curve() {
              "ruled surface of the lines of sight keeps how it looks and changes its depth, seen "
              "from aside. Up to about 50 degrees from the viewpoint the strip is seen better, "
              "beyond that the ruled one. Give it to camera:stroke as `on`.",
-         .options = {choice("mode", {"ruled", "strip"}, "Which surface.").defaults("strip"),
+         .options = {choice("mode", {"ruled", "strip"}, "Kind of surface.").defaults("strip"),
                      camera_option("The viewpoint; that of the stroke may be another."),
                      number("width", "To each side of the curve; a strip is narrower in bends.")
                          .in("metres of an average head")
                          .above(0)
                          .optional("0.03 of a strip, 0.075 of a ruled surface"),
-                     number("extension", "How far it goes on beyond the tip.")
+                     number("extension", "Length beyond the tip.")
                          .in("metres of an average head")
                          .at_least(0)
                          .defaults(SupportOptions{}.extension)},
@@ -234,7 +231,7 @@ Type support_type() {
             "lissom.Curve:support.",
         .methods = {{.name = "mode",
                      .body = support_mode,
-                     .summary = "Which surface it is.",
+                     .summary = "Kind of the surface.",
                      .results = {{"string", "mode", "\"ruled\" or \"strip\"."}},
                      .example = support_setup() + "assert(support:mode() == 'strip')"},
                     {.name = "end_on",
@@ -246,7 +243,7 @@ Type support_type() {
                      .example = support_setup() + "assert(support:end_on() <= 1)"},
                     {.name = "seen_from",
                      .body = support_seen,
-                     .summary = "How squarely a camera sees the surface. Strokes need 0.3.",
+                     .summary = "Cosine at which a camera sees the surface. Strokes need 0.3.",
                      .arguments = {camera_option("The camera.")},
                      .results = {{"number", "cosine", "0, seen edge-on, to 1."}},
                      .errors = {ErrorCode::invalid_argument},

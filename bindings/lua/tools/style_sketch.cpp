@@ -49,7 +49,7 @@ Function sketch_method_of_hairstyle() {
         .options = {object("camera", "lissom.Camera", "Camera of the first stroke, in mesh units.")
                         .optional("the strokes say it"),
                     size_argument(),
-                    integer("strands", "How many strands the tools grow, to be returned.")
+                    integer("strands", "Number of strands that the tools grow, to be returned.")
                         .defaults(0)
                         .between(0, 200000)},
         .results = {{"lissom.Sketched[]", "done", "One for each stroke."},

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bindings/lua/core/kernel_library.h"
+#include "bindings/lua/core/push_list.h"
 #include "bindings/lua/core/state.h"
 #include "bindings/lua/sketch/camera_object.h"
 #include "bindings/lua/sketch/gizmo_object.h"
@@ -218,22 +219,16 @@ int get_field(Call& call) {
 template <typename Mark, typename Push>
 void set_list(const Call& call, const char* key, const std::vector<Mark>& list, const Push& push) {
     lua_State* L = call.lua();
-    lua_createtable(L, count_of(list), 0);
-    for (std::size_t i = 0; i < list.size(); ++i) {
+    push_list(call, list, [&](const Mark& mark) {
         lua_createtable(L, 0, 4);
-        push(list[i]);
-        if (!list[i].color.empty()) call.set_field("color", call.push(list[i].color));
-        lua_rawseti(L, -2, index_of(i) + 1);
-    }
+        push(mark);
+        if (!mark.color.empty()) call.set_field("color", call.push(mark.color));
+    });
     call.set_field(key);
 }
 
 void set_points(const Call& call, const char* key, const std::vector<Vec3>& points) {
-    lua_createtable(call.lua(), count_of(points), 0);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        call.push_vector(points[i]);
-        lua_rawseti(call.lua(), -2, index_of(i) + 1);
-    }
+    push_list(call, points, [&](const Vec3& point) { call.push_vector(point); });
     call.set_field(key);
 }
 
@@ -259,11 +254,7 @@ void set_lines(const Call& call, const ToolViewObject& view) {
 
 void set_outlines(const Call& call, const ToolViewObject& view) {
     set_list(call, "outlines", view.outlines, [&](const OutlineMark& mark) {
-        lua_createtable(call.lua(), count_of(mark.pixels), 0);
-        for (std::size_t i = 0; i < mark.pixels.size(); ++i) {
-            push_pixel(call, mark.pixels[i]);
-            lua_rawseti(call.lua(), -2, index_of(i) + 1);
-        }
+        push_list(call, mark.pixels, [&](const auto& pixel) { push_pixel(call, pixel); });
         call.set_field("pixels");
         call.set_field("width", call.push(mark.width));
         call.set_field("opacity", call.push(mark.opacity));

@@ -416,8 +416,7 @@ std::vector<Parameter> mouse_fields() {
 
 std::vector<Parameter> wheel_fields() {
     std::vector<Parameter> fields = place_fields();
-    fields.push_back(
-        number("lines", "How far the wheel turned: upwards is above 0.").between(-1e6, 1e6));
+    fields.push_back(number("lines", "Turn of the wheel: upwards is above 0.").between(-1e6, 1e6));
     return with_modifiers(std::move(fields));
 }
 
@@ -581,7 +580,7 @@ std::vector<Record> tool_records() {
           {"number[]?", "start", "Pixel at which the button went down, {x, y}."},
           {"string?", "button", "left, right or middle."},
           {"string?", "key", "The key, of key."},
-          {"number?", "lines", "How far the wheel turned, of wheel: upwards is above 0."},
+          {"number?", "lines", "Turn of the wheel, of wheel: upwards is above 0."},
           {"string?", "parameter", "The parameter that was set, of changed."},
           {"boolean", "shift", "Whether this key is down."},
           {"boolean", "ctrl", "Likewise."},

@@ -34,6 +34,27 @@ constexpr double kFadeRadii = 0.06;
 // Weight of squared lengths of a tie of weight 1 beside the edges.
 constexpr double kTieUnit = 1.0;
 
+std::vector<double> ring_sums(const Rings& rings, const std::vector<double>& values,
+                              std::size_t count) {
+    std::vector<double> sums(count, 0.0);
+    for (Index i = 0; i < rings.size(); ++i) {
+        for (Index e = rings.begin[i]; e < rings.begin[i + 1]; ++e) sums[i] += values[e];
+    }
+    return sums;
+}
+
+void append_parts(SymmetricMatrix& matrix, const std::vector<SymmetricMatrix>& parts) {
+    std::size_t entries = 0;
+    for (const SymmetricMatrix& part : parts) entries += part.row.size();
+    matrix.row.reserve(entries);
+    matrix.value.reserve(entries);
+    prefer_large_pages(matrix.row);
+    prefer_large_pages(matrix.value);
+    for (const SymmetricMatrix& part : parts) {
+        append_rows(matrix.begin, matrix.row, matrix.value, part.begin, part.row, part.value);
+    }
+}
+
 // Whether the rings of the first system, with virtual vertices, are those of the second.
 bool is_real(const Patch& patch) {
     return patch.vertex_count == patch.real_count;
@@ -138,12 +159,7 @@ void RotationSystem::add_ties(const WorkingPatch& work) {
 void RotationSystem::assemble(const std::vector<char>& position_known, const Context& context) {
     std::vector<Index> row_of(rest_.size(), kNoIndex);
     for (std::size_t r = 0; r < free_.size(); ++r) row_of[free_[r]] = index_of(r);
-    std::vector<double> coefficient_sum(rest_.size(), 0.0);
-    for (Index i = 0; i < rings_.size(); ++i) {
-        for (Index e = rings_.begin[i]; e < rings_.begin[i + 1]; ++e) {
-            coefficient_sum[i] += coefficient_[e];
-        }
-    }
+    const std::vector<double> coefficient_sum = ring_sums(rings_, coefficient_, rest_.size());
     const auto count = count_of(free_);
     const Index grain = assembly_grain(count);
     std::vector<SymmetricMatrix> parts((count + grain - 1) / grain);
@@ -179,15 +195,7 @@ void RotationSystem::assemble(const std::vector<char>& position_known, const Con
             rows.begin.push_back(count_of(rows.row));
         }
     });
-    std::size_t entries = 0;
-    for (const SymmetricMatrix& part : parts) entries += part.row.size();
-    matrix_.row.reserve(entries);
-    matrix_.value.reserve(entries);
-    prefer_large_pages(matrix_.row);
-    prefer_large_pages(matrix_.value);
-    for (const SymmetricMatrix& part : parts) {
-        append_rows(matrix_.begin, matrix_.row, matrix_.value, part.begin, part.row, part.value);
-    }
+    append_parts(matrix_, parts);
 }
 
 void RotationSystem::factor(const Context& context) {

@@ -476,6 +476,13 @@ class Tail {
     std::vector<double> lengths_;
 };
 
+void require_inside(bool inside) {
+    if (inside) return;
+    throw Error(ErrorCode::out_of_range,
+                "the ponytail lies outside the volume of the hairstyle; enlarge the volume, or "
+                "draw its spine nearer to the head");
+}
+
 }  // namespace
 
 PonytailOptions with_lengths(PonytailOptions options, double step) {
@@ -548,14 +555,8 @@ std::vector<GridConstraint> ponytail_constraints(const DistanceGrid& distances,
     at_points(ConstraintKind::section, [&](const Vec3& point) { return tail.longitudinal(point); });
     at_points(ConstraintKind::section, [&](const Vec3& point) { return tail.leading(point); });
     VectorSplat spine(layout, options.fidelity);
-    if (!tail.splat_spine(spine) && vectors.empty()) {
-        throw Error(ErrorCode::out_of_range,
-                    "the ponytail lies outside the volume of the hairstyle; enlarge the volume, or "
-                    "draw its spine nearer to the head");
-    }
-    for (const GridConstraint& c : spine.constraints(options.weight)) {
-        vectors.emplace(c.point, c);
-    }
+    require_inside(tail.splat_spine(spine) || !vectors.empty());
+    for (const GridConstraint& c : spine.constraints(options.weight)) vectors.emplace(c.point, c);
     gather();
 
     std::vector<GridConstraint> result;

@@ -30,6 +30,20 @@ std::size_t read_point_count(ByteSource& source) {
     return count;
 }
 
+void warn_of_skipped(std::size_t empty, std::size_t count, std::size_t bytes,
+                     const Context& context) {
+    if (empty > 0) {
+        context.log(LogLevel::warning,
+                    std::to_string(empty) + " of " + std::to_string(count) +
+                        (count == 1 ? " strand has" : " strands have") +
+                        " no points and were left out: others have lower numbers than in the file");
+    }
+    if (bytes > 0) {
+        context.log(LogLevel::warning,
+                    std::to_string(bytes) + " bytes after the last strand were left out");
+    }
+}
+
 }  // namespace
 
 Strands read_hair_salon(ByteSource& source, const Context& context) {
@@ -63,16 +77,7 @@ Strands read_hair_salon(ByteSource& source, const Context& context) {
         offsets.push_back(index_of(total));
     }
     points.resize(3 * total);
-    if (empty > 0) {
-        context.log(LogLevel::warning,
-                    std::to_string(empty) + " of " + std::to_string(count) +
-                        (count == 1 ? " strand has" : " strands have") +
-                        " no points and were left out: others have lower numbers than in the file");
-    }
-    if (source.remaining() > 0) {
-        context.log(LogLevel::warning, std::to_string(source.remaining()) +
-                                           " bytes after the last strand were left out");
-    }
+    warn_of_skipped(empty, count, source.remaining(), context);
     return {std::move(points), std::move(offsets), context.memory()};
 }
 

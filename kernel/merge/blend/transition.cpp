@@ -245,6 +245,24 @@ std::vector<Index> local_numbers(const BandSystem& band, Index vertex_count) {
     return local;
 }
 
+// The curvatures of the shape and of each morph, blended within the bands; adds these to `report`.
+std::vector<std::vector<double>> blended_curvatures(
+    std::span<const Transition> transitions, std::span<const Index> local,
+    const std::vector<std::vector<double>>& curvature, TransitionReport& report) {
+    std::vector<std::vector<double>> blended = curvature;
+    for (const Transition& t : transitions) {
+        const auto blend = [&](const Side& side, const Side& across) {
+            for (std::size_t s = 1; s < blended.size(); ++s) {
+                blend_side(side, across, t.own_share(), local, curvature[s], blended[s]);
+            }
+            return blend_side(side, across, t.own_share(), local, curvature[0], blended[0]);
+        };
+        report.target.push_back(blend(t.target, t.source));
+        report.source.push_back(blend(t.source, t.target));
+    }
+    return blended;
+}
+
 }  // namespace
 
 std::vector<TransitionWidths> suitable_widths(const Sewn& sewn, const Context& context) {
@@ -285,18 +303,8 @@ TransitionReport blend_transition(Sewn& sewn, std::span<const TransitionWidths> 
     const SeamCore core(band, rings, options.core);
     const std::vector<std::vector<double>> curvature =
         core.filled(band, band.curvatures(), context);
-    const std::vector<Index> local = local_numbers(band, sewn.mesh.vertex_count());
-    std::vector<std::vector<double>> blended = curvature;
-    for (const Transition& t : transitions) {
-        const auto blend = [&](const Side& side, const Side& across) {
-            for (std::size_t s = 1; s < blended.size(); ++s) {
-                blend_side(side, across, t.own_share(), local, curvature[s], blended[s]);
-            }
-            return blend_side(side, across, t.own_share(), local, curvature[0], blended[0]);
-        };
-        report.target.push_back(blend(t.target, t.source));
-        report.source.push_back(blend(t.source, t.target));
-    }
+    const std::vector<std::vector<double>> blended = blended_curvatures(
+        transitions, local_numbers(band, sewn.mesh.vertex_count()), curvature, report);
     if (moving.empty()) return report;
     for (Index i = 0; i < options.umbrella; ++i) core.umbrella(band);
     for (Index pass = 0; pass < options.passes; ++pass) {

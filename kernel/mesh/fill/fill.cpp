@@ -71,17 +71,21 @@ Index folded_edges(const Mesh& mesh, Index first_face) {
     return count;
 }
 
-}  // namespace
-
-FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options,
-                const Context& context) {
-    const std::vector<Index> outline = outline_of(mesh, boundary);
+void require_fill(const FillOptions& options) {
     if (options.maximum_vertices < 0) {
         throw Error(ErrorCode::invalid_argument, "maximum_vertices must be 0 or more");
     }
     if (!(options.density > 0.0) || !std::isfinite(options.density)) {
         throw Error(ErrorCode::invalid_argument, "the density of a patch must be above 0");
     }
+}
+
+}  // namespace
+
+FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options,
+                const Context& context) {
+    const std::vector<Index> outline = outline_of(mesh, boundary);
+    require_fill(options);
     Progress progress(context, "fill");
     const MemoryCharge working = context.charge(2 * mesh.memory_bytes(), "filling a hole");
     FillReport report;

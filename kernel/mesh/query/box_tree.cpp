@@ -12,6 +12,39 @@ constexpr int kBins = 16;
 // Below this depth nodes are halved, so that no path is longer than kStackSize.
 constexpr int kMaximumFreeDepth = 48;
 
+// The boxes of items, by the places of their centers along one axis.
+class Bins {
+  public:
+    void add(int bin, const Box& box) {
+        box_[bin] = united(box_[bin], box);
+        ++count_[bin];
+    }
+
+    // Returns the first bin of the second part, or 0 if no cut divides the items.
+    int cheapest_cut(Index total) const {
+        std::array<double, kBins> cost{};
+        Box left, right;
+        for (int b = 1, n = 0; b < kBins; ++b) {
+            left = united(left, box_[b - 1]);
+            n += count_[b - 1];
+            cost[b] = half_surface(left) * n;
+        }
+        int best = 0;
+        for (int b = kBins - 1, n = 0; b > 0; --b) {
+            right = united(right, box_[b]);
+            n += count_[b];
+            cost[b] += half_surface(right) * n;
+            const bool divides = n > 0 && n < total;
+            if (divides && (best == 0 || cost[b] < cost[best])) best = b;
+        }
+        return best;
+    }
+
+  private:
+    std::array<Box, kBins> box_;
+    std::array<Index, kBins> count_{};
+};
+
 }  // namespace
 
 BoxTree::BoxTree(std::span<const Box> boxes, const Context& context) {
@@ -60,34 +93,15 @@ Index BoxTree::split(const Node& node, std::span<const Box> boxes, bool halve) {
         const double where = (boxes[at(item)].center()[axis] - centers.min[axis]) / extent;
         return std::min(kBins - 1, static_cast<int>(where * kBins));
     };
-    int best = 0;
     if (extent > 0.0 && !halve) {
-        std::array<Box, kBins> bin_box;
-        std::array<Index, kBins> bin_count{};
-        for (auto i = begin; i != end; ++i) {
-            Box& bin = bin_box[bin_of(*i)];
-            bin = united(bin, boxes[at(*i)]);
-            ++bin_count[bin_of(*i)];
+        Bins bins;
+        for (auto i = begin; i != end; ++i) bins.add(bin_of(*i), boxes[at(*i)]);
+        const int best = bins.cheapest_cut(node.count);
+        if (best > 0) {
+            const auto middle =
+                std::stable_partition(begin, end, [&](Index item) { return bin_of(item) < best; });
+            return node.first + index_of(middle - begin);
         }
-        std::array<double, kBins> cost{};
-        Box left, right;
-        for (int b = 1, n = 0; b < kBins; ++b) {
-            left = united(left, bin_box[b - 1]);
-            n += bin_count[b - 1];
-            cost[b] = half_surface(left) * n;
-        }
-        for (int b = kBins - 1, n = 0; b > 0; --b) {
-            right = united(right, bin_box[b]);
-            n += bin_count[b];
-            cost[b] += half_surface(right) * n;
-            const bool divides = n > 0 && n < node.count;
-            if (divides && (best == 0 || cost[b] < cost[best])) best = b;
-        }
-    }
-    if (best > 0) {
-        const auto middle =
-            std::stable_partition(begin, end, [&](Index item) { return bin_of(item) < best; });
-        return node.first + index_of(middle - begin);
     }
     const auto middle = begin + node.count / 2;
     std::nth_element(begin, middle, end, [&](Index a, Index b) {

@@ -54,6 +54,38 @@ Vec2 turned(const Vec2& v) {
     return {-v.y(), v.x()};
 }
 
+struct HeatEntries {
+    std::vector<Triplet> laplacian, heat;
+};
+
+// The cotangent Laplacian, and the heat operator: lumped areas plus the time times the Laplacian.
+HeatEntries heat_entries(const IntrinsicDelaunay& surface, double time) {
+    HeatEntries entries;
+    for (std::size_t i = 0; i < surface.triangles().size(); ++i) {
+        const Triangle& t = surface.triangles()[i];
+        const std::array<double, 3> cotangent = surface.cotangents(i);
+        const double third = surface.area(i) / 3.0;
+        for (int s = 0; s < 3; ++s) {
+            entries.heat.push_back({t[s], t[s], third});
+            const Index a = t[s], b = t[(s + 1) % 3];
+            if (a == b) continue;
+            const double weight = 0.5 * cotangent[(s + 2) % 3];
+            for (const Triplet& e : {Triplet{a, a, weight}, Triplet{b, b, weight},
+                                     Triplet{std::max(a, b), std::min(a, b), -weight}}) {
+                entries.laplacian.push_back(e);
+                entries.heat.push_back({e.row, e.column, time * e.value});
+            }
+        }
+    }
+    return entries;
+}
+
+std::vector<char> isolated_vertices(const Topology& topology) {
+    std::vector<char> isolated(topology.vertex_count(), 0);
+    for (Index v = 0; v < topology.vertex_count(); ++v) isolated[v] = topology.is_isolated(v);
+    return isolated;
+}
+
 void require_edge_limit(double limit) {
     if (limit >= 0.0) return;
     throw Error(ErrorCode::invalid_argument, "the limit of a distance must be 0 or more");
@@ -90,6 +122,7 @@ struct HeatDistances::State {
     State(const Mesh& given, const Context& context);
 
     void build_systems(const Context& context);
+    void find_pins();
     std::vector<double> diffuse(std::span<const Index> sources,
                                 std::span<const double> weights) const;
     std::vector<double> up_to_a_constant(std::span<const Index> sources,
@@ -126,45 +159,30 @@ void HeatDistances::State::build_systems(const Context& context) {
         context.charge(kTripletBytesPerTriangle * surface.triangles().size(), "geodesic distances");
     const double decay =
         std::max(surface.mean_length(), diameter_bound(shape, context) / kMaximumDecay);
-    const double time = decay * decay;
-
-    // The cotangent Laplacian, and the heat operator: lumped areas plus the time times the
-    // Laplacian.
-    std::vector<Triplet> laplacian, heat;
-    for (std::size_t i = 0; i < surface.triangles().size(); ++i) {
-        const Triangle& t = surface.triangles()[i];
-        const std::array<double, 3> cotangent = surface.cotangents(i);
-        const double third = surface.area(i) / 3.0;
-        for (int s = 0; s < 3; ++s) {
-            heat.push_back({t[s], t[s], third});
-            const Index a = t[s], b = t[(s + 1) % 3];
-            if (a == b) continue;
-            const double weight = 0.5 * cotangent[(s + 2) % 3];
-            for (const Triplet& e : {Triplet{a, a, weight}, Triplet{b, b, weight},
-                                     Triplet{std::max(a, b), std::min(a, b), -weight}}) {
-                laplacian.push_back(e);
-                heat.push_back({e.row, e.column, time * e.value});
-            }
-        }
-    }
-
-    on_boundary.assign(n, 0);
-    poisson_pinned.assign(n, 0);
-    std::vector<char> isolated(n, 0);
-    std::vector<char> pinned_component(topology->component_count(), 0);
-    for (Index v = 0; v < n; ++v) {
-        isolated[v] = topology->is_isolated(v);
-        on_boundary[v] = isolated[v] || topology->is_boundary(v);
-        poisson_pinned[v] = !std::exchange(pinned_component[topology->components()[v]], 1);
-    }
+    const HeatEntries entries = heat_entries(surface, decay * decay);
+    find_pins();
 
     Progress progress(context, "geodesic distances: prepare");
     progress.step(0.35);
-    prepare(heat_free, assemble(n, heat, isolated), context);
+    prepare(heat_free, assemble(n, entries.heat, isolated_vertices(*topology)), context);
     progress.step(0.35);
-    if (!topology->is_closed()) prepare(heat_cold, assemble(n, heat, on_boundary), context);
+    if (!topology->is_closed()) {
+        prepare(heat_cold, assemble(n, entries.heat, on_boundary), context);
+    }
     progress.step(0.3);
-    prepare(poisson, assemble(n, laplacian, poisson_pinned), context);
+    prepare(poisson, assemble(n, entries.laplacian, poisson_pinned), context);
+}
+
+// One vertex of each component is pinned in the Poisson equation.
+void HeatDistances::State::find_pins() {
+    const Index n = topology->vertex_count();
+    on_boundary.assign(n, 0);
+    poisson_pinned.assign(n, 0);
+    std::vector<char> pinned_component(topology->component_count(), 0);
+    for (Index v = 0; v < n; ++v) {
+        on_boundary[v] = topology->is_isolated(v) || topology->is_boundary(v);
+        poisson_pinned[v] = !std::exchange(pinned_component[topology->components()[v]], 1);
+    }
 }
 
 std::vector<double> HeatDistances::State::diffuse(std::span<const Index> sources,

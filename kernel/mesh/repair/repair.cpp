@@ -233,27 +233,47 @@ Mesh mesh_without_faces(Soup soup, const Context& context, Report& report) {
     return mesh;
 }
 
+void require_usable(const Soup& soup) {
+    require_indices(soup);
+    require_finite(soup);
+    require_attributes_fit(soup);
+}
+
+// Lists by corner and by vertex: welds, matched edges, splits of vertices.
+std::size_t working_bytes(const Soup& soup) {
+    constexpr std::size_t kBytesPerCorner = 48, kBytesPerVertex = 64;
+    return kBytesPerCorner * soup.faces.vertices.size() + kBytesPerVertex * soup.positions.size();
+}
+
+void weld_vertices(Soup& soup, Weld weld) {
+    weld_known(soup);
+    if (weld == Weld::all) weld_all(soup);
+    if (weld == Weld::seams) weld_within_loose_faces(soup);
+}
+
+// Faces are dropped and turned only if their edges do not fit together as they are.
+Welding welded_edges(const std::vector<Vec3>& positions, CornerFaces& work, Report& report) {
+    Welding welding(positions, work);
+    if (welding.weld_regular_edges()) return welding;
+    drop_duplicates(count_of(positions), work, report);
+    orient_faces(positions, work, report);
+    welding = Welding(positions, work);
+    welding.weld_edges(report);
+    return welding;
+}
+
 }  // namespace
 
 Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Report report) {
     Progress progress(context, "check mesh");
-    require_indices(soup);
-    require_finite(soup);
-    require_attributes_fit(soup);
-    // Lists by corner and by vertex: welds, matched edges, splits of vertices.
-    constexpr std::size_t kBytesPerCorner = 48, kBytesPerVertex = 64;
-    const MemoryCharge working = context.charge(
-        kBytesPerCorner * soup.faces.vertices.size() + kBytesPerVertex * soup.positions.size(),
-        "checking a mesh");
+    require_usable(soup);
+    const MemoryCharge working = context.charge(working_bytes(soup), "checking a mesh");
     const std::vector<Index> file_corners = soup.faces.vertices;
     const bool keeps_unused = options.unused == UnusedVertices::keep;
-    weld_known(soup);
-    if (options.weld == Weld::all) weld_all(soup);
-    if (options.weld == Weld::seams) weld_within_loose_faces(soup);
+    weld_vertices(soup, options.weld);
     if (!options.repair) require_sound(soup, file_corners, keeps_unused, context);
     progress.update(0.2);
 
-    const auto vertex_count = count_of(soup.positions);
     CornerFaces work(std::move(soup.faces));
     clean_faces(work, report);
     if (work.faces.size() == 0) {
@@ -261,13 +281,7 @@ Mesh repair(Soup soup, const RepairOptions& options, const Context& context, Rep
         points.set_report(std::move(report));
         return points;
     }
-    Welding welding(soup.positions, work);
-    if (!welding.weld_regular_edges()) {
-        drop_duplicates(vertex_count, work, report);
-        orient_faces(soup.positions, work, report);
-        welding = Welding(soup.positions, work);
-        welding.weld_edges(report);
-    }
+    Welding welding = welded_edges(soup.positions, work, report);
     progress.update(0.5);
 
     if (options.weld == Weld::seams && !welding.is_closed())

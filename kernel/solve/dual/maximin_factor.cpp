@@ -122,6 +122,16 @@ std::vector<Neighbor> neighbors(const Hierarchy& h, const ConstraintRows& rows,
     return found;
 }
 
+// u of L^T u = the last unit vector; L is a lower triangle of `size` columns, one behind the other.
+void solve_last_unit(const double* block, Index size, double* u) {
+    for (Index j = size - 1; j >= 0; --j) {
+        const double* column = block + std::ptrdiff_t{j} * size;
+        double sum = j == size - 1 ? 1.0 : 0.0;
+        for (Index k = j + 1; k < size; ++k) sum -= column[k] * u[k];
+        u[j] = sum / column[j];
+    }
+}
+
 }  // namespace
 
 std::size_t MaximinFactor::bytes(std::size_t rows) {
@@ -184,54 +194,60 @@ bool MaximinFactor::keep_column(Columns& columns, Index i, std::span<const Index
     return true;
 }
 
-void MaximinFactor::fill_values(const GridGreen& green, Columns& columns,
-                                const Context& context) const {
-    std::unordered_map<Index, Index> old_place;
+// The place in the factor so far of each column with the same point and weight, or kNoIndex.
+std::vector<Index> MaximinFactor::former_places(const Columns& columns) const {
+    std::unordered_map<Index, Index> place_of_point;
     for (std::size_t i = 0; i < columns_.point.size(); ++i) {
-        old_place.emplace(columns_.point[i], index_of(i));
+        place_of_point.emplace(columns_.point[i], index_of(i));
     }
-    const auto count = count_of(columns.point);
     std::vector<Index> places(columns.point.size(), kNoIndex);
-    for (Index i = 0; i < count; ++i) {
-        const auto at = old_place.find(columns.point[i]);
-        if (at != old_place.end() && columns_.weight[at->second] == columns.weight[i]) {
-            places[i] = at->second;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto former = place_of_point.find(columns.point[i]);
+        if (former != place_of_point.end() &&
+            columns_.weight[former->second] == columns.weight[i]) {
+            places[i] = former->second;
         }
     }
+    return places;
+}
+
+// The covariances among the points of column i, a lower triangle; returns their count.
+Index MaximinFactor::fill_block(const GridGreen& green, const Columns& columns, Index i,
+                                std::vector<GridPoint>& points, double* block) {
+    const std::size_t first = columns.begin[i];
+    const auto size = index_of(columns.begin[i + 1] - first);
+    points.clear();
+    for (Index k = 0; k < size; ++k) {
+        points.push_back(green.size().point(columns.point[columns.index[first + k]]));
+    }
+    for (Index j = 0; j < size; ++j) {
+        double* column = block + std::ptrdiff_t{j} * size;
+        for (Index k = j; k < size; ++k) {
+            column[k] = green.entry(points[k], points[j]) + green.shift();
+        }
+        const double weight = columns.weight[columns.index[first + j]];
+        column[j] += 1.0 / (weight * weight);
+    }
+    return size;
+}
+
+void MaximinFactor::fill_values(const GridGreen& green, Columns& columns,
+                                const Context& context) const {
+    const std::vector<Index> places = former_places(columns);
     const DenseKernels kernels = dense_kernels(best_processor());
     std::vector<Index> failures(columns.point.size(), kNoIndex);
-    context.parallel_for(0, count, kColumnGrain, [&](Index begin, Index end) {
+    context.parallel_for(0, count_of(columns.point), kColumnGrain, [&](Index begin, Index end) {
         const auto packed = std::make_unique_for_overwrite<double[]>(kPackedSize);
         const auto block = std::make_unique_for_overwrite<double[]>(kNeighbors * kNeighbors);
         std::vector<GridPoint> points;
         for (Index i = begin; i < end; ++i) {
             if (keep_column(columns, i, places)) continue;
-            const std::size_t first = columns.begin[i];
-            const auto size = index_of(columns.begin[i + 1] - first);
-            points.clear();
-            for (Index k = 0; k < size; ++k) {
-                points.push_back(green.size().point(columns.point[columns.index[first + k]]));
-            }
-            for (Index j = 0; j < size; ++j) {
-                double* column = block.get() + std::ptrdiff_t{j} * size;
-                for (Index k = j; k < size; ++k) {
-                    column[k] = green.entry(points[k], points[j]) + green.shift();
-                }
-                const double weight = columns.weight[columns.index[first + j]];
-                column[j] += 1.0 / (weight * weight);
-            }
+            const Index size = fill_block(green, columns, i, points, block.get());
             if (kernels.eliminate({block.get(), size, 0, size, packed.get()}) != kNoIndex) {
                 failures[i] = i;
                 continue;
             }
-            // L^T u = the last unit vector.
-            double* u = columns.value.data() + first;
-            for (Index j = size - 1; j >= 0; --j) {
-                const double* column = block.get() + std::ptrdiff_t{j} * size;
-                double sum = j == size - 1 ? 1.0 : 0.0;
-                for (Index k = j + 1; k < size; ++k) sum -= column[k] * u[k];
-                u[j] = sum / column[j];
-            }
+            solve_last_unit(block.get(), size, columns.value.data() + columns.begin[i]);
         }
     });
     for (const Index failed : failures) {

@@ -47,6 +47,9 @@ class MaximinFactor {
     static void fill_pattern(const GridSize& size, const ConstraintRows& rows, Columns& columns,
                              const Context& context);
     void fill_values(const GridGreen& green, Columns& columns, const Context& context) const;
+    static Index fill_block(const GridGreen& green, const Columns& columns, Index i,
+                            std::vector<GridPoint>& points, double* block);
+    std::vector<Index> former_places(const Columns& columns) const;
     bool keep_column(Columns& columns, Index i, std::span<const Index> places) const;
 
     Columns columns_;

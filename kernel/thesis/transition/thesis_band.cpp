@@ -106,6 +106,9 @@ class Square {
 
     // Along the seam and away from it, 0 to 1, of every vertex of the region.
     std::vector<Vec2> solve(const Context& context) const;
+    std::vector<Vec2> solve_rows(const Rings& rings, const RingGeometry& geometry,
+                                 const std::vector<Index>& row, Index rows,
+                                 const Context& context) const;
     Index start() const { return start_; }
     const std::vector<Index>& cut() const { return cut_; }
     std::span<const Triangle> triangles() const { return {triangles_.data(), own_triangles_}; }
@@ -276,6 +279,19 @@ std::vector<Vec2> Square::solve(const Context& context) const {
     for (Index v = 0; v < rings.size(); ++v) {
         if (fixed_.count(v) == 0 && rings.count(v) > 0) row[v] = rows++;
     }
+    std::vector<Vec2> free(rows, Vec2::Zero());
+    if (rows > 0) free = solve_rows(rings, geometry, row, rows, context);
+    std::vector<Vec2> result;
+    for (Index v = 0; v < region_.vertex_count(); ++v) {
+        result.emplace_back(row[v] == kNoIndex ? fixed_.at(v) : free[row[v]]);
+    }
+    return result;
+}
+
+// The harmonic values of the vertices that have rows.
+std::vector<Vec2> Square::solve_rows(const Rings& rings, const RingGeometry& geometry,
+                                     const std::vector<Index>& row, Index rows,
+                                     const Context& context) const {
     const std::size_t n = rows;
     std::vector<Triplet> entries;
     std::vector<double> b(2 * n, 0.0);
@@ -294,18 +310,14 @@ std::vector<Vec2> Square::solve(const Context& context) const {
             b[n + row[v]] += value.y();
         }
     }
-    if (rows > 0) {
-        const SymmetricMatrix matrix = symmetric_from_triplets(rows, entries);
-        SparseSystem system;
-        system.analyze(matrix, context);
-        system.factor(matrix, context);
-        system.solve(b, b, 2);
-    }
-    std::vector<Vec2> result;
-    for (Index v = 0; v < region_.vertex_count(); ++v) {
-        result.emplace_back(row[v] == kNoIndex ? fixed_.at(v) : Vec2(b[row[v]], b[n + row[v]]));
-    }
-    return result;
+    const SymmetricMatrix matrix = symmetric_from_triplets(rows, entries);
+    SparseSystem system;
+    system.analyze(matrix, context);
+    system.factor(matrix, context);
+    system.solve(b, b, 2);
+    std::vector<Vec2> values;
+    for (std::size_t i = 0; i < n; ++i) values.emplace_back(b[i], b[n + i]);
+    return values;
 }
 
 std::vector<double> own_fractions(const Mesh& mesh, std::span<const Index> loop) {

@@ -69,7 +69,7 @@ void declare_run(CLI::App& app, RunWords& words) {
     app.add_option("--jobs", words.options.jobs, "Jobs at a time (default: one for each core)")
         ->check(CLI::Range(1, 1024));
     app.add_option("--retries", words.options.retries,
-                   "How often a failed job is tried again (default: 1)")
+                   "Number of times that a failed job is tried again (default: 1)")
         ->check(CLI::Range(0, 100));
     app.add_option("--timeout", words.options.timeout, "Seconds a job may take; 0: any (default)")
         ->check(CLI::Range(0.0, 1e9));
