@@ -441,6 +441,65 @@ test("clear: a part stands on the foot of a real horn, whose edges are not bitte
     for _, reason in ipairs(report.reasons) do expect.truthy(reason.fault ~= "bite") end
 end)
 
+test("clear: the boundary runs around a feature, not through it", function()
+    -- A nose with wings that are as wide as the part.
+    local face = lifted(60, function(x, y, z)
+        return bump(x, y, z, 0, 0, 1, 0.3, 0.16) + bump(x, y, z, 0.24, -0.05, 0.97, 0.16, 0.1)
+            + bump(x, y, z, -0.24, -0.05, 0.97, 0.16, 0.1)
+    end)
+    local paste = paste_nose{ target = face, clear = true,
+        placement = { at = { 0, 0, 1.3 }, scale = 0.75, angle = 0 } }
+    local _, image = paste:loop()
+    local highest = 0
+    for _, p in ipairs(image:points()) do
+        highest = math.max(highest, math.sqrt(p[1] ^ 2 + p[2] ^ 2 + p[3] ^ 2) - 1)
+    end
+    expect.truthy(highest < 0.04)
+    local mesh, report = paste:merge()
+    expect_whole(mesh)
+    expect.truthy(report.ok)
+end)
+
+test("clear: edges of the target beyond the part are not bitten", function()
+    -- A box within the ball, which no part touches.
+    local box = lissom.shapes.box{ size = { 0.3, 0.3, 0.3 } }:transform{ translate = { 0, 0, 0.5 } }
+    local face = nosed(40)
+    face:append(box)
+    local paste = paste_nose{ target = face, clear = true,
+        placement = { at = { 0, 0, 1.3 }, scale = 0.7, angle = 0 } }
+    expect.truthy(paste:clearing())
+    local _, report = paste:merge()
+    for _, reason in ipairs(report.reasons) do expect.truthy(reason.fault ~= "bite") end
+end)
+
+-- The vertex of a face that stands out most, between two heights.
+local function tip_between(mesh, low, high)
+    local bounds, best, found = mesh:bounds(), -math.huge, 1
+    for v = 1, #mesh do
+        local x, y, z = mesh:position(v)
+        local height = (y - bounds.min[2]) / (bounds.max[2] - bounds.min[2])
+        local beside = math.abs(x - bounds.center[1]) / (bounds.max[1] - bounds.min[1])
+        if z > best and height > low and height < high and beside < 0.08 then best, found = z, v end
+    end
+    return { mesh:position(found) }
+end
+
+test("clear: noses of real faces, with deep nostrils and beside holes, give way to another", function()
+    for _, face in ipairs{ { "heads/ict_generic_neutral.obj", 0.5, 0.8, 0.22 },
+        { "heads/WaltHead.obj", 0.4, 0.7, 0.24 }, { "heads/digitalsalon_head.obj", 0.45, 0.7, 0.24 } } do
+        local target = assert(lissom.load(models.path(face[1])))
+        local at, scale = tip_between(target, face[2], face[3]), face[4] * target:size()
+        local nose = parts.make("nose")
+        local paste = lissom.paste{ source = nose.mesh, region = nose.region, feature = nose.feature,
+            target = target, clear = true, placement = { at = at, scale = scale, up = nose.up } }
+        paste:optimize()
+        local _, what = paste:clearing()
+        expect.truthy(what.height > 0.4 * scale)
+        local _, report = paste:merge()
+        expect.truthy(report.ok)
+    end
+end)
+
 test("clear: a part that clears nothing has nothing to show", function()
     local paste = paste_nose{ target = nosed(30), placement = { at = { 0, 1, 0 }, scale = 0.5 } }
     expect.equal(paste:clearing(), nil)

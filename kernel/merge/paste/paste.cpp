@@ -57,12 +57,6 @@ std::string reach_text(double reach) {
     return text;
 }
 
-Vec2 planar_mean(std::span<const Vec2> points) {
-    Vec2 sum = Vec2::Zero();
-    for (const Vec2& p : points) sum += p;
-    return sum / static_cast<double>(points.size());
-}
-
 void require_faces(const Mesh& mesh) {
     if (mesh.face_count() > 0) return;
     throw Error(ErrorCode::mesh_empty, "a mesh without faces cannot be pasted");
@@ -79,10 +73,13 @@ EnergyOptions energy_for(const PasteOptions& options, Index iterations) {
 }
 
 std::unique_ptr<PasteMap> Paste::State::map_of(std::span<const Index> target_faces,
+                                               const PastePlacement& placement,
                                                const Context& context) const {
-    return std::make_unique<PasteMap>(
+    auto map = std::make_unique<PasteMap>(
         *surfaces, source_map, target_chart(target, target_faces, method_for(options), context),
         options.correspondence == PasteCorrespondence::closest || clears());
+    if (clears() && altered) map->set_relief(relief_of(map->target(), placement, context));
+    return map;
 }
 
 std::unique_ptr<PasteMap> Paste::State::map_around(const PastePlacement& placement, double room,
@@ -95,7 +92,7 @@ std::unique_ptr<PasteMap> Paste::State::map_around(const PastePlacement& placeme
     const SurfacePoint point = surfaces->target_tree.nearest(placement.at);
     const double radius = room * placement.scale * source_map.length_ratio * source_map.reach +
                           placement.offset.norm();
-    return map_of(disk_around(target, point, radius, context), context);
+    return map_of(disk_around(target, point, radius, context), placement, context);
 }
 
 void Paste::State::use_map(std::unique_ptr<PasteMap> on) {
@@ -169,37 +166,23 @@ std::optional<double> Paste::State::size_of(const PasteMap& on,
     return std::pow(product, 1.0 / count);
 }
 
-// The map of the plane that puts a former boundary where it lay.
-PlanarMap Paste::State::map_like(const PasteMap& on, const PlacedFeature& former,
-                                 PlanarMap plane) const {
-    std::vector<Vec2> from, to;
-    for (const Index v : former.loop.vertices) {
-        const std::size_t place = at(source_map.place_of(v));
-        if (!former.images[place].inside) continue;
-        from.push_back(source_map.map.uv[place]);
-        to.push_back(on.nearest(former.images[place].position).uv);
+// Images at the places where they are on another target.
+std::vector<ImagePoint> Paste::State::images_like(const PasteMap& on,
+                                                  const PlacedFeature& former) const {
+    std::vector<ImagePoint> images;
+    images.reserve(former.images.size());
+    for (const ImagePoint& image : former.images) {
+        images.push_back(image.inside ? on.nearest(image.position) : ImagePoint{});
     }
-    if (from.empty()) return plane;
-    plane.center = planar_mean(from);
-    plane.point = planar_mean(to);
-    double along = 0.0, across = 0.0, square = 0.0;
-    for (std::size_t k = 0; k < from.size(); ++k) {
-        const Vec2 a = from[k] - plane.center, b = to[k] - plane.point;
-        along += a.dot(b);
-        across += a.x() * b.y() - a.y() * b.x();
-        square += a.squaredNorm();
-    }
-    plane.angle = std::atan2(across, along);
-    if (square > 0.0) plane.factor = std::hypot(along, across) / square;
-    return plane;
+    return images;
 }
 
 // A ring that is a tube lies in the plane with another size than on the surface: the size that is
 // wanted is that of the outlines.
 std::vector<ImagePoint> Paste::State::images_of(const PasteMap& on, const PastePlacement& placement,
                                                 double angle, const PlacedFeature* like) const {
+    if (like) return images_like(on, *like);
     PlanarMap plane = on.planar(placement, angle);
-    if (like) return on.images(map_like(on, *like, plane));
     std::vector<ImagePoint> images = on.images(plane);
     if (options.thesis) return images;
     const std::optional<double> size = size_of(on, images);

@@ -139,8 +139,11 @@ struct Paste::State {
     /// Clears the target under the boundary that was found, and seeks it there again. If that fails
     /// nothing changes.
     void clear_under_boundary(const PasteEffort& effort, const Context& context);
+    /// How much lines on a chart of `target` cut through features of the target as given.
+    std::vector<double> relief_of(const PasteChart& chart, const PastePlacement& placement,
+                                  const Context& context) const;
     std::unique_ptr<PasteMap> map_of(std::span<const Index> target_faces,
-                                     const Context& context) const;
+                                     const PastePlacement& placement, const Context& context) const;
     std::unique_ptr<PasteMap> map_around(const PastePlacement& placement, double room,
                                          const Context& context) const;
     [[noreturn]] void refuse_room(const PastePlacement& placement) const;
@@ -159,8 +162,9 @@ struct Paste::State {
     const PasteGround& ground(const Context& context);
     /// Sharp edges that a part may stand on; none if the target was cleared under its boundary.
     std::span<const SharpEdge> edges_to_stand_on(const Context& context);
-    /// Sharp edges of the target as given that no cleared part meets; nothing if none was cleared.
-    std::optional<std::vector<SharpEdge>> edges_left(const Context& context) const;
+    /// Sharp edges of the target as given that no cleared part meets, in the piece that the part is
+    /// sewn into; nothing if none was cleared.
+    std::optional<std::vector<SharpEdge>> edges_left(const Context& context);
     LaidPart laid_on_ground(const PartTrials& trials, const PartTrial& trial,
                             const Context& context);
     LaidPart drafted(const PartTrials& trials, const PasteDraftOptions& wanted,
@@ -171,7 +175,7 @@ struct Paste::State {
                         std::span<const Index> start, const PasteEffort& effort,
                         const Context& context);
     std::optional<double> size_of(const PasteMap& on, const std::vector<ImagePoint>& images) const;
-    PlanarMap map_like(const PasteMap& on, const PlacedFeature& former, PlanarMap plane) const;
+    std::vector<ImagePoint> images_like(const PasteMap& on, const PlacedFeature& former) const;
     std::vector<ImagePoint> images_of(const PasteMap& on, const PastePlacement& placement,
                                       double angle, const PlacedFeature* like) const;
     std::vector<ImagePoint> nearest_images(const PasteMap& on, const PlacedFeature& place) const;

@@ -9,6 +9,7 @@
 #include "kernel/merge/paste/paste_state.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/mesh/edit/finer_near.h"
+#include "kernel/mesh/measure/measures.h"
 
 namespace lissom {
 namespace {
@@ -19,6 +20,19 @@ constexpr double kCoarsePart = 0.6, kFinePart = 0.3;
 // The first beside sharp edges, in lines of at least half a reach, on which a part stands along its
 // feature's outline.
 constexpr double kCoarseOnEdges = 0.35, kEdgesNear = 0.5;
+
+// Parts of a part's reach within which features are looked for.
+constexpr double kBaseReaches[] = {1.0, 1.2, 0.8, 0.64, 0.5};
+
+// A feature that is as high as a part's reach counts, to a line that cuts through it, as much as
+// surfaces whose normals differ by this.
+constexpr double kHeightOfRelief = 5.0;
+
+// A point lies on a surface within this part of a part's reach.
+constexpr double kOnSurface = 1e-6;
+
+// An edge lies on a surface if its ends do, within this part of its length.
+constexpr double kOnPiece = 1e-6;
 
 // A region of a mesh on one that was made of it: the vertices that come from its vertices alone.
 Region carried(const Region& region, const Mesh& mesh, const MeshMap& map) {
@@ -99,7 +113,8 @@ void Paste::State::place_here(const std::optional<Region>& region, const PastePl
                               std::span<const Index> start, const PasteEffort& effort,
                               const Context& context) {
     if (!region) return place_on_disk(placement, start, effort, context);
-    std::unique_ptr<PasteMap> on = map_of(target_faces(target, *region, context), context);
+    std::unique_ptr<PasteMap> on =
+        map_of(target_faces(target, *region, context), placement, context);
     placed = place(*on, placement, start, effort, context);
     use_map(std::move(on));
 }
@@ -172,27 +187,57 @@ AlteredTarget Paste::State::without_cleared(const AlteredTarget& ground, const C
     return after(ground, std::move(next));
 }
 
-// The surface that features within the part's reach stand on, as far as it is known.
+// The surface that features within the part's reach stand on, as far as it is known: of those that
+// an erasure leaves, the first that is as even as the surface around, or the most even one.
 AlteredTarget Paste::State::base_of(const AlteredTarget& ground, const PastePlacement& placement,
                                     const Context& context) const {
     const SurfacePoint point = SpatialTree(ground.mesh, context).nearest(placement.at);
-    const Region near = region_under(ground.mesh, point, reach_of(placement), context);
-    try {
-        return after(ground, cleared_target(ground.mesh, ground.onto, near, context));
-    } catch (const Error& error) {
-        const ErrorCode code = error.code();
-        if (code == ErrorCode::cancelled || code == ErrorCode::memory_limit) throw;
-        return ground;
+    std::optional<ClearedTarget> best;
+    for (const double part : kBaseReaches) {
+        if (best && best->unevenness <= 1.0) break;
+        std::optional<ClearedTarget> next =
+            cleared_around(ground.mesh, ground.onto, point, part * reach_of(placement), context);
+        if (next && (!best || next->unevenness < best->unevenness)) best = std::move(next);
     }
+    return best ? after(ground, *std::move(best)) : ground;
 }
 
-std::optional<std::vector<SharpEdge>> Paste::State::edges_left(const Context& context) const {
+// A line over the patch in place of a removed feature would cut through that: by how much the
+// feature's surface turns there, and how high it is.
+std::vector<double> Paste::State::relief_of(const PasteChart& chart,
+                                            const PastePlacement& placement,
+                                            const Context& context) const {
+    const SpatialTree standing(given, context);
+    const std::vector<Vec3> normals = vertex_normals(given);
+    const double reach = reach_of(placement);
+    std::vector<double> relief;
+    relief.reserve(chart.map.vertex.size());
+    for (const Index v : chart.map.vertex) {
+        const SurfacePoint found = standing.nearest(target.position(v));
+        Vec3 normal = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            normal += found.barycentric[k] * normals[at(found.triangle[at(k)])];
+        }
+        const double turn = (normal.normalized() - surfaces->target_normals[at(v)]).norm();
+        const bool stays = found.distance <= kOnSurface * reach;
+        relief.push_back(stays ? 0.0 : turn + kHeightOfRelief * found.distance / reach);
+    }
+    return relief;
+}
+
+std::optional<std::vector<SharpEdge>> Paste::State::edges_left(const Context& context) {
     if (!gone) return std::nullopt;
     if (!given_edges) given_edges = sharp_edges(given, context);
     const std::vector<char> cleared = gone->mask();
+    const SpatialTree piece(target_piece(context).mesh(), context);
+    const auto lies_on_piece = [&](const SharpEdge& edge) {
+        const double least = kOnPiece * (edge.to - edge.from).norm();
+        return piece.nearest(edge.from).distance <= least &&
+               piece.nearest(edge.to).distance <= least;
+    };
     std::vector<SharpEdge> left = *given_edges;
     std::erase_if(left, [&](const SharpEdge& edge) {
-        return cleared[at(edge.first)] || cleared[at(edge.second)];
+        return cleared[at(edge.first)] || cleared[at(edge.second)] || !lies_on_piece(edge);
     });
     return left;
 }
@@ -223,9 +268,16 @@ void Paste::State::place_on_cleared(const AlteredTarget& ground, const Region& u
     if (!next) return place_on(ground, placement, start, effort, context);
     note_cleared(*next);
     const PlacedFeature former = placed;
-    PasteEffort there = effort;
+    // The boundary keeps its place: elsewhere it would run over features that stayed.
+    PasteEffort there;
+    there.line = former.line ? &*former.line : nullptr;
     there.like = &former;
-    place_on(after(ground, std::move(*next)), placement, start, there, context);
+    PastePlacement fixed = placement;
+    fixed.angle = former.angle;
+    place_on(after(ground, std::move(*next)), fixed, former.loop.vertices, there, context);
+    placed.placement = placement;
+    placed.angle_chosen = former.angle_chosen;
+    placed.upright = former.upright;
 }
 
 void Paste::State::clear_under_boundary(const PasteEffort& effort, const Context& context) {

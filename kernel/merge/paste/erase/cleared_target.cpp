@@ -100,6 +100,18 @@ std::optional<Region> region_after(const std::optional<Region>& onto, const Mesh
     return Region(erased.mesh.shared_topology(), std::move(vertices));
 }
 
+// A patch may turn by this from face to face, whatever the surface around it does.
+constexpr double kEvenPatch = 30.0 * kDegree;
+
+// A region with the hollows that it runs around, as nostrils are.
+Region with_islands(const Mesh& target, const Region& region, const Context& context) {
+    std::vector<Index> vertices = region.vertices();
+    for (const Index f : outlined_faces(target, region, context)) {
+        for (const Index v : target.topology().face(f)) vertices.push_back(v);
+    }
+    return {target.shared_topology(), std::move(vertices)};
+}
+
 ClearedTarget cleared_by(const Mesh& target, const std::optional<Region>& onto,
                          const Region& marked, const EraseOptions& options,
                          const Context& context) {
@@ -115,7 +127,14 @@ ClearedTarget cleared_by(const Mesh& target, const std::optional<Region>& onto,
     Region gone(target.shared_topology(), std::move(vertices));
     found.height = max_height(target, gone, erased.mesh, erased.report.patch.first_face, context);
     std::optional<Region> next = region_after(onto, target, erased, marked);
-    return {std::move(erased.mesh), std::move(erased.map), std::move(next), std::move(gone), found};
+    const EraseReport& report = erased.report;
+    const double unevenness = report.max_dihedral / std::max(kEvenPatch, report.max_around);
+    return {std::move(erased.mesh),
+            std::move(erased.map),
+            std::move(next),
+            std::move(gone),
+            found,
+            unevenness};
 }
 
 }  // namespace
@@ -125,18 +144,25 @@ ClearedTarget cleared_target(const Mesh& target, const std::optional<Region>& on
     return cleared_by(target, onto, gone, {}, context);
 }
 
+std::optional<ClearedTarget> cleared_around(const Mesh& target, const std::optional<Region>& onto,
+                                            const SurfacePoint& point, double radius,
+                                            const Context& context) {
+    const Region near = region_under(target, point, radius, context);
+    try {
+        return cleared_by(target, onto, with_islands(target, near, context), {}, context);
+    } catch (const Error& error) {
+        const ErrorCode code = error.code();
+        if (code == ErrorCode::cancelled || code == ErrorCode::memory_limit) throw;
+        return std::nullopt;
+    }
+}
+
 std::optional<ClearedTarget> cleared_inside(const Mesh& target, const std::optional<Region>& onto,
                                             const Region& under, const Context& context) {
     if (under.shrunk(1).faces().empty()) return std::nullopt;
-    // Hollows that it runs around, as nostrils are, lie under the line too.
-    std::vector<Index> vertices = under.vertices();
-    for (const Index f : outlined_faces(target, under, context)) {
-        for (const Index v : target.topology().face(f)) vertices.push_back(v);
-    }
     EraseOptions options;
     options.ring = 0.0;
-    return cleared_by(target, onto, {target.shared_topology(), std::move(vertices)}, options,
-                      context);
+    return cleared_by(target, onto, with_islands(target, under, context), options, context);
 }
 
 }  // namespace lissom

@@ -26,6 +26,9 @@ struct ClearedTarget {
     /// The vertices of the removed faces of the target as given.
     Region gone;
     PasteClearing found;
+    /// How much the patch turns from face to face, over how much the surface around it does or 30
+    /// degrees, whichever is more.
+    double unevenness = 0.0;
 };
 
 /// Returns an upper bound of a part's place: the connected vertices within `radius` of a point of
@@ -42,6 +45,12 @@ Region region_under_line(const Mesh& target, Index face, const PasteMap& base,
 /// Removes a region with its ring. Errors: as erase_feature.
 ClearedTarget cleared_target(const Mesh& target, const std::optional<Region>& onto,
                              const Region& gone, const Context& context);
+/// Removes the features within `radius` of a point in a straight line, with a ring and with the
+/// hollows between them. Returns nothing if the surface does not go on there. Errors: cancelled;
+/// memory_limit.
+std::optional<ClearedTarget> cleared_around(const Mesh& target, const std::optional<Region>& onto,
+                                            const SurfacePoint& point, double radius,
+                                            const Context& context);
 /// Removes the features in a region and nothing beyond it. Returns nothing if it is a face wide.
 /// Errors: as erase_feature.
 std::optional<ClearedTarget> cleared_inside(const Mesh& target, const std::optional<Region>& onto,

@@ -224,6 +224,7 @@ ImagePoint PasteMap::image_at(const Triangle& places, const Vec3& weights) const
         point.uv += weights[k] * target_.map.uv[at(place)];
         point.position += weights[k] * surfaces_.target.position(v);
         point.normal += weights[k] * surfaces_.target_normals[at(v)];
+        if (!relief_.empty()) point.relief += weights[k] * relief_[at(place)];
     }
     point.normal.normalize();
     return point;

@@ -55,6 +55,8 @@ struct ImagePoint {
     Vec3 position = Vec3::Zero(), normal = Vec3::Zero();
     /// In the plane of the target's chart.
     Vec2 uv = Vec2::Zero();
+    /// See PasteMap::set_relief.
+    double relief = 0.0;
 };
 
 /// A similarity of the plane: p -> factor R(angle) (p - center) + point.
@@ -87,6 +89,11 @@ class PasteMap {
     const PasteChart& source() const { return source_; }
     const PasteChart& target() const { return target_; }
 
+    /// Sets how much a line at each place of the target's chart would cut through a feature that
+    /// was removed there: without unit, 0 beside features. It counts for boundaries that are
+    /// sought.
+    void set_relief(std::vector<double> relief) { relief_ = std::move(relief); }
+
     /// Returns the map of the plane that a placement asks for, `angle` being the whole angle from
     /// the base direction. Errors: boundary_conflict if the point is not on the target's region;
     /// invalid_argument for a scale that is not above 0 or a direction without length; not_finite.
@@ -110,6 +117,7 @@ class PasteMap {
 
     const PasteSurfaces& surfaces_;
     PasteChart source_, target_;
+    std::vector<double> relief_;
     /// Tree of the target's region, whose vertices are places of the chart.
     std::optional<SpatialTree> chart_tree_;
     UvGrid grid_;

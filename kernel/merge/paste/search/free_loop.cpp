@@ -59,6 +59,7 @@ RingEdge edge_between(const RingPoint& a, const RingPoint& b) {
     edge.image = b.image.position - a.image.position;
     edge.source_normal = (a.normal + b.normal).normalized();
     edge.target_normal = (a.image.normal + b.image.normal).normalized();
+    edge.relief = 0.5 * (a.image.relief + b.image.relief);
     edge.inside = a.image.inside && b.image.inside;
     return edge;
 }

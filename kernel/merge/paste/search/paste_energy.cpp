@@ -12,6 +12,8 @@ namespace lissom {
 namespace {
 
 constexpr double kLengthWeight = 0.1;
+// The weight of cleared features that a boundary would cut through, beside the misfit.
+constexpr double kReliefWeight = 2.0;
 // Residuals below this part of a length count as that much, so that weights stay finite.
 constexpr double kMinResidual = 1e-3;
 constexpr int kReweightings = 4;
@@ -64,6 +66,7 @@ std::vector<RingEdge> ring_edges(const PasteMap& map, const LoopSearch& ring,
         edge.image_from = from.position;
         edge.image = to.position - from.position;
         edge.target_normal = (from.normal + to.normal).normalized();
+        edge.relief = 0.5 * (from.relief + to.relief);
         edges.push_back(edge);
     }
     return edges;
@@ -86,6 +89,7 @@ double PasteEnergy::cost(const RingEdge& edge, const PasteSimilarity& similarity
     if (options_.thesis) return (similarity.scale * turned - edge.image).norm() * length;
     const double root = std::sqrt(similarity.scale);
     double cost = (root * turned - edge.image / root).norm() + lambda_ * length;
+    cost += kReliefWeight * root * length * edge.relief;
     if (mu_ > 0.0) {
         cost +=
             mu_ * length * (similarity.rotation * edge.source_normal - edge.target_normal).norm();

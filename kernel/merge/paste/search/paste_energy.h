@@ -30,6 +30,8 @@ struct RingEdge {
     Vec3 from = Vec3::Zero(), image_from = Vec3::Zero();
     /// Unit normals in its middle.
     Vec3 source_normal = Vec3::Zero(), target_normal = Vec3::Zero();
+    /// Mean of that of both ends; see PasteMap::set_relief.
+    double relief = 0.0;
     /// False if an end has no image.
     bool inside = false;
 };
@@ -40,7 +42,8 @@ struct EnergyOptions {
     /// Eq 3.1, |s R e - e*| |e|, with its similarity, the rigid motion that brings points nearest
     /// to their images (Arun et al. 1987) and the quotient of mean lengths, in place of the
     /// symmetric energy |sqrt(s) R e - e* / sqrt(s)| + lambda |e| + mu |R n - n*| |e|, whose value
-    /// does not depend on how finely the surface is divided. lambda and mu hold the scale of the
+    /// does not depend on how finely the surface is divided. If features were cleared, that has the
+    /// relief of edges as well. lambda and mu hold the scale of the
     /// first loop, so that they do not change while the scale does.
     bool thesis = false;
     /// The scale for lambda and mu, if a search goes on with another's; above 0.
