@@ -198,6 +198,11 @@ struct Job {
     void* task = nullptr;
 };
 
+/// Memory of normals that are read in every frame.
+struct NormalsRoom {
+    std::vector<Vec3> sums, found;
+};
+
 /// State of scripts and lissom_call; null if the library was built without Lua.
 class ScriptHost;
 
@@ -246,6 +251,7 @@ struct lissom_context {
     lissom_error shown{};
     /// Memory that lissom_bytes and texts of reports point to.
     std::string bytes, text, more_text;
+    lissom::c::NormalsRoom normals;
     /// Jobs that were not finished; polled and cancelled from any thread.
     mutable std::mutex jobs_mutex;
     std::map<std::uint64_t, std::shared_ptr<lissom::c::Job>> jobs;

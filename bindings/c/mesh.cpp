@@ -8,6 +8,7 @@
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/normals_in_place.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/query/path.h"
 
@@ -206,7 +207,10 @@ lissom_status lissom_mesh_read_positions(lissom_context* context, lissom_mesh me
 lissom_status lissom_mesh_read_normals(lissom_context* context, lissom_mesh mesh,
                                        const lissom_output* normals) {
     return run(context, [&] {
-        const std::vector<Vec3> own = vertex_normals(shown_mesh(*context, mesh));
+        const Mesh& shown = shown_mesh(*context, mesh);
+        std::vector<Vec3>& own = context->normals.found;
+        own.resize(at(shown.vertex_count()));
+        find_vertex_normals(shown, own);
         write_points(normals, own.size(), "normals",
                      [&](std::size_t i) { return context->space.to_host(own[i]); });
     });

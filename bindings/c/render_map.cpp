@@ -184,7 +184,8 @@ lissom_status lissom_render_map_read_normals(lissom_context* context, lissom_ren
     return run(context, [&] {
         const RenderMap& own = map_of(*context, map);
         require_directions(normals, own.vertex.size(), 3, "normals");
-        const std::vector<Vec3> found = render_normals(own, shown_mesh(*context, mesh));
+        std::vector<Vec3>& found = context->normals.found;
+        find_render_normals(own, shown_mesh(*context, mesh), context->normals.sums, found);
         Vec3 normal = Vec3::Zero();
         write_elements(
             *normals, own.vertex.size(), 3,

@@ -24,9 +24,9 @@ constexpr double kFullyApart = 1.5;
 
 using GridCell = std::array<std::int64_t, 3>;
 
-Box box_around(const Mesh& mesh, std::span<const Index> vertices) {
+Box box_around(std::span<const Vec3> shape, std::span<const Index> vertices) {
     Box box;
-    for (const Index v : vertices) box.extend(mesh.position(v));
+    for (const Index v : vertices) box.extend(shape[at(v)]);
     return box;
 }
 
@@ -50,7 +50,7 @@ std::vector<Index> samples_of(const Mesh& mesh, double spacing) {
 }  // namespace
 
 Closeness::Closeness(const Mesh& rest, std::span<const Index> moving) : rest_(rest) {
-    const double size = 0.5 * box_around(rest, moving).diagonal();
+    const double size = 0.5 * box_around(rest.positions(), moving).diagonal();
     if (!(size > 0.0)) return;
     double spacing = kSpacing * size;
     for (samples_ = samples_of(rest, spacing); samples_.size() > kSamples;) {
@@ -63,38 +63,37 @@ Closeness::Closeness(const Mesh& rest, std::span<const Index> moving) : rest_(re
     }
 }
 
-double Closeness::operator()(const Mesh& shape) const {
+double Closeness::operator()(std::span<const Vec3> shape) {
     int axis = 0;
     const Box box = box_around(shape, samples_);
     if (!samples_.empty()) (box.max - box.min).maxCoeff(&axis);
-    const std::vector<std::size_t> order = along(shape, axis);
-    const auto place = [&](std::size_t n) { return shape.position(samples_[order[n]])[axis]; };
+    sort_along(shape, axis);
+    const auto place = [&](std::size_t n) { return shape[at(samples_[order_[n]])][axis]; };
     double nearest = 1.0;
-    for (std::size_t m = 0; m < order.size(); ++m) {
-        for (std::size_t n = m + 1; n < order.size(); ++n) {
+    for (std::size_t m = 0; m < order_.size(); ++m) {
+        for (std::size_t n = m + 1; n < order_.size(); ++n) {
             if (!(place(n) - place(m) < nearest * reach_)) break;
-            nearest = std::min(nearest, of_pair(order[m], order[n], shape));
+            nearest = std::min(nearest, of_pair(order_[m], order_[n], shape));
         }
     }
     return nearest;
 }
 
-double Closeness::of_pair(std::size_t i, std::size_t j, const Mesh& shape) const {
-    const Vec3 now = shape.position(samples_[i]) - shape.position(samples_[j]);
+double Closeness::of_pair(std::size_t i, std::size_t j, std::span<const Vec3> shape) const {
+    const Vec3 now = shape[at(samples_[i])] - shape[at(samples_[j])];
     if (!(now.squaredNorm() < reach_ * reach_) || !(moves_[i] || moves_[j])) return 1.0;
     const double before = (rest_.position(samples_[i]) - rest_.position(samples_[j])).norm();
     const double apart = (before / reach_ - 1.0) / (kFullyApart - 1.0);
     return std::max(now.norm() / std::min(0.5 * before, reach_), 1.0 - apart);
 }
 
-std::vector<std::size_t> Closeness::along(const Mesh& shape, int axis) const {
-    std::vector<std::size_t> order(samples_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-        const double x = shape.position(samples_[i])[axis], y = shape.position(samples_[j])[axis];
+void Closeness::sort_along(std::span<const Vec3> shape, int axis) {
+    order_.resize(samples_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::sort(order_.begin(), order_.end(), [&](std::size_t i, std::size_t j) {
+        const double x = shape[at(samples_[i])][axis], y = shape[at(samples_[j])][axis];
         return x != y ? x < y : i < j;
     });
-    return order;
 }
 
 }  // namespace lissom

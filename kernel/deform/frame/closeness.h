@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/mesh/mesh.h"
 
@@ -18,20 +19,23 @@ class Closeness {
     /// number of vertices.
     Closeness(const Mesh& rest, std::span<const Index> moving);
 
-    /// Returns the distance of the two samples of `shape` that have come nearest to one another, as
-    /// a share of half their distance at rest, or of the reach if they lay further apart: 1 if no
-    /// two have come so near, 0 if two meet. Samples that lie within the reach at rest do not
-    /// count. It is continuous in the positions.
-    double operator()(const Mesh& shape) const;
+    /// Returns the distance of the two samples of `shape`, the positions of all vertices, that have
+    /// come nearest to one another, as a share of half their distance at rest, or of the reach if
+    /// they lay further apart: 1 if no two have come so near, 0 if two meet. Samples that lie
+    /// within the reach at rest do not count. It is continuous in the positions. Takes no memory
+    /// after the first.
+    double operator()(std::span<const Vec3> shape);
 
   private:
-    double of_pair(std::size_t i, std::size_t j, const Mesh& shape) const;
-    std::vector<std::size_t> along(const Mesh& shape, int axis) const;
+    double of_pair(std::size_t i, std::size_t j, std::span<const Vec3> shape) const;
+    void sort_along(std::span<const Vec3> shape, int axis);
 
     const Mesh& rest_;
     double reach_ = 0.0;
     std::vector<Index> samples_;
     std::vector<char> moves_;
+    // Samples by a coordinate of the last shape.
+    std::vector<std::size_t> order_;
 };
 
 }  // namespace lissom

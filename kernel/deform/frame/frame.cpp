@@ -27,7 +27,7 @@ void solve_stretched(const SecondInput& input, FrameScratch::State& scratch,
     for (std::size_t n = taken.size(); n-- > 0;) scratch.rotations[at(taken[n].vertex)] = before[n];
 }
 
-// Drafts are not limited: counting crossings takes longer than a frame.
+// Drafts are not limited: a search for crossings takes longer than a frame.
 void refine_result(const SecondInput& input, FrameScratch::State& scratch, const Context& context) {
     if (!input.draft) scratch.refine.plain = scratch.deviation;
     const int steps = input.motion.options().refine;
@@ -37,7 +37,7 @@ void refine_result(const SecondInput& input, FrameScratch::State& scratch, const
                          scratch.rotations);
         solve_stretched(input, scratch, context);
     }
-    if (!input.draft) limit_refinement(input, scratch.refine.plain, scratch, context);
+    if (!input.draft) limit_refinement(input, scratch, context);
 }
 
 // Solves for deviations from the similarity nearest to the base transform, so that similarities of

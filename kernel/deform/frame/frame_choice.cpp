@@ -26,18 +26,15 @@ constexpr int kHalvings = 6;
 // so that a path of poses does not jump; the number of crossings only guards it.
 class RefinementShare {
   public:
-    RefinementShare(const SecondInput& input, const MovingSurface& surface, const Deviation& plain,
-                    const Deviation& refined, const Context& context)
-        : input_(input),
-          surface_(surface),
-          context_(context),
-          plain_(plain),
-          refined_(refined),
-          plain_shape_(shape_of(plain)) {}
+    RefinementShare(const SecondInput& input, MovingSurface& surface, const Deviation& refined,
+                    RefineRoom& room, const Context& context)
+        : input_(input), surface_(surface), context_(context), refined_(refined), room_(room) {
+        find_shape(room_.plain, room_.plain_shape);
+    }
 
     double find() {
-        const Mesh refined = shape_of(refined_);
-        const double share = room(refined) * firmness(refined);
+        find_shape(refined_, room_.shape);
+        const double share = roominess() * firmness();
         if (!(share > 0.0) || harmless(share)) return share;
         double kept = 0.0, refused = share;
         for (int halving = 0; halving < kHalvings; ++halving) {
@@ -48,41 +45,43 @@ class RefinementShare {
     }
 
   private:
-    double room(const Mesh& refined) const {
-        return smooth_step((surface_.closeness(refined) - kTooClose) / (1.0 - kTooClose));
+    double roominess() {
+        return smooth_step((surface_.closeness(room_.shape) - kTooClose) / (1.0 - kTooClose));
     }
 
-    double firmness(const Mesh& refined) const {
-        const double limit = std::max(kHarmless, surface_.stretch(plain_shape_));
-        return 1.0 - smooth_step(surface_.stretch(refined) / limit - 1.0);
+    double firmness() const {
+        const double limit = std::max(kHarmless, surface_.stretch(room_.plain_shape));
+        return 1.0 - smooth_step(surface_.stretch(room_.shape) / limit - 1.0);
     }
 
     // Whether no faces cross, or some do without refinement.
     bool harmless(double share) {
-        const Mesh shape = shape_of(between(share));
-        return surface_.crossings(shape, context_) == 0 || plain_crossings() > 0;
+        find_between(share);
+        find_shape(room_.between, room_.shape);
+        return !surface_.crosses(room_.shape, context_) || plain_crosses();
     }
 
-    Index plain_crossings() {
-        if (!crossings_) crossings_ = surface_.crossings(plain_shape_, context_);
-        return *crossings_;
+    bool plain_crosses() {
+        if (!plain_crosses_) plain_crosses_ = surface_.crosses(room_.plain_shape, context_);
+        return *plain_crosses_;
     }
 
-    Deviation between(double share) const {
-        Deviation result(plain_.size());
-        for (std::size_t v = 0; v < plain_.size(); ++v) {
-            result[v] = plain_[v] + share * (refined_[v] - plain_[v]);
+    void find_between(double share) {
+        const Deviation& plain = room_.plain;
+        room_.between.resize(plain.size());
+        for (std::size_t v = 0; v < plain.size(); ++v) {
+            room_.between[v] = plain[v] + share * (refined_[v] - plain[v]);
         }
-        return result;
     }
 
-    Mesh shape_of(const Deviation& result) const {
+    void find_shape(const Deviation& result, std::vector<Vec3>& shape) {
         const FrameInput& motion = input_.motion;
         const Preparation& prepared = motion.prepared();
         const Patch& patch = motion.patch();
         const Vec3 shift = motion.base().topRightCorner<3, 1>() + patch.origin;
-        std::vector<Vec3> positions = prepared.rest->positions;
-        positions.resize(positions.size() + patch.inserted.size());
+        std::vector<Vec3>& positions = room_.of_region;
+        positions.assign(prepared.rest->positions.begin(), prepared.rest->positions.end());
+        positions.resize(positions.size() + patch.inserted.size(), Vec3::Zero());
         for (Index v = 0; v < patch.real_count; ++v) {
             const Index row = prepared.rest->frame_row(patch, v);
             if (row == kNoIndex) continue;
@@ -92,20 +91,19 @@ class RefinementShare {
                                             result[at(v)].head<3>());
         }
         place_followers(prepared, motion.poses(), positions);
-        return surface_.shape(positions);
+        surface_.place(positions, shape);
     }
 
     const SecondInput& input_;
-    const MovingSurface& surface_;
+    MovingSurface& surface_;
     const Context& context_;
-    const Deviation& plain_;
     const Deviation& refined_;
-    Mesh plain_shape_;
-    std::optional<Index> crossings_;
+    RefineRoom& room_;
+    std::optional<bool> plain_crosses_;
 };
 
-const MovingSurface& moving_surface(const SecondInput& input, FrameScratch::State& scratch,
-                                    const Context& context) {
+MovingSurface& moving_surface(const SecondInput& input, FrameScratch::State& scratch,
+                              const Context& context) {
     if (!scratch.surface || scratch.surface_of.lock() != scratch.sized_for.lock()) {
         scratch.surface.emplace(input.motion.prepared(), context);
         scratch.surface_of = scratch.sized_for;
@@ -115,11 +113,12 @@ const MovingSurface& moving_surface(const SecondInput& input, FrameScratch::Stat
 
 }  // namespace
 
-void limit_refinement(const SecondInput& input, const Deviation& plain,
-                      FrameScratch::State& scratch, const Context& context) {
+void limit_refinement(const SecondInput& input, FrameScratch::State& scratch,
+                      const Context& context) {
+    const Deviation& plain = scratch.refine.plain;
     Deviation& result = scratch.deviation;
-    const MovingSurface& surface = moving_surface(input, scratch, context);
-    const double share = RefinementShare(input, surface, plain, result, context).find();
+    MovingSurface& surface = moving_surface(input, scratch, context);
+    const double share = RefinementShare(input, surface, result, scratch.refine, context).find();
     if (share == 1.0) return;
     for (std::size_t v = 0; v < plain.size(); ++v) {
         result[v] = plain[v] + share * (result[v] - plain[v]);

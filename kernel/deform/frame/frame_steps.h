@@ -89,8 +89,10 @@ struct TakenStretch {
 
 /// Memory of refinements.
 struct RefineRoom {
-    Deviation plain;
+    Deviation plain, between;
     std::vector<Vec4> absolute, turns, sizes;
+    /// Positions of the region, and of all vertices: without refinement and with a share of it.
+    std::vector<Vec3> of_region, plain_shape, shape;
 };
 
 struct FrameScratch::State {
@@ -206,13 +208,13 @@ double over_relaxation(double max_turn, bool last);
 void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,
                       RefineRoom& room, const Context& context, Rotations& rotations);
 
-/// Takes the refined deviation in `scratch` back towards `plain`, the one without refinement: more
-/// and more as parts that lie apart at rest come near to one another and as edges stretch further
-/// than in `plain`, and so far that no faces cross if none do in `plain`. The result is a function
-/// of both deviations, and continuous in them as long as that last guard is not needed. Errors:
-/// cancelled; memory_limit.
-void limit_refinement(const SecondInput& input, const Deviation& plain,
-                      FrameScratch::State& scratch, const Context& context);
+/// Takes the refined deviation in `scratch` back towards that without refinement, `refine.plain`:
+/// more and more as parts that lie apart at rest come near to one another and as edges stretch
+/// further than without, and so far that no faces cross if none do without. The result is a
+/// function of both deviations, and continuous in them as long as that last guard is not needed.
+/// Errors: cancelled; memory_limit.
+void limit_refinement(const SecondInput& input, FrameScratch::State& scratch,
+                      const Context& context);
 
 /// A frame of a comparison method.
 DeformFrame solve_compared(const std::shared_ptr<const Preparation>& preparation,

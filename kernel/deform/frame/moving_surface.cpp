@@ -1,7 +1,6 @@
 #include "kernel/deform/frame/moving_surface.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace lissom {
@@ -51,41 +50,32 @@ std::vector<Index> faces_at(const Topology& topology, const std::vector<Index>& 
 MovingSurface::MovingSurface(const Preparation& prepared, const Context& context)
     : region_(prepared.rest->region().vertices()),
       moving_(moving_vertices(prepared)),
-      faces_(faces_at(*prepared.rest->region().topology(), moving_)),
       rest_(mesh_at_rest(*prepared.rest)),
-      crossings_(pairs_of(rest_, context)),
+      search_(rest_.shared_topology(), {faces_at(rest_.topology(), moving_)}, context),
+      crossings_(search_.find(rest_.positions(), context)),
       closeness_(rest_, moving_) {}
 
-Mesh MovingSurface::shape(std::span<const Vec3> positions) const {
-    std::vector<Vec3> all(rest_.positions().begin(), rest_.positions().end());
-    for (std::size_t row = 0; row < region_.size(); ++row) all[at(region_[row])] = positions[row];
-    return {std::move(all), rest_.shared_topology()};
+void MovingSurface::place(std::span<const Vec3> positions, std::vector<Vec3>& shape) const {
+    shape.assign(rest_.positions().begin(), rest_.positions().end());
+    bool is_finite = true;
+    for (std::size_t row = 0; row < region_.size(); ++row) {
+        shape[at(region_[row])] = positions[row];
+        is_finite = is_finite && positions[row].allFinite();
+    }
+    // A mesh of such positions refuses them by name.
+    if (!is_finite) Mesh refused(shape, rest_.shared_topology());
 }
 
-double MovingSurface::stretch(const Mesh& shape) const {
+double MovingSurface::stretch(std::span<const Vec3> shape) const {
     double most = 1.0;
     for (const Index v : moving_) {
         for (const Index n : rest_.topology().neighbors(v)) {
             const double before = (rest_.position(v) - rest_.position(n)).norm();
-            const double after = (shape.position(v) - shape.position(n)).norm();
+            const double after = (shape[at(v)] - shape[at(n)]).norm();
             if (before > 0.0) most = std::max({most, after / before, before / after});
         }
     }
     return most;
-}
-
-Index MovingSurface::crossings(const Mesh& shape, const Context& context) const {
-    const std::vector<FacePair> now = pairs_of(shape, context);
-    std::vector<FacePair> added;
-    std::set_difference(now.begin(), now.end(), crossings_.begin(), crossings_.end(),
-                        std::back_inserter(added));
-    return count_of(added);
-}
-
-std::vector<FacePair> MovingSurface::pairs_of(const Mesh& shape, const Context& context) const {
-    SelfIntersectionOptions options;
-    options.faces = faces_;
-    return self_intersections(shape, options, context);
 }
 
 }  // namespace lissom

@@ -10,12 +10,13 @@
 #include "kernel/deform/frame/closeness.h"
 #include "kernel/deform/preparation.h"
 #include "kernel/mesh/mesh.h"
-#include "kernel/mesh/query/self_intersections.h"
+#include "kernel/mesh/query/crossing_search.h"
 
 namespace lissom {
 
-/// The faces of the mesh that a preparation may move, with all others around them. The shapes to
-/// measure have the positions of a frame: one for each vertex of the region, in its order.
+/// The faces of the mesh that a preparation may move, with all others around them. It keeps its
+/// memory, so that measures take none after the first. A shape is the positions of all vertices of
+/// the mesh.
 class MovingSurface {
   public:
     /// Errors: cancelled; memory_limit.
@@ -23,21 +24,22 @@ class MovingSurface {
     MovingSurface(const MovingSurface&) = delete;
     MovingSurface& operator=(const MovingSurface&) = delete;
 
-    /// Returns the mesh with the region at `positions`.
-    Mesh shape(std::span<const Vec3> positions) const;
+    /// Makes `shape` that of the mesh with the region at `positions`: one for each of its vertices,
+    /// in its order. Errors: not_finite naming the vertices.
+    void place(std::span<const Vec3> positions, std::vector<Vec3>& shape) const;
     /// Returns the greatest factor by which an edge that moves is longer or shorter than at rest.
-    double stretch(const Mesh& shape) const;
+    double stretch(std::span<const Vec3> shape) const;
     /// Returns how near parts come that lie apart at rest: 1 not at all, 0 if they meet.
-    double closeness(const Mesh& shape) const { return closeness_(shape); }
-    /// Returns the number of pairs of faces that run through one another, and did not at rest.
-    /// Errors: cancelled; memory_limit.
-    Index crossings(const Mesh& shape, const Context& context) const;
+    double closeness(std::span<const Vec3> shape) { return closeness_(shape); }
+    /// Returns whether faces run through one another that did not at rest. Errors: cancelled.
+    bool crosses(std::span<const Vec3> shape, const Context& context) {
+        return search_.finds_others(shape, crossings_, context);
+    }
 
   private:
-    std::vector<FacePair> pairs_of(const Mesh& shape, const Context& context) const;
-
-    std::vector<Index> region_, moving_, faces_;
+    std::vector<Index> region_, moving_;
     Mesh rest_;
+    CrossingSearch search_;
     std::vector<FacePair> crossings_;
     Closeness closeness_;
 };

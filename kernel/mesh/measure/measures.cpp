@@ -7,6 +7,7 @@
 
 #include "kernel/core/hasher.h"
 #include "kernel/mesh/measure/flat_face.h"
+#include "kernel/mesh/measure/normals_in_place.h"
 #include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
@@ -84,6 +85,20 @@ Surface surface_of(const Mesh& mesh, const Triangulation& surface) {
         result.centroid = mean(mesh.positions());
     }
     return result;
+}
+
+// The unit normal of a polygon whose k-th corner is `corner(k)`.
+template <typename Corner>
+Vec3 normal_of_corners(std::size_t count, const Corner& corner) {
+    Vec3 area = Vec3::Zero();
+    double longest = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Vec3& next = corner((k + 1) % count);
+        area += 0.5 * (corner(k) - corner(0)).cross(next - corner(0));
+        longest = std::max(longest, (next - corner(k)).squaredNorm());
+    }
+    const double size = area.norm();
+    return size > kFlatFace * longest ? Vec3(area / size) : Vec3(Vec3::Zero());
 }
 
 }  // namespace
@@ -187,15 +202,8 @@ Index genus(const Topology& topology) {
 }
 
 Vec3 polygon_normal(std::span<const Vec3> corners) {
-    Vec3 area = Vec3::Zero();
-    double longest = 0.0;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-        const Vec3& next = corners[(k + 1) % corners.size()];
-        area += 0.5 * (corners[k] - corners[0]).cross(next - corners[0]);
-        longest = std::max(longest, (next - corners[k]).squaredNorm());
-    }
-    const double size = area.norm();
-    return size > kFlatFace * longest ? Vec3(area / size) : Vec3(Vec3::Zero());
+    return normal_of_corners(corners.size(),
+                             [&](std::size_t k) -> const Vec3& { return corners[k]; });
 }
 
 double corner_angle(const Vec3& before, const Vec3& corner, const Vec3& after, const Vec3& normal) {
@@ -204,34 +212,41 @@ double corner_angle(const Vec3& before, const Vec3& corner, const Vec3& after, c
     return angle < 0.0 ? angle + 2.0 * kPi : angle;
 }
 
+Vec3 normal_of_face(const Mesh& mesh, Index f) {
+    const std::span<const Index> face = mesh.topology().face(f);
+    return normal_of_corners(face.size(),
+                             [&](std::size_t k) -> const Vec3& { return mesh.position(face[k]); });
+}
+
 std::vector<Vec3> face_normals(const Mesh& mesh) {
-    std::vector<Vec3> normals, corners;
-    normals.reserve(mesh.face_count());
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        corners.clear();
-        for (const Index v : mesh.topology().face(f)) corners.push_back(mesh.position(v));
-        normals.push_back(polygon_normal(corners));
-    }
+    std::vector<Vec3> normals;
+    normals.reserve(at(mesh.face_count()));
+    for (Index f = 0; f < mesh.face_count(); ++f) normals.push_back(normal_of_face(mesh, f));
     return normals;
 }
 
-std::vector<Vec3> vertex_normals(const Mesh& mesh) {
-    std::vector<Vec3> normals(mesh.vertex_count(), Vec3::Zero());
-    const std::vector<Vec3> of_face = face_normals(mesh);
+void find_vertex_normals(const Mesh& mesh, std::span<Vec3> normals) {
+    std::fill(normals.begin(), normals.end(), Vec3::Zero());
     for (Index f = 0; f < mesh.face_count(); ++f) {
         const std::span<const Index> face = mesh.topology().face(f);
+        const Vec3 of_face = normal_of_face(mesh, f);
         const std::size_t n = face.size();
         for (std::size_t k = 0; k < n; ++k) {
             const double angle =
                 corner_angle(mesh.position(face[(k + n - 1) % n]), mesh.position(face[k]),
-                             mesh.position(face[(k + 1) % n]), of_face[f]);
-            normals[face[k]] += angle * of_face[f];
+                             mesh.position(face[(k + 1) % n]), of_face);
+            normals[at(face[k])] += angle * of_face;
         }
     }
     for (Vec3& n : normals) {
         const double length = n.norm();
         n = length > 0.0 ? Vec3(n / length) : Vec3::Zero();
     }
+}
+
+std::vector<Vec3> vertex_normals(const Mesh& mesh) {
+    std::vector<Vec3> normals(at(mesh.vertex_count()));
+    find_vertex_normals(mesh, normals);
     return normals;
 }
 

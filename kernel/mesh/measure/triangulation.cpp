@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kernel/mesh/measure/triangulation_room.h"
+
 namespace lissom {
 namespace {
 
@@ -82,8 +84,9 @@ double ear_quality(std::span<const Vec3> points, const std::vector<Index>& loop,
     return area / longest;
 }
 
-void clip_ears(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
-    std::vector<Index> loop(points.size());
+void clip_ears(std::span<const Vec3> points, std::vector<Triangle>& triangles,
+               std::vector<Index>& loop) {
+    loop.resize(points.size());
     std::iota(loop.begin(), loop.end(), 0);
     const Vec3 normal = mean_normal(points);
     while (loop.size() > 3) {
@@ -106,16 +109,21 @@ void clip_ears(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
 // corners: looking for the best one each time would take its cube.
 class EarWalk {
   public:
-    EarWalk(std::span<const Vec3> points, std::vector<Triangle>& triangles)
+    EarWalk(std::span<const Vec3> points, std::vector<Triangle>& triangles, TriangulationRoom& room)
         : points_(points),
           triangles_(triangles),
           normal_(mean_normal(points)),
           left_(points.size()),
           tests_left_(kTestsPerCorner * points.size()),
-          before_(points.size()),
-          after_(points.size()),
-          is_obstacle_(points.size(), false) {
+          before_(room.before),
+          after_(room.after),
+          is_obstacle_(room.is_obstacle),
+          obstacles_(room.obstacles) {
         const auto n = count_of(points);
+        before_.resize(points.size());
+        after_.resize(points.size());
+        is_obstacle_.assign(points.size(), false);
+        obstacles_.clear();
         for (Index i = 0; i < n; ++i) {
             before_[i] = (i + n - 1) % n;
             after_[i] = (i + 1) % n;
@@ -210,23 +218,56 @@ class EarWalk {
     std::vector<Triangle>& triangles_;
     Vec3 normal_;
     std::size_t left_, tests_left_;
-    std::vector<Index> before_, after_;
-    std::vector<bool> is_obstacle_;
-    std::vector<Index> obstacles_;
+    std::vector<Index>&before_, &after_;
+    std::vector<bool>& is_obstacle_;
+    std::vector<Index>& obstacles_;
     Index at_ = 0;
 };
 
 }  // namespace
 
-void triangulate_polygon(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
+void triangulate_polygon(std::span<const Vec3> points, std::vector<Triangle>& triangles,
+                         TriangulationRoom& room) {
     if (points.size() == 3) {
         triangles.push_back({0, 1, 2});
     } else if (points.size() == 4) {
         triangulate_quad(points, triangles);
     } else if (points.size() <= kLargestByQuality) {
-        clip_ears(points, triangles);
+        clip_ears(points, triangles, room.loop);
     } else {
-        EarWalk(points, triangles).clip_all();
+        EarWalk(points, triangles, room).clip_all();
+    }
+}
+
+void triangulate_polygon(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
+    TriangulationRoom room;
+    triangulate_polygon(points, triangles, room);
+}
+
+void triangulate_faces(const Topology& topology, std::span<const Vec3> positions,
+                       std::span<const Index> faces, Triangulation& result,
+                       TriangulationRoom& room) {
+    result.triangles.clear();
+    result.corners.clear();
+    result.face.clear();
+    for (const Index f : faces) {
+        const std::span<const Index> face = topology.face(f);
+        const Index first = topology.first_corner(f);
+        if (face.size() == 3) {
+            result.triangles.push_back({face[0], face[1], face[2]});
+            result.corners.push_back({first, first + 1, first + 2});
+            result.face.push_back(f);
+            continue;
+        }
+        room.points.clear();
+        room.local.clear();
+        for (const Index v : face) room.points.push_back(positions[at(v)]);
+        triangulate_polygon(room.points, room.local, room);
+        for (const auto& [a, b, c] : room.local) {
+            result.triangles.push_back({face[at(a)], face[at(b)], face[at(c)]});
+            result.corners.push_back({first + a, first + b, first + c});
+            result.face.push_back(f);
+        }
     }
 }
 
@@ -236,28 +277,8 @@ Triangulation triangulate_faces(const Topology& topology, std::span<const Vec3> 
     result.triangles.reserve(faces.size());
     result.corners.reserve(faces.size());
     result.face.reserve(faces.size());
-    std::vector<Vec3> points;
-    std::vector<Triangle> local;
-    for (const Index f : faces) {
-        const std::span<const Index> face = topology.face(f);
-        if (face.size() == 3) {
-            const Index first = topology.first_corner(f);
-            result.triangles.push_back({face[0], face[1], face[2]});
-            result.corners.push_back({first, first + 1, first + 2});
-            result.face.push_back(f);
-            continue;
-        }
-        points.clear();
-        local.clear();
-        for (const Index v : face) points.push_back(positions[v]);
-        triangulate_polygon(points, local);
-        const Index first = topology.first_corner(f);
-        for (const Triangle& t : local) {
-            result.triangles.push_back({face[t[0]], face[t[1]], face[t[2]]});
-            result.corners.push_back({first + t[0], first + t[1], first + t[2]});
-            result.face.push_back(f);
-        }
-    }
+    TriangulationRoom room;
+    triangulate_faces(topology, positions, faces, result, room);
     return result;
 }
 

@@ -14,6 +14,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/normals_in_place.h"
 #include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
@@ -286,14 +287,15 @@ std::vector<Triangle> render_triangles(const RenderMap& map, const Mesh& mesh) {
     return triangles;
 }
 
-std::vector<Vec3> render_normals(const RenderMap& map, const Mesh& mesh) {
+void find_render_normals(const RenderMap& map, const Mesh& mesh, std::vector<Vec3>& sums,
+                         std::vector<Vec3>& normals) {
     require_map_of(map, mesh);
-    std::vector<Vec3> sums(at(map.smooth_count), Vec3::Zero());
-    const std::vector<Vec3> of_face = face_normals(mesh);
+    sums.assign(at(map.smooth_count), Vec3::Zero());
+    Vec3 normal = Vec3::Zero();
     for_each_corner(mesh.topology(), [&](Index f, Index k, Index corner) {
         const auto face = mesh.topology().face(f);
         const Index n = count_of(face);
-        const Vec3& normal = of_face[at(f)];
+        if (k == 0) normal = normal_of_face(mesh, f);
         const double angle =
             corner_angle(mesh.position(face[at((k + n - 1) % n)]), mesh.position(face[at(k)]),
                          mesh.position(face[at((k + 1) % n)]), normal);
@@ -303,10 +305,15 @@ std::vector<Vec3> render_normals(const RenderMap& map, const Mesh& mesh) {
         const double length = sum.norm();
         sum = length > 0.0 ? Vec3(sum / length) : Vec3::Zero();
     }
-    std::vector<Vec3> normals(map.vertex.size(), Vec3::Zero());
+    normals.assign(map.vertex.size(), Vec3::Zero());
     for (std::size_t i = 0; i < normals.size(); ++i) {
         if (map.smooth[i] != kNoIndex) normals[i] = sums[at(map.smooth[i])];
     }
+}
+
+std::vector<Vec3> render_normals(const RenderMap& map, const Mesh& mesh) {
+    std::vector<Vec3> sums, normals;
+    find_render_normals(map, mesh, sums, normals);
     return normals;
 }
 

@@ -69,6 +69,10 @@ std::vector<Triangle> render_triangles(const RenderMap& map, const Mesh& mesh);
 /// vertices without a face. Errors: topology_mismatch.
 std::vector<Vec3> render_normals(const RenderMap& map, const Mesh& mesh);
 
+/// Makes `normals` the same in the memory that it and `sums` have; the content of `sums` is lost.
+void find_render_normals(const RenderMap& map, const Mesh& mesh, std::vector<Vec3>& sums,
+                         std::vector<Vec3>& normals);
+
 /// Returns the tangents of the present shape by MikkTSpace's rule, for the texture coordinates
 /// `uv`, an attribute of two numbers a vertex or corner. Errors: topology_mismatch; out_of_range
 /// without such an attribute.
