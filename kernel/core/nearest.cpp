@@ -6,6 +6,11 @@
 namespace lissom {
 namespace {
 
+// Longer texts are no names that a person mistypes, and no more pairs of letters than this are
+// compared: a script may ask for a text of megabytes among a million names.
+constexpr std::size_t kMaxNameLetters = 255;
+constexpr std::size_t kMaxLetterPairs = 20'000'000;
+
 // Optimal string alignment distance.
 std::size_t edits(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
@@ -30,7 +35,11 @@ std::string_view nearest_name(std::string_view name,
                               const std::vector<std::string_view>& candidates) {
     std::string_view nearest;
     std::size_t fewest = std::max<std::size_t>(1, (name.size() + 1) / 3) + 1;
+    std::size_t pairs = 0;
     for (const std::string_view candidate : candidates) {
+        if (std::max(name.size(), candidate.size()) > kMaxNameLetters) continue;
+        pairs += (name.size() + 1) * (candidate.size() + 1);
+        if (pairs > kMaxLetterPairs) break;
         const std::size_t count = edits(name, candidate);
         if (count >= fewest || count >= std::max(name.size(), candidate.size())) continue;
         fewest = count;

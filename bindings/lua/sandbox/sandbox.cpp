@@ -330,14 +330,24 @@ SandboxEnd Sandbox::end() const {
     return parts_->end;
 }
 
+namespace {
+
+int raise_end(lua_State* L) {
+    raise_stopped(L);
+}
+
+}  // namespace
+
 int Sandbox::call(int arguments, int results, int handler) {
     Parts& parts = *parts_;
+    const int below = lua_gettop(parts.L) - arguments - 1;
     const Context context = state().context;
     parts.end = SandboxEnd::none;
     parts.stop.clear();
     parts.instructions = 0;
     lua_sethook(parts.L, look_at_limits, kLooks, kInstructions);
     int status = LUA_OK;
+    bool has_ended = false;
     {
         const Watch watch(parts.limits.seconds, [&parts, &context] {
             parts.ask(SandboxEnd::seconds);
@@ -346,11 +356,18 @@ int Sandbox::call(int arguments, int results, int handler) {
         parts.runs = true;
         status = lua_pcall(parts.L, arguments, results, handler);
         parts.runs = false;
+        has_ended = parts.stop.asked();
     }
     // The host reads results and messages by calls that nothing protects.
     lua_sethook(parts.L, nullptr, 0, 0);
     // The limit asked for this, not the host.
     if (parts.end == SandboxEnd::seconds) context.clear_cancel();
+    // A limit may have ended a coroutine alone, shortly before the end of the script.
+    if (status == LUA_OK && has_ended) {
+        lua_settop(parts.L, below);
+        lua_pushcfunction(parts.L, raise_end);
+        status = lua_pcall(parts.L, 0, 0, 0);
+    }
     return status;
 }
 

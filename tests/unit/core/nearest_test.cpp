@@ -26,5 +26,16 @@ TEST_CASE("what is far from all names gives no hint") {
     CHECK(name_hint("x", {}) == "; there are none");
 }
 
+TEST_CASE("texts of megabytes and a million names are answered at once") {
+    const std::string text(30'000'000, 'x'), other(30'000'000, 'y');
+    CHECK(nearest_name(text, kNames) == "");
+    CHECK(nearest_name("smoth", {text, other, "smooth"}) == "smooth");
+    CHECK(nearest_name(text, {other}) == "");
+    const std::string name(200, 'n');
+    const std::vector<std::string_view> many(1'000'000, name);
+    CHECK(nearest_name(std::string(200, 'm'), many) == "");
+    CHECK(nearest_name(std::string(199, 'n') + "m", many) == name);
+}
+
 }  // namespace
 }  // namespace lissom

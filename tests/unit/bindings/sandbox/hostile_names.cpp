@@ -19,6 +19,17 @@ std::vector<HostileScript> hostile_names() {
          kBox + "local r = m:region{ all = true } for i = 1, 1e9 do assert(m:set_region(" + kLong +
              ", r)) end",
          error, "at most 255"},
+        {"names that nothing has",
+         kStart +
+             "local b = ('x'):rep(20000000) for i = 1, 1e9 do pcall(function() return l[b] end) "
+             "pcall(function() return l.shapes.box()[b] end) pcall(l.shapes.box, { [b] = 1 }) end",
+         time},
+        {"a choice that differs in millions of letters",
+         kStart +
+             "local a, b = ('x'):rep(5000000), ('y'):rep(5000000) while true do pcall(l.params, "
+             "{ a = { type = 'choice', choices = { a }, default = b } }, { command_line = false }) "
+             "end",
+         time},
         {"many named regions",
          kBox + "local r = m:region{ all = true } for i = 1, 200 do m:set_region(('n'):rep(200) .. "
                 "i, r) end while true do t[#t + 1] = assert(m:copy()) end",

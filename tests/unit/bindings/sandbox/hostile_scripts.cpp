@@ -25,6 +25,13 @@ std::vector<HostileScript> endless() {
         {"coroutine", "coroutine.wrap(function() while true do end end)()", time},
         {"coroutines for ever",
          "while true do pcall(coroutine.wrap(function() while true do end end)) end", time},
+        {"coroutine.close that loops at the end",
+         "local c = coroutine.create(function() local x <close> = setmetatable({}, "
+         "{ __close = function() while true do end end }) coroutine.yield() end) "
+         "coroutine.resume(c) coroutine.close(c)",
+         time},
+        {"resume that loops at the end",
+         "return coroutine.resume(coroutine.create(function() while true do end end))", time},
         {"coroutine in coroutine",
          "local function f() return coroutine.wrap(f)() end while true do pcall(f) end", time},
         {"resume for ever",

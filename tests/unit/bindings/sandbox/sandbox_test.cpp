@@ -56,6 +56,30 @@ TEST_CASE("sandbox: instructions are counted, of each run") {
     }
 }
 
+TEST_CASE("sandbox: a script whose coroutine a limit has ended fails, also if it ends at once") {
+    SandboxLimits limits = patient();
+    limits.instructions = 100'000;
+    limits.output_bytes = 1000;
+    Sandbox sandbox(limits, {});
+    const auto check = [&](const char* text, SandboxEnd end, const char* message) {
+        CAPTURE(text);
+        CHECK(run_text(sandbox, text) == LUA_ERRRUN);
+        CHECK(sandbox.end() == end);
+        CHECK(std::string(lua_tostring(sandbox.lua(), -1)).find(message) != std::string::npos);
+    };
+    const char* const too_long = "as many instructions as it may";
+    check(
+        "local co = coroutine.create(function() local x <close> = setmetatable({}, { __close = "
+        "function() while true do end end }) coroutine.yield() end) coroutine.resume(co) "
+        "coroutine.close(co)",
+        SandboxEnd::instructions, too_long);
+    check("return coroutine.resume(coroutine.create(function() while true do end end))",
+          SandboxEnd::instructions, too_long);
+    check("return coroutine.resume(coroutine.create(function() print(('x'):rep(2000)) end))",
+          SandboxEnd::output, "written as much as it may");
+    CHECK(run_text(sandbox, "return true") == LUA_OK);
+}
+
 // Bytes that the kernel has taken for objects, after all garbage was collected.
 std::size_t kernel_bytes(const Sandbox& sandbox) {
     lua_State* L = sandbox.lua();
