@@ -267,6 +267,8 @@ Image draw_picture(Renderer& renderer, const Picture& picture, const Context& co
     const Snapshot all = whole(picture, range_of(picture, range_of_values(picture.meshes)));
     const std::vector<Snapshot> snapshots = cells_of(picture, all);
 
+    const MemoryCharge charge =
+        context.charge(std::size_t{4} * at(options.width) * at(options.height), "the picture");
     Image image(options.width, options.height);
     if (options.background) {
         fill_rectangle(image, 0, 0, image.width, image.height, *options.background);

@@ -94,7 +94,7 @@ Picture frozen(Picture picture);
 
 /// Draws `picture`. Errors: those of Renderer::render and frame_points; mesh_empty for a mesh
 /// without faces; invalid_argument if the range is empty, or the size leaves no room for cells or
-/// legend.
+/// legend; memory_limit before it takes memory for the pixels.
 Image draw_picture(Renderer& renderer, const Picture& picture, const Context& context = {});
 
 }  // namespace lissom

@@ -144,6 +144,31 @@ TEST_CASE("lines and points are framed and drawn without any mesh") {
     CHECK(test::covered(draw_picture(*renderer, picture)) > 100.0);
 }
 
+TEST_CASE("the pixels of a picture are charged before they are there, beside those of its cells") {
+    const auto renderer = test::make_renderer();
+    if (!renderer) return;
+    Picture picture = picture_of(make_box(), 1000, 1000);
+    picture.options.samples = 1;
+    picture.meshes.resize(25, picture.meshes[0]);
+    picture.columns = 5;
+    const auto message_at = [&](std::size_t limit) {
+        ContextOptions options;
+        options.memory_limit = limit;
+        const Context context(options);
+        std::string message;
+        try {
+            draw_picture(*renderer, picture, context);
+        } catch (const Error& error) {
+            CHECK(error.code() == ErrorCode::memory_limit);
+            message = error.message();
+        }
+        CHECK(context.memory()->used() == 0);
+        return message;
+    };
+    CHECK(message_at(3'999'999).find("the picture needs 4000000 bytes") == 0);
+    CHECK(message_at(20'000'000).empty());
+}
+
 TEST_CASE("pictures that cannot be made are refused") {
     const auto renderer = test::make_renderer();
     if (!renderer) return;
