@@ -64,14 +64,23 @@ bool is_known(lissom_format format) {
     return format >= LISSOM_FLOAT32 && format <= LISSOM_FLOAT16;
 }
 
-// Bytes from one element to the next. The stride may not be less than an element is long.
-std::size_t stride_of(std::size_t stride, std::size_t element, const char* name) {
-    if (stride != 0 && stride < element) {
+// Returns the bytes from one element to the next. A stride that is less than an element is long, or
+// takes the last of `count` elements around the end of memory, is refused.
+std::size_t stride_of(std::size_t stride, std::size_t element, std::size_t count,
+                      const char* name) {
+    constexpr std::size_t kMostBytes = std::numeric_limits<std::ptrdiff_t>::max();
+    const std::size_t step = stride != 0 ? stride : element;
+    if (step < element) {
         throw Error(ErrorCode::invalid_argument, std::string(name) +
                                                      ": the stride is less than an element, " +
                                                      std::to_string(element) + " bytes");
     }
-    return stride != 0 ? stride : element;
+    if (step > kMostBytes / std::max<std::size_t>(count, 1)) {
+        throw Error(ErrorCode::invalid_argument,
+                    std::string(name) + ": the stride is too large for " + std::to_string(count) +
+                        " elements; it counts forward");
+    }
+    return step;
 }
 
 void require_list(const lissom_input* input, const char* name) {
@@ -199,7 +208,7 @@ std::vector<Vec3> read_points(const lissom_input* input, const Space& space, con
     require_list(input, name);
     if (!is_float(input->format)) refuse_format(name, "FLOAT16, FLOAT32 or FLOAT64");
     const std::size_t size = size_of(input->format);
-    const std::size_t stride = stride_of(input->stride, 3 * size, name);
+    const std::size_t stride = stride_of(input->stride, 3 * size, input->count, name);
     const auto* place = static_cast<const unsigned char*>(input->data);
     std::vector<Vec3> points(input->count);
     for (Vec3& point : points) {
@@ -219,7 +228,7 @@ constexpr double kNoneUnsigned = 4294967295.0;
 std::vector<Index> read_ids(const lissom_input* input, bool may_be_none, const char* name) {
     require_list(input, name);
     require_integers(input->format, name);
-    const std::size_t stride = stride_of(input->stride, size_of(input->format), name);
+    const std::size_t stride = stride_of(input->stride, size_of(input->format), input->count, name);
     const auto* place = static_cast<const unsigned char*>(input->data);
     std::vector<Index> values(input->count);
     for (Index& value : values) {
@@ -249,7 +258,7 @@ std::vector<double> read_numbers(const lissom_input* input, Index width, const c
     require_list(input, name);
     require(width >= 1 && width <= 1024, std::string(name) + ": an element has 1 to 1024 numbers");
     const std::size_t size = size_of(input->format);
-    const std::size_t stride = stride_of(input->stride, at(width) * size, name);
+    const std::size_t stride = stride_of(input->stride, at(width) * size, input->count, name);
     const auto* place = static_cast<const unsigned char*>(input->data);
     std::vector<double> values;
     values.reserve(input->count * at(width));
@@ -276,7 +285,7 @@ void require_room(const lissom_output* output, std::size_t count, std::size_t wi
                                                  std::to_string(output->count) +
                                                  " elements, needed are " + std::to_string(count));
     }
-    stride_of(output->stride, width * size_of(output->format), name);
+    stride_of(output->stride, width * size_of(output->format), count, name);
 }
 
 void require_directions(const lissom_output* output, std::size_t count, std::size_t width,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <string>
@@ -187,6 +188,27 @@ TEST_CASE("files go through the host where it opens them") {
     REQUIRE(lissom_mesh_load(host, "pack/box.ply", nullptr, &back) == LISSOM_OK);
     CHECK(host.positions(back) == host.positions(mesh));
     CHECK(lissom_mesh_load(host, "pack/none.ply", nullptr, &back) == LISSOM_FILE_NOT_FOUND);
+}
+
+TEST_CASE("a stride that leads around the end of memory is refused, for lists of both ways") {
+    const Host host;
+    const lissom_mesh mesh = add(host, {});
+    double numbers[12] = {};
+    std::int32_t integers[12] = {};
+    for (std::size_t back = 1; back <= 64; ++back) {
+        const std::size_t stride = std::size_t{0} - back;
+        const lissom_output out{numbers, 4, stride, LISSOM_FLOAT64};
+        CHECK(lissom_mesh_read_positions(host, mesh, &out) == LISSOM_INVALID_ARGUMENT);
+        CHECK(lissom_mesh_read_normals(host, mesh, &out) == LISSOM_INVALID_ARGUMENT);
+        const lissom_output ids{integers, 4, stride, LISSOM_INT32};
+        CHECK(lissom_mesh_read_triangles(host, mesh, &ids) == LISSOM_INVALID_ARGUMENT);
+        const lissom_input in{numbers, 4, stride, LISSOM_FLOAT64};
+        CHECK(lissom_mesh_set_positions(host, mesh, &in) == LISSOM_INVALID_ARGUMENT);
+        const lissom_input few{integers, 2, stride, LISSOM_INT32};
+        lissom_region region{};
+        CHECK(lissom_region_of_vertices(host, mesh, &few, &region) == LISSOM_INVALID_ARGUMENT);
+    }
+    CHECK(std::all_of(numbers, numbers + 12, [](double n) { return n == 0.0; }));
 }
 
 }  // namespace lissom::test
