@@ -1,5 +1,6 @@
 // Deformation by handles.
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <span>
@@ -16,15 +17,28 @@
 namespace lissom::c {
 namespace {
 
+// Options of a program that knows none behind `thesis` end in padding, where `loose` is now.
+lissom_deformer_options taken_deformer_options(const lissom_deformer_options* given) {
+    auto taken = take_options(given, lissom_default_deformer_options());
+    const bool knows_loose =
+        !given || given->struct_size > offsetof(lissom_deformer_options, free_rings);
+    if (!knows_loose) taken.loose = LISSOM_LOOSE_ERROR;
+    return taken;
+}
+
 DeformOptions deform_options(const lissom_deformer_options* given) {
-    const auto taken = take_options(given, lissom_default_deformer_options());
+    const auto taken = taken_deformer_options(given);
     DeformOptions options = taken.thesis ? literal_deform_options() : DeformOptions();
     require(taken.second >= LISSOM_SECOND_BLEND && taken.second <= LISSOM_SECOND_POISSON,
             "there is no such second system");
+    require(taken.loose >= LISSOM_LOOSE_ERROR && taken.loose <= LISSOM_LOOSE_FOLLOW,
+            "loose must be LOOSE_ERROR, LOOSE_STAY or LOOSE_FOLLOW");
     if (!taken.thesis) options.second = static_cast<SecondSystem>(taken.second);
     if (taken.scale_details) options.local_size = LocalSize::scale;
     options.refine = taken.refine;
     options.transition = taken.transition;
+    options.loose = static_cast<UnheldParts>(taken.loose);
+    options.free_rings = taken.free_rings;
     return options;
 }
 

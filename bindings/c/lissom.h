@@ -802,6 +802,13 @@ typedef enum lissom_second_system {
     LISSOM_SECOND_POISSON = 2
 } lissom_second_system;
 
+/// Connected parts of a region that no handle or point holds, such as buttons and eyes.
+typedef enum lissom_loose_parts {
+    LISSOM_LOOSE_ERROR = 0,  ///< UNCONSTRAINED, naming them
+    LISSOM_LOOSE_STAY = 1,
+    LISSOM_LOOSE_FOLLOW = 2  ///< each follows the surface nearest to it, as a rigid piece
+} lissom_loose_parts;
+
 typedef struct lissom_deformer_options {
     size_t struct_size;
     lissom_second_system second;
@@ -815,6 +822,10 @@ typedef struct lissom_deformer_options {
     double transition;
     /// The thesis to the letter, for comparison; UNSUPPORTED in a library built without it.
     bool thesis;
+    lissom_loose_parts loose;
+    /// Rings of vertices, 0 to 10, that handles release if they nearly touch another: handles that
+    /// go different ways would tear the surface between.
+    int32_t free_rings;
 } lissom_deformer_options;
 
 typedef struct lissom_handle_options {

@@ -6,6 +6,7 @@
 
 #include "bindings/engine/lissom_basis.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/mesh/edit/append.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/c/host.h"
@@ -251,6 +252,64 @@ TEST_CASE("a report names the harm that a deformation did, and keeps to the host
                                  &small) == LISSOM_TOPOLOGY_MISMATCH);
     CHECK(lissom_deformer_report(host, bend.deformer, bend.mesh, false, nullptr) ==
           LISSOM_INVALID_ARGUMENT);
+}
+
+TEST_CASE("parts that nothing holds are an error, stay or follow, as the options say") {
+    const Mesh bar = make_bar({});
+    Mesh both = bar;
+    Mesh button = make_box({.size = Vec3::Constant(0.1)});
+    const Vec3 beside = bar.position(bar.find_region("top")->vertices()[0]) + Vec3(0.5, -0.1, 0.0);
+    for (Vec3& p : button.edit_positions()) p += beside;
+    append(both, button);
+    const Index first = bar.vertex_count();
+    const Host host;
+    const lissom_mesh mesh = host.add(both);
+    const std::vector<Vec3> rest = host.positions(mesh);
+    const auto solved = [&](lissom_deformer_options options, std::vector<Vec3>& moved) {
+        lissom_deformer deformer{};
+        std::int32_t top = -1;
+        REQUIRE(lissom_deformer_create(host, mesh, {0}, &options, &deformer) == LISSOM_OK);
+        REQUIRE(lissom_deformer_pin(host, deformer,
+                                    region_of(host, mesh, *bar.find_region("bottom"))) ==
+                LISSOM_OK);
+        REQUIRE(lissom_deformer_add_handle(host, deformer,
+                                           region_of(host, mesh, *bar.find_region("top")), nullptr,
+                                           &top) == LISSOM_OK);
+        lissom_transform map = lissom_identity();
+        map.m[3] = 0.3;
+        REQUIRE(lissom_deformer_set_transform(host, deformer, top, &map) == LISSOM_OK);
+        const lissom_status status = lissom_deformer_solve(host, deformer, LISSOM_FULL);
+        moved = rest;
+        const lissom_output out{moved.data(), moved.size(), sizeof(Vec3), LISSOM_FLOAT64};
+        if (status == LISSOM_OK) {
+            REQUIRE(lissom_deformer_read_positions(host, deformer, &out) == LISSOM_OK);
+        }
+        return status;
+    };
+    std::vector<Vec3> moved;
+    auto options = lissom_default_deformer_options();
+    CHECK(solved(options, moved) == LISSOM_UNCONSTRAINED);
+    options.loose = LISSOM_LOOSE_STAY;
+    CHECK(solved(options, moved) == LISSOM_OK);
+    CHECK(moved[at(first)] == rest[at(first)]);
+    options.loose = LISSOM_LOOSE_FOLLOW;
+    CHECK(solved(options, moved) == LISSOM_OK);
+    CHECK((moved[at(first)] - rest[at(first)]).norm() > 0.1);
+
+    // A program whose header knows neither: its struct ends in padding.
+    options.struct_size = offsetof(lissom_deformer_options, free_rings);
+    CHECK(solved(options, moved) == LISSOM_UNCONSTRAINED);
+
+    options = lissom_default_deformer_options();
+    lissom_deformer refused{};
+    options.loose = static_cast<lissom_loose_parts>(7);
+    CHECK(lissom_deformer_create(host, mesh, {0}, &options, &refused) == LISSOM_INVALID_ARGUMENT);
+    options.loose = LISSOM_LOOSE_ERROR;
+    for (const std::int32_t rings : {-1, 11}) {
+        options.free_rings = rings;
+        CHECK(lissom_deformer_create(host, mesh, {0}, &options, &refused) ==
+              LISSOM_INVALID_ARGUMENT);
+    }
 }
 
 }  // namespace lissom::test
