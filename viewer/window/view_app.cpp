@@ -80,6 +80,7 @@ class ViewApp {
     void take_inputs(Clock::time_point heard);
     void take(const Input& input);
     void take_while_playing(const Input& input);
+    bool picks_by(const Input& input) const;
     void take_key(const Input& input, bool for_panel);
     bool press_anywhere(const Input& input);
     void press_key(const Input& input);
@@ -95,6 +96,7 @@ class ViewApp {
     void see_played(const PlayedHand& hand);
     void take_progress();
     void show(Shown shown);
+    void list_picks();
 
     void make_again();
     bool at_rest() const {
@@ -263,11 +265,17 @@ void ViewApp::take(const Input& input) {
     const bool is_position = input.kind == Input::Kind::move || input.kind == Input::Kind::release;
     if (for_panel || is_position || is_key || input.kind == Input::Kind::press) panel_.feed(input);
     if (is_key) return take_key(input, for_panel);
-    if (for_panel) return;
+    if (for_panel || picks_by(input)) return;
     const Canvas canvas = state_.canvas();
     Input own = input;
     own.at -= Vec2(canvas.x, canvas.y);
     pointer_.take(own);
+}
+
+// The left button picks a boundary for a parameter, and the others go on moving the camera.
+bool ViewApp::picks_by(const Input& input) const {
+    const bool is_button = input.kind == Input::Kind::press || input.kind == Input::Kind::release;
+    return state_.content.picking && is_button && input.button == MouseButton::left;
 }
 
 void ViewApp::take_while_playing(const Input& input) {
@@ -387,6 +395,7 @@ void ViewApp::take_news(SessionNews news) {
     if (news.saved) autosave_.take_saved(*news.saved);
     if (news.parameters) {
         state_.content.parameters = std::move(*news.parameters);
+        list_picks();
         state_.changes.owe_frames();
     }
     take_tools(news.tools);
@@ -413,6 +422,7 @@ void ViewApp::take_tool_state(ToolState state) {
     // Newer settings of the person stay in the panel.
     if (state.tool == known.tool && session_.has_setting()) state.parameters = known.parameters;
     known = std::move(state);
+    list_picks();
     keep_button(state_.content.tools, known);
     state_.changes.owe_frames();
     if (known.hand) return see_played(*known.hand);
@@ -448,12 +458,25 @@ void ViewApp::show(Shown shown) {
             mesh_label(now.picture->meshes[i],
                        i < now.names.size() ? now.names[i] : "mesh " + std::to_string(i + 1)));
     }
+    list_picks();
     state_.content.colorings = colorings_of(*now.picture);
     update_legend(state_);
     if (!state_.camera_is_placed) place_camera(state_);
     state_.changes.add();
     reload_.watch();
     state_.tell("shown " + std::to_string(now.number));
+}
+
+// Choices are listed only for parameters that are picked.
+void ViewApp::list_picks() {
+    PanelContent& content = state_.content;
+    const auto any = [](const std::vector<lua::ScriptParameter>& list) {
+        return std::any_of(list.begin(), list.end(),
+                           [](const lua::ScriptParameter& p) { return is_picked(p.type); });
+    };
+    content.picks = {};
+    if (!state_.shown || !(any(content.parameters) || any(content.tool.parameters))) return;
+    content.picks = pick_choices_of(*state_.shown, content.tool);
 }
 
 // The driver has lost all that was drawn: it is sent to a new window.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "viewer/window/panel/boundary_pick.h"
 #include "viewer/window/panel/console_view.h"
 #include "viewer/window/panel/panel_input.h"
 #include "viewer/window/panel/panel_style.h"
@@ -112,6 +113,7 @@ PanelAnswers Panel::make(PanelContent& content, DisplaySettings& settings, gl::E
     state_->console.draw(content, answers, window, canvas(window), state_->is_dark, state_->input);
     const Canvas beside = canvas(window);
     draw_marks(content.tool, {content.camera, content.picture_size, beside, state_->scale});
+    draw_boundary_pick(content, answers, beside, state_->scale);
     state_->is_over_picture =
         state_->console.is_over_picture() || ImGui::IsAnyMouseDown() ||
         ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);

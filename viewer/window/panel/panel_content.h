@@ -9,6 +9,7 @@
 #include "bindings/lua/core/script_parameters.h"
 #include "kernel/sketch/camera.h"
 #include "viewer/window/makers/coloring.h"
+#include "viewer/window/panel/pick_choices.h"
 #include "viewer/window/panel/tool_panel.h"
 #include "viewer/window/session/session_news.h"
 #include "viewer/window/session/source_place.h"
@@ -27,6 +28,10 @@ struct PlayedPart {
 struct PanelContent {
     std::vector<std::string> objects;
     std::vector<lua::ScriptParameter> parameters;
+    /// Choices for parameters of the script and the tool, and the one that a click in the picture
+    /// picks for.
+    PickChoices picks;
+    std::optional<Picking> picking;
     /// Names of the presets of the parameters; none without a script to keep them for.
     std::optional<std::vector<std::string>> presets;
     std::vector<ConsoleLine> lines;

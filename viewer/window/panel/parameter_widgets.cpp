@@ -98,7 +98,70 @@ bool edit_text(std::string& value) {
     return true;
 }
 
-bool edit(lua::ScriptParameter& p) {
+void help_marker(const lua::ScriptParameter& p) {
+    if (!ImGui::IsItemHovered()) return;
+    const std::string text = p.help + (p.help.empty() ? "" : "\n") + p.accepted();
+    ImGui::SetTooltip("%s", text.c_str());
+}
+
+// The list of a picker, opened by an arrow beside its field.
+bool edit_pick(const std::vector<std::string>& values, std::string& value) {
+    if (!ImGui::BeginCombo("##picks", "",
+                           ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft))
+        return false;
+    bool changed = false;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Selectable(values[i].c_str(), values[i] == value)) {
+            changed = values[i] != value;
+            value = values[i];
+        }
+        ImGui::PopID();
+    }
+    if (values.empty()) ImGui::TextDisabled("nothing of this kind is shown");
+    ImGui::EndCombo();
+    return changed;
+}
+
+// A button that lets the next click in the picture pick, or takes that back.
+void draw_pick_button(const lua::ScriptParameter& p, const PickerContent& pickers) {
+    const Picking own{pickers.of_tool, p.name};
+    const bool picks = pickers.picking == own;
+    if (picks) {
+        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    }
+    const bool pressed = ImGui::Button("pick");
+    if (picks) ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("Click an open boundary in the picture; Esc takes it back");
+    }
+    if (!pressed) return;
+    pickers.picking = picks ? std::nullopt : std::optional(own);
+}
+
+// A text that is typed, taken from a list or, for a boundary, clicked in the picture.
+bool edit_picked(lua::ScriptParameter& p, std::string& value,
+                 const std::vector<lua::ScriptParameter>& all, const PickerContent& pickers) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const bool is_clicked = p.type == lua::ParameterType::boundary;
+    float beside = ImGui::GetFrameHeight() + style.ItemSpacing.x;
+    if (is_clicked) {
+        beside += ImGui::CalcTextSize("pick").x + 2.0f * style.FramePadding.x + style.ItemSpacing.x;
+    }
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - beside);
+    const bool typed = edit_text(value);
+    help_marker(p);
+    ImGui::SameLine();
+    const bool picked = edit_pick(picks_for(p, all, pickers.choices), value);
+    if (is_clicked) {
+        ImGui::SameLine();
+        draw_pick_button(p, pickers);
+    }
+    return typed || picked;
+}
+
+bool edit(lua::ScriptParameter& p, const std::vector<lua::ScriptParameter>& all,
+          const PickerContent& pickers) {
     if (!p.value) p.value = p.default_value;
     if (!p.value) {
         switch (p.type) {
@@ -116,18 +179,14 @@ bool edit(lua::ScriptParameter& p) {
     if (auto* flag = std::get_if<bool>(&*p.value)) return ImGui::Checkbox("##value", flag);
     if (auto* number = std::get_if<double>(&*p.value)) return edit_number(p, *number);
     auto& text = std::get<std::string>(*p.value);
+    if (is_picked(p.type)) return edit_picked(p, text, all, pickers);
     return p.type == lua::ParameterType::choice ? edit_choice(p, text) : edit_text(text);
-}
-
-void help_marker(const lua::ScriptParameter& p) {
-    if (!ImGui::IsItemHovered()) return;
-    const std::string text = p.help + (p.help.empty() ? "" : "\n") + p.accepted();
-    ImGui::SetTooltip("%s", text.c_str());
 }
 
 }  // namespace
 
-std::optional<std::size_t> draw_parameters(std::vector<lua::ScriptParameter>& parameters) {
+std::optional<std::size_t> draw_parameters(std::vector<lua::ScriptParameter>& parameters,
+                                           const PickerContent& pickers) {
     std::optional<std::size_t> changed;
     std::string group;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -143,8 +202,8 @@ std::optional<std::size_t> draw_parameters(std::vector<lua::ScriptParameter>& pa
             help_marker(p);
         }
         ImGui::SetNextItemWidth(-1.0f);
-        if (edit(p)) changed = i;
-        help_marker(p);
+        if (edit(p, parameters, pickers)) changed = i;
+        if (!is_picked(p.type)) help_marker(p);
         if (is_box) {
             ImGui::SameLine();
             ImGui::TextUnformatted(label.c_str());

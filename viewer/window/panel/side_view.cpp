@@ -177,7 +177,8 @@ void draw_state(const PanelContent& content, PanelAnswers& answers) {
 void draw_tools_section(PanelContent& content, PanelAnswers& answers) {
     if (!content.tool.has_scene) return;
     if (ImGui::CollapsingHeader("Tools", ImGuiTreeNodeFlags_DefaultOpen)) {
-        const ToolAnswers asked = draw_tools(content.tools, content.tool);
+        const ToolAnswers asked =
+            draw_tools(content.tools, content.tool, {content.picks, content.picking, true});
         answers.tool.tool = asked.tool;
         answers.tool.parameter = asked.parameter;
     }
@@ -242,7 +243,8 @@ void SideView::draw_parameters_section(PanelContent& content, PanelAnswers& answ
         return;
     }
     if (content.presets) draw_presets(*content.presets, answers);
-    answers.parameters_changed = draw_parameters(content.parameters).has_value();
+    answers.parameters_changed =
+        draw_parameters(content.parameters, {content.picks, content.picking}).has_value();
 }
 
 void SideView::draw(PanelContent& content, DisplaySettings& settings, PanelAnswers& answers,

@@ -91,7 +91,8 @@ void keep_button(std::vector<ToolButton>& buttons, const ToolState& state) {
     if (!state.word.empty()) keep_button(buttons, state.word, state.tool);
 }
 
-ToolAnswers draw_tools(const std::vector<ToolButton>& buttons, ToolState& state) {
+ToolAnswers draw_tools(const std::vector<ToolButton>& buttons, ToolState& state,
+                       const PickerContent& pickers) {
     ToolAnswers answers;
     const float width = width_of_button();
     if (tool_button("turn", width, state.tool.empty())) answers.tool = "";
@@ -109,7 +110,7 @@ ToolAnswers draw_tools(const std::vector<ToolButton>& buttons, ToolState& state)
         ImGui::PopID();
     }
     if (!state.prompt.empty()) ImGui::TextWrapped("%s", state.prompt.c_str());
-    answers.parameter = draw_parameters(state.parameters);
+    answers.parameter = draw_parameters(state.parameters, pickers);
     return answers;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "viewer/window/panel/parameter_widgets.h"
 #include "viewer/window/screen/canvas.h"
 #include "viewer/window/tools/tool_bench.h"
 
@@ -45,7 +46,8 @@ struct ToolAnswers {
 ToolAnswers draw_scene_objects(const ToolState& state);
 
 /// Buttons for tools, and the parameters of the one in hand, whose values a person may change.
-ToolAnswers draw_tools(const std::vector<ToolButton>& buttons, ToolState& state);
+ToolAnswers draw_tools(const std::vector<ToolButton>& buttons, ToolState& state,
+                       const PickerContent& pickers);
 /// Draws the steps, with undone ones in grey.
 ToolAnswers draw_history(const ToolState& state);
 /// Picture that a tool draws on.

@@ -419,7 +419,8 @@ void ToolBench::look_at_scene(ToolState& state) const {
     for (const auto& named : object->scene.objects()) {
         // A deformation is seen by its mesh.
         if (named->item->kind() == ItemKind::deformation) continue;
-        state.objects.push_back({named->name, label_of(*named), named->look.visible});
+        const bool is_curve = named->item->kind() == ItemKind::polyline;
+        state.objects.push_back({named->name, label_of(*named), named->look.visible, is_curve});
     }
     const HistoryReport history = object->scene.history();
     for (const auto& step : history.steps) state.steps.push_back(step.name);

@@ -57,6 +57,7 @@ struct ToolObject {
     /// With the number of faces of a mesh.
     std::string label;
     bool visible = true;
+    bool is_curve = false;
 
     bool operator==(const ToolObject&) const = default;
 };
