@@ -11,6 +11,7 @@
 #include "kernel/deform/preparation.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/query/crossing_search.h"
+#include "kernel/mesh/query/self_intersections.h"
 
 namespace lissom {
 

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/measure/triangulation_room.h"
 #include "kernel/mesh/query/pair_tree.h"
 #include "kernel/mesh/query/self_intersections.h"

@@ -1,5 +1,7 @@
 #include "kernel/mesh/query/pair_tree.h"
 
+#include <algorithm>
+
 namespace lissom {
 namespace {
 

@@ -1,7 +1,7 @@
 /// A hierarchy of boxes for the search for pairs of triangles; private to kernel/mesh.
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
