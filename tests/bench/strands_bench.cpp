@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "kernel/hair/operators/strand_bend.h"
+#include "kernel/hair/operators/strand_braid.h"
 #include "kernel/hair/operators/strand_collision.h"
 #include "kernel/hair/operators/strand_curl.h"
 #include "kernel/hair/operators/strand_cut.h"
+#include "kernel/hair/operators/strand_detail.h"
 #include "kernel/hair/operators/strand_frizz.h"
 #include "kernel/hair/operators/strand_gather.h"
 #include "kernel/hair/strands/strand_clump.h"
@@ -41,6 +43,16 @@ Strands hair_on_ball() {
     return {std::move(points), std::move(offsets)};
 }
 
+// A strand with a kink every six millimetres.
+Strands kinked_strand() {
+    std::vector<float> points;
+    for (Index k = 0; k < kPoints; ++k) {
+        points.insert(points.end(),
+                      {0.001f * static_cast<float>(k % 2), 0.006f * static_cast<float>(k), 0.0f});
+    }
+    return {std::move(points), {0, kPoints}};
+}
+
 struct Operator {
     std::string name;
     double target;
@@ -64,6 +76,15 @@ std::vector<Operator> operators() {
     trims.factor = 0.8;
     PushOutOptions pushes;
     pushes.distance = [](const Vec3& p) { return p.norm() - 0.1; };
+    BraidOptions braids;
+    braids.spine = {{0, -0.05, 0}, {0, -0.5, 0}};
+    braids.across = Vec3::UnitX();
+    braids.reach = 1.0;
+    BunOptions buns;
+    buns.tie = {.center = {0, -0.05, 0}, .direction = -Vec3::UnitY(), .reach = 1.0};
+    DetailOptions kinks;
+    kinks.refine = false;
+    const Strands kinked = kinked_strand();
     return {
         {"gather", kTarget, [](Strands& s, const Context& c) { gather(s, {}, c); }},
         {"twist", kTarget, [](Strands& s, const Context& c) { twist(s, {}, c); }},
@@ -81,6 +102,9 @@ std::vector<Operator> operators() {
         {"noise", kTarget, [](Strands& s, const Context& c) { noise(s, {}, c); }},
         {"cut", kTarget, [=](Strands& s, const Context& c) { cut(s, cuts, c); }},
         {"trim", kTarget, [=](Strands& s, const Context& c) { trim(s, trims, c); }},
+        {"detail", kTarget, [=](Strands& s, const Context& c) { detail(s, kinked, kinks, c); }},
+        {"braid", -1.0, [=](Strands& s, const Context& c) { braid(s, braids, c); }},
+        {"bun", -1.0, [=](Strands& s, const Context& c) { bun(s, buns, c); }},
         {"push_out", -1.0, [=](Strands& s, const Context& c) { push_out(s, pushes, c); }},
     };
 }

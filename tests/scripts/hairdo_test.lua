@@ -344,6 +344,128 @@ for _, name in ipairs(names) do
     end)
 end
 
+test("details of an example, or of a file with them, go onto other hair, and into a groom", function()
+    local style = style_of(20)
+    local function grow() return style:grow{ count = 60, length = 0.12, seed = 4 }:guides{ count = 6 } end
+    local example = grow():curl{ radius = 0.004, wavelength = 0.02, ramp = 0.01, start = 0 }
+    local hair = grow():detail{ from = example }
+    expect.truthy(hair:stats().points > 2 * grow():stats().points)
+    expect.near(hair:stats().mean_length, grow():stats().mean_length, 2e-4)
+    local path = test.file("details.hair")
+    example:details():save(path)
+    local saved = grow():detail{ from = path }
+    expect.truthy(saved:stats().points > 2 * grow():stats().points)
+    local first = function(s) return s == 1 end
+    local others = function(s) return s ~= 1 end
+    local one = grow():detail{ from = example, mask = first }
+    expect.equal(one:select{ where = others }:hash(), grow():select{ where = others }:hash())
+    expect.truthy(one:select{ where = first }:hash() ~= grow():select{ where = first }:hash())
+    local g = lissom.groom{ head = head, layers = { { style = style, grow = { count = 60, length = 0.12 },
+        operators = { { "guides", count = 6 }, { "detail", from = path, scale = 0.8 } } } } }
+    local text = g:text()
+    local file = test.file("detailed.json")
+    g:save(file)
+    expect.equal(lissom.load_groom(file, head):hair():hash(), g:hair():hash())
+    expect.truthy(text:find("details.hair", 1, true))
+    refused("file_not_found", "nowhere.hair", hair.detail, hair, { from = "nowhere.hair" })
+    refused("invalid_argument", "three points", hair.detail, hair,
+        { from = lissom.strands{ points = { { 0, 0, 0 }, { 0, 1, 0 } }, counts = { 2 } } })
+end)
+
+test("options of operators have their ranges and values, for panels", function()
+    local g = two_layers()
+    local by_name = {}
+    for _, one in ipairs(g:options("lower", 2)) do by_name[one.name] = one end
+    expect.equal(by_name.spread.value, 0.001)
+    expect.equal(by_name.spread.min, 0)
+    expect.equal(by_name.factor.max, 1)
+    expect.equal(by_name.keep_length.type, "boolean")
+    by_name = {}
+    for _, one in ipairs(g:options("lower")) do by_name[one.name] = one end
+    expect.equal(by_name.count.value, 100)
+    expect.equal(by_name.length.value, 0.1)
+    local names = table.concat(g:operators(), " ")
+    expect.truthy(names:find("attach blend braid", 1, true), names)
+    for _, name in ipairs(g:operators()) do
+        local list = g:insert("lower", { name }, 1):options("lower", 1)
+        for _, one in ipairs(list) do expect.truthy(one.name and one.type and one.help, name) end
+        if name == "gather" then expect.truthy(#list > 4) end
+        g:remove("lower", 1)
+    end
+end)
+
+test("a braid and a bun of a groom follow the ponytail of its style as it is drawn", function()
+    local preset = require "presets.ponytail"
+    local style = preset.grow(head, {}, { resolution = 8000 }, { count = 10 })
+    local function hair_of(operator)
+        return lissom.groom{ head = head, layers = { { style = style, collide = false,
+            grow = { count = 800, length = 0.3 }, operators = { operator } } } }:hair()
+    end
+    local plain = hair_of{ "smooth", iterations = 0 }
+    local braid = hair_of{ "braid", length = 0.12, tuft = 0.02 }
+    expect.truthy(braid:hash() ~= plain:hash())
+    local name
+    for _, curve in ipairs(style:curves()) do
+        if curve:kind() == "ponytail" then name = curve:name() end
+    end
+    expect.equal(hair_of{ "braid", along = name, length = 0.12, tuft = 0.02 }:hash(), braid:hash())
+    expect.truthy(hair_of{ "bun" }:hash() ~= plain:hash())
+    refused("out_of_range", "no curve 'nothing'", hair_of, { "braid", along = "nothing" })
+end)
+
+test("places and layers that are none are refused, and strands stay as they are", function()
+    local style, other = style_of(20), lissom.shapes.head{ vertices = 5000 }
+    local hair, scalp = style:grow{ count = 300, length = 0.12 }, style:scalp()
+    local before = hair:hash()
+    local top = { plane = { point = { 0, 0, 0 }, normal = { 0, 1, 0 } } }
+    refused("invalid_argument", "did not grow on", hair.frizz, hair, { mask = other:region(top) })
+    refused("invalid_argument", "did not grow on", hair.select, hair, { region = other:region(top) })
+    expect.truthy(lissom.try(hair.select, hair, { region = head:region(top) }))
+    local c = scalp:center()
+    local inside = { { c[1], c[2], c[3] }, { c[1], c[2] - 0.01 / scalp:unit(), c[3] } }
+    for _, name in ipairs{ "braid", "feed_braid" } do
+        refused("invalid_argument", "inside the head", hair[name], hair,
+            { spine = inside, scalp = scalp, across = scalp:left() })
+    end
+    refused("invalid_argument", "over itself", hair.push_out, hair, { head = style, layer = hair })
+    refused("invalid_argument", "only", hair.braid, hair:copy():select{ first = 2 }, { scalp = scalp,
+        across = scalp:left(), spine = { scalp:at{ azimuth = 180, elevation = 0, lift = 0.02 },
+            scalp:at{ azimuth = 180, elevation = -20, lift = 0.03 } } })
+    expect.equal(hair:hash(), before)
+end)
+
+test("every operator has its swatch in the picture of the guide", function()
+    local file = assert(io.open(package.searchpath("swatches", package.path)))
+    local text = file:read("*a")
+    file:close()
+    -- They assign, or need a head.
+    local unseen = { guides = true, attach = true, push_out = true, shrinkwrap = true }
+    for _, name in ipairs(two_layers():operators()) do
+        expect.truthy(unseen[name] or text:find('{ "' .. name .. '", function', 1, true), name)
+    end
+end)
+
+-- ---- Styles that are no presets
+
+local examples = package.searchpath("styling", package.path):gsub("scripts/styling%.lua$", "examples/hair/")
+
+local function example_style(name)
+    local preset = assert(loadfile(examples .. name .. ".lua"))("presets." .. name)
+    return preset.grow(lissom.shapes.head{ vertices = 6000 }, {}, { count = 1500, resolution = 8000 })
+end
+
+for _, name in ipairs{ "french_braid", "faux_hawk", "finger_waves" } do
+    test("the " .. name:gsub("_", " ") .. " of the examples grows, and lies outside of the head", function()
+        local style, hair = example_style(name)
+        expect.truthy(#hair > 700, #hair)
+        local stats = hair:stats{ style = style, depth = 0.001 }
+        expect.truthy(stats.penetrating <= 0.002 * #hair, stats.penetrating)
+        local lines = 0
+        for _ in io.lines(examples .. name .. ".lua") do lines = lines + 1 end
+        expect.truthy(lines <= 60, lines)
+    end)
+end
+
 test("interpolated hair fills the scalp between its guides, on its side of a parting", function()
     local style = lissom.hairstyle(head, { resolution = 8000 })
     for _, side in ipairs{ -1, 1 } do

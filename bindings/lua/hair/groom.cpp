@@ -1,4 +1,5 @@
 // lissom.groom and its files; the grooms themselves are written in Lua.
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -31,9 +32,101 @@ const char* read_groom_piece(lua_State*, void* state, std::size_t* size) {
     return text;
 }
 
+// The type of a value that a switch, a slider or a list of choices sets; null for others.
+const char* control_of(const Parameter& p) {
+    switch (p.kind) {
+        case Kind::boolean:
+            return "boolean";
+        case Kind::integer:
+            return "integer";
+        case Kind::number:
+            return "number";
+        case Kind::choice:
+            return "choice";
+        default:
+            return nullptr;
+    }
+}
+
+void push_default(const Call& call, const Parameter& p) {
+    if (const auto* flag = std::get_if<bool>(&p.default_value)) {
+        call.push(*flag);
+    } else if (const auto* number = std::get_if<double>(&p.default_value);
+               number != nullptr && std::isfinite(*number)) {
+        call.push(*number);
+    } else if (const auto* word = std::get_if<std::string>(&p.default_value)) {
+        call.push(std::string_view(*word));
+    } else {
+        lua_pushnil(call.lua());
+    }
+    lua_setfield(call.lua(), -2, "default");
+}
+
+void push_choices(const Call& call, const Parameter& p) {
+    lua_createtable(call.lua(), count_of(p.choices), 0);
+    for (std::size_t i = 0; i < p.choices.size(); ++i) {
+        call.push(std::string_view(p.choices[i]));
+        lua_rawseti(call.lua(), -2, index_of(i) + 1);
+    }
+    lua_setfield(call.lua(), -2, "choices");
+}
+
+// An option as a declaration of lissom.params, with its name.
+void push_option(const Call& call, const Parameter& whole, const Parameter& p) {
+    lua_createtable(call.lua(), 0, 8);
+    call.set_field("name", call.push(std::string_view(whole.name)));
+    call.set_field("type", call.push(std::string_view(control_of(p))));
+    call.set_field("unit", call.push(std::string_view(p.unit)));
+    call.set_field("help", call.push(std::string_view(whole.help)));
+    if (std::isfinite(p.min)) call.set_field("min", call.push(p.min));
+    if (std::isfinite(p.max)) call.set_field("max", call.push(p.max));
+    if (p.above_min) call.set_field("above", call.push(true));
+    push_default(call, p);
+    if (p.kind == Kind::choice) push_choices(call, p);
+}
+
+// Options that a control can set, in their order; of several kinds of values the first such.
+void add_options(const Call& call, const std::vector<Parameter>& options, int& count) {
+    for (const Parameter& p : options) {
+        const Parameter* one = &p;
+        for (const Parameter& other : p.alternatives) {
+            if (control_of(*one) == nullptr) one = &other;
+        }
+        if (control_of(*one) == nullptr) continue;
+        push_option(call, p, *one);
+        lua_rawseti(call.lua(), -2, ++count);
+    }
+}
+
+void push_options(const Call& call, const Function& method) {
+    lua_newtable(call.lua());
+    int count = 0;
+    if (method.named_arguments) add_options(call, method.arguments, count);
+    add_options(call, method.options, count);
+}
+
+// By name, the options of the methods of strands and of style:grow.
+void push_described(const Call& call, const std::vector<Function>& methods) {
+    lua_newtable(call.lua());
+    for (const Function& method : methods) {
+        luaL_checkstack(call.lua(), LUA_MINSTACK, "no room for a groom");
+        push_options(call, method);
+        lua_setfield(call.lua(), -2, method.name.c_str());
+    }
+}
+
+void find_methods(std::vector<Function>& methods) {
+    methods = strands_type().methods;
+    for (Function& method : hairstyle_type().methods) {
+        if (method.name == "grow") methods.push_back(std::move(method));
+    }
+}
+
 // Runs the text and keeps its results.
-void load_groom_functions(const Call& call) {
+void load_groom_functions(Call& call) {
     lua_State* L = call.lua();
+    auto& methods = call.hold<std::vector<Function>>();
+    if (!call.attempt_quick([&] { find_methods(methods); })) call.fail();
     GroomPiece piece;
 #if LUA_VERSION_NUM >= 502
     const int status = lua_load(L, read_groom_piece, &piece, kGroomChunk, "t");
@@ -42,13 +135,14 @@ void load_groom_functions(const Call& call) {
 #endif
     if (status != 0) lua_error(L);
     open(L, call.state().host);
-    lua_call(L, 1, 1);
+    push_described(call, methods);
+    lua_call(L, 2, 1);
     lua_pushvalue(L, -1);
     raw_set_pointer(L, LUA_REGISTRYINDEX, &kGroomFunctions);
 }
 
 // Pushes a function of the text.
-void push_groom_function(const Call& call, const char* name) {
+void push_groom_function(Call& call, const char* name) {
     lua_State* L = call.lua();
     luaL_checkstack(L, LUA_MINSTACK, "no room for a groom");
     raw_get_pointer(L, LUA_REGISTRYINDEX, &kGroomFunctions);
@@ -122,10 +216,17 @@ std::vector<Result> groom_fields() {
          "Takes an operator out."},
         {"fun(self: any, layer: any, options: table): lissom.Groom", "grow",
          "Changes options of the growth of a layer."},
+        {"fun(self: any): string[]", "operators", "The names of all operators, in their order."},
+        {"fun(self: any, layer: any, operator: integer?): table[]", "options",
+         "Options of an operator, or without one of the growth of a layer, that a switch, a slider "
+         "or a list sets: declarations as those of lissom.params, with `name` and the `value` "
+         "that is set, if any; `above` if `min` itself is excluded. " +
+             which},
         {"fun(self: any, layer: any): table", "layer",
          "A layer: its name, style, operators and so on."},
         {"fun(self: any, scene: lissom.Scene, name: string): lissom.Groom", "show",
-         "Adds the hair to a scene. From then on the groom follows undo and redo there: its "
+         "Adds the hair to a scene, unless it is the hair that the groom was made of. From then "
+         "on the groom follows undo and redo there: its "
          "text is the comment of that hair. Styles that are objects of the scene too are undone "
          "in place, others are read from the text."},
         {"fun(self: any, step: string?): lissom.Groom", "update",
@@ -154,7 +255,9 @@ std::vector<Function> groom_functions() {
                   "`operators`, a list of tables that begin with the name of a method of "
                   "lissom.Strands, with its options (push_out, shrinkwrap, cut, braid, bun and "
                   "feed_braid get the layer's head or scalp), and are skipped with `off = "
-                  "true`; `name`; `on`, true by default; `over`, whether it is lifted over the "
+                  "true`; a braid or a bun without a spine or a center follows the curve of the "
+                  "style whose name is `along`, else its first ponytail, as it was drawn; `name`; "
+                  "`on`, true by default; `over`, whether it is lifted over the "
                   "layers below, true by default, by `gap` more than they are thick, 0.001 "
                   "metres by default; `collide`, whether hair that operators moved is pushed out "
                   "of the head at the end, true by default. Functions of vertices are asked once.")

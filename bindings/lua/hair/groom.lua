@@ -1,6 +1,6 @@
 -- Grooms: layers of hair, each of a style and an ordered stack of operators. It returns the functions that
 -- the binding calls; its reference is in groom.cpp.
-local lissom = ...
+local lissom, described = ...
 
 local function fail(text, code) lissom.error{ message = text, code = code or "invalid_argument" } end
 
@@ -15,11 +15,17 @@ Groom.__tostring = function(groom) return "lissom.Groom: " .. #rawget(groom, "la
 -- Operators by name, and the object of the layer's style that they need.
 local operators = {
     guides = "", gather = "", twist = "", pinch = "", curl = "", wave = "", frizz = "", clump = "",
-    noise = "", smooth = "", straighten = "", rotate = "", roll = "", puff = "", displace = "",
+    detail = "", noise = "", smooth = "", straighten = "", rotate = "", roll = "", puff = "", displace = "",
     set_length = "", trim = "", cull = "", blend = "", duplicate = "", taper = "", resample = "",
     set_widths = "", set_colors = "", push_out = "head", shrinkwrap = "head", attach = "head",
     cut = "scalp", braid = "scalp", bun = "scalp", feed_braid = "scalp",
 }
+
+local operator_names = {}
+for name in pairs(operators) do operator_names[#operator_names + 1] = name end
+table.sort(operator_names)
+
+local braids = { braid = true, bun = true, feed_braid = true }
 
 -- ---- JSON, with sorted keys, so that equal values have equal texts
 
@@ -168,10 +174,8 @@ local function require_operator(operator, where)
         fail(where .. ' must begin with the name of an operator, as { "curl", radius = 0.01 }')
     end
     if not operators[name] then
-        local names = {}
-        for one in pairs(operators) do names[#names + 1] = one end
-        table.sort(names)
-        fail(where .. ": there is no operator '" .. name .. "'; there are " .. table.concat(names, ", "))
+        fail(where .. ": there is no operator '" .. name .. "'; there are "
+            .. table.concat(operator_names, ", "))
     end
 end
 
@@ -278,7 +282,7 @@ end
 
 local function groom_of(head, list)
     local ids = setmetatable({ count = 0 }, { __mode = "k" })
-    local groom = { head = head, layers = {}, evaluated = 0, ids = ids, shown = false }
+    local groom = { head = head, layers = {}, evaluated = 0, ids = ids, shown = false, from = false }
     local names = {}
     for i, one in ipairs(list) do
         local layer = layer_of(one, i, head)
@@ -378,12 +382,55 @@ end
 
 -- ---- Evaluation
 
+-- The curve of a style that a braid follows: the one of this name, else its first ponytail, or nil.
+local function followed(style, name)
+    for _, curve in ipairs(style:curves()) do
+        if name and curve:name() == name or not name and curve:kind() == "ponytail" then return curve end
+    end
+    if name then
+        fail("the style has no curve '" .. name .. "' for a braid to follow", "out_of_range")
+    end
+end
+
+-- The points of a curve from `start` metres behind its beginning on: a tail begins in the head.
+local function from_tie(curve, scalp, start)
+    local points, made, way = curve:points(), {}, 0
+    for i, p in ipairs(points) do
+        local q, last = scalp:to_metres(p), i > 1 and scalp:to_metres(points[i - 1])
+        if last then
+            way = way + math.sqrt((q[1] - last[1]) ^ 2 + (q[2] - last[2]) ^ 2 + (q[3] - last[3]) ^ 2)
+        end
+        if way >= start then made[#made + 1] = p end
+    end
+    return #made > 1 and made or points
+end
+
+-- Braids and buns without a place of their own follow a curve of their style.
+local tie_start = 0.02
+local function lay_along_curve(layer, name, options)
+    local curve_name = options.along
+    options.along = nil
+    if options.spine or options.center then return end
+    local curve = followed(layer.style, curve_name)
+    if not curve then return end
+    local scalp = options.scalp
+    local points = from_tie(curve, scalp, curve:kind() == "ponytail" and tie_start or 0)
+    if name == "bun" then
+        local a, b = points[1], points[2]
+        options.center = a
+        options.direction = options.direction or { b[1] - a[1], b[2] - a[2], b[3] - a[3] }
+    else
+        options.spine, options.across = points, options.across or scalp:left()
+    end
+end
+
 local function apply(layer, hair, operator)
     local options = copied(operator)
     options[1], options.off = nil, nil
     local need = operators[operator[1]]
     if need == "head" then options.head = options.head or layer.style end
     if need == "scalp" then options.scalp = options.scalp or layer.style:scalp() end
+    if braids[operator[1]] then lay_along_curve(layer, operator[1], options) end
     hair[operator[1]](hair, options)
     -- Copies are made off the surface.
     if operator[1] == "duplicate" then hair:attach{ head = layer.style } end
@@ -391,7 +438,7 @@ end
 
 -- Whether hair may be in the head after an operator that moves it; nil if it moves none.
 local may_collide = { grow = false, push_out = false, shrinkwrap = false }
-for _, name in ipairs{ "gather", "twist", "pinch", "curl", "wave", "frizz", "clump", "noise", "smooth",
+for _, name in ipairs{ "gather", "twist", "pinch", "curl", "wave", "frizz", "detail", "clump", "noise", "smooth",
     "straighten", "rotate", "roll", "puff", "displace", "set_length", "blend", "duplicate", "resample",
     "attach", "braid", "bun", "feed_braid" } do
     may_collide[name] = true
@@ -529,6 +576,21 @@ function methods.grow(groom, which, options)
     return groom
 end
 
+function methods.operators() return copied(operator_names) end
+
+function methods.options(groom, which, k)
+    local layer = find_layer(groom, which)
+    local values = k and operator_at(layer, k) or layer.grow
+    local list = {}
+    for i, one in ipairs(described[k and values[1] or "grow"]) do
+        list[i] = copied(one)
+        -- Of options with several kinds of values that of another kind is none for a control.
+        local fits = one.type == "choice" and "string" or one.type == "integer" and "number" or one.type
+        if type(values[one.name]) == fits then list[i].value = values[one.name] end
+    end
+    return list
+end
+
 function methods.hair(groom)
     sync(groom)
     return hair_of(groom)
@@ -552,8 +614,11 @@ end
 
 function methods.show(groom, scene, name)
     if groom.shown then fail("the groom is in a scene already") end
-    local hair, text = labelled(groom)
-    scene:add(name, hair)
+    local hair, text = groom.from, groom.from and groom.from:comment()
+    if not hair or lissom.try(scene.get, scene, name) ~= hair then
+        hair, text = labelled(groom)
+        scene:add(name, hair)
+    end
     groom.shown = { scene = scene, hair = hair, text = text }
     return groom
 end
@@ -583,7 +648,9 @@ function functions.new(options)
         if options.layers then fail("give either 'layers' or 'hair', which brings its own") end
         local text = options.hair:comment()
         if text == "" then fail("this hair was made by no groom: it has no comment that describes one") end
-        return groom_of(options.head, layers_of(content_of(text), options.head, nil, options.scalp))
+        local groom = groom_of(options.head, layers_of(content_of(text), options.head, nil, options.scalp))
+        groom.from = options.hair
+        return groom
     end
     return groom_of(options.head, options.layers or fail("a groom needs 'layers', or 'hair' of a groom"))
 end

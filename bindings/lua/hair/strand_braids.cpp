@@ -24,12 +24,34 @@ void read_mask(const Call& call, std::span<const float> asked, StrandOperatorOpt
     options.seed = static_cast<std::uint64_t>(call.integer("seed"));
 }
 
+// With a scalp: throws if much of a spine, in metres, is in the head.
+void require_outside(const Call& call, const std::vector<Vec3>& spine) {
+    constexpr double kDeep = 0.005, kMuch = 1.0 / 3.0;
+    if (!call.has("scalp")) return;
+    const auto object = call.object<ScalpObject>("scalp");
+    const Scalp& scalp = *object->scalp;
+    double inside = 0.0;
+    for (const Vec3& p : spine) {
+        const Vec3 place = p / scalp.unit();
+        const SurfacePoint foot = scalp.tree().nearest(place);
+        const Vec3 out = scalp.normal_at(foot.triangle, foot.barycentric);
+        const bool is_inside = (place - foot.position).dot(out) < 0.0;
+        if (is_inside && foot.distance * scalp.unit() > kDeep) inside += 1.0;
+    }
+    if (inside <= kMuch * double(spine.size())) return;
+    throw Error(ErrorCode::invalid_argument,
+                std::to_string(static_cast<int>(inside)) + " of " + std::to_string(spine.size()) +
+                    " points of the spine lie more than 5 mm inside the head; lift them, as "
+                    "scalp:at{ lift = } does");
+}
+
 // The course of a braid, and what all braids have.
 template <typename Options>
 Options read_course(Call& call, std::span<const float> asked) {
     Options options;
     read_mask(call, asked, options);
     for (const Vec3& p : call.points("spine")) options.spine.push_back(metres_of(call) * p);
+    require_outside(call, options.spine);
     options.across = call.vector("across");
     options.radius = call.number("radius");
     if (call.has("wavelength")) options.wavelength = call.number("wavelength");

@@ -68,8 +68,7 @@ int select_strands(Call& call) {
         const Strands& all = strands_of(call);
         if (call.has("first")) return prefix(all, call.integer("first"));
         if (call.has("region")) {
-            return select(all,
-                          strands_rooted_in(all, call.object<RegionObject>("region")->current()));
+            return select(all, strands_in_region(call, "region"));
         }
         if (call.has("near")) return select_near(call, all);
         return select(all, list);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bindings/lua/mesh/mesh_object.h"
+#include "kernel/hair/strands/strand_place.h"
 #include "kernel/hair/strands/strand_selection.h"
 
 namespace lissom::lua {
@@ -31,8 +32,7 @@ std::vector<float> mask_of(const Call& call, std::span<const float> asked) {
         }
         return mask;
     }
-    const auto region = call.object<RegionObject>("mask");
-    for (const Index s : strands_rooted_in(strands, region->current())) mask[at(s)] = 1.0f;
+    for (const Index s : strands_in_region(call, "mask")) mask[at(s)] = 1.0f;
     return mask;
 }
 
@@ -59,6 +59,15 @@ Parameter mask_field() {
 const std::vector<ErrorCode> kOperatorErrors = {ErrorCode::invalid_argument,
                                                 ErrorCode::out_of_range, ErrorCode::not_finite,
                                                 ErrorCode::memory_limit, ErrorCode::cancelled};
+
+std::vector<Index> strands_in_region(const Call& call, const char* option) {
+    const auto region = call.object<RegionObject>(option);
+    const Strands& strands = strands_of(call);
+    std::vector<Index> list = strands_rooted_in(strands, region->current());
+    if (may_be_rooted_on(strands, region->mesh->mesh)) return list;
+    throw Error(ErrorCode::invalid_argument,
+                "the strands did not grow on the mesh of this region; give a region of their head");
+}
 
 std::vector<Parameter> effect_fields(const StrandOperatorOptions& d, bool lengths) {
     std::vector<Parameter> fields = {
@@ -93,27 +102,31 @@ std::vector<Parameter> with_fields(std::vector<Parameter> own, std::vector<Param
 }
 
 std::span<const float> ask_mask(Call& call) {
-    if (!call.has("mask") || call.kind("mask") != Kind::function) return {};
+    return ask_roots(call, "mask");
+}
+
+std::span<const float> ask_roots(Call& call, const char* option) {
+    if (!call.has(option) || call.kind(option) != Kind::function) return {};
     lua_State* L = call.lua();
     const auto self = call.self<StrandsObject>();
     const Index count = self->strands.size();
-    auto* mask = call.scratch<float>(at(count) + 1);
+    auto* answers = call.scratch<float>(at(count) + 1);
     for (Index s = 0; s < count; ++s) {
         if (!self.get() || self->strands.size() != count) {
-            call.reject("mask", "the function must not change or close the strands");
+            call.reject(option, "the function must not change or close the strands");
         }
-        lua_pushvalue(L, call.stack_index("mask"));
+        lua_pushvalue(L, call.stack_index(option));
         call.push_id(s);
         call.push_coordinates(self->strands.root(s).cast<double>());
         lua_call(L, 4, 1);
-        mask[s] = lua_type(L, -1) == LUA_TNUMBER ? static_cast<float>(lua_tonumber(L, -1))
-                                                 : static_cast<float>(lua_toboolean(L, -1));
+        answers[s] = lua_type(L, -1) == LUA_TNUMBER ? static_cast<float>(lua_tonumber(L, -1))
+                                                    : static_cast<float>(lua_toboolean(L, -1));
         lua_pop(L, 1);
     }
     if (!self.get() || self->strands.size() != count) {
-        call.reject("mask", "the function must not change or close the strands");
+        call.reject(option, "the function must not change or close the strands");
     }
-    return {mask, at(count)};
+    return {answers, at(count)};
 }
 
 void read_part(const Call& call, std::span<const float> asked, StrandOperatorOptions& options) {

@@ -20,6 +20,8 @@ std::vector<Parameter> with_fields(std::vector<Parameter> own, std::vector<Param
 
 /// Asks a mask that is a function; runs before any C++ object is alive.
 std::span<const float> ask_mask(Call& call);
+/// The same of another option that may be a function of roots.
+std::span<const float> ask_roots(Call& call, const char* option);
 /// Read the options of part_fields and of effect_fields. Inside Call::attempt only.
 void read_part(const Call& call, std::span<const float> asked, StrandOperatorOptions& options);
 void read_effect(const Call& call, std::span<const float> asked, StrandOperatorOptions& options,

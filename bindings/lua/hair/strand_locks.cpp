@@ -69,7 +69,15 @@ int pinch_strands(Call& call) {
                                            });
 }
 
+void read_begin(const Call& call, std::span<const float> asked, std::vector<float>& begin) {
+    if (!call.has("begin")) return;
+    begin.assign(asked.begin(), asked.end());
+    if (call.kind("begin") == Kind::function) return;
+    for (const double turns : call.numbers("begin")) begin.push_back(static_cast<float>(turns));
+}
+
 int wind_strands(Call& call, const CurlOptions& (*defaults)()) {
+    const std::span<const float> begin = ask_roots(call, "begin");
     return run_lock_operator<CurlOptions>(
         call, defaults, [&](Strands& strands, CurlOptions& options) {
             options.radius = call.number("radius");
@@ -83,6 +91,7 @@ int wind_strands(Call& call, const CurlOptions& (*defaults)()) {
             options.depth = call.number("depth");
             options.together = call.boolean("together");
             options.hand = call.choice<CurlHand>("hand");
+            read_begin(call, begin, options.begin);
             options.points_per_turn = call.integer("points_per_turn");
             curl(strands, options, call.context());
         });
@@ -151,6 +160,13 @@ std::vector<Parameter> winding_fields(const CurlOptions& d) {
              .between(0, 1),
          number("depth", "1 is a helix, 0 a wave in a surface.").defaults(d.depth).between(0, 1),
          boolean("together", "Neighbouring guides begin their turns alike.").defaults(d.together),
+         either("begin",
+                {numbers("begin", "One number for each strand."),
+                 function("begin", "fun(strand: integer, x: number, y: number, z: number): number",
+                          "Asked with the root of each strand.")},
+                "Turns that strands have at their roots: if they grow with the way from a line, "
+                "crests run along it, as in finger waves.")
+             .optional("those of the guide"),
          choice(
              "hand", {"random", "left", "right", "mirrored"},
              "Sense of the turns: mirrored is right for roots with x above 0, and left for others.")

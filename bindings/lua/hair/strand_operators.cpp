@@ -90,46 +90,47 @@ Parameter keep_length_field() {
 
 Function clump_method() {
     const ClumpOptions d;
-    return {.name = "clump",
-            .body = clump_strands,
-            .summary = "Gathers strands around guides; roots stay.",
-            .options = with_fields(
-                {integer("clumps", "Number of guides: the strands of the lowest ids.")
-                     .at_least(1)
-                     .optional("the guides that strands have, else 900"),
-                 number("strength", "Part of the way to the guide that tips move.")
-                     .defaults(d.strength)
-                     .between(0, 1),
-                 number("variation",
-                        "The strength of a clump is up to this fraction higher or "
-                        "lower, at random.")
-                     .defaults(d.variation)
-                     .between(0, 1),
-                 shape_field(d.shape,
-                             "The pull grows with this power of the place along the "
-                             "strand."),
-                 meters("radius", "Strands rooted further from their guide stay.")
-                     .defaults(d.radius)
-                     .above(0)
-                     .or_infinite(),
-                 number("apart",
-                        "Weight of it in the choice of a guide that strands are "
-                        "combed apart, as at a parting.")
-                     .defaults(d.apart)
-                     .at_least(0),
-                 meters("tip_spread", "Random distance by which tips miss their guide.")
-                     .defaults(d.tip_spread)
-                     .at_least(0),
-                 meters("offset", "Random distance by which the tip of a whole clump moves.")
-                     .defaults(d.offset)
-                     .at_least(0),
-                 boolean("within_groups", "Guides are of the strand's own group.")
-                     .defaults(d.within_groups),
-                 keep_length_field(), seed_field()},
-                part_fields()),
-            .results = kSelfStrands,
-            .errors = kOperatorErrors,
-            .example = kTwoStrands + "hair:clump{ clumps = 1, strength = 0.5 }"};
+    return {
+        .name = "clump",
+        .body = clump_strands,
+        .summary = "Gathers strands around guides; roots stay.",
+        .options = with_fields(
+            {integer("clumps", "Number of guides: the strands of the lowest ids.")
+                 .at_least(1)
+                 .optional("the guides that strands have, else 900, at most one for eight strands"),
+             number("strength", "Part of the way to the guide that tips move.")
+                 .defaults(d.strength)
+                 .between(0, 1),
+             number("variation",
+                    "The strength of a clump is up to this fraction higher or "
+                    "lower, at random.")
+                 .defaults(d.variation)
+                 .between(0, 1),
+             shape_field(d.shape,
+                         "The pull grows with this power of the place along the "
+                         "strand."),
+             meters("radius", "Strands rooted further from their guide stay.")
+                 .defaults(d.radius)
+                 .above(0)
+                 .or_infinite(),
+             number("apart",
+                    "Weight of it in the choice of a guide that strands are "
+                    "combed apart, as at a parting.")
+                 .defaults(d.apart)
+                 .at_least(0),
+             meters("tip_spread", "Random distance by which tips miss their guide.")
+                 .defaults(d.tip_spread)
+                 .at_least(0),
+             meters("offset", "Random distance by which the tip of a whole clump moves.")
+                 .defaults(d.offset)
+                 .at_least(0),
+             boolean("within_groups", "Guides are of the strand's own group.")
+                 .defaults(d.within_groups),
+             keep_length_field(), seed_field()},
+            part_fields()),
+        .results = kSelfStrands,
+        .errors = kOperatorErrors,
+        .example = kTwoStrands + "hair:clump{ clumps = 1, strength = 0.5 }"};
 }
 
 Function noise_method() {

@@ -207,6 +207,8 @@ int push_strands_out(Call& call) {
             options.ramp = call.number("ramp");
             if (call.has("layer")) {
                 const auto lower = call.object<StrandsObject>("layer");
+                require(&lower->strands != &strands,
+                        "hair cannot lie over itself; give the hair of a layer below");
                 lift_over_layer(strands, style, lower->strands, options, call.context());
             }
             push_out(strands, options, call.context());

@@ -57,6 +57,7 @@ Type strands_type() {
     for (Function& method : strand_lock_methods()) type.methods.push_back(std::move(method));
     for (Function& method : strand_shape_methods()) type.methods.push_back(std::move(method));
     for (Function& method : strand_fill_methods()) type.methods.push_back(std::move(method));
+    for (Function& method : strand_detail_methods()) type.methods.push_back(std::move(method));
     for (Function& method : strand_braid_methods()) type.methods.push_back(std::move(method));
     return type;
 }

@@ -31,6 +31,8 @@ inline const Strands& strands_of(const Call& call) {
 
 /// strand_fills.cpp: interpolate, duplicate, blend, attach.
 std::vector<Function> strand_fill_methods();
+/// strand_details.cpp: detail, details.
+std::vector<Function> strand_detail_methods();
 /// strand_braids.cpp: braid, bun.
 std::vector<Function> strand_braid_methods();
 
@@ -42,6 +44,10 @@ int change_strands(Call& call, const Work& work) {
     call.charge(strands);
     return call.push_argument();
 }
+
+/// The strands of a method that are rooted in a region. Inside Call::attempt only. Errors: those of
+/// strands_rooted_in; invalid_argument for a region of a mesh that they did not grow on.
+std::vector<Index> strands_in_region(const Call& call, const char* option);
 
 /// Start of examples: two strands.
 inline const std::string kTwoStrands =

@@ -1,7 +1,5 @@
 #include "kernel/hair/operators/guide_table.h"
 
-#include <algorithm>
-
 #include "kernel/core/error.h"
 #include "kernel/hair/operators/strand_gather.h"
 #include "kernel/hair/strands/strand_guides.h"
@@ -22,26 +20,21 @@ GuideTable::GuideTable(const Strands& strands)
             arcs_.push_back(k == 0 ? 0.0 : arcs_.back() + (p - points_.back()).norm());
             points_.push_back(p);
         }
+        add_segments(strand.cols());
     }
     for (Index& guide : guide_of_) {
         if (guide != kNoIndex && count_[at(guide)] == 0) guide = kNoIndex;
     }
 }
 
-Vec3 GuideTable::at_arc(Index guide, double arc, Index& below) const {
-    const Index first = begin(guide), last = count_[at(guide)] - 1;
-    while (below + 1 < last && arcs_[at(first + below + 1)] < arc) ++below;
-    const double from = arcs_[at(first + below)], size = arcs_[at(first + below + 1)] - from;
-    const double u = size > 0.0 ? std::clamp((arc - from) / size, 0.0, 1.0) : 0.0;
-    const Vec3& a = points_[at(first + below)];
-    return a + u * (points_[at(first + below + 1)] - a);
-}
-
-Vec3 GuideTable::tangent(Index guide, Index below) const {
-    const Index first = begin(guide);
-    const Vec3 along = points_[at(first + below + 1)] - points_[at(first + below)];
-    const double size = along.norm();
-    return size > 0.0 ? Vec3(along / size) : Vec3::Zero();
+void GuideTable::add_segments(Eigen::Index count) {
+    for (std::size_t k = points_.size() - at(index_of(count)); k < points_.size(); ++k) {
+        const Vec3 along =
+            k + 1 < points_.size() ? Vec3(points_[k + 1] - points_[k]) : Vec3::Zero();
+        const double size = along.norm();
+        tangents_.push_back(size > 0.0 ? Vec3(along / size) : Vec3::Zero());
+        parts_.push_back(size > 0.0 ? 1.0 / size : 0.0);
+    }
 }
 
 void ensure_guides(Strands& strands, Index guides, const Context& context) {

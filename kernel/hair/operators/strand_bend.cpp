@@ -45,11 +45,18 @@ Vec3 first_direction(const StrandWork& work) {
 // Turns the segment before each point about the axis by angle(k).
 template <typename Angle>
 void turn_segments(StrandWork& work, const Vec3& axis, const Angle& angle) {
-    Vec3 end = work.old_point(0);
+    Vec3 before = work.old_point(0), end = before;
+    double last = 0.0, c = 1.0, s = 0.0;
     for (Index k = 1; k < work.count(); ++k) {
-        const Vec3 segment = work.old_point(k) - work.old_point(k - 1);
-        const double turns = angle(k) / (2.0 * kPi);
-        const double c = cosine_of_turns(turns), s = sine_of_turns(turns);
+        const Vec3 here = work.old_point(k), segment = here - before;
+        before = here;
+        // Often all turn alike.
+        const double turns = angle(k) * (0.5 / kPi);
+        if (turns != last) {
+            c = cosine_of_turns(turns);
+            s = sine_of_turns(turns);
+            last = turns;
+        }
         end += c * segment + s * axis.cross(segment) + (1.0 - c) * axis.dot(segment) * axis;
         work.set_point(k, end);
     }
@@ -115,7 +122,9 @@ void puff(Strands& strands, const PuffOptions& options, const Context& context) 
     const auto change = [&](StrandWork& work) {
         for (Index k = 1; k < work.count(); ++k) {
             const Vec3 old = work.old_point(k);
-            work.set_point(k, old + options.amount * unit_or_zero(old - center));
+            const Vec3 away = old - center;
+            const double size = away.norm();
+            if (size > 0.0) work.set_point(k, old + (options.amount / size) * away);
         }
         work.blend();
     };

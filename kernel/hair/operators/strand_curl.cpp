@@ -19,6 +19,8 @@ namespace {
 constexpr std::uint64_t kRadiusStream = 21, kWavelengthStream = 22, kGuidePhaseStream = 23,
                         kPhaseStream = 24, kHandStream = 25;
 constexpr double kMaxCurlPoints = 4096.0;
+// Steps of a table that is right to 1e-6 turns.
+constexpr int kHangSteps = 1024;
 
 bool is_measure(double x) {
     return x >= 0.0 && std::isfinite(x);
@@ -36,6 +38,9 @@ void require_curl(const CurlOptions& options) {
     require(options.phase >= 0.0 && options.phase <= 1.0 && options.depth >= 0.0 &&
                 options.depth <= 1.0,
             "the phase and the depth of a curl must be from 0 to 1");
+    require(std::all_of(options.begin.begin(), options.begin.end(),
+                        [](float turns) { return std::isfinite(turns); }),
+            "the turns at which a curl begins must be finite");
     require(options.points_per_turn >= 0 && options.points_per_turn <= 64,
             "a curl has from 0 to 64 points a turn");
 }
@@ -54,6 +59,7 @@ class Curls {
           guide_of_(present_guides(strands)),
           guides_(strands.guides()),
           slots_(at(strands.size()), kNoIndex) {
+        set_logs();
         for (Index s = 0; s < strands.size(); ++s) {
             if (guide_of_[at(s)] != s) continue;
             slots_[at(s)] = count_of(windings_);
@@ -90,9 +96,10 @@ class Curls {
     double turns(const Winding& winding, double arc, double whole) const {
         const double h = options_.hang;
         if (h < 1e-6 || !(whole > 0.0)) return arc / winding.wavelength;
-        const double at_root = 1.0 + 0.5 * h;
-        return whole / (winding.wavelength * h) *
-               std::log(at_root / (at_root - h * std::min(1.0, arc / whole)));
+        const double place = std::min(1.0, arc / whole) * kHangSteps;
+        const auto below = std::min(static_cast<std::size_t>(place), std::size_t{kHangSteps - 1});
+        const double a = logs_[below], b = logs_[below + 1];
+        return whole / winding.wavelength * (a + (place - double(below)) * (b - a));
     }
 
     double wavelength_at(const Winding& winding, double arc, double whole) const {
@@ -101,6 +108,15 @@ class Curls {
     }
 
   private:
+    // What turns() needs a logarithm for, at equal steps of the guide.
+    void set_logs() {
+        const double h = options_.hang, at_root = 1.0 + 0.5 * h;
+        if (h < 1e-6) return;
+        for (int i = 0; i <= kHangSteps; ++i) {
+            logs_.push_back(std::log(at_root / (at_root - h * i / kHangSteps)) / h);
+        }
+    }
+
     Winding make_winding(std::uint32_t id, const StrandView& shape) const {
         const auto random = [&](std::uint64_t stream) {
             return signed_random(mixed(options_.seed, id, stream));
@@ -126,13 +142,21 @@ class Curls {
         return side > 0.0 ? 1.0 : -1.0;
     }
 
-    // Across the guide's first segment: strands of one guide begin their frames alike.
+    // Across the guide's root, towards the side that the guide bends to: on a head inward, so that
+    // neighbours begin alike. A straight guide has no such side.
     static Vec3 first_normal(const StrandView& shape) {
+        constexpr double kStraightGuide = 0.01;
+        const Vec3 root = point_of(shape, 0);
+        Vec3 along = Vec3::Zero(), middle = Vec3::Zero();
         for (Index k = 1; k < shape.cols(); ++k) {
-            const Vec3 along = point_of(shape, k) - point_of(shape, 0);
-            if (along.norm() > 0.0) return along.normalized().unitOrthogonal();
+            const Vec3 away = point_of(shape, k) - root;
+            if (along.isZero() && away.norm() > 0.0) along = away.normalized();
+            middle += away / double(shape.cols() - 1);
         }
-        return Vec3::UnitX();
+        if (along.isZero()) return Vec3::UnitX();
+        const Vec3 side = middle - middle.dot(along) * along;
+        const bool bends = side.norm() > kStraightGuide * middle.norm();
+        return bends ? Vec3(side.normalized()) : Vec3(along.unitOrthogonal());
     }
 
     const CurlOptions& options_;
@@ -140,6 +164,7 @@ class Curls {
     StrandGuides guides_;
     std::vector<Index> slots_;
     std::vector<Winding> windings_;
+    std::vector<double> logs_;
 };
 
 // Arc of the guide at an arc of a strand. A strand that was gathered is longer than its part of the
@@ -158,6 +183,8 @@ void wind(StrandWork& work, const CurlOptions& options, const Curls& curls, doub
     const Winding winding = curls.winding_of(work.strand(), work.id(), work.old_points());
     const double own =
         options.phase * 0.5 * signed_random(mixed(options.seed, work.id(), kPhaseStream));
+    const double begin =
+        options.begin.empty() ? winding.phase : double{options.begin[at(work.strand())]};
     const double step = kept / (work.count() - 1);
     const double spread = 0.5 * (1.0 + options.depth * options.depth);
     work.make_frames(winding.normal);
@@ -179,7 +206,7 @@ void wind(StrandWork& work, const CurlOptions& options, const Curls& curls, doub
         const bool past_middle = 2.0 * arc > work.arc(below) + work.arc(below + 1);
         const Index near = past_middle ? below + 1 : below;
         const double turns =
-            winding.phase + own + curls.turns(winding, guide_arc(arc, length, reach), whole);
+            begin + own + curls.turns(winding, guide_arc(arc, length, reach), whole);
         const Vec3 across = work.tangent(near).cross(work.normal(near));
         work.set_point(
             k, center + radius * (options.depth * cosine_of_turns(turns) * work.normal(near) +
@@ -218,26 +245,6 @@ std::vector<Index> counts_for(const Strands& strands, const CurlOptions& options
     return enough ? std::vector<Index>() : counts;
 }
 
-// Strands with so many points, spread evenly; those that have as many as they are.
-Strands with_counts(const Strands& strands, const std::vector<Index>& counts,
-                    const Context& context) {
-    const auto find = [&](Index s, std::vector<StrandPlace>& places) {
-        const Index count = counts[at(s)], last = strands.point_count(s) - 1;
-        if (count == last + 1) {
-            for (Index k = 0; k <= last; ++k) places.push_back({k, 0.0f});
-            return;
-        }
-        std::vector<double> fractions;
-        arc_fractions(strands.strand(s), fractions);
-        places.push_back({0, 0.0f});
-        for (Index k = 1; k + 1 < count; ++k) {
-            places.push_back(place_at(fractions, double(k) / (count - 1)));
-        }
-        places.push_back({last, 0.0f});
-    };
-    return at_places(strands, find, context);
-}
-
 // `lengths` are those to keep; empty for those of the strands.
 void wind_all(Strands& strands, const CurlOptions& options, const Curls& curls,
               const std::vector<double>& lengths, const Context& context) {
@@ -255,6 +262,9 @@ void wind_all(Strands& strands, const CurlOptions& options, const Curls& curls,
 void curl(Strands& strands, const CurlOptions& options, const Context& context) {
     require_curl(options);
     require_operator(strands, options);
+    require(options.begin.empty() || count_of(options.begin) == strands.size(),
+            "there are " + std::to_string(options.begin.size()) + " beginnings of a curl for " +
+                std::to_string(strands.size()) + " strands; give one for each strand");
     if (options.factor == 0.0 || options.radius == 0.0) return;
     Progress progress(context, "curl strands");
     StrandGuides before = strands.guides();
@@ -263,7 +273,7 @@ void curl(Strands& strands, const CurlOptions& options, const Context& context) 
         const Curls curls(strands, options);
         const std::vector<Index> counts = counts_for(strands, options, curls, context);
         if (counts.empty()) return wind_all(strands, options, curls, {}, context);
-        Strands made = with_counts(strands, counts, context);
+        Strands made = with_point_counts(strands, counts, context);
         std::vector<double> lengths;
         for (Index s = 0; s < strands.size(); ++s) lengths.push_back(length(strands.strand(s)));
         wind_all(made, options, curls, lengths, context);

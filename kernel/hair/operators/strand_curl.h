@@ -1,6 +1,8 @@
 /// Curls and waves: strands that wind around their own course.
 #pragma once
 
+#include <vector>
+
 #include "kernel/core/context.h"
 #include "kernel/core/index.h"
 #include "kernel/hair/strands/strand_pass.h"
@@ -41,6 +43,10 @@ struct CurlOptions : StrandOperatorOptions {
     /// Neighbouring guides begin their turns alike, as in waves that were set; without it at
     /// random.
     bool together = false;
+    /// Turns that each strand has at its root, in place of those of its guide; empty for these.
+    /// Hair whose turns grow with its way from a line has its crests along that line, as finger
+    /// waves.
+    std::vector<float> begin = {};
     CurlHand hand = CurlHand::random;
     /// Extent of the winding towards the normal as a part of that across it: 1 is a helix, 0 a wave
     /// in a surface; 0 to 1.
@@ -50,11 +56,12 @@ struct CurlOptions : StrandOperatorOptions {
 };
 
 /// Winds strands around their course B: x = B(a) + R(a) (depth cos phi N + sin phi B'), the frame
-/// (N, B') turning as little as possible; phi counts turns along the arc of the guide, so that
-/// strands of one guide stay together whatever their own lengths are. With `keep_length` hair winds
-/// up and becomes shorter on the head; without it strands become longer. The effect of factor, mask
-/// and profile is on the radius. Errors: invalid_argument for options out of range, or if there
-/// would be more points than can be numbered; not_finite; memory_limit, cancelled.
+/// (N, B') turning as little as possible from a root where N is the side that the guide bends to,
+/// on a head inward; phi counts turns along the arc of the guide, so that strands of one guide stay
+/// together whatever their own lengths are. With `keep_length` hair winds up and becomes shorter on
+/// the head; without it strands become longer. The effect of factor, mask and profile is on the
+/// radius. Errors: invalid_argument for options out of range, or if there would be more points than
+/// can be numbered; not_finite; memory_limit, cancelled.
 void curl(Strands& strands, const CurlOptions& options = {}, const Context& context = {});
 
 /// Returns the options of waves: wide, flat, and alike for neighbours.

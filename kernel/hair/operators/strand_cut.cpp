@@ -58,8 +58,7 @@ double part_inside(const Strands& strands, Index s, const StrandCutOptions& opti
 
 // The part of a strand that stays.
 double part_left(const Strands& strands, Index s, const StrandCutOptions& options,
-                 const std::vector<double>& fractions) {
-    const double whole = length(strands.strand(s));
+                 const std::vector<double>& fractions, double whole) {
     if (!(whole > 0.0) || !std::isfinite(whole)) return 1.0;
     const double mask = options.factor * (options.mask.empty() ? 1.0 : options.mask[at(s)]);
     if (mask == 0.0) return 1.0;
@@ -113,8 +112,8 @@ void cut(Strands& strands, const StrandCutOptions& options, const Context& conte
     require_cut(strands, options);
     if (options.factor == 0.0) return;
     Progress progress(context, "cut strands");
-    const auto part = [&](Index s, const std::vector<double>& fractions) {
-        return part_left(strands, s, options, fractions);
+    const auto part = [&](Index s, const std::vector<double>& fractions, double whole) {
+        return part_left(strands, s, options, fractions, whole);
     };
     strands = shortened(strands, part, context);
 }

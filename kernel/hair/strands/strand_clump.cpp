@@ -48,28 +48,26 @@ class Clumps {
         }
     }
 
-    void pull(Index s, const StrandView& old, StrandEdit& made) const {
-        const Index number = guide_of_[at(s)];
+    void pull(StrandWork& work) const {
+        const Index s = work.strand(), number = guide_of_[at(s)];
         if (number == kNoIndex) return;
         const Guide* const guide = &guides_.at(number);
+        const StrandView old = work.old_points();
         const double reach = guide->strength * falloff(old, *guide);
         if (reach <= 0.0) return;
-        const Vec3 tip =
-            options_.tip_spread * random_vector(options_.seed, strands_.id(s), kTipStream) +
-            guide->offset;
+        const Vec3 tip = options_.tip_spread * random_vector(options_.seed, work.id(), kTipStream) +
+                         guide->offset;
         const GuideCurve::Point root = guide->curve.at(0.0);
-        const Vec3 apart = root.frame.transpose() * (old.col(0).cast<double>() - root.position);
-        std::vector<double> t;
-        arc_fractions(old, t);
-        for (Index k = 1; k < old.cols(); ++k) {
-            const double along = t[at(k)];
+        const Vec3 apart = root.frame.transpose() * (work.old_point(0) - root.position);
+        for (Index k = 1; k < work.count(); ++k) {
+            const double along = work.t(k);
             const double s_t = options_.shape == 1.0 ? along : std::pow(along, options_.shape);
             const GuideCurve::Point center = guide->curve.at(along);
             const Vec3 target = center.position + (1.0 - s_t) * (center.frame * apart) + s_t * tip;
-            const Vec3 p = old.col(k).cast<double>();
-            made.col(k) = (p + s_t * reach * (target - p)).cast<float>();
+            const Vec3 p = work.old_point(k);
+            work.set_point(k, p + s_t * reach * (target - p));
         }
-        if (options_.keep_length) restore_lengths(old, made);
+        work.blend();
     }
 
   private:
@@ -98,10 +96,14 @@ class Clumps {
 
 std::vector<Index> clump_guides(const Strands& strands, const ClumpOptions& options,
                                 const Context& context) {
-    constexpr Index kUsualClumps = 900;
+    // Fewer than so many strands in a clump are not seen to gather.
+    constexpr Index kUsualClumps = 900, kFewInClump = 8;
     if (options.clumps == 0 && !strands.guides().ids.empty()) return present_guides(strands);
     GuideOptions guides;
-    guides.count = options.clumps == 0 ? kUsualClumps : options.clumps;
+    guides.count = options.clumps;
+    if (guides.count == 0) {
+        guides.count = std::clamp(strands.size() / kFewInClump, Index{1}, kUsualClumps);
+    }
     guides.apart = options.apart;
     guides.within_groups = options.within_groups;
     return nearest_guides(strands, guides, context);
@@ -117,10 +119,8 @@ void clump(Strands& strands, const ClumpOptions& options, const Context& context
     const Clumps clumps(strands, options, clump_guides(strands, options, context));
     StrandOperatorOptions effect = options.effect;
     effect.keep_length = options.keep_length;
-    move_points(
-        strands, effect,
-        [&](Index s, const StrandView& old, StrandEdit& made) { clumps.pull(s, old, made); },
-        context);
+    change_strands(
+        strands, effect, [&](StrandWork& work) { clumps.pull(work); }, context);
 }
 
 }  // namespace lissom

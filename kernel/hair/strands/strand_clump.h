@@ -14,7 +14,7 @@ namespace lissom {
 struct ClumpOptions {
     /// Number of guides: the strands of the lowest ids. These are spread over the scalp, so any
     /// part of the hair that has them gathers as the whole does. 0: the guides that the strands
-    /// have (Strands::guides), or 900.
+    /// have (Strands::guides), or 900, but at most one for eight strands.
     Index clumps = 0;
     /// Part of the way to the guide that tips move; 0 to 1.
     double strength = 0.7;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/hair/strands/strand_frames.h"
 #include "kernel/hair/strands/strand_measures.h"
 #include "kernel/hair/strands/strand_resample.h"
 
@@ -35,17 +36,6 @@ std::vector<Vec3> tangents_of(const std::vector<Vec3>& points) {
         tangents.push_back(tangent);
     }
     return tangents;
-}
-
-// One step of double reflection (Wang et al. 2008, Computation of rotation minimizing frames).
-Vec3 carried(const Vec3& normal, const Vec3& step, const Vec3& tangent, const Vec3& next) {
-    const double c1 = step.squaredNorm();
-    if (c1 == 0.0) return normal;
-    const Vec3 reflected = normal - (2.0 / c1) * step.dot(normal) * step;
-    const Vec3 tangent_reflected = tangent - (2.0 / c1) * step.dot(tangent) * step;
-    const Vec3 turn = next - tangent_reflected;
-    const double c2 = turn.squaredNorm();
-    return c2 == 0.0 ? reflected : Vec3(reflected - (2.0 / c2) * turn.dot(reflected) * turn);
 }
 
 Mat3 frame_of(const Vec3& normal, const Vec3& tangent) {
@@ -211,7 +201,8 @@ GuideCurve::GuideCurve(const StrandView& strand) {
     Vec3 normal = tangents.front().unitOrthogonal();
     for (std::size_t k = 0; k < points_.size(); ++k) {
         if (k > 0) {
-            normal = carried(normal, points_[k] - points_[k - 1], tangents[k - 1], tangents[k]);
+            normal =
+                carried_normal(normal, points_[k] - points_[k - 1], tangents[k - 1], tangents[k]);
         }
         frames_.push_back(frame_of(normal, tangents[k]));
     }
@@ -224,10 +215,7 @@ GuideCurve::Point GuideCurve::at(double t) const {
     const Vec3& p = points_[below];
     const Vec3 position = p + place.u * (points_[below + 1] - p);
     const Mat3 &a = frames_[below], &b = frames_[below + 1];
-    const Vec3 tangent = a.col(2) + place.u * (b.col(2) - a.col(2));
-    if (tangent.norm() < 1e-6) return {position, a};
-    const Vec3 normal = a.col(0) + place.u * (b.col(0) - a.col(0));
-    return {position, frame_of(normal, tangent.normalized())};
+    return {position, a + place.u * (b - a)};
 }
 
 }  // namespace lissom

@@ -77,7 +77,7 @@ class GuideCurve {
     explicit GuideCurve(const StrandView& strand);
 
     /// A point of the curve, with the normal, the binormal and the tangent there in the columns of
-    /// its frame; at the root the normal is arbitrary.
+    /// its frame, the mean of those of the points around it; at the root the normal is arbitrary.
     struct Point {
         Vec3 position;
         Mat3 frame;

@@ -1,5 +1,6 @@
 #include "kernel/hair/strands/strand_noise.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -15,23 +16,23 @@ namespace lissom {
 namespace {
 
 // Noise of gradients rarely leaves two thirds of its bound of 1; this spreads it over [-1, 1].
-constexpr double kSpread = 1.5;
+constexpr float kSpread = 1.5f;
 
 // How much the deviation may change along a segment, as a fraction of its length: so much turns it
 // by 27 degrees. For segments shorter than usual it is less still: sharply turning hair, as at tips
 // that run out in a weak field, has short segments.
 constexpr double kSteepest = 0.5;
 
-double fade_curve(double x) {
-    return x * x * x * (x * (x * 6.0 - 15.0) + 10.0);
+float fade_curve(float x) {
+    return x * x * x * (x * (x * 6.0f - 15.0f) + 10.0f);
 }
 
-// The dot product with `d` of one of the twelve gradients from the middle of a cube to its edges.
-double gradient(std::uint64_t bits, const Vec3& d) {
+// Component of one of the twelve gradients from the middle of a cube to its edges.
+float gradient(std::uint64_t bits, int axis) {
     const auto edge = static_cast<unsigned>(bits % 12);
-    const double a = (edge & 1u) != 0 ? 1.0 : -1.0, b = (edge & 2u) != 0 ? 1.0 : -1.0;
-    if (edge < 4) return a * d.x() + b * d.y();
-    return edge < 8 ? a * d.x() + b * d.z() : a * d.y() + b * d.z();
+    const float a = (edge & 1u) != 0 ? 1.0f : -1.0f, b = (edge & 2u) != 0 ? 1.0f : -1.0f;
+    const int first = edge < 8 ? 0 : 1, second = edge < 4 ? 1 : 2;
+    return axis == first ? a : axis == second ? b : 0.0f;
 }
 
 std::uint64_t corner_bits(const std::array<std::int64_t, 3>& cell, unsigned corner,
@@ -48,6 +49,68 @@ std::int64_t cell_of(double floor) {
     constexpr double kFar = 0x1p52;
     return std::abs(floor) < kFar ? static_cast<std::int64_t>(floor) : 0;
 }
+
+// Noise at places one after the other: keeps the gradients of the cell of the last.
+class NoiseSampler {
+  public:
+    explicit NoiseSampler(std::uint64_t seed) : seed_(seed) {}
+
+    Vec3 at(const Vec3& place) {
+        std::array<std::int64_t, 3> cell{};
+        std::array<float, 3> inside{}, fade{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double floor = std::floor(place[index_of(k)]);
+            cell[k] = cell_of(floor);
+            inside[k] = static_cast<float>(place[index_of(k)] - floor);
+            fade[k] = fade_curve(inside[k]);
+        }
+        if (cell != cell_ || !is_set_) take(cell);
+        return sum(inside, fade);
+    }
+
+  private:
+    using Lanes = Eigen::Array4f;
+
+    void take(const std::array<std::int64_t, 3>& cell) {
+        cell_ = cell;
+        is_set_ = true;
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            const std::uint64_t bits = corner_bits(cell, corner, seed_);
+            for (int axis = 0; axis < 3; ++axis) {
+                slopes_[3 * corner + static_cast<unsigned>(axis)] =
+                    kSpread * Lanes(gradient(bits & 0xffff, axis),
+                                    gradient(bits >> 16 & 0xffff, axis),
+                                    gradient(bits >> 32 & 0xffff, axis), 0.0f);
+            }
+        }
+    }
+
+    Lanes corner(unsigned c, const std::array<float, 3>& inside) const {
+        const Lanes* const slope = &slopes_[3 * std::size_t{c}];
+        const auto x = inside[0] - float(c & 1u), y = inside[1] - float(c >> 1 & 1u),
+                   z = inside[2] - float(c >> 2 & 1u);
+        return x * slope[0] + y * slope[1] + z * slope[2];
+    }
+
+    // Along x first, then y, then z.
+    Vec3 sum(const std::array<float, 3>& inside, const std::array<float, 3>& fade) const {
+        std::array<Lanes, 4> edges;
+        for (unsigned e = 0; e < 4; ++e) {
+            const Lanes a = corner(2 * e, inside);
+            edges[e] = a + fade[0] * (corner(2 * e + 1, inside) - a);
+        }
+        const Lanes low = edges[0] + fade[1] * (edges[1] - edges[0]);
+        const Lanes high = edges[2] + fade[1] * (edges[3] - edges[2]);
+        const Lanes all = low + fade[2] * (high - low);
+        return {all[0], all[1], all[2]};
+    }
+
+    std::uint64_t seed_;
+    std::array<std::int64_t, 3> cell_{};
+    bool is_set_ = false;
+    // By corner and axis: the slopes of the three components.
+    std::array<Lanes, 24> slopes_;
+};
 
 void require_noise(const NoiseOptions& options) {
     require(options.amplitude >= 0.0 && std::isfinite(options.amplitude),
@@ -67,55 +130,49 @@ Vec3 direction_at(const StrandView& strand, Index k) {
     return size > 0.0 ? Vec3(along / size) : Vec3::Zero();
 }
 
-// Deviations of the points of one strand, across it.
+// Moves one strand after the other by deviations across it; keeps room for them.
 class Deviations {
   public:
-    Deviations(const StrandView& strand, const NoiseOptions& options)
-        : strand_(strand), options_(options), length_(length(strand)) {
-        arc_fractions(strand, t_);
-        usual_ = 1.0 / (t_.size() - 1);
-        root_ = strand.col(0).cast<double>() / options.across;
-        at_root_ = sample(0.0);
-    }
+    explicit Deviations(const NoiseOptions& options) : options_(options), noise_(options.seed) {}
 
-    // Adds them and returns the number of segments that turned as far as they may.
-    Index add_to(StrandEdit& made) const {
+    // Returns the number of segments that turned as far as they may.
+    Index add_to(StrandWork& work) {
+        const StrandView strand = work.old_points();
+        root_ = point_of(strand, 0) / options_.across;
+        at_root_ = noise_.at(root_);
+        usual_ = 1.0 / (work.count() - 1);
+        const double metres = work.length();
         Index limited_segments = 0;
         Vec3 sum = Vec3::Zero(), deviation = Vec3::Zero();
-        for (Index k = 1; k < strand_.cols(); ++k) {
-            const std::size_t i = k;
-            const Vec3 wanted =
-                std::pow(t_[i], options_.shape) * (sample(t_[i] * length_) - at_root_);
-            sum = options_.cumulative ? Vec3(sum + (t_[i] - t_[i - 1]) * wanted) : wanted;
-            const Vec3 along = direction_at(strand_, k);
+        double before = 0.0;
+        for (Index k = 1; k < work.count(); ++k) {
+            const double t = work.t(k), segment = t - before;
+            before = t;
+            const double size = options_.shape == 1.0 ? t : std::pow(t, options_.shape);
+            const Vec3 wanted = size * (sample(t * metres) - at_root_);
+            sum = options_.cumulative ? Vec3(sum + segment * wanted) : wanted;
+            const Vec3 along = direction_at(strand, k);
             const Vec3 across = sum - along.dot(sum) * along;
             const Vec3 change = options_.amplitude * across - deviation;
-            const Vec3 allowed = limited(change, t_[i] - t_[i - 1]);
-            if (allowed != change) ++limited_segments;
-            deviation += allowed;
-            made.col(k) += deviation.cast<float>();
+            const double most = kSteepest * metres * segment * std::min(1.0, segment / usual_);
+            const double far = change.squaredNorm();
+            const bool is_limited = far > most * most;
+            if (is_limited) ++limited_segments;
+            deviation += is_limited ? Vec3(most / std::sqrt(far) * change) : change;
+            work.set_point(k, work.old_point(k) + deviation);
         }
         return limited_segments;
     }
 
   private:
-    // A change of the deviation along a segment of this fraction of the strand.
-    Vec3 limited(const Vec3& change, double segment) const {
-        const double most = kSteepest * length_ * segment * std::min(1.0, segment / usual_);
-        const double size = change.norm();
-        return size > most ? Vec3(most / size * change) : change;
-    }
-
     // The diagonal has no direction in common with the lattice, whose planes would show.
-    Vec3 sample(double arc) const {
+    Vec3 sample(double arc) {
         const double shift = arc / options_.along;
-        return smooth_noise(root_ + shift * Vec3(0.577, 0.789, -0.211), options_.seed);
+        return noise_.at(root_ + shift * Vec3(0.577, 0.789, -0.211));
     }
 
-    const StrandView& strand_;
     const NoiseOptions& options_;
-    double length_;
-    std::vector<double> t_;
+    NoiseSampler noise_;
     // Fraction of the length that a segment has on average.
     double usual_ = 1.0;
     Vec3 root_, at_root_;
@@ -124,39 +181,23 @@ class Deviations {
 }  // namespace
 
 Vec3 smooth_noise(const Vec3& place, std::uint64_t seed) {
-    std::array<std::int64_t, 3> cell{};
-    Vec3 inside, fade;
-    for (int k = 0; k < 3; ++k) {
-        const double floor = std::floor(place[k]);
-        cell[k] = cell_of(floor);
-        inside[k] = place[k] - floor;
-        fade[k] = fade_curve(inside[k]);
-    }
-    Vec3 sum = Vec3::Zero();
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        const Vec3 offset(corner & 1u, corner >> 1 & 1u, corner >> 2 & 1u);
-        double weight = 1.0;
-        for (int k = 0; k < 3; ++k) weight *= offset[k] > 0.0 ? fade[k] : 1.0 - fade[k];
-        const std::uint64_t bits = corner_bits(cell, corner, seed);
-        const Vec3 d = inside - offset;
-        sum += weight * Vec3(gradient(bits & 0xffff, d), gradient(bits >> 16 & 0xffff, d),
-                             gradient(bits >> 32 & 0xffff, d));
-    }
-    return kSpread * sum;
+    return NoiseSampler(seed).at(place);
 }
 
 void noise(Strands& strands, const NoiseOptions& options, const Context& context) {
     require_noise(options);
     Progress progress(context, "noise of strands");
     std::atomic<std::int64_t> limited{0}, segments{0};
-    const auto move = [&](Index, const StrandView& old, StrandEdit& made) {
-        limited += Deviations(old, options).add_to(made);
-        segments += old.cols() - 1;
-        if (options.keep_length) restore_lengths(old, made);
-    };
     StrandOperatorOptions effect = options.effect;
     effect.keep_length = options.keep_length;
-    move_points(strands, effect, move, context);
+    const auto make = [&] {
+        return [&, deviations = Deviations(options)](StrandWork& work) mutable {
+            limited += deviations.add_to(work);
+            segments += work.count() - 1;
+            work.blend();
+        };
+    };
+    change_strand_runs(strands, effect, make, context);
     if (2 * limited > segments) {
         context.log(
             LogLevel::warning,

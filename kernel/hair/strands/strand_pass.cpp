@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -9,6 +10,8 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/large_pages.h"
+#include "kernel/hair/strands/strand_frames.h"
 
 namespace lissom {
 namespace {
@@ -17,7 +20,7 @@ constexpr Index kPassGrain = 128;
 // Steps of a profile that is a power of the place: enough for any exponent to look smooth.
 constexpr std::size_t kPowerSteps = 128;
 // A segment that would have to grow by more has no direction.
-constexpr double kLongest = 1e12;
+constexpr float kLongest = 1e12f;
 
 bool is_part(double x) {
     return x >= 0.0 && x <= 1.0;
@@ -49,23 +52,12 @@ void segment_lengths(const float* points, Index count, std::vector<float>& lengt
     }
 }
 
-// One step of double reflection (Wang et al. 2008, Computation of rotation minimizing frames).
-Vec3 carried_normal(const Vec3& normal, const Vec3& step, const Vec3& tangent, const Vec3& next) {
-    const double c1 = step.squaredNorm();
-    if (c1 == 0.0) return normal;
-    const Vec3 reflected = normal - (2.0 / c1) * step.dot(normal) * step;
-    const Vec3 tangent_reflected = tangent - (2.0 / c1) * step.dot(tangent) * step;
-    const Vec3 turn = next - tangent_reflected;
-    const double c2 = turn.squaredNorm();
-    return c2 == 0.0 ? reflected : Vec3(reflected - (2.0 / c2) * turn.dot(reflected) * turn);
-}
-
 // The points as they were, kept strand by strand before each changes.
 class Backup {
   public:
     explicit Backup(Strands& strands)
         : strands_(strands),
-          old_(new float[strands.points().size()]),
+          old_(large_array<float>(strands.points().size())),
           kept_(at(strands.size() / kPassGrain + 1)) {}
 
     // Keeps the strands of a chunk and returns their old points.
@@ -147,8 +139,7 @@ bool StrandWork::take(Index strand, const float* old, float* made) {
     return sum > 0.0 && std::isfinite(sum);
 }
 
-double StrandWork::weight_at(double t) const {
-    if (profile_.empty()) return mask_;
+double StrandWork::profiled_weight(double t) const {
     const std::size_t last = profile_.size() - 1;
     const double place = std::clamp(t, 0.0, 1.0) * double(last);
     const auto below = std::min(static_cast<std::size_t>(place), last);
@@ -198,29 +189,34 @@ void StrandWork::blend() {
     if (options_.keep_length) restore_lengths();
 }
 
-// Sums the segments anew, each of the length that is given for it.
+// Sums the segments anew, each of the length that is given for it: offsets from the root, so that
+// few digits are lost far from the origin.
 void StrandWork::scale_segments(const float* lengths) {
     segment_lengths(made_, count_, scales_);
     Eigen::Map<Eigen::ArrayXf> scales(scales_.data(), count_);
     scales = Eigen::Map<const Eigen::ArrayXf>(lengths, count_) / scales;
-    Vec3 before = old_point(0), end = before;
-    for (Index k = 1; k < count_; ++k) {
-        const Vec3 here = point(k);
-        double scale = scales_[at(k)];
-        Vec3 segment = here - before;
+    std::array<float, 3> before{old_[0], old_[1], old_[2]}, end{};
+    float* p = made_ + 3;
+    for (Index k = 1; k < count_; ++k, p += 3) {
+        const float scale = scales_[at(k)];
+        const float* const old = old_ + 3 * at(k);
         // A segment without direction takes the old one.
-        if (!(scale < kLongest)) {
-            segment = old_point(k) - old_point(k - 1);
-            scale = segments_[at(k)] > 0.0f ? lengths[k] / segments_[at(k)] : 0.0f;
+        const bool has_direction = scale < kLongest;
+        const float old_scale = segments_[at(k)] > 0.0f ? lengths[k] / segments_[at(k)] : 0.0f;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const float segment = p[i] - before[i];
+            before[i] = p[i];
+            end[i] += has_direction ? scale * segment : old_scale * (old[i] - old[i - 3]);
+            p[i] = old_[i] + end[i];
         }
-        before = here;
-        end += scale * segment;
-        set_point(k, end);
     }
 }
 
-void StrandWork::restore_lengths() {
-    scale_segments(segments_.data());
+void StrandWork::restore_lengths(double factor) {
+    if (factor == 1.0) return scale_segments(segments_.data());
+    std::vector<float> lengths = segments_;
+    for (float& length : lengths) length *= static_cast<float>(factor);
+    scale_segments(lengths.data());
 }
 
 void StrandWork::space_evenly(double length) {
@@ -230,6 +226,13 @@ void StrandWork::space_evenly(double length) {
 
 void change_strands(Strands& strands, const StrandOperatorOptions& options,
                     const std::function<void(StrandWork& work)>& change, const Context& context) {
+    const auto make = [&]() -> std::function<void(StrandWork&)> { return std::ref(change); };
+    change_strand_runs(strands, options, make, context);
+}
+
+void change_strand_runs(Strands& strands, const StrandOperatorOptions& options,
+                        const std::function<std::function<void(StrandWork& work)>()>& make,
+                        const Context& context) {
     require_operator(strands, options);
     if (options.factor == 0.0 || strands.empty()) return;
     const MemoryCharge charge = context.charge(strands.points().size_bytes(), "changing strands");
@@ -240,6 +243,7 @@ void change_strands(Strands& strands, const StrandOperatorOptions& options,
         context.parallel_for(0, strands.size(), kPassGrain, [&](Index begin, Index end) {
             const float* const old = backup.keep(begin, end);
             StrandWork work(strands, options);
+            const std::function<void(StrandWork&)> change = make();
             for (Index s = begin; s < end; ++s) {
                 const std::size_t first = 3 * at(strands.first_point(s));
                 if (!work.take(s, old + first, points + first)) continue;

@@ -58,7 +58,7 @@ class StrandWork {
     double t(Index k) const { return arcs_[at(k)] * part_of_length_; }
     /// Part of the effect at a point or at a place along the strand, 0 to 1.
     double weight(Index k) const { return weight_at(t(k)); }
-    double weight_at(double t) const;
+    double weight_at(double t) const { return profile_.empty() ? mask_ : profiled_weight(t); }
     /// The points as they were, and as they become.
     StrandView old_points() const { return {old_, 3, count_}; }
     StrandEdit points() { return {made_, 3, count_}; }
@@ -89,12 +89,13 @@ class StrandWork {
     /// Moves the points that were set back to where the factor, mask and profile let them go, and
     /// gives segments their old lengths if they keep these.
     void blend();
-    /// Gives segments, in their directions, the lengths of the old strand.
-    void restore_lengths();
+    /// Gives segments, in their directions, the lengths of the old strand times a factor.
+    void restore_lengths(double factor = 1.0);
     /// The same with equal segments of a strand of this length.
     void space_evenly(double length);
 
   private:
+    double profiled_weight(double t) const;
     void scale_segments(const float* lengths);
 
     const Strands& strands_;
@@ -117,6 +118,12 @@ class StrandWork {
 /// were.
 void change_strands(Strands& strands, const StrandOperatorOptions& options,
                     const std::function<void(StrandWork& work)>& change, const Context& context);
+
+/// The same, with a change for each run of strands that one thread takes one after the other, made
+/// by `make()`: it may keep room between strands, but nothing that their results depend on.
+void change_strand_runs(Strands& strands, const StrandOperatorOptions& options,
+                        const std::function<std::function<void(StrandWork& work)>()>& make,
+                        const Context& context);
 
 /// Sine of 2 pi x, to 1e-5; the same on every machine. Without branches, so that loops over it
 /// become vector instructions.

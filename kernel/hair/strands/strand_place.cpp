@@ -52,21 +52,53 @@ std::optional<Vec3> place_on(const Mesh& mesh, Index face, const Eigen::Vector3f
     return place;
 }
 
-}  // namespace
-
-std::optional<double> unit_of_roots(const Strands& strands, const Mesh& mesh) {
-    const StrandRoots& roots = strands.roots();
+// Places on a mesh, and the roots of the strands there.
+struct RootedPlaces {
     std::vector<Vec3> places, points;
+};
+
+// Those of some strands; nothing if the mesh has not their faces.
+std::optional<RootedPlaces> rooted_places(const Strands& strands, const Mesh& mesh) {
+    const StrandRoots& roots = strands.roots();
+    RootedPlaces rooted;
     const std::size_t stride = std::max(roots.faces.size() / kLookedAt, std::size_t{1});
     for (std::size_t s = 0; s < roots.faces.size(); s += stride) {
         const auto place = place_on(mesh, roots.faces[s], roots.barycentrics[s]);
         const Vec3 point = strands.root(index_of(s)).cast<double>();
         if (!place) return std::nullopt;
         if (!point.allFinite()) continue;
-        places.push_back(*place);
-        points.push_back(point);
+        rooted.places.push_back(*place);
+        rooted.points.push_back(point);
     }
-    if (places.size() < 2) return std::nullopt;
+    return rooted;
+}
+
+}  // namespace
+
+bool may_be_rooted_on(const Strands& strands, const Mesh& mesh) {
+    constexpr double kDeformed = 0.1;
+    const auto rooted = rooted_places(strands, mesh);
+    if (!rooted) return false;
+    const std::size_t count = rooted->points.size();
+    if (count < 3) return true;
+    double both = 0.0, on_mesh = 0.0, of_roots = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t next = (i + 1) % count;
+        const double a = (rooted->places[next] - rooted->places[i]).norm();
+        const double b = (rooted->points[next] - rooted->points[i]).norm();
+        both += a * b;
+        on_mesh += a * a;
+        of_roots += b * b;
+    }
+    // The least sum of squares of b - factor a, as a part of that of b.
+    return of_roots == 0.0 ||
+           (on_mesh > 0.0 && 1.0 - both * both / (on_mesh * of_roots) < kDeformed * kDeformed);
+}
+
+std::optional<double> unit_of_roots(const Strands& strands, const Mesh& mesh) {
+    auto rooted = rooted_places(strands, mesh);
+    if (!rooted || rooted->places.size() < 2) return std::nullopt;
+    auto& [places, points] = *rooted;
     const double unit = spread(points) / spread(places);
     if (!std::isfinite(unit) || unit <= 0.0) return std::nullopt;
     for (Vec3& place : places) place *= unit;

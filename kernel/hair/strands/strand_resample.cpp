@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/large_pages.h"
 #include "kernel/hair/strands/strand_measures.h"
 
 namespace lissom {
@@ -161,6 +162,97 @@ std::vector<Index> all_segments(const Strands& strands, const ResampleOptions& o
     return segments;
 }
 
+// The last place of each strand, the part of its length up to there, and the offsets of the points
+// that are left: those before the place, and one there.
+struct Ends {
+    std::vector<StrandPlace> places;
+    std::vector<float> parts;
+    std::vector<Index> offsets;
+};
+
+// Fractions of the points of a strand, and its length.
+double measure_strand(const StrandView& strand, std::vector<double>& fractions) {
+    const std::size_t count = at(index_of(strand.cols()));
+    fractions.assign(count, 0.0);
+    const float* p = strand.data();
+    for (std::size_t k = 1; k < count; ++k, p += 3) {
+        const double x = double(p[3]) - p[0], y = double(p[4]) - p[1], z = double(p[5]) - p[2];
+        fractions[k] = fractions[k - 1] + std::sqrt(x * x + y * y + z * z);
+    }
+    const double whole = fractions.back(), part = 1.0 / whole;
+    for (std::size_t k = 1; k < count; ++k) {
+        fractions[k] = whole > 0.0 ? fractions[k] * part : double(k) / double(count - 1);
+    }
+    return whole;
+}
+
+Ends find_ends(const Strands& strands, const KeptPart& part, const Context& context) {
+    Ends ends{std::vector<StrandPlace>(at(strands.size())),
+              std::vector<float>(at(strands.size()), 1.0f),
+              {0}};
+    context.parallel_for(0, strands.size(), kResampleGrain, [&](Index begin, Index end) {
+        std::vector<double> fractions;
+        for (Index s = begin; s < end; ++s) {
+            const Index last = strands.point_count(s) - 1;
+            ends.places[at(s)] = {last, 0.0f};
+            if (last == 0) continue;
+            const double whole = measure_strand(strands.strand(s), fractions);
+            const double kept = part(s, fractions, whole);
+            if (!(kept < 1.0)) continue;
+            const StrandPlace place = place_at(fractions, kept);
+            ends.places[at(s)] = place;
+            const double a = fractions[at(place.below)], b = fractions[at(place.below) + 1];
+            ends.parts[at(s)] = static_cast<float>(a + place.u * (b - a));
+        }
+    });
+    ends.offsets.reserve(at(strands.size()) + 1);
+    for (const StrandPlace& place : ends.places) {
+        const Index between = place.u > 0.0f ? 1 : 0;
+        ends.offsets.push_back(ends.offsets.back() + std::max(1, place.below + 1 + between));
+    }
+    return ends;
+}
+
+// Copies values of points, `width` numbers each, up to the ends.
+void copy_up_to(const Strands& strands, const Ends& ends, std::size_t width, const float* old,
+                const Context& context, float* made) {
+    context.parallel_for(0, strands.size(), kResampleGrain, [&](Index begin, Index end) {
+        for (Index s = begin; s < end; ++s) {
+            const StrandPlace& place = ends.places[at(s)];
+            const std::size_t whole = width * (at(place.below) + 1);
+            const float* const from = old + width * at(strands.first_point(s));
+            float* const to = made + width * at(ends.offsets[at(s)]);
+            std::copy(from, from + whole, to);
+            if (place.u == 0.0f) continue;
+            for (std::size_t c = 0; c < width; ++c) {
+                const double a = from[whole - width + c], b = from[whole + c];
+                to[whole + c] = static_cast<float>(a + place.u * (b - a));
+            }
+        }
+    });
+}
+
+std::vector<float> points_up_to(const Strands& strands, const Ends& ends, const Context& context) {
+    const std::size_t count = 3 * at(ends.offsets.back());
+    const MemoryCharge charge = context.charge(sizeof(float) * count, "points of strands");
+    std::vector<float> points;
+    points.reserve(count);
+    prefer_large_pages(points);
+    points.resize(count);
+    copy_up_to(strands, ends, 3, strands.points().data(), context, points.data());
+    return points;
+}
+
+template <typename Value>
+void keep_up_to(const Strands& strands, const Ends& ends, StrandValues<Value>& values,
+                const Context& context) {
+    if (values.domain != StrandDomain::point) return;
+    auto old = std::move(values.values);
+    values.values.assign(at(ends.offsets.back()), values.common);
+    copy_up_to(strands, ends, sizeof(Value) / sizeof(float), numbers(old), context,
+               numbers(values.values));
+}
+
 }  // namespace
 
 Strands at_places(const Strands& strands, const Find& find, const Context& context) {
@@ -196,21 +288,14 @@ StrandPlace place_at(const std::vector<double>& fractions, double t) {
 }
 
 Strands shortened(const Strands& strands, const KeptPart& part, const Context& context) {
-    const auto find = [&](Index s, std::vector<StrandPlace>& places) {
-        const StrandView strand = strands.strand(s);
-        const auto last = index_of(strand.cols()) - 1;
-        StrandPlace end{last, 0.0f};
-        if (last > 0) {
-            std::vector<double> fractions;
-            arc_fractions(strand, fractions);
-            const double kept = part(s, fractions);
-            if (kept < 1.0) end = place_at(fractions, kept);
-        }
-        const Index whole = end.u > 0.0f ? end.below : end.below - 1;
-        for (Index k = 0; k <= whole; ++k) places.push_back({k, 0.0f});
-        places.push_back(end);
-    };
-    return at_places(strands, find, context);
+    const Ends ends = find_ends(strands, part, context);
+    Strands result(points_up_to(strands, ends, context), ends.offsets, context.memory());
+    copy_data(
+        strands, [&](auto& values) { keep_up_to(strands, ends, values, context); }, result);
+    StrandGuides guides = strands.guides();
+    for (std::size_t s = 0; s < guides.arcs.size(); ++s) guides.arcs[s] *= ends.parts[s];
+    result.set_guides(std::move(guides));
+    return result;
 }
 
 Strands resample(const Strands& strands, const ResampleOptions& options, const Context& context) {
@@ -228,6 +313,25 @@ Strands resample(const Strands& strands, const ResampleOptions& options, const C
         arc_fractions(strand, fractions);
         for (Index k = 1; k < count; ++k) places.push_back(place_at(fractions, double(k) / count));
         places.push_back({index_of(strand.cols()) - 1, 0.0f});
+    };
+    return at_places(strands, find, context);
+}
+
+Strands with_point_counts(const Strands& strands, const std::vector<Index>& counts,
+                          const Context& context) {
+    const auto find = [&](Index s, std::vector<StrandPlace>& places) {
+        const Index count = counts[at(s)], last = strands.point_count(s) - 1;
+        if (count == last + 1) {
+            for (Index k = 0; k <= last; ++k) places.push_back({k, 0.0f});
+            return;
+        }
+        std::vector<double> fractions;
+        arc_fractions(strands.strand(s), fractions);
+        places.push_back({0, 0.0f});
+        for (Index k = 1; k + 1 < count; ++k) {
+            places.push_back(place_at(fractions, double(k) / (count - 1)));
+        }
+        places.push_back({last, 0.0f});
     };
     return at_places(strands, find, context);
 }

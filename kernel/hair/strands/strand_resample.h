@@ -24,9 +24,10 @@ Strands at_places(const Strands& strands,
                   const std::function<void(Index strand, std::vector<StrandPlace>& places)>& find,
                   const Context& context = {});
 
-/// Part of a strand's length to keep, 0 to 1; `fractions` are those of its points
+/// Part of a strand's length in metres to keep, 0 to 1; `fractions` are those of its points
 /// (`arc_fractions`), at least two.
-using KeptPart = std::function<double(Index strand, const std::vector<double>& fractions)>;
+using KeptPart =
+    std::function<double(Index strand, const std::vector<double>& fractions, double length)>;
 
 /// Shortens strands at their tips. `part` is called on several threads. Errors: as at_places.
 Strands shortened(const Strands& strands, const KeptPart& part, const Context& context = {});
@@ -49,5 +50,10 @@ struct ResampleOptions {
 /// Errors: invalid_argument for options out of range; as `at_places`.
 Strands resample(const Strands& strands, const ResampleOptions& options,
                  const Context& context = {});
+
+/// Gives each strand as many points as `counts` says, at least 1, spread evenly; strands that have
+/// as many already stay to the bit. Errors: as `at_places`.
+Strands with_point_counts(const Strands& strands, const std::vector<Index>& counts,
+                          const Context& context = {});
 
 }  // namespace lissom

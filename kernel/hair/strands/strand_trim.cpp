@@ -50,8 +50,7 @@ double part_before_plane(const StrandView& strand, const std::vector<double>& fr
 
 // The part of a strand that is left, 0 to 1.
 double kept_part(const StrandView& strand, std::uint32_t id, const std::vector<double>& fractions,
-                 const StrandTrimOptions& options) {
-    const double whole = length(strand);
+                 double whole, const StrandTrimOptions& options) {
     if (!(whole > 0.0) || !std::isfinite(whole)) return 1.0;
     double part = std::min(options.factor, options.length / whole);
     const double random = 0.5 + 0.5 * signed_random(mixed(options.seed, id, kLengthStream));
@@ -68,8 +67,8 @@ double kept_part(const StrandView& strand, std::uint32_t id, const std::vector<d
 void trim(Strands& strands, const StrandTrimOptions& options, const Context& context) {
     require_trim(options);
     Progress progress(context, "trim strands");
-    const auto part = [&](Index s, const std::vector<double>& fractions) {
-        return kept_part(strands.strand(s), strands.id(s), fractions, options);
+    const auto part = [&](Index s, const std::vector<double>& fractions, double whole) {
+        return kept_part(strands.strand(s), strands.id(s), fractions, whole, options);
     };
     strands = shortened(strands, part, context);
 }

@@ -114,8 +114,18 @@ cli::ScriptResult ToolBench::ask(std::tuple<Results&...> results, ToolCall calle
     return result;
 }
 
+namespace {
+
+bool is_declared_alike(const lua::ScriptParameter& a, const lua::ScriptParameter& b) {
+    return a.name == b.name && a.group == b.group && a.default_value == b.default_value;
+}
+
+}  // namespace
+
 bool ToolState::operator==(const ToolState& other) const {
-    return tool == other.tool && word == other.word && prompt == other.prompt &&
+    return std::equal(parameters.begin(), parameters.end(), other.parameters.begin(),
+                      other.parameters.end(), is_declared_alike) &&
+           tool == other.tool && word == other.word && prompt == other.prompt &&
            steps == other.steps && place == other.place && objects == other.objects &&
            overlay == other.overlay && marks == other.marks;
 }

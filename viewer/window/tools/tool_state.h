@@ -96,7 +96,7 @@ struct ToolState {
     /// While a recording is played.
     std::optional<PlayedHand> hand;
 
-    /// Whether the same is seen; parameters are not looked at.
+    /// Whether the same is seen; values of parameters are not looked at.
     bool operator==(const ToolState& other) const;
 };
 

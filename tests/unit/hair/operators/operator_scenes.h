@@ -8,6 +8,7 @@
 #include "kernel/hair/operators/strand_bend.h"
 #include "kernel/hair/operators/strand_collision.h"
 #include "kernel/hair/operators/strand_curl.h"
+#include "kernel/hair/operators/strand_detail.h"
 #include "kernel/hair/operators/strand_frizz.h"
 #include "kernel/hair/operators/strand_gather.h"
 #include "tests/unit/hair/strands/strand_support.h"
@@ -33,6 +34,16 @@ Options with_effect(Options options, const StrandOperatorOptions& effect) {
 /// Distance to a plane through all roots of random_hair.
 inline double above_floor(const Vec3& p) {
     return p.y() - 0.005;
+}
+
+/// A strand that bends to and fro.
+inline Strands zigzag() {
+    std::vector<float> points;
+    for (int k = 0; k < 40; ++k) {
+        const float side = k == 0 ? 0.0f : 0.002f * float(k / 2 % 2);
+        points.insert(points.end(), {side, 0.004f * float(k), 0.0f});
+    }
+    return {std::move(points), {0, 40}};
 }
 
 inline std::vector<NamedOperator> all_operators() {
@@ -65,6 +76,9 @@ inline std::vector<NamedOperator> all_operators() {
     pushes.distance = above_floor;
     ShrinkwrapOptions wraps;
     wraps.distance = above_floor;
+    const auto give_details = [](Strands& s, const DetailOptions& options, const Context& c) {
+        detail(s, zigzag(), options, c);
+    };
     using Effect = StrandOperatorOptions;
     const auto make = [](const std::string& name, const auto& function, const auto& options,
                          bool keeps) {
@@ -80,6 +94,7 @@ inline std::vector<NamedOperator> all_operators() {
             make("curl", curl, curls, true),
             make("curl that lengthens", curl, free_curls, false),
             make("wave", curl, waves, true),
+            make("detail", give_details, DetailOptions(), true),
             make("frizz", frizz, FrizzOptions(), true),
             make("straighten", straighten, StrandOperatorOptions(), true),
             make("rotate", rotate, rotates, true),

@@ -199,6 +199,82 @@ TEST_CASE("strands of one guide curl together whatever their lengths are") {
     }
 }
 
+TEST_CASE("neighbours on a head wave alike, towards the head or along it") {
+    // Strands bent over a ball, in planes through its middle.
+    std::vector<std::vector<Vec3>> lists;
+    for (int s = 0; s < 24; ++s) {
+        std::vector<Vec3> points;
+        const double side = 0.02 * s;
+        for (int k = 0; k <= 60; ++k) {
+            const double angle = 0.3 + 0.025 * k;
+            points.emplace_back(0.1 * std::sin(angle) * std::cos(side), 0.1 * std::cos(angle),
+                                0.1 * std::sin(angle) * std::sin(side));
+        }
+        lists.push_back(points);
+    }
+    const Strands strands = strands_of(lists);
+    CurlOptions options = wave_options();
+    options.radius = 0.004;
+    options.wavelength = 0.04;
+    options.start = options.ramp = 0.01;
+    options.variation = options.phase = options.points_per_turn = 0;
+    options.hand = CurlHand::right;
+    options.keep_length = false;
+    options.guides = 24;
+    options.depth = 0.0;
+    Strands made = strands;
+    curl(made, options);
+    double highest = 0.0, apart = 0.0, swaying = 0.0;
+    for (Index s = 0; s + 1 < made.size(); ++s) {
+        const Vec3 across(-std::sin(0.02 * s), 0.0, std::cos(0.02 * s));
+        const Vec3 next(-std::sin(0.02 * (s + 1)), 0.0, std::cos(0.02 * (s + 1)));
+        for (Index k = 20; k < 60; ++k) {
+            const Vec3 a = point_of(made.strand(s), k), b = point_of(made.strand(s + 1), k);
+            highest = std::max(highest, std::abs(a.norm() - 0.1));
+            swaying = std::max(swaying, std::abs(a.dot(across)));
+            apart = std::max(apart, std::abs(a.dot(across) - b.dot(next)));
+        }
+    }
+    CHECK(swaying > 0.0035);
+    CHECK(apart < 0.0015);
+    CHECK(highest < 0.0005);
+}
+
+TEST_CASE("strands whose turns begin with their way from a line have crests along it") {
+    // Bowed strands in one plane, each rooted further along the way of the first.
+    std::vector<std::vector<Vec3>> lists;
+    for (int s = 0; s < 8; ++s) {
+        std::vector<Vec3> points;
+        for (int k = 0; k <= 80; ++k) {
+            const double angle = 0.01 * (3 * s + k);
+            points.emplace_back(0.2 * std::cos(angle), 0.2 * std::sin(angle), 0.0);
+        }
+        lists.push_back(points);
+    }
+    CurlOptions options = wave_options();
+    options.radius = 0.003;
+    options.wavelength = 0.05;
+    options.start = options.ramp = 0.0;
+    options.tip = 1.0;
+    options.variation = options.phase = options.points_per_turn = 0;
+    options.hand = CurlHand::right;
+    options.keep_length = false;
+    options.guides = 8;
+    for (int s = 0; s < 8; ++s) options.begin.push_back(float(0.2 * 0.03 * s / 0.05));
+    Strands made = strands_of(lists);
+    curl(made, options);
+    double apart = 0.0;
+    for (Index s = 0; s + 1 < made.size(); ++s) {
+        for (Index k = 10; k < 70; ++k) {
+            const auto a = made.strand(s)(2, k + 3), b = made.strand(s + 1)(2, k);
+            apart = std::max(apart, std::abs(double(a) - b));
+        }
+    }
+    CHECK(apart < 0.0004);
+    options.begin.pop_back();
+    CHECK(error_of([&] { curl(made, options); }).code() == ErrorCode::invalid_argument);
+}
+
 TEST_CASE("hang draws turns out at the root and tightens them at the tip") {
     CurlOptions options;
     options.guides = 1;
