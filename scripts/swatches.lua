@@ -48,10 +48,12 @@ local swatches = {
     { "(before)", function() end },
     { "gather", function(h) h:gather{ guides = 9, spread = 0.0008, ramp = 0.04 } end },
     { "clump", function(h) h:clump() end },
-    { "twist", function(h) h:gather{ guides = 6, spread = 0.003 }:twist{ wavelength = 0.03, ramp = 0.03 } end },
+    { "twist", function(h)
+        h:gather{ guides = 6, spread = 0.003 }:twist{ wavelength = 0.03, ramp = 0.03 }
+    end },
     { "pinch", function(h) h:pinch{ guides = 5, place = 0.5, width = 0.2 } end },
-    { "curl", function(h) h:guides{ count = 12 }:gather{ spread = 0.001 }:curl{ radius = 0.005, wavelength = 0.02,
-        ramp = 0.03, start = 0.01 } end },
+    { "curl", function(h) h:guides{ count = 12 }:gather{ spread = 0.001 }:curl{ radius = 0.005,
+        wavelength = 0.02, ramp = 0.03, start = 0.01 } end },
     { "wave", function(h) h:guides{ count = 20 }:wave{ radius = 0.004, wavelength = 0.04, start = 0.01,
         ramp = 0.02 } end },
     { "frizz", function(h) h:frizz{ amplitude = 0.002, wavelength = 0.02 } end },
@@ -93,8 +95,10 @@ for i, one in ipairs(swatches) do
     bars[i], strands[i], captions[i] = bar(), hair, one[1]
 end
 lissom.render{
-    meshes = bars, strands = strands, hair = { unit = 1 }, columns = params.columns, captions = captions, background = "#e4e6ea",
+    meshes = bars, strands = strands, hair = { unit = 1 }, columns = params.columns, captions = captions,
+    background = "#e4e6ea",
     camera = lissom.camera{ eye = { 0, -0.06, 0.6 }, target = { 0, -0.064, 0 }, fov = 15 },
     file = params.out .. "/operators.png",
-    size = { params.size * params.columns, math.floor(1.2 * params.size) * math.ceil(#strands / params.columns) },
+    size = { params.size * params.columns,
+        math.floor(1.2 * params.size) * math.ceil(#strands / params.columns) },
 }

@@ -32,7 +32,8 @@ local curly = smooth:copy():detail{ from = example, scale = params.scale, turn =
 local strands = { smooth, curly }
 for _, hair in ipairs(strands) do
     hair:cut{ hem = { { 0, -0.17 } }, scalp = scalp, jitter = 0.01, guide_jitter = 0.01 }
-    styling.set_width(hair, 0.00026):taper{ tip = 0.4, start = 0.6 }:push_out{ head = style, clearance = 0.002 }
+    styling.set_width(hair, 0.00026):taper{ tip = 0.4, start = 0.6 }
+    hair:push_out{ head = style, clearance = 0.002 }
     hair:set_colors{ color = styling.linear(styling.colors.auburn) }
 end
 local target, front, up, eye = scalp:from_metres(0, -0.06, 0), scalp:front(), scalp:up(), {}

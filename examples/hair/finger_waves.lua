@@ -1,7 +1,6 @@
 --- Finger waves: hair from a side parting lies close to the head in ridges that run round it.
 --
 --     lissom run examples/hair/finger_waves.lua --ridge 0.05 --depth 0.006
-local lissom = require "lissom"
 local styling = require "styling"
 
 local parting = { { -24, 37 }, { -30, 50 }, { -44, 62 }, { -70, 68 } }

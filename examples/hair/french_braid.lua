@@ -1,5 +1,5 @@
---- A French braid: hair is fed from both sides into a braid that begins above the forehead, runs over the crown
--- and hangs down from the nape.
+--- A French braid: hair is fed from both sides into a braid that begins above the forehead, runs over the
+-- crown and hangs down from the nape.
 --
 --     lissom run examples/hair/french_braid.lua --radius 0.011 --tail 0.2
 local lissom = require "lissom"
@@ -42,7 +42,8 @@ return styling.preset(..., {
             places[#places + 1] = { azimuth, elevation, 6 + 4 * math.min(1, i / 6) }
         end
         for _ = 1, 8 do places[#places + 1] = { "by", 0, -125 * v.tail, -10 * v.tail } end
-        local hair = style:grow{ count = o.count, seed = v.seed, length = 0.2, layer = 0.004, clearance = 0.002 }
+        local hair = style:grow{ count = o.count, seed = v.seed, length = 0.2, layer = 0.004,
+            clearance = 0.002 }
         hair:resample{ step = 0.004 }:smooth{ iterations = 2 }
         hair:feed_braid{ spine = styling.route(scalp, places), scalp = scalp, across = scalp:left(),
             radius = v.radius, wide = 1.4 * v.radius, high = 0.7 * v.radius, wavelength = 6.5 * v.radius,

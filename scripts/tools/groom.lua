@@ -126,7 +126,8 @@ end
 local function show_groom(self, scene)
     local groom = groom_of(self, scene)
     if not groom then
-        if self.state.shown then self.params, self.state.shown = lissom.params({}, { command_line = false }) end
+        if self.state.shown then self.params = lissom.params({}, { command_line = false }) end
+        self.state.shown = nil
         return
     end
     local layers = layers_of(groom)

@@ -384,8 +384,8 @@ test("options of operators have their ranges and values, for panels", function()
     for _, one in ipairs(g:options("lower")) do by_name[one.name] = one end
     expect.equal(by_name.count.value, 100)
     expect.equal(by_name.length.value, 0.1)
-    local names = table.concat(g:operators(), " ")
-    expect.truthy(names:find("attach blend braid", 1, true), names)
+    local all = table.concat(g:operators(), " ")
+    expect.truthy(all:find("attach blend braid", 1, true), all)
     for _, name in ipairs(g:operators()) do
         local list = g:insert("lower", { name }, 1):options("lower", 1)
         for _, one in ipairs(list) do expect.truthy(one.name and one.type and one.help, name) end

@@ -438,9 +438,9 @@ end
 
 -- Whether hair may be in the head after an operator that moves it; nil if it moves none.
 local may_collide = { grow = false, push_out = false, shrinkwrap = false }
-for _, name in ipairs{ "gather", "twist", "pinch", "curl", "wave", "frizz", "detail", "clump", "noise", "smooth",
-    "straighten", "rotate", "roll", "puff", "displace", "set_length", "blend", "duplicate", "resample",
-    "attach", "braid", "bun", "feed_braid" } do
+for _, name in ipairs{ "gather", "twist", "pinch", "curl", "wave", "frizz", "detail", "clump", "noise",
+    "smooth", "straighten", "rotate", "roll", "puff", "displace", "set_length", "blend", "duplicate",
+    "resample", "attach", "braid", "bun", "feed_braid" } do
     may_collide[name] = true
 end
 
