@@ -166,3 +166,46 @@ TEST_CASE("a smooth source that crumples is found beside a rough target, a rough
     CHECK(names(crumpled, MergeFault::roughness));
     CHECK(crumpled.text.find("rough") != std::string::npos);
 }
+
+namespace {
+
+// The reason of that kind; one without a value if there is none.
+MergeReason reason_of(const Verdict& verdict, MergeFault fault) {
+    for (const MergeReason& reason : verdict.reasons) {
+        if (reason.fault == fault) return reason;
+    }
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("a ragged rim of a smooth target is found, one that was as ragged before is not") {
+    const Column column;
+    const Mesh ragged = column.moved([](Vec3& p) {
+        if (p.y() < -0.02 && p.y() > -0.3) scale_out(p, 1.0 + 0.3 * (out_of_row(p) - 1.0));
+    });
+    const MergeReason found = reason_of(column.judged(ragged), MergeFault::roughness);
+    CHECK_MESSAGE(found.text.find("the target beside the seam is rough") != std::string::npos,
+                  found.text);
+    CHECK(found.value < 9.0 * kDegree);
+    CHECK(column.judged(ragged, ragged).good);
+}
+
+TEST_CASE("wrinkles of a rough source are found, its own roughness is not") {
+    const Column column;
+    const auto roughen = [](Vec3& p) {
+        if (std::abs(p.y()) > 0.05) scale_out(p, 1.0 + 0.72 * (out_of_row(p) - 1.0));
+    };
+    const Mesh rough = column.moved(roughen);
+    CHECK(column.judged(rough, rough).good);
+    const Mesh wrinkled = column.moved([&](Vec3& p) {
+        const double wave = std::cos(16.0 * std::atan2(p.x(), p.z()));
+        if (p.y() > 0.05 && p.y() < 0.5) scale_out(p, 1.0 + 0.0235 * wave);
+        roughen(p);
+    });
+    const MergeReason found = reason_of(column.judged(wrinkled, rough), MergeFault::roughness);
+    CHECK_MESSAGE(found.text.find("the source beside the seam is rough") != std::string::npos,
+                  found.text);
+    CHECK(found.value > 14.0 * kDegree);
+    CHECK(found.value < 16.0 * kDegree);
+}

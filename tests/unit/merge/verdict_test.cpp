@@ -97,9 +97,22 @@ TEST_CASE("the verdict weighs the whole band, and tells each fault with its figu
     CHECK(reason.fault == MergeFault::roughness);
     CHECK(reason.text.find("the source beside the seam is rough") != std::string::npos);
     CHECK(reason.limit == doctest::Approx(1.6 * 8.0 * kDegree));
-    std::swap(band.source_roughness, band.target_roughness);
-    std::swap(band.rest_source_roughness, band.rest_target_roughness);
-    CHECK(only_reason(report_with(band)).text.find("the target beside") != std::string::npos);
+    // One that was rough may gain less.
+    band.rest_source_roughness = 10.5 * kDegree;
+    band.source_roughness = 15.5 * kDegree;
+    CHECK(only_reason(report_with(band)).limit == doctest::Approx(1.4 * 10.5 * kDegree));
+    // A pasted part bends to meet its target.
+    MergeReport paste = report_with(band);
+    paste.crease = 35.0 * kDegree;
+    CHECK(verdict_of(paste, {}).good);
+    band = good_band();
+    band.target_roughness = 7.0 * kDegree;
+    band.rest_target_roughness = 1.5 * kDegree;
+    reason = only_reason(report_with(band));
+    CHECK(reason.text.find("the target beside") != std::string::npos);
+    CHECK(reason.limit == doctest::Approx(5.0 * kDegree));
+    band.rest_target_roughness = 6.0 * kDegree;
+    CHECK(verdict_of(report_with(band), {}).good);
     // Beside flat sides edges that turn by little do not show.
     band = good_band();
     band.rest_roughness = 0.1 * kDegree;
