@@ -500,6 +500,22 @@ test("clear: noses of real faces, with deep nostrils and beside holes, give way 
     end
 end)
 
+test("clear: thin ears with no room beneath are taken as they are", function()
+    local target = assert(lissom.load(models.path("models/suzanne_quads.obj")))
+    local tip, most = 1, -math.huge
+    for v = 1, #target do
+        local x = target:position(v)
+        if x > most then tip, most = v, x end
+    end
+    local ear = parts.make("ear")
+    local paste = lissom.paste{ source = ear.mesh, region = ear.region, feature = ear.feature,
+        target = target, clear = true,
+        placement = { at = { target:position(tip) }, scale = 0.35 * target:size(), up = ear.up } }
+    paste:optimize()
+    expect.truthy(paste:clearing())
+    expect.truthy((paste:merge()):vertex_count() > #target)
+end)
+
 test("clear: a part that clears nothing has nothing to show", function()
     local paste = paste_nose{ target = nosed(30), placement = { at = { 0, 1, 0 }, scale = 0.5 } }
     expect.equal(paste:clearing(), nil)

@@ -126,6 +126,9 @@ struct Paste::State {
     /// Places the part on a target that is altered for it. After an error all is as before.
     void place_on_altered(const PastePlacement& placement, std::span<const Index> start,
                           const PasteEffort& effort, const Context& context);
+    void place_clearing(const AlteredTarget& ground, const PastePlacement& placement,
+                        std::span<const Index> start, const PasteEffort& effort,
+                        const Context& context);
     void note_cleared(const ClearedTarget& next);
     AlteredTarget without_cleared(const AlteredTarget& ground, const Context& context);
     AlteredTarget base_of(const AlteredTarget& ground, const PastePlacement& placement,

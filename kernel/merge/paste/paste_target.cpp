@@ -7,6 +7,7 @@
 #include "kernel/core/error.h"
 #include "kernel/merge/paste/erase/cleared_target.h"
 #include "kernel/merge/paste/paste_state.h"
+#include "kernel/merge/paste/placement/plane_line.h"
 #include "kernel/merge/provenance.h"
 #include "kernel/mesh/edit/finer_near.h"
 #include "kernel/mesh/measure/measures.h"
@@ -156,6 +157,26 @@ void Paste::State::all_or_nothing(const Work& work) {
     }
 }
 
+// On the surface that features stand on, or, if the part has no room there, on the features.
+void Paste::State::place_clearing(const AlteredTarget& ground, const PastePlacement& placement,
+                                  std::span<const Index> start, const PasteEffort& effort,
+                                  const Context& context) {
+    const auto place_over = [&](AlteredTarget base) {
+        place_on(std::move(base), placement, start, effort, context);
+        const Region under = under_boundary(ground, placement, context);
+        place_on_cleared(ground, under, placement, start, effort, context);
+    };
+    try {
+        return place_over(base_of(ground, placement, context));
+    } catch (const Error& error) {
+        const ErrorCode code = error.code();
+        if (code != ErrorCode::boundary_conflict && code != ErrorCode::not_a_disk) throw;
+    }
+    gone.reset();
+    clearing.reset();
+    place_over(ground);
+}
+
 void Paste::State::place_on_altered(const PastePlacement& placement, std::span<const Index> start,
                                     const PasteEffort& effort, const Context& context) {
     const AlteredTarget ground = roomy(placement, context);
@@ -163,9 +184,7 @@ void Paste::State::place_on_altered(const PastePlacement& placement, std::span<c
         if (options.cleared) {
             place_on(without_cleared(ground, context), placement, start, effort, context);
         } else if (options.clear) {
-            place_on(base_of(ground, placement, context), placement, start, effort, context);
-            const Region under = under_boundary(ground, placement, context);
-            place_on_cleared(ground, under, placement, start, effort, context);
+            place_clearing(ground, placement, start, effort, context);
         } else {
             place_on(ground, placement, start, effort, context);
         }
@@ -274,7 +293,9 @@ void Paste::State::place_on_cleared(const AlteredTarget& ground, const Region& u
     there.like = &former;
     PastePlacement fixed = placement;
     fixed.angle = former.angle;
-    place_on(after(ground, std::move(*next)), fixed, former.loop.vertices, there, context);
+    const AlteredTarget cleared = after(ground, std::move(*next));
+    place_on(cleared, fixed, former.loop.vertices, there, context);
+    if (crosses_itself(boundary_in_plane())) place_on(cleared, fixed, start, effort, context);
     placed.placement = placement;
     placed.angle_chosen = former.angle_chosen;
     placed.upright = former.upright;
