@@ -14,8 +14,8 @@ import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..", "..")
-# Libraries that any Linux with the C library of the tag has, and those under the MIT licence that go into the wheel.
-OF_THE_SYSTEM = re.compile(r"lib(c|m|dl|pthread|rt|gcc_s)\.so\.\d+$|ld-linux.*\.so\.\d+$")
+# Libraries that any Linux with the C library of the tag has, by the rules of manylinux, and those under the MIT licence that go into the wheel.
+OF_THE_SYSTEM = re.compile(r"lib(c|m|dl|pthread|rt|gcc_s|stdc\+\+)\.so\.\d+$|ld-linux.*\.so\.\d+$")
 TAKEN_IN = re.compile(r"libmeshoptimizer\.so")
 TIME = (1980, 1, 1, 0, 0, 0)
 
@@ -38,7 +38,7 @@ def needed(library):
     files = []
     for name in names:
         if TAKEN_IN.match(name):
-            files.append((name, paths[name]))
+            files += [(name, paths[name])] + needed(paths[name])
         elif not OF_THE_SYSTEM.match(name):
             sys.exit(f"wheel.py: {library} needs {name}, which a wheel cannot have: build the preset 'wheel'")
     return files

@@ -211,6 +211,7 @@ class Objects(unittest.TestCase):
             with self.assertRaises(KeyboardInterrupt):
                 deformer.prepare()
             self.assertEqual(mesh.boundary_count, 0)
+            self.assertEqual(mesh.copy().hash(), mesh.hash())
 
     def test_a_space_of_the_host(self):
         with lissom.Context(z_up=True) as context:
@@ -317,12 +318,12 @@ class Scripts(unittest.TestCase):
     def test_a_script_takes_parameters_and_objects(self):
         path = self.write("""
             local lissom = require "lissom"
-            local p = lissom.params{ height = { type = "number", default = 1, max = 90 }, mesh = { type = "file" },
+            local p = lissom.params{ path = { type = "string", default = "" }, height = { type = "number", default = 1, max = 90 }, mesh = { type = "file" },
                 closed = { type = "boolean", default = false } }
             local mesh, options = lissom.load(p.mesh), ...
             return mesh, p.height, p.closed, options and options.mesh:vertex_count()""")
         mesh = sphere()
-        result, height, closed, count = lissom.run(path, {"mesh": mesh}, height=30, mesh=mesh, closed=True)
+        result, height, closed, count = lissom.run(path, {"mesh": mesh}, height=30, mesh=mesh, closed=True, path="x")
         self.assertEqual(result.vertex_count, mesh.vertex_count)
         self.assertEqual((height, closed, count), (30, True, mesh.vertex_count))
         for wrong in ({"hight": 3}, {"height": 300}):

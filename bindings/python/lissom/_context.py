@@ -89,17 +89,21 @@ class Context:
         """Calls a function: raises its error, or returns what it returns beside a status."""
         with self._lock:
             result = self._function(name, *arguments)
+            self._raise_failure()
             returns = _abi.FUNCTIONS[name][1]
             if returns is C.c_int and result or returns is C.c_int32 and result == -1:
-                self._raise(name)
+                self._raise()
             return result
 
-    def _raise(self, _name):
+    def _raise_failure(self):
+        """Raises what a service has raised meanwhile."""
         failure, self._failure = self._failure, None
-        error = library.lissom_last_error(self._pointer).contents
         if failure is not None:
             library.lissom_clear_cancel(self._pointer)
             raise failure
+
+    def _raise(self):
+        error = library.lissom_last_error(self._pointer).contents
         if error.status == _abi.lissom_status.OK:
             return
         element = _abi.lissom_element(error.element).name.lower().replace("no_element", "")

@@ -53,7 +53,7 @@ def load_script(path, *, context=None):
     return Handle.classes["Script"].load(text, os.path.basename(path), context=context)
 
 
-def run(path, *arguments, context=None, **parameters):
+def run(path, /, *arguments, context=None, **parameters):
     """Runs a script: `lissom.run("bend.lua", angle=30, mesh=mesh)`.
 
     Names are the script's own parameters (lissom.params); a Mesh or Strands for a parameter of a file, mesh or head is
