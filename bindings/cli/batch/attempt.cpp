@@ -43,8 +43,9 @@ double rounded_seconds(double seconds) {
 
 }  // namespace
 
-Attempt::Attempt(const BatchPlan& plan, WaitingJob waiting, const BatchState& state)
+Attempt::Attempt(const BatchPlan& plan, WaitingJob waiting, BatchState& state)
     : plan_(plan),
+      spares_(state.spares()),
       waiting_(std::move(waiting)),
       folder_(state.folder()),
       lock_(folder_ / "locks" / job_key(job())),
@@ -61,7 +62,7 @@ JobTask Attempt::prepare() {
     fs::remove(log_, ignored);
     // A process that outlives its driver keeps its own folder.
     const std::string work = job_key(job()) + "." + std::to_string(process_number());
-    staging_.emplace(folder_ / "work" / work, job().output, plan_.makes_folders);
+    staging_.emplace(folder_ / "work" / work, job().output, plan_.makes_folders, spares_);
     staging_->hold(waiting_.taken);
     return {plan_.script, job_words(plan_, job(), staging_->output()), log_.string()};
 }

@@ -27,7 +27,7 @@ struct WaitingJob {
 class Attempt {
   public:
     /// Takes the lock of the job, if no process of an earlier batch has it (see `is_free`).
-    Attempt(const BatchPlan& plan, WaitingJob waiting, const BatchState& state);
+    Attempt(const BatchPlan& plan, WaitingJob waiting, BatchState& state);
 
     bool is_free() const { return is_free_; }
     const BatchJob& job() const { return *waiting_.job; }
@@ -61,6 +61,7 @@ class Attempt {
     std::vector<FileStamp> read_stamps(FileDigests& digests) const;
 
     const BatchPlan& plan_;
+    SpareFolders& spares_;
     WaitingJob waiting_;
     std::filesystem::path folder_;
     FileLock lock_;

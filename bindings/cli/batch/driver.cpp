@@ -233,8 +233,12 @@ std::string first_line(const fs::path& file) {
 // Work folders of processes that were killed.
 void remove_abandoned_work(const fs::path& folder) {
     for (const fs::directory_entry& work : fs::directory_iterator(folder / "work")) {
-        FileLock lock(folder / "locks" / work.path().stem());
         std::error_code ignored;
+        if (work.path().filename().string().starts_with(SpareFolders::kName)) {
+            fs::remove(work.path(), ignored);
+            continue;
+        }
+        FileLock lock(folder / "locks" / work.path().stem());
         if (lock.take()) fs::remove_all(work.path(), ignored);
     }
 }
@@ -251,7 +255,7 @@ double BatchProgress::seconds_left() const {
 }
 
 BatchState::BatchState(const BatchPlan& plan)
-    : folder_(plan.folder / kBatchFolder), ledger_(folder_ / "results") {
+    : folder_(plan.folder / kBatchFolder), spares_(folder_ / "work"), ledger_(folder_ / "results") {
     for (const auto& [output, record] : ledger_.records()) {
         for (const FileStamp& stamp : record.reads) digests_.know(stamp);
         for (const FileStamp& stamp : record.outputs) digests_.know(stamp);

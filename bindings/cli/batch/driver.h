@@ -9,6 +9,7 @@
 #include "bindings/cli/batch/durable_files.h"
 #include "bindings/cli/batch/ledger.h"
 #include "bindings/cli/batch/plan/plan.h"
+#include "bindings/cli/batch/spare_folders.h"
 
 namespace lissom::cli {
 
@@ -72,6 +73,7 @@ class BatchState {
     void refresh() { ledger_.refresh(); }
 
     FileDigests& digests() { return digests_; }
+    SpareFolders& spares() { return spares_; }
     const std::string& program() const { return program_; }
     std::filesystem::path folder() const { return folder_; }
 
@@ -81,6 +83,7 @@ class BatchState {
     std::filesystem::path folder_;
     std::string program_;
     FileDigests digests_;
+    SpareFolders spares_;
     Ledger ledger_;
 };
 

@@ -40,14 +40,16 @@ void remove_others(const JobRecord* before, const std::vector<FileStamp>& made) 
 
 }  // namespace
 
-Staging::Staging(fs::path work, const fs::path& output, bool makes_folder)
-    : work_(std::move(work)), output_(output) {
+Staging::Staging(fs::path work, const fs::path& output, bool makes_folder, SpareFolders& spares)
+    : work_(std::move(work)), output_(output), spares_(spares) {
     std::error_code ignored;
     fs::remove_all(work_, ignored);
-    make_folder(makes_folder ? this->output() : work_);
+    if (!spares_.give(work_)) make_folder(work_);
+    if (makes_folder) make_folder(this->output());
 }
 
 Staging::~Staging() {
+    if (is_published_ && spares_.keep(work_)) return;
     std::error_code ignored;
     fs::remove_all(work_, ignored);
 }
@@ -132,6 +134,7 @@ std::vector<FileStamp> Staging::publish(const JobRecord* before, FileDigests& di
         made.push_back(digests.stamp(place));
     }
     remove_others(before, made);
+    is_published_ = true;
     return made;
 }
 

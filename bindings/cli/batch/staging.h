@@ -8,6 +8,7 @@
 
 #include "bindings/cli/batch/digest.h"
 #include "bindings/cli/batch/ledger.h"
+#include "bindings/cli/batch/spare_folders.h"
 
 namespace lissom::cli {
 
@@ -16,8 +17,9 @@ class Staging {
   public:
     /// Makes an empty folder at `work` for an output; a folder also for the output itself if
     /// `makes_folder`. Errors: file_write_failed.
-    Staging(std::filesystem::path work, const std::filesystem::path& output, bool makes_folder);
-    /// Removes the folder.
+    Staging(std::filesystem::path work, const std::filesystem::path& output, bool makes_folder,
+            SpareFolders& spares);
+    /// Removes the folder, or keeps it among `spares` if all in it was published.
     ~Staging();
     Staging(const Staging&) = delete;
     Staging& operator=(const Staging&) = delete;
@@ -51,6 +53,8 @@ class Staging {
 
     std::filesystem::path work_, output_;
     std::set<std::filesystem::path> held_, taken_;
+    SpareFolders& spares_;
+    bool is_published_ = false;
 };
 
 }  // namespace lissom::cli
