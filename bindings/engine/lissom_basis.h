@@ -250,6 +250,40 @@ LISSOM_BASIS_API lissom_basis_status lissom_basis__open_keys(lissom_basis* basis
 
 // ---- Opening
 
+/// Finds the parts of a basis of `handles` handles and `vertices` vertices in `bytes`.
+LISSOM_BASIS_API void lissom_basis__find_parts(const unsigned char* bytes, uint32_t handles,
+                                               uint32_t vertices, lissom_basis* found) {
+    int i;
+    found->handle_count = handles;
+    found->vertex_count = vertices;
+    found->mesh_vertex_count = lissom_basis__u32(bytes + 20);
+    for (i = 0; i < 3; ++i) lissom_basis__copy_double(bytes + 32 + 8 * i, &found->origin[i]);
+    found->size = *(const float*)(const void*)(bytes + 28);
+    found->handles = (const lissom_basis_handle*)(const void*)(bytes + LISSOM_BASIS__HEADER);
+    found->vertices = (const uint32_t*)(const void*)(found->handles + handles);
+    found->rest = (const float*)(const void*)(found->vertices + vertices);
+    found->weights = found->rest + 3 * (uint64_t)vertices;
+    found->names = (const char*)(found->weights + 4 * (uint64_t)handles * vertices);
+}
+
+/// Returns whether all numbers are finite, and ids and names inside their bounds.
+LISSOM_BASIS_API int lissom_basis__sound(const lissom_basis* basis, uint32_t names) {
+    const uint64_t numbers = (3 + 4 * (uint64_t)basis->handle_count) * basis->vertex_count;
+    uint32_t i;
+    for (i = 0; i < 3; ++i) {
+        if (!(basis->origin[i] - basis->origin[i] == 0.0)) return 0;
+    }
+    if (!(basis->size - basis->size == 0.0f) || basis->size < 0.0f ||
+        !lissom_basis__ids_fit(basis, names) ||
+        !lissom_basis__finite((const unsigned char*)basis->rest, numbers)) {
+        return 0;
+    }
+    for (i = 0; i < basis->handle_count; ++i) {
+        if (!lissom_basis__finite((const unsigned char*)basis->handles[i].center, 3)) return 0;
+    }
+    return 1;
+}
+
 /// Opens the basis in `size` bytes of memory, which begin at a multiple of 4 bytes, as all memory
 /// of malloc does. Checks everything: the functions below stay inside the memory for any content.
 /// Reads all numbers once. Changes `basis` only if it returns LISSOM_BASIS_OK. Bytes behind the
@@ -287,30 +321,8 @@ LISSOM_BASIS_API lissom_basis_status lissom_basis_open(lissom_basis* basis, cons
         return LISSOM_BASIS_DAMAGED;
     }
 
-    found.handle_count = (uint32_t)handles;
-    found.vertex_count = (uint32_t)vertices;
-    found.mesh_vertex_count = lissom_basis__u32(bytes + 20);
-    for (i = 0; i < 3; ++i) lissom_basis__copy_double(bytes + 32 + 8 * i, &found.origin[i]);
-    found.size = *(const float*)(const void*)(bytes + 28);
-    found.handles = (const lissom_basis_handle*)(const void*)(bytes + LISSOM_BASIS__HEADER);
-    found.vertices = (const uint32_t*)(const void*)(found.handles + handles);
-    found.rest = (const float*)(const void*)(found.vertices + vertices);
-    found.weights = found.rest + 3 * vertices;
-    found.names = (const char*)(found.weights + 4 * handles * vertices);
-
-    for (i = 0; i < 3; ++i) {
-        if (!(found.origin[i] - found.origin[i] == 0.0)) return LISSOM_BASIS_DAMAGED;
-    }
-    if (!(found.size - found.size == 0.0f) || found.size < 0.0f ||
-        !lissom_basis__ids_fit(&found, (uint32_t)names) ||
-        !lissom_basis__finite((const unsigned char*)found.rest, (3 + 4 * handles) * vertices)) {
-        return LISSOM_BASIS_DAMAGED;
-    }
-    for (i = 0; (uint64_t)i < handles; ++i) {
-        if (!lissom_basis__finite((const unsigned char*)found.handles[i].center, 3)) {
-            return LISSOM_BASIS_DAMAGED;
-        }
-    }
+    lissom_basis__find_parts(bytes, (uint32_t)handles, (uint32_t)vertices, &found);
+    if (!lissom_basis__sound(&found, (uint32_t)names)) return LISSOM_BASIS_DAMAGED;
     total = (total + 15) / 16 * 16;
     if (total > size) total = size;
     status = lissom_basis__open_keys(&found, bytes + total, size - total);

@@ -426,6 +426,52 @@ std::vector<std::string> subtables(const Library& library) {
     return names;
 }
 
+// The entries of all libraries; functions by the table that they are in.
+struct Content {
+    std::map<std::string, std::vector<const Function*>> functions;
+    std::vector<const Type*> types;
+    std::vector<const Record*> records;
+};
+
+Content content_of(const Registry& registry) {
+    Content content;
+    for (const auto& library : registry.libraries()) {
+        for (const Function& f : library->functions) content.functions[table_of(f)].push_back(&f);
+        for (const Type& type : library->types) content.types.push_back(&type);
+        for (const Record& record : library->records) content.records.push_back(&record);
+    }
+    return content;
+}
+
+void add_constants(std::string& index, const Registry& registry) {
+    for (const auto& library : registry.libraries()) {
+        for (const Constant& constant : library->constants) {
+            index += "- `lissom." + constant.name + "`: " + constant.help + "\n";
+        }
+    }
+}
+
+void add_function_pages(std::string& index, std::vector<Page>& pages,
+                        const std::map<std::string, std::vector<const Function*>>& functions) {
+    for (const auto& [table, list] : functions) {
+        const std::string name = table.empty() ? "lissom" : table;
+        const std::string title = table.empty() ? "lissom" : "lissom." + table;
+        pages.push_back({name + ".md", functions_page(list, title)});
+        for (const Function* f : list) {
+            index += content_line("lissom." + f->name, name + ".md#" + anchor(*f), f->summary);
+        }
+    }
+}
+
+void add_type_pages(std::string& index, std::vector<Page>& pages,
+                    const std::vector<const Type*>& types) {
+    for (const Type* type : types) {
+        const std::string file = variable_name(*type) + ".md";
+        pages.push_back({file, type_page(*type)});
+        index += "- [" + type->name + "](" + file + "): " + type->summary + "\n";
+    }
+}
+
 constexpr const char* kKernelLibrary = "lissom";
 
 }  // namespace
@@ -536,41 +582,19 @@ std::string annotations(const Library& library) {
 }
 
 std::vector<Page> reference_pages(const Registry& registry) {
-    std::map<std::string, std::vector<const Function*>> functions;
-    std::vector<const Type*> types;
-    std::vector<const Record*> records;
-    for (const auto& library : registry.libraries()) {
-        for (const Function& f : library->functions) functions[table_of(f)].push_back(&f);
-        for (const Type& type : library->types) types.push_back(&type);
-        for (const Record& record : library->records) records.push_back(&record);
-    }
+    const Content content = content_of(registry);
+    std::vector<Page> pages;
     std::string index = kPageHead + std::string("# Lua reference\n\n");
     add_conventions(index);
     index += "## The module\n\n";
-    for (const auto& library : registry.libraries()) {
-        for (const Constant& constant : library->constants) {
-            index += "- `lissom." + constant.name + "`: " + constant.help + "\n";
-        }
-    }
-    std::vector<Page> pages;
-    for (const auto& [table, list] : functions) {
-        const std::string name = table.empty() ? "lissom" : table;
-        const std::string title = table.empty() ? "lissom" : "lissom." + table;
-        pages.push_back({name + ".md", functions_page(list, title)});
-        for (const Function* f : list) {
-            index += content_line("lissom." + f->name, name + ".md#" + anchor(*f), f->summary);
-        }
-    }
+    add_constants(index, registry);
+    add_function_pages(index, pages, content.functions);
     index += "\n## Objects\n\n";
-    for (const Type* type : types) {
-        const std::string file = variable_name(*type) + ".md";
-        pages.push_back({file, type_page(*type)});
-        index += "- [" + type->name + "](" + file + "): " + type->summary + "\n";
-    }
+    add_type_pages(index, pages, content.types);
     index +=
         "\n## Tables and codes\n\n- [Tables](tables.md) that functions return\n"
         "- [Error codes](codes.md)\n- [Differences from the thesis](thesis.md)\n";
-    pages.push_back({"tables.md", records_page(records)});
+    pages.push_back({"tables.md", records_page(content.records)});
     pages.push_back({"codes.md", codes_page()});
     pages.push_back({"thesis.md", departures_page(departures(registry))});
     pages.push_back({"README.md", index});

@@ -114,6 +114,19 @@ SewOptions options_of_piece(const MeshPart& piece, const SewOptions& options) {
     return result;
 }
 
+// The elements of the whole that stand in the places of `made`, numbers of the whole and, from
+// `count` on, of the work on a piece; `map` has the numbers of the piece in the whole.
+std::vector<Index> places_in_whole(const std::vector<Index>& made, Index count,
+                                   const std::vector<Index>& in_piece,
+                                   const std::vector<Index>& map) {
+    std::vector<Index> places;
+    for (const Index i : made) {
+        const Index place = i < count ? kNoIndex : in_piece[at(i - count)];
+        places.push_back(i < count ? i : place == kNoIndex ? kNoIndex : map[at(place)]);
+    }
+    return places;
+}
+
 // The sewn piece put back into the whole; nothing if that might differ.
 std::optional<Sewn> put_back_sewn(const BothSides& both, const MeshPart& piece, Sewn sewn,
                                   const Context& context) {
@@ -128,19 +141,12 @@ std::optional<Sewn> put_back_sewn(const BothSides& both, const MeshPart& piece, 
     Sewn result;
     result.map =
         put_back_map(made, whole, nullptr, sewn.mesh, composed(sewn.map, part_map(piece, whole)));
-    for (const Index v : made.vertices) {
-        const Index own = v - whole.vertex_count();
-        const Index place = own < 0 ? kNoIndex : sewn.place.vertices[at(own)];
-        result.place.vertices.push_back(own < 0             ? v
-                                        : place == kNoIndex ? kNoIndex
-                                                            : piece.vertex_map[at(place)]);
-    }
+    result.place.vertices =
+        places_in_whole(made.vertices, whole.vertex_count(), sewn.place.vertices, piece.vertex_map);
+    result.place.faces =
+        places_in_whole(made.faces, whole.face_count(), sewn.place.faces, piece.face_map);
     for (const Index f : made.faces) {
         const Index own = f - whole.face_count();
-        const Index place = own < 0 ? kNoIndex : sewn.place.faces[at(own)];
-        result.place.faces.push_back(own < 0             ? f
-                                     : place == kNoIndex ? kNoIndex
-                                                         : piece.face_map[at(place)]);
         const bool of_target =
             own < 0 ? f < both.first_source_face : sewn.side_of_face[at(own)] == SeamSide::target;
         result.side_of_face.push_back(of_target ? SeamSide::target : SeamSide::source);
