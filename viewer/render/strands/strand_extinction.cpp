@@ -28,9 +28,10 @@ constexpr float kMaxDepth = 0.8f;
 // which so does not shade itself.
 constexpr float kMeshDepth = 5.0f;
 constexpr float kMeshSunk = 1.3f;
-// Roots per square metre from which hair hides the scalp; above it, the fractions of the usual
-// density at which the scalp is bare and is covered: at the outline of the roots half of it.
-constexpr float kFullRoots = 20e4f;
+// Metres of width that roots have on a square metre from which hair hides the scalp: few wide
+// strands stand for many thin ones. Then the fractions of the usual density at which the scalp is
+// bare and is covered: at the outline of the roots half of it.
+constexpr float kFullWidths = 55.0f;
 constexpr float kBareShare = 0.25f, kCoveredShare = 0.80f;
 // Width in metres of the means that smooth the density of roots, three along each axis: about a
 // Gaussian of 8 millimetres. Without them the places of the scalp between grid points show as
@@ -121,7 +122,8 @@ void splat_triangle(const ViewGrid& grid, std::vector<float>& values,
     }
 }
 
-// Roots around each grid point, and their sum times the tint that their style asks for.
+// Widths of the roots around each grid point in metres, and their sum times the tint that their
+// style asks for.
 struct RootDensity {
     std::vector<float> roots, tinted;
 };
@@ -133,9 +135,11 @@ RootDensity root_density(const ViewGrid& grid, std::span<const ViewStrands> stra
         const float tint = drawn.style->scalp_tint;
         for (Index s = 0; s < drawn.count; ++s) {
             if (drawn.strands->point_count(s) < 2) continue;
-            const Vector3f root = drawn.position(drawn.strands->first_point(s));
-            splat(grid, density.roots, root, drawn.stands_for);
-            splat(grid, density.tinted, root, drawn.stands_for * tint);
+            const Index first = drawn.strands->first_point(s);
+            const Vector3f root = drawn.position(first);
+            const float width = drawn.stands_for * drawn.strands->widths().at(s, first);
+            splat(grid, density.roots, root, width);
+            splat(grid, density.tinted, root, width * tint);
         }
     }
     return density;
@@ -248,7 +252,7 @@ std::vector<float> scalp_tint(const ViewGrid& grid, std::span<const ViewStrands>
     const float dense = usual_density(density.roots);
     if (!(dense > 0.0f)) return tint;
     const float metres = grid.step / largest_scale(strands);
-    const float strength = std::min(dense / (kFullRoots * metres * metres), 1.0f);
+    const float strength = std::min(dense / (kFullWidths * metres * metres), 1.0f);
     smooth_roots(grid, density.roots, metres);
     smooth_roots(grid, density.tinted, metres);
     const float usual = usual_density(density.roots);

@@ -38,7 +38,8 @@ void add_mesh_extinction(const ViewGrid& grid, std::vector<float>& extinction,
 inline constexpr Index kExtinctionParts = 4;
 
 /// Blend of the scalp with the colour of hair at each grid point, 0 to 1: high if roots are nearly
-/// as dense as at most places, and not just few.
+/// as dense as at most places, and hair covers the skin there: few wide strands as well as many
+/// thin ones.
 std::vector<float> scalp_tint(const ViewGrid& grid, std::span<const ViewStrands> strands);
 /// Returns the linear colour of scalps with hair.
 Eigen::Array3f mean_root_color(std::span<const ViewStrands> strands);

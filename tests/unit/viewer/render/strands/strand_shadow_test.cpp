@@ -157,6 +157,33 @@ TEST_CASE("strand shadow: the scalp takes the hair's colour where many roots are
     CHECK(shadow.scalp_color()[0] == Approx(2.0 * shadow.scalp_color()[1]));
 }
 
+TEST_CASE("strand shadow: few wide strands tint the scalp as many thin ones do") {
+    const auto tint = [](int along, float width) {
+        std::vector<std::vector<Vec3>> lines;
+        for (int i = 0; i < along; ++i) {
+            for (int j = 0; j < along; ++j) {
+                const Vec3 root(0.05 * i / along, 0.05 * j / along, 0);
+                lines.push_back({root, root + Vec3(0, 0, 0.05)});
+            }
+        }
+        Strands strands = test::strands_of(lines);
+        StrandWidths widths;
+        widths.common = width;
+        strands.set_widths(widths);
+        const Snapshot drawing = test::drawing_of(strands);
+        const StrandShadow shadow(view_strands(drawing, Mat4::Identity(), Vec3::Zero()), {});
+        const ViewGrid& grid = shadow.grid();
+        const Vector3f at =
+            ((Vector3f(0.025f, 0.025f, 0.0f) - grid.origin) / grid.step).array().round();
+        const auto i = grid.index(Index(at.x()), Index(at.y()), Index(at.z()));
+        return shadow.on_meshes()[4 * i + 2] / 255.0;
+    };
+    // As on a head of 5,000 and of 80,000 strands that cover as much, and of 5,000 thin ones.
+    CHECK(tint(14, 8e-4f) == Approx(0.7).epsilon(0.05));
+    CHECK(tint(56, 5e-5f) == Approx(0.7).epsilon(0.05));
+    CHECK(tint(14, 1e-4f) < 0.25);
+}
+
 TEST_CASE("strand shadow: the tint of evenly rooted skin has no rings") {
     std::vector<std::vector<Vec3>> lines;
     for (int i = 0; i < 60; ++i) {
