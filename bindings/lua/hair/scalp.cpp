@@ -2,6 +2,7 @@
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/core/parse/expectation.h"
 #include "bindings/lua/hair/hair_object.h"
+#include "kernel/hair/scalp/hairline_shape.h"
 
 namespace lissom::lua {
 namespace {
@@ -10,8 +11,47 @@ const Scalp& scalp_of(const Call& call) {
     return *call.self<ScalpObject>()->scalp;
 }
 
+constexpr const char* kHairlineWords[] = {"forehead", "recession", "peak", "sideburns", "nape"};
+
+std::vector<HairlinePoint> listed_hairline(const Call& call) {
+    if (!call.has("hairline")) return default_hairline();
+    std::vector<HairlinePoint> points;
+    for (const auto& place : call.pixels("hairline")) {
+        points.push_back({place[0] * kDegree, place[1] * kDegree});
+    }
+    return points;
+}
+
+// `options` are those of the head without a hairline of its own.
+std::vector<HairlinePoint> drawn_on(const Call& call, std::vector<HairlinePoint> hairline,
+                                    const Mesh& head, const ScalpOptions& options) {
+    if (!call.has("drawn")) return hairline;
+    ScalpOptions plain = options;
+    plain.region = Region::all(head.shared_topology());
+    const Scalp frame(head, plain);
+    std::vector<Vec3> line;
+    for (const Vec3& point : call.points("drawn")) line.push_back(frame.to_metres(point));
+    return drawn_hairline(hairline, line);
+}
+
+std::vector<HairlinePoint> hairline_of(const Call& call, const Mesh& head,
+                                       const ScalpOptions& options) {
+    const HairlineShape shape{call.number("forehead"), call.number("recession"),
+                              call.number("peak"), call.number("sideburns"), call.number("nape")};
+    return shaped_hairline(drawn_on(call, listed_hairline(call), head, options), shape);
+}
+
+void require_one_outline(const Call& call) {
+    bool shaped = call.has("hairline") || call.has("drawn");
+    for (const char* word : kHairlineWords) shaped = shaped || call.number(word) != 0.0;
+    if (shaped && call.has("region")) {
+        call.reject("region", "a region is the hairy part as it is: give it, or a hairline");
+    }
+}
+
 int make_scalp(Call& call) {
     const auto head = call.object<MeshObject>("head");
+    require_one_outline(call);
     const auto result = call.create<ScalpObject>();
     const bool done = call.attempt([&] {
         ScalpOptions options;
@@ -20,6 +60,7 @@ int make_scalp(Call& call) {
         if (call.has("front")) options.hints.front = call.vector("front");
         if (call.has("unit")) options.unit = call.number("unit");
         options.softness = call.number("softness");
+        options.hairline = hairline_of(call, head->mesh, options);
         auto scalp = std::make_shared<const Scalp>(head->mesh, options, call.context());
         result.set(std::make_shared<ScalpObject>(head.share(), std::move(scalp)));
     });
@@ -122,8 +163,8 @@ std::vector<Function> scalp_methods() {
                     "confidence is below 0.5 gives a warning: look at `up` and `front`, or give "
                     "them, and the region.",
          .results = {{"number", "confidence",
-                      "Near 1 for a whole bald head, near 0 for masks, halves of heads, and other "
-                      "shapes."}},
+                      "Near 1 for a whole bald head, near 0 for masks, halves of heads, heads with "
+                      "modelled hair, and other shapes."}},
          .example = kScalp + "assert(scalp:confidence() > 0.5)"},
         {.name = "doubt",
          .body = scalp_doubt,
@@ -245,6 +286,17 @@ Type scalp_type() {
             .operators = {{"__tostring", scalp_text, "tostring(scalp)", "its size"}}};
 }
 
+namespace {
+
+Parameter hairline_change(const char* name, const char* help) {
+    return number(name, help)
+        .in("metres")
+        .defaults(0.0)
+        .between(-kMaxHairlineChange, kMaxHairlineChange);
+}
+
+}  // namespace
+
 std::vector<Function> scalp_functions() {
     return {
         {.name = "scalp",
@@ -265,7 +317,23 @@ std::vector<Function> scalp_functions() {
                             "hairline.")
                          .in("metres")
                          .defaults(ScalpOptions{}.softness)
-                         .between(0, 0.1)},
+                         .between(0, 0.1),
+                     pixels(
+                         "hairline",
+                         "The edge of the hair: {azimuth, elevation} in degrees around the head, "
+                         "smooth between. Without negative azimuths both sides are alike. This "
+                         "and the following count before a region \"scalp\" of the mesh.")
+                         .optional("an average hairline"),
+                     points("drawn",
+                            "A line on the head through which the hairline runs; on one side it "
+                            "counts for both.")
+                         .in("mesh units")
+                         .optional(),
+                     hairline_change("forehead", "Rise of the hairline over the forehead."),
+                     hairline_change("recession", "Depth of the bays beside the middle."),
+                     hairline_change("peak", "Depth of a widow's peak."),
+                     hairline_change("sideburns", "Length added to the hair in front of the ears."),
+                     hairline_change("nape", "Length added to the hair at the nape.")},
          .results = {{"lissom.Scalp", "scalp", "The scalp."}},
          .errors = {ErrorCode::mesh_empty, ErrorCode::invalid_argument,
                     ErrorCode::topology_mismatch, ErrorCode::region_empty, ErrorCode::memory_limit,

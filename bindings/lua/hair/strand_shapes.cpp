@@ -4,6 +4,7 @@
 #include "kernel/hair/operators/strand_collision.h"
 #include "kernel/hair/operators/strand_cut.h"
 #include "kernel/hair/operators/strand_layer.h"
+#include "kernel/hair/strands/strand_edge.h"
 
 namespace lissom::lua {
 namespace {
@@ -215,6 +216,23 @@ int push_strands_out(Call& call) {
         });
 }
 
+int soften_strands(Call& call) {
+    const auto style = call.object<HairstyleObject>("head");
+    return change_strands(call, [&](Strands& strands) {
+        StrandEdgeOptions options;
+        options.width = call.number("width");
+        options.length = call.number("length");
+        options.baby = call.number("baby");
+        options.baby_length = call.number("baby_length");
+        options.stray = call.number("stray");
+        options.seed = static_cast<std::uint64_t>(call.integer("seed"));
+        const Scalp& scalp = style->style().scalp();
+        const std::vector<float> inside =
+            inside_hairline(strands, style->head->mesh, scalp, call.number("reach"));
+        soften_edge(strands, inside, options, call.context());
+    });
+}
+
 int shrinkwrap_strands(Call& call) {
     return run_shape_operator<ShrinkwrapOptions>(
         call, true, [&](Strands& strands, ShrinkwrapOptions& options) {
@@ -416,6 +434,39 @@ Function push_out_method() {
         .example = kStyle + "local hair = style:grow{ count = 20 }\nhair:push_out{ head = style }"};
 }
 
+Function soften_edge_method() {
+    const StrandEdgeOptions d;
+    return {
+        .name = "soften_edge",
+        .body = soften_strands,
+        .summary = "Makes strands at the hairline finer and shorter, and some of them baby hair.",
+        .options =
+            {head_field(),
+             meters("reach", "Distance inside the hairline from which hair is as usual.")
+                 .defaults(0.02)
+                 .above(0),
+             number("width", "Factor of the widths at the edge.")
+                 .defaults(d.width)
+                 .between(0.01, 1),
+             number("length", "Factor of the lengths at the edge.")
+                 .defaults(d.length)
+                 .between(0.01, 1),
+             number("baby", "Share of the strands at the edge that are baby hair.")
+                 .defaults(d.baby)
+                 .between(0, 1),
+             meters("baby_length", "Length of baby hair, at most.")
+                 .defaults(d.baby_length)
+                 .above(0),
+             meters("stray", "Distance that tips of baby hair lean away.")
+                 .defaults(d.stray)
+                 .at_least(0),
+             integer("seed", "Another seed gives another result of the same kind.").defaults(1)},
+        .results = kSelfStrands,
+        .errors = kOperatorErrors,
+        .example =
+            kStyle + "local hair = style:grow{ count = 20 }\nhair:soften_edge{ head = style }"};
+}
+
 Function shrinkwrap_method() {
     const ShrinkwrapOptions d;
     return {
@@ -436,9 +487,9 @@ Function shrinkwrap_method() {
 }  // namespace
 
 std::vector<Function> strand_shape_methods() {
-    return {straighten_method(), rotate_method(),     roll_method(), puff_method(),
-            displace_method(),   set_length_method(), cut_method(),  cull_method(),
-            push_out_method(),   shrinkwrap_method()};
+    return {straighten_method(), rotate_method(),      roll_method(),      puff_method(),
+            displace_method(),   set_length_method(),  cut_method(),       cull_method(),
+            push_out_method(),   soften_edge_method(), shrinkwrap_method()};
 }
 
 }  // namespace lissom::lua

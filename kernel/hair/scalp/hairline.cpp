@@ -46,10 +46,9 @@ double angle_above(const std::vector<HairlinePoint>& hairline, double azimuth, d
 // How far inside the hairline a point is, in the mesh's unit, negative outside.
 double inside_hairline(const HairlineTest& test, const Vec3& p) {
     const HeadFrame& frame = test.frame;
-    const double azimuth = std::abs(std::atan2(p.x(), p.z()));
+    const double around = std::atan2(p.x(), p.z()), azimuth = std::abs(around);
     const double elevation = std::atan2(p.y(), hypotenuse(p.x(), p.z()));
-    double inside =
-        angle_above(test.hairline, azimuth, elevation) * std::min(p.norm(), frame.width);
+    double inside = angle_above(test.hairline, around, elevation) * std::min(p.norm(), frame.width);
     const double radius = SkullOverEars::ellipses(frame, p);
     if (azimuth > kEarFront && azimuth < kEarBack && elevation < kEarTop) {
         const double out = radius - test.skull.radius_at(p);
@@ -91,14 +90,14 @@ double HairlineTest::margin_at(const Vec3& point) const {
 }
 
 void require_hairline(const std::vector<HairlinePoint>& hairline) {
-    double last = -1.0;
+    double last = -4.0;
     for (const auto& [azimuth, elevation] : hairline) {
-        const bool good = azimuth > last && azimuth >= 0.0 && azimuth <= kPi * (1.0 + 1e-12) &&
+        const bool good = azimuth > last && std::abs(azimuth) <= kPi * (1.0 + 1e-12) &&
                           std::abs(elevation) <= 0.5 * kPi * (1.0 + 1e-12);
         if (!good) {
             throw Error(ErrorCode::invalid_argument,
-                        "the hairline's azimuths must ascend from 0 to at most 180 degrees, its "
-                        "elevations lie between -90 and 90");
+                        "the hairline's azimuths must ascend within 0 and 180 degrees, or -180 and "
+                        "180 if its sides differ, its elevations lie between -90 and 90");
         }
         last = azimuth;
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <unordered_map>
 
 #include "kernel/core/roots.h"
 #include "kernel/hair/scalp/hairline.h"
@@ -26,6 +27,44 @@ std::optional<double> usual_unit(double width) {
     return std::nullopt;
 }
 
+// Relief of a scalp: mean curvature of the surface, of any sign, times the radius of the head. Bald
+// heads have 0.8 to 1.2, coarse ones up to 2.1, heads with modelled hair 2.6 to 16.
+constexpr double kBaldRelief = 2.2, kHairyRelief = 3.0;
+constexpr const char* kModelledHair = "its hair seems to be modelled";
+
+// Names an edge by its vertices in ascending order.
+std::size_t edge_name(Index a, Index b, Index vertices) {
+    return at(std::min(a, b)) * at(vertices) + at(std::max(a, b));
+}
+
+double relief_of(const Mesh& head, const Region& region, double width) {
+    const std::vector<Vec3> normals = face_normals(head);
+    const std::vector<double> areas = face_areas(head);
+    std::unordered_map<std::size_t, Index> face_beside;
+    double bend = 0.0, area = 0.0;
+    for (const Index f : region.faces()) {
+        area += areas[f];
+        const auto corners = head.topology().face(f);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const Index a = corners[i], b = corners[(i + 1) % corners.size()];
+            const auto found = face_beside.try_emplace(edge_name(a, b, head.vertex_count()), f);
+            if (found.second) continue;
+            const double cosine = normals[found.first->second].dot(normals[f]);
+            bend += std::acos(std::clamp(cosine, -1.0, 1.0)) *
+                    (head.position(b) - head.position(a)).norm();
+        }
+    }
+    return area > 0.0 ? 0.25 * bend * width / area : 0.0;
+}
+
+void doubt_modelled_hair(const Mesh& head, const Region& region, HeadFrame& frame) {
+    const double relief = relief_of(head, region, frame.width);
+    const double part = std::clamp((relief - kBaldRelief) / (kHairyRelief - kBaldRelief), 0.0, 1.0);
+    if (!(part > 0.0)) return;
+    frame.confidence *= 1.0 - part;
+    frame.doubt = kModelledHair;
+}
+
 // Below this confidence a guess is told.
 constexpr double kDoubtful = 0.5;
 
@@ -37,7 +76,9 @@ void tell_doubts(const Scalp& scalp, const ScalpOptions& options, const Context&
         message.precision(2);
         message << "place and direction of the head are a guess (confidence " << scalp.confidence()
                 << "), because " << frame.doubt
-                << "; look at up and front of the scalp, or give up, front and region";
+                << (frame.doubt == kModelledHair
+                        ? "; hair would grow on it: take it off, or give the region"
+                        : "; look at up and front of the scalp, or give up, front and region");
         context.log(LogLevel::warning, message.str());
     }
     if (!scalp.knows_unit()) {
@@ -48,6 +89,15 @@ void tell_doubts(const Scalp& scalp, const ScalpOptions& options, const Context&
                    "metres for one unit of the head, says otherwise";
         context.log(LogLevel::warning, message.str());
     }
+}
+
+// The region of a mesh says where hair grows unless a hairline is given.
+bool is_default(const std::vector<HairlinePoint>& hairline) {
+    const std::vector<HairlinePoint> usual = default_hairline();
+    return std::equal(hairline.begin(), hairline.end(), usual.begin(), usual.end(),
+                      [](const HairlinePoint& a, const HairlinePoint& b) {
+                          return a.azimuth == b.azimuth && a.elevation == b.elevation;
+                      });
 }
 
 void require_options(const Mesh& head, const ScalpOptions& options) {
@@ -88,11 +138,12 @@ Scalp::Scalp(const Mesh& head, const ScalpOptions& options, const Context& conte
                     guessed_ ? "no face of the head lies above the hairline; give a region"
                              : "the scalp's region holds no face of the head");
     }
+    if (guessed_) doubt_modelled_hair(head, region_, frame_);
     tell_doubts(*this, options, context);
 }
 
 void Scalp::choose_region(const Mesh& head, const ScalpOptions& options) {
-    const Region* named = head.find_region("scalp");
+    const Region* named = is_default(options.hairline) ? head.find_region("scalp") : nullptr;
     guessed_ = !options.region && !named;
     if (guessed_) {
         guess_region(head);

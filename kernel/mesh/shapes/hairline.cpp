@@ -14,7 +14,7 @@ double slope_between(const HairlinePoint& a, const HairlinePoint& b) {
 }
 
 // Returns the slope at a point, so that the line is smooth and rises and falls as its points do
-// (Fritsch and Butland 1984); level at the ends, at which the line meets its mirror image.
+// (Fritsch and Butland 1984); level at the ends, which meet their mirror image or each other.
 double slope_at(const std::vector<HairlinePoint>& hairline, std::size_t i) {
     if (i == 0 || i + 1 == hairline.size()) return 0.0;
     const double before = slope_between(hairline[i - 1], hairline[i]);
@@ -37,7 +37,8 @@ std::vector<HairlinePoint> default_hairline() {
 }
 
 double hairline_elevation(const std::vector<HairlinePoint>& hairline, double azimuth) {
-    const double at = std::abs(std::remainder(azimuth, 2.0 * kPi));
+    const double turned = std::remainder(azimuth, 2.0 * kPi);
+    const double at = hairline.front().azimuth < 0.0 ? turned : std::abs(turned);
     std::size_t next = 0;
     while (next < hairline.size() && hairline[next].azimuth <= at) ++next;
     if (next == 0) return hairline.front().elevation;

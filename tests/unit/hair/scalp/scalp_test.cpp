@@ -436,6 +436,22 @@ TEST_CASE("roots may lie on all faces that reach into a guessed region, and on n
     }
 }
 
+TEST_CASE("hair that is modelled on a head is doubted, and told") {
+    Mesh bald = make_head({.vertices = 6000});
+    REQUIRE(bald.remove_region("scalp"));
+    CHECK(Scalp(bald).confidence() > 0.8);
+    // Locks as furrows over the head.
+    Mesh hairy = bald;
+    for (Vec3& p : hairy.edit_positions()) {
+        const double above = std::clamp((p.y() - 0.02) / 0.02, 0.0, 1.0);
+        p *= 1.0 + 0.02 * above * std::sin(std::atan2(p.x(), p.z()) * 40.0);
+    }
+    const Scalp scalp(hairy);
+    CHECK(scalp.confidence() < 0.5);
+    CHECK(scalp.frame().doubt == "its hair seems to be modelled");
+    CHECK(warning_of(hairy).find("take it off") != std::string::npos);
+}
+
 TEST_CASE("a higher hairline leaves a smaller scalp") {
     ScalpOptions high = upright(), low = upright();
     high.hairline = {{0.0, 60 * kDegree}};
