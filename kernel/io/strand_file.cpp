@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "kernel/core/error.h"
@@ -227,8 +228,26 @@ std::string picture_beside(const std::filesystem::path& path) {
 
 }  // namespace
 
-Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions& options,
-                     const Context& context) try {
+namespace {
+
+// Extents of a head of hair in metres, from stubble to hair to the floor.
+constexpr double kSmallestHair = 0.02, kLargestHair = 3.0;
+
+// Files whose unit is not the metre, and is not told, give hair of the wrong size.
+void tell_odd_size(const std::string& name, const Strands& strands,
+                   const StrandLoadOptions& options, const Context& context) {
+    if (options.unit || strands.empty()) return;
+    const double extent = bounds(strands).diagonal();
+    if (extent == 0.0 || (extent >= kSmallestHair && extent <= kLargestHair)) return;
+    std::ostringstream message;
+    message.precision(3);
+    message << name << ": the unit of the hair is not known: in metres it is " << extent
+            << " large; the option `unit`, metres for one unit of the file, says otherwise";
+    context.log(LogLevel::warning, message.str());
+}
+
+Strands read_strands(const std::filesystem::path& path, const StrandLoadOptions& options,
+                     const Context& context) {
     require_file(path, context);
     const std::string name = display_name(path);
     const StrandFormat& format = with_place_in_errors(name, [&]() -> const StrandFormat& {
@@ -245,6 +264,15 @@ Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions&
         ByteSource source(path);
         return decode_as(&source, {}, format, options, context);
     });
+}
+
+}  // namespace
+
+Strands load_strands(const std::filesystem::path& path, const StrandLoadOptions& options,
+                     const Context& context) try {
+    Strands strands = read_strands(path, options, context);
+    tell_odd_size(display_name(path), strands, options, context);
+    return strands;
 } catch (const std::bad_alloc&) {
     throw_out_of_memory();
 }

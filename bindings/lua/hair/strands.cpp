@@ -1,10 +1,38 @@
 // lissom.Strands: the type, and strands of given points.
+#include <algorithm>
+
 #include <cstdio>
 
 #include "bindings/lua/hair/strands_methods.h"
 
 namespace lissom::lua {
 namespace {
+
+template <typename Value>
+bool fits(const StrandValues<Value>& values, const Strands& from, const Strands& to) {
+    const std::span<const Index> a = from.offsets(), b = to.offsets();
+    return values.domain != StrandDomain::point ||
+           std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
+// Gives strands all that is known of others of the same number; values of points if these are as
+// many.
+void take_over(Strands& to, const Strands& from) {
+    if (to.size() != from.size()) {
+        throw Error(ErrorCode::invalid_argument,
+                    "the strands of 'like' are " + std::to_string(from.size()) + ", not " +
+                        std::to_string(to.size()) + ", one for each new strand");
+    }
+    to.set_roots(from.roots());
+    std::vector<std::uint32_t> ids;
+    for (Index s = 0; s < from.size(); ++s) ids.push_back(from.id(s));
+    to.set_ids(std::move(ids));
+    to.set_groups(from.groups(), from.group_names());
+    to.set_guides(from.guides());
+    if (fits(from.widths(), from, to)) to.set_widths(from.widths());
+    if (fits(from.transparency(), from, to)) to.set_transparency(from.transparency());
+    if (from.colors() && fits(*from.colors(), from, to)) to.set_colors(*from.colors());
+}
 
 int make_strands(Call& call) {
     const auto points = call.points("points");
@@ -23,7 +51,9 @@ int make_strands(Call& call) {
             }
             offsets.push_back(offsets.back() + count);
         }
-        return Strands(std::move(numbers), std::move(offsets), call.context().memory());
+        Strands made(std::move(numbers), std::move(offsets), call.context().memory());
+        if (call.has("like")) take_over(made, call.object<StrandsObject>("like")->strands);
+        return made;
     });
 }
 
@@ -68,7 +98,11 @@ std::vector<Function> strand_functions() {
              .body = make_strands,
              .summary = "Strands of given points.",
              .options = {points("points", "The points of all strands, root to tip, in metres."),
-                         integers("counts", "Number of points of each strand.").at_least(1)},
+                         integers("counts", "Number of points of each strand.").at_least(1),
+                         object("like", "lissom.Strands",
+                                "As many strands, whose roots, groups, ids, guides, widths and "
+                                "colours the new ones have.")
+                             .optional("none")},
              .results = {{"lissom.Strands", "strands", "The new strands."}},
              .errors = {ErrorCode::invalid_argument},
              .example = kTwoStrands + "assert(#hair == 2)"}};

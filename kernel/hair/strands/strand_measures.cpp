@@ -45,9 +45,38 @@ Shape shape_of(const StrandView& strand) {
     return shape;
 }
 
+// Segments are halved so often at most while they are looked at.
+constexpr int kHalvings = 5;
+
+// The end of a segment, and the distance there.
+struct SegmentEnd {
+    Vec3 place;
+    double distance;
+};
+
+// Lowers `least` to the distance of the lowest place of a segment. A distance changes no faster
+// than the place does, which rules most segments out.
+void lower_along(const SegmentEnd& a, const SegmentEnd& b,
+                 const std::function<double(const Vec3&)>& distance, int halvings, double& least) {
+    const double apart = (b.place - a.place).norm();
+    if (halvings == 0 || 0.5 * (a.distance + b.distance - apart) >= std::min(least, 0.0)) return;
+    const Vec3 place = 0.5 * (a.place + b.place);
+    const SegmentEnd middle{place, distance(place)};
+    least = std::min(least, middle.distance);
+    lower_along(a, middle, distance, halvings - 1, least);
+    lower_along(middle, b, distance, halvings - 1, least);
+}
+
+// Depth of the deepest place of a strand, between its points too.
 double depth_of(const StrandView& strand, const std::function<double(const Vec3&)>& distance) {
-    double least = std::numeric_limits<double>::infinity();
-    for (Index k = 0; k < strand.cols(); ++k) least = std::min(least, distance(point(strand, k)));
+    SegmentEnd before{point(strand, 0), distance(point(strand, 0))};
+    double least = before.distance;
+    for (Index k = 1; k < strand.cols(); ++k) {
+        const SegmentEnd here{point(strand, k), distance(point(strand, k))};
+        least = std::min(least, here.distance);
+        lower_along(before, here, distance, kHalvings, least);
+        before = here;
+    }
     return -least;
 }
 
