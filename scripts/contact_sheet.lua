@@ -60,7 +60,7 @@ for _, one in ipairs(presets) do
 end
 local rows = math.ceil(#heads / params.columns)
 lissom.render{
-    meshes = heads, color = "clay", strands = strands, columns = math.min(params.columns, #heads),
+    meshes = heads, color = "#c9a48c", strands = strands, columns = math.min(params.columns, #heads),
     camera = camera, captions = captions, background = "#c8ccd2", file = params.out .. "/presets.png",
     size = { params.size * math.min(params.columns, #heads), math.floor(1.15 * params.size) * rows },
 }

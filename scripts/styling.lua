@@ -261,6 +261,21 @@ function styling.finish(hair, width, noise, all)
     return styling.set_width(hair, width, all):taper{ tip = 0.4, start = 0.6 }
 end
 
+-- Edges of hair, the options of hair:soften_edge: of hair that is tied or combed back, whose edge is seen,
+-- with baby hair; of loose hair; and of short hair, which fades out.
+local edges = {
+    tied = { width = 0.5, length = 1, baby = 0.3, stray = 0.004 },
+    loose = { width = 0.6, length = 1, baby = 0.08 },
+    short = { width = 0.7, length = 0.55, baby = 0 },
+}
+
+--- Softens the edge of the hair of a style: "tied", "loose" or "short".
+function styling.soften(style, hair, edge, seed)
+    local options = { head = style, seed = seed }
+    for key, value in pairs(edges[edge]) do options[key] = value end
+    return hair:soften_edge(options)
+end
+
 -- Values of all parameters: those given, else the defaults. An unknown name is an error.
 local function complete(preset, values)
     local all = {}
@@ -278,14 +293,18 @@ end
 -- values, options)`, which returns the style, its hair, how it looks (the option `hair` of lissom.render) and
 -- meshes to draw with it. `options` holds the scalp and the resolution for lissom.hairstyle and the
 -- `count` of strands. `preset.grow(head, values, options)` calls it. With `module`, the name that the file
--- was required by, it is returned; run as a script, it makes hair and pictures.
+-- was required by, it is returned; run as a script, it makes hair and pictures. The preset's `edge` is that
+-- of styling.soften; without one the edge stays as it is.
 function styling.preset(module, preset)
     preset.schema.seed = { type = "integer", default = 1, min = 1, help = "chance" }
     function preset.grow(head, values, options)
         local all = { count = 30000, resolution = 50000 }
         for key, value in pairs(options or {}) do all[key] = value end
         all.scalp = all.scalp or lissom.scalp(head)
-        return preset.make(head, complete(preset, values), all)
+        local full = complete(preset, values)
+        local style, hair, look, meshes = preset.make(head, full, all)
+        if preset.edge then styling.soften(style, hair, preset.edge, full.seed) end
+        return style, hair, look, meshes
     end
     if module == "presets." .. preset.name then return preset end
     local params = hairdo.params{ name = preset.name, count = 30000, more = preset.schema }

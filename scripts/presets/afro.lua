@@ -6,6 +6,7 @@ local styling = require "styling"
 
 return styling.preset(..., {
     name = "afro",
+    edge = "short",
     schema = {
         height = { type = "number", default = 0.1, min = 0.02, max = 0.14, unit = "metres",
             help = "of the hair above the scalp" },

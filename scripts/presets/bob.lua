@@ -18,6 +18,7 @@ local routes = {
 
 return styling.preset(..., {
     name = "bob",
+    edge = "loose",
     schema = {
         length = { type = "number", default = 0.112, min = 0.04, max = 0.16, unit = "metres",
             help = "of the hem below the middle of the head" },

@@ -8,6 +8,7 @@ local tails = require "tails"
 
 return styling.preset(..., {
     name = "braid",
+    edge = "tied",
     schema = {
         height = { type = "number", default = -6, min = -12, max = 30, unit = "degrees",
             help = "elevation of the tie" },

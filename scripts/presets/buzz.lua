@@ -5,6 +5,7 @@ local styling = require "styling"
 
 return styling.preset(..., {
     name = "buzz",
+    edge = "short",
     schema = {
         length = { type = "number", default = 0.006, min = 0.001, max = 0.025, unit = "metres",
             help = "of the hair" },
@@ -18,6 +19,6 @@ return styling.preset(..., {
         end)
         local style, hair = styling.stubble(head, o, { length = lengths, seed = v.seed })
         hair:noise{ amplitude = 0.0008, across = 0.02, along = 0.11 }:taper{ tip = 0.4, start = 0.6 }
-        return style, hair, { color = "#33241a", primary = 0.1, scalp_tint = 0.75, unit = scalp:unit() }
+        return style, hair, { color = "#33241a", primary = 0.1, scalp_tint = 0.8, unit = scalp:unit() }
     end,
 })

@@ -9,6 +9,7 @@ schema.parting = { type = "number", default = 82, min = 45, max = 88, unit = "de
 
 return styling.preset(..., {
     name = "centre_part",
+    edge = "loose",
     schema = schema,
     make = function(head, v, o)
         local style = styling.long(head, o, styling.behind,

@@ -6,6 +6,7 @@ local styling = require "styling"
 
 return styling.preset(..., {
     name = "crop",
+    edge = "short",
     schema = {
         top = { type = "number", default = 0.036, min = 0.012, max = 0.06, unit = "metres",
             help = "length of the hair on top" },

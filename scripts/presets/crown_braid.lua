@@ -27,6 +27,7 @@ end
 
 return styling.preset(..., {
     name = "crown_braid",
+    edge = "tied",
     schema = {
         height = { type = "number", default = 50, min = 40, max = 60, unit = "degrees",
             help = "elevation of the braid in front" },

@@ -20,6 +20,7 @@ local routes = {
 
 return styling.preset(..., {
     name = "half_up",
+    edge = "tied",
     schema = {
         length = { type = "number", default = 0.28, min = 0.1, max = 0.34, unit = "metres",
             help = "of the ends below the middle of the head" },

@@ -13,6 +13,7 @@ local combed = {
 
 return styling.preset(..., {
     name = "messy",
+    edge = "short",
     schema = {
         length = { type = "number", default = 0.07, min = 0.03, max = 0.12, unit = "metres",
             help = "on top" },

@@ -21,6 +21,7 @@ end
 
 return styling.preset(..., {
     name = "mohawk",
+    edge = "short",
     schema = {
         height = { type = "number", default = 0.085, min = 0.02, max = 0.12, unit = "metres",
             help = "of the fin" },

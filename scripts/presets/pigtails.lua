@@ -7,6 +7,7 @@ local tails = require "tails"
 
 return styling.preset(..., {
     name = "pigtails",
+    edge = "tied",
     schema = {
         height = { type = "number", default = 24, min = -10, max = 45, unit = "degrees",
             help = "elevation of the ties" },

@@ -17,12 +17,13 @@ local combed = {
 
 return styling.preset(..., {
     name = "pixie",
+    edge = "short",
     schema = {
         fringe = { type = "number", default = 0.072, min = 0.02, max = 0.1, unit = "metres",
             help = "length of the fringe" },
         sides = { type = "number", default = 0.045, min = 0.015, max = 0.07, unit = "metres",
             help = "length beside the ears" },
-        nape = { type = "number", default = 0.018, min = 0.004, max = 0.05, unit = "metres",
+        nape = { type = "number", default = 0.022, min = 0.004, max = 0.05, unit = "metres",
             help = "length at the nape" },
         locks = { type = "integer", default = 500, min = 50, max = 3000, help = "number of locks" },
     },
@@ -33,7 +34,9 @@ return styling.preset(..., {
         local lengths = styling.by_angles(scalp, function(azimuth, elevation)
             local back = styling.smooth(95, 150, math.abs(azimuth))
             local low = v.sides + (v.nape - v.sides) * back
-            return low + (v.fringe - low) * styling.smooth(-8, 44 + 10 * back, elevation)
+            -- At the back it is layered: hair of one length would hang over the nape like a bowl.
+            local high = v.fringe * (1 - 0.4 * back)
+            return low + (high - low) * styling.smooth(-8, 44 + 26 * back, elevation)
         end)
         local hair = style:grow{ count = o.count, seed = v.seed, length = lengths, layer = 0.008,
             clearance = 0.0015, lift = 0.35, variation = 0.3 }

@@ -17,6 +17,7 @@ local routes = {
 
 return styling.preset(..., {
     name = "ringlets",
+    edge = "loose",
     schema = {
         length = { type = "number", default = 0.17, min = 0.06, max = 0.26, unit = "metres",
             help = "of the ends below the middle of the head" },

@@ -9,6 +9,7 @@ schema.parting = { type = "number", default = -22, min = -45, max = 45, unit = "
 
 return styling.preset(..., {
     name = "side_part",
+    edge = "loose",
     schema = schema,
     make = function(head, v, o)
         local a = v.parting

@@ -19,6 +19,7 @@ local routes = {
 
 return styling.preset(..., {
     name = "slick_back",
+    edge = "tied",
     schema = {
         length = { type = "number", default = 0.088, min = 0.05, max = 0.12, unit = "metres",
             help = "of the ends below the middle of the head" },
@@ -26,7 +27,7 @@ return styling.preset(..., {
             help = "thickness of the hair" },
         locks = { type = "integer", default = 900, min = 100, max = 3000,
             help = "number of the strands of a comb" },
-        ragged = { type = "number", default = 0.012, min = 0, max = 0.03, unit = "metres",
+        ragged = { type = "number", default = 0.02, min = 0, max = 0.03, unit = "metres",
             help = "of the ends" },
     },
     make = function(head, v, o)
@@ -36,13 +37,15 @@ return styling.preset(..., {
         local hair = style:grow{ count = o.count, seed = v.seed, length = 0.11, layer = v.volume,
             clearance = 0.0015, lift = 0.3, variation = 0.2 }
         local hem = {}
-        for azimuth = 110, 126, 2 do
-            hem[#hem + 1] = { azimuth, 0.012 - (v.length + 0.012) * styling.smooth(112, 124, azimuth) }
+        for azimuth = 110, 180, 2 do
+            -- Rounded at the nape, deepest in the middle.
+            local low = v.length * (0.9 + 0.14 * styling.smooth(124, 176, azimuth))
+            hem[#hem + 1] = { azimuth, 0.012 - (low + 0.012) * styling.smooth(112, 124, azimuth) }
         end
         hair:cut{ hem = hem, scalp = scalp, jitter = v.ragged / 2, guide_jitter = v.ragged / 2,
             seed = v.seed }
         hair:smooth{ iterations = 3 }:clump{ clumps = v.locks, strength = 0.4 }
         styling.finish(hair, 0.00026, 0.001):push_out{ head = style, clearance = 0.001 }
-        return style, hair, { color = "#2b1a10", primary = 0.4, unit = scalp:unit() }
+        return style, hair, { color = "#2b1a10", primary = 0.28, unit = scalp:unit() }
     end,
 })

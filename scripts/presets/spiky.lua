@@ -6,6 +6,7 @@ local styling = require "styling"
 
 return styling.preset(..., {
     name = "spiky",
+    edge = "short",
     schema = {
         length = { type = "number", default = 0.06, min = 0.02, max = 0.09, unit = "metres",
             help = "on top" },
@@ -30,6 +31,7 @@ return styling.preset(..., {
         hair:clump{ clumps = v.spikes, strength = v.sharp, variation = 0.05, shape = 0.9,
             tip_spread = 0.0008 }
         hair:push_out{ head = style }
-        return style, styling.finish(hair, 0.00028, 0.001), { color = "#b88a4a", unit = scalp:unit() }
+        return style, styling.finish(hair, 0.00028, 0.001),
+            { color = "#b88a4a", scalp_tint = 0.85, unit = scalp:unit() }
     end,
 })

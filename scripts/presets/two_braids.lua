@@ -7,6 +7,7 @@ local tails = require "tails"
 
 return styling.preset(..., {
     name = "two_braids",
+    edge = "tied",
     schema = {
         height = { type = "number", default = -8, min = -14, max = 12, unit = "degrees",
             help = "elevation of the ties" },

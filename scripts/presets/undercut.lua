@@ -15,6 +15,7 @@ local routes = {
 
 return styling.preset(..., {
     name = "undercut",
+    edge = "short",
     schema = {
         top = { type = "number", default = 0.1, min = 0.04, max = 0.14, unit = "metres",
             help = "length of the hair on top" },

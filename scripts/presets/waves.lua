@@ -7,6 +7,7 @@ local parting = { { -22, 37 }, { -28, 52 }, { -42, 68 }, { -70, 76 } }
 
 return styling.preset(..., {
     name = "waves",
+    edge = "loose",
     schema = {
         length = { type = "number", default = 0.235, min = 0.08, max = 0.33, unit = "metres",
             help = "of the ends below the middle of the head" },

@@ -345,3 +345,89 @@ test("a map by a function that gives no number is named by its option", function
         expect.error(function() mapped:grow{ count = 10, [name] = function() return "x" end } end, wrong)
     end
 end)
+
+-- A head without a region of its own.
+local function bare()
+    local copy = head:copy()
+    copy:remove_region("scalp")
+    return copy
+end
+
+-- Share of the hairy vertices for which keeps(azimuth, elevation) is true, of those of the head.
+local function hairy(skin, keeps)
+    local positions, count = skin:head():positions(), 0
+    for _, v in ipairs(skin:region():vertices()) do
+        local p = skin:to_metres(positions[3 * v - 2], positions[3 * v - 1], positions[3 * v])
+        local r = math.sqrt(p[1] ^ 2 + p[2] ^ 2 + p[3] ^ 2)
+        local azimuth = math.deg((rawget(math, "atan2") or math.atan)(p[1], p[3]))
+        if keeps(azimuth, math.deg(math.asin(p[2] / r))) then count = count + 1 end
+    end
+    return count
+end
+
+test("a hairline is changed by words, by numbers, or by a line drawn on the head", function()
+    local plain = lissom.scalp(bare())
+    local function front(azimuth) return math.abs(azimuth) < 55 end
+    local function middle(azimuth) return math.abs(azimuth) < 8 end
+    local function nape(azimuth) return math.abs(azimuth) > 150 end
+    local receding = lissom.scalp(bare(), { recession = 0.03 })
+    expect.truthy(hairy(receding, front) < hairy(plain, front))
+    expect.equal(hairy(receding, nape), hairy(plain, nape))
+    local peaked = lissom.scalp(bare(), { peak = 0.03 })
+    expect.truthy(hairy(peaked, middle) > hairy(plain, middle))
+    expect.truthy(hairy(lissom.scalp(bare(), { nape = -0.03 }), nape) < hairy(plain, nape))
+    expect.truthy(#lissom.scalp(bare(), { hairline = { { 0, 60 }, { 180, 10 } } }):region() < #plain:region())
+    local line = {}
+    for azimuth = -40, 40, 10 do line[#line + 1] = plain:at{ azimuth = azimuth, elevation = 55 } end
+    expect.truthy(hairy(lissom.scalp(bare(), { drawn = line }), front) < hairy(plain, front))
+    -- Words count before the head's own region.
+    expect.equal(lissom.scalp(head, { forehead = 0.01 }):guessed(), true)
+    local given = { region = head:region("scalp"), peak = 0.01 }
+    expect.error(function() lissom.scalp(head, given) end, "hairline")
+    expect.error(function() lissom.scalp(head, { hairline = { { 50, 0 }, { 20, 0 } } }) end, "ascend")
+    expect.error(function() lissom.scalp(head, { recession = 1 }) end, "recession")
+end)
+
+test("the edge of hair is finer, with baby hair, and far inside it hair stays", function()
+    parting:remove()
+    local hair = style:grow{ count = 1500, length = 0.1 }
+    local before, lengths = hair:hash(), hair:stats()
+    hair:soften_edge{ head = style, baby = 0.5, baby_length = 0.02 }
+    expect.truthy(hair:hash() ~= before)
+    expect.truthy(hair:stats().min_length < 0.5 * lengths.mean_length)
+    expect.near(hair:stats().max_length, lengths.max_length, 1e-4)
+    expect.equal(#hair, 1500)
+    local loose = lissom.strands{ points = { { 0, 0, 0 }, { 0, 0.1, 0 } }, counts = { 2 } }
+    expect.error(function() loose:soften_edge{ head = style } end, "no roots")
+end)
+
+test("strands of other points take over all that is known of strands", function()
+    local hair = style:grow{ count = 5, length = 0.1 }:set_widths{ width = 0.0002 }
+    local points, counts = {}, {}
+    for s = 1, #hair do
+        local at_root = hair:root(s).position
+        counts[s] = 2
+        points[#points + 1] = at_root
+        points[#points + 1] = { at_root[1], at_root[2] - 0.1, at_root[3] }
+    end
+    local made = lissom.strands{ points = points, counts = counts, like = hair }
+    for s = 1, #hair do
+        expect.equal(made:root(s).face, hair:root(s).face)
+        expect.equal(made:root(s).id, hair:root(s).id)
+    end
+    made:push_out{ head = style }
+    expect.error(function() lissom.strands{ points = { { 0, 0, 0 } }, counts = { 1 }, like = hair } end,
+        "one for each new strand")
+end)
+
+test("hair of a file whose unit nobody told is told", function()
+    local path, heard = test.file("large.hair"), {}
+    lissom.strands{ points = { { 0, 0, 0 }, { 0, 20, 0 } }, counts = { 2 } }:save(path)
+    lissom.listen{ log = function(_, message) heard[#heard + 1] = message end }
+    lissom.load_strands(path)
+    expect.truthy(table.concat(heard, ";"):find("unit of the hair is not known"))
+    heard = {}
+    lissom.load_strands(path, { unit = 0.01 })
+    lissom.listen{}
+    expect.equal(#heard, 0)
+end)
