@@ -186,11 +186,12 @@ std::vector<BasisKey> make_basis_keys(Deformer& deformer,
             }
             keys.push_back(make_basis_key(deformer, context));
         }
+        deformer.restore(before);
     } catch (...) {
+        // That may be its second attempt, after it found no memory.
         deformer.restore(before);
         throw;
     }
-    deformer.restore(before);
     return keys;
 }
 
