@@ -193,7 +193,10 @@ class Abi:
         lines += [""] + [f"{name} = {self.type(type_)}" for name, type_ in self.header.callbacks]
         for struct in self.header.structs:
             lines += [""] + self.struct(struct)
-        lines += ["", "", "# Name: symbol, result, parameters.", "FUNCTIONS = {"]
+        lines += ["", "", "# The choices of fields, which ctypes knows as numbers.", "CHOICES = {"]
+        lines += [f'    ("{struct.name}", "{f.name}"): {f.type.base},' for struct in self.header.structs
+                  for f in struct.fields if f.type.base in self.enums]
+        lines += ["}", "", "# Name: symbol, result, parameters.", "FUNCTIONS = {"]
         for function in self.header.functions:
             types = "".join(self.type(p.type, True) + ", " for p in function.parameters)
             lines.append(f'    "{function.name}": ("{function.symbol}", {self.type(function.result, True)}, ({types})),')

@@ -32,14 +32,16 @@ def sphere():
 
 class Interface(unittest.TestCase):
     def test_types_are_those_of_the_list_of_the_abi(self):
-        """Sizes, offsets, values and functions agree with abi.txt."""
+        """Sizes, offsets and functions agree with abi.txt; what has come since its release is more."""
         counts = {}
         with open(ABI, encoding="ascii") as file:
             lines = [line.split() for line in file]
         for kind, name, *rest in lines:
             counts[kind] = counts.get(kind, 0) + 1
             if kind == "struct":
-                self.assertEqual(ctypes.sizeof(getattr(_abi, name)), int(rest[0]), name)
+                grows = getattr(_abi, name)._fields_[0][0] == "struct_size"
+                compare = self.assertGreaterEqual if grows else self.assertEqual
+                compare(ctypes.sizeof(getattr(_abi, name)), int(rest[0]), name)
             elif kind == "field":
                 field = getattr(getattr(_abi, name.split(".")[0]), name.split(".")[1])
                 self.assertEqual((field.offset, field.size), (int(rest[0]), int(rest[1])), name)
@@ -49,7 +51,7 @@ class Interface(unittest.TestCase):
                 parameters = rest[0].split("(", 1)[1].rsplit(")", 1)[0]
                 count = 0 if parameters in ("", "void") else parameters.count(",") + 1
                 self.assertEqual(len(symbols[0][2]), count, name)
-        self.assertEqual(counts["function"] + counts["experimental"], len(_abi.FUNCTIONS))
+        self.assertLessEqual(counts["function"] + counts["experimental"], len(_abi.FUNCTIONS))
         self.assertGreater(counts["field"], 100)
 
     def test_each_function_is_a_method_with_help_and_hints(self):
@@ -240,6 +242,9 @@ class Work(unittest.TestCase):
         with self.assertRaises(ValueError):
             deformer.solve("best")
         deformer.solve("preview")
+        self.assertEqual(lissom.Deformer.create(mesh, second="laplacian").row_count, mesh.vertex_count)
+        with self.assertRaises(ValueError):
+            lissom.Deformer.create(mesh, second="none")
 
     def test_a_merge_has_a_report(self):
         upper = sphere().cut_by_plane((0, 0, 0), (0, 1, 0))[0]

@@ -129,8 +129,7 @@ class Context:
                 continue
             kind = types[field]
             if isinstance(value, str):
-                enum_name = {"second": "second_system"}.get(field, field)
-                setattr(struct, field, _choice(value, getattr(_abi, "lissom_" + enum_name)))
+                setattr(struct, field, _choice(value, _abi.CHOICES[type(struct).__name__, field]))
             elif kind is _abi.lissom_input:
                 made = given(value, _WIDTHS.get(field, 1))
                 struct.held = getattr(struct, "held", []) + [made]
