@@ -35,6 +35,7 @@ void require_options(const DeformOptions& o) {
     require(o.degenerate_threshold > 1.0, "degenerate_threshold must be above 1");
     require(o.transition >= 0.0 && std::isfinite(o.transition),
             "transition must be a distance of 0 or more");
+    require(o.volume >= 0.0 && o.volume <= 1.0, "volume must be from 0 to 1");
     require(o.displacement > 0.0 && std::isfinite(o.displacement), "displacement must be above 0");
 }
 
@@ -61,6 +62,7 @@ void require_applicable(const DeformOptions& o) {
     refuse(o.refine != defaults.refine, "refine");
     refuse(o.subdivide_borders != defaults.subdivide_borders, "subdivide_borders");
     refuse(o.flat != defaults.flat, "flat");
+    refuse(o.volume != defaults.volume, "volume");
     refuse(o.free_rings != defaults.free_rings, "free_rings");
     refuse(o.loose == UnheldParts::follow, "loose = follow");
     refuse(!laplacian && !o.scale_free, "scale_free");
@@ -214,7 +216,7 @@ void Deformer::reset() {
     State& s = *state_;
     with_memory_errors([&] {
         DeformFrame frame = rest_frame(*s.rest);
-        Poses poses{std::vector<HandlePose>(s.constraints->handles.size()), {}};
+        Poses poses{std::vector<HandlePose>(s.constraints->handles.size()), {}, s.poses.volume};
         auto constraints = s.constraints;
         if (!constraints->targets.empty()) {
             ConstraintSet next = *constraints;
@@ -234,6 +236,7 @@ void Deformer::rebase() {
         const auto rest = rebased(*s.rest, *s.shown);
         auto constraints = std::make_shared<const ConstraintSet>(moved_to(*rest, *s.constraints));
         Poses poses = resting_poses(*rest, *constraints);
+        poses.volume = s.poses.volume;
         DeformFrame frame = rest_frame(*rest);
         s.show(std::move(frame));
         s.rest = rest;

@@ -73,6 +73,20 @@ void set_stiffness(Deformer& deformer, const Region& vertices, double factor) {
         [&] { s.edit([&](ConstraintEdit& edit) { edit.set_stiffness(vertices, factor); }); });
 }
 
+void keep_volume(Deformer& deformer, double share) {
+    auto& s = DeformerAccess::state(deformer);
+    if (!(share >= 0.0 && share <= 1.0)) {
+        throw Error(ErrorCode::invalid_argument, "the share of the volume must be from 0 to 1");
+    }
+    if (share > 0.0) require_implicit(s.options(), "keeping the volume");
+    s.poses.volume = share;
+}
+
+double kept_volume(const Deformer& deformer) {
+    const auto& s = DeformerAccess::state(deformer);
+    return s.poses.volume.value_or(s.options().volume);
+}
+
 // New values change the poses alone, and the preparation serves on.
 void Deformer::constrain(const PointConstraint& given) {
     State& s = *state_;

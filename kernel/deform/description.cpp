@@ -133,6 +133,12 @@ std::size_t bytes_in(const WeightedTriangles& triangles) {
     return bytes_in(triangles.triangle) + bytes_in(triangles.weight) + bytes_in(triangles.face);
 }
 
+std::optional<double> checked_volume(const std::optional<double>& share) {
+    require(!share || (*share >= 0.0 && *share <= 1.0),
+            "the share of the volume must be from 0 to 1");
+    return share;
+}
+
 }  // namespace
 
 DeformDescription describe(const DeformSnapshot& snapshot) {
@@ -156,6 +162,7 @@ DeformDescription describe(const DeformSnapshot& snapshot) {
         for (const Index v : patch.of_region)
             result.stiffness.push_back((*constraints.stiffness)[at(v)]);
     }
+    result.volume = snapshot.poses.volume;
     return result;
 }
 
@@ -174,6 +181,7 @@ DeformSnapshot snapshot_of(const DeformDescription& description,
     require_apart(*rest, constraints);
     require_partners(constraints);
     constraints.stiffness = stiffness_of(*rest, description.stiffness);
+    poses.volume = checked_volume(description.volume);
     ConstraintEdit edit{*rest, constraints, poses};
     for (const PointConstraint& asked : description.constraints) {
         edit.set_target(checked_target(*rest, constraints, asked),

@@ -38,6 +38,8 @@ struct DeformDescription {
     std::vector<PointConstraint> constraints;
     /// Stiffness of each vertex of the region, in its order; empty if all are 1.
     std::vector<double> stiffness;
+    /// Share of the volume that is kept, if it is not that of the options.
+    std::optional<double> volume;
 };
 
 DeformDescription describe(const DeformSnapshot& snapshot);

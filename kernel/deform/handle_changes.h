@@ -30,6 +30,12 @@ void set_handle_region(Deformer& deformer, HandleId handle, const Region& vertic
 /// Errors: topology_mismatch; handle_outside_region; invalid_argument for a factor that is not
 /// from 1e-4 to 1e5: nothing softer or stiffer can be seen, but the systems lose digits.
 void set_stiffness(Deformer& deformer, const Region& vertices, double factor);
+/// Sets the share of the volume that solves keep, from 0 to 1; see DeformOptions::volume. Refactors
+/// nothing, but finds the thickness of the region the first time. Errors: invalid_argument for a
+/// share out of range; unsupported for a comparison method.
+void keep_volume(Deformer& deformer, double share);
+/// Returns that share.
+double kept_volume(const Deformer& deformer);
 /// Returns the map f by which a handle takes p to about + f(p - about), to compose moves with.
 Affine transform_about(const Deformer& deformer, HandleId handle, const Vec3& about);
 

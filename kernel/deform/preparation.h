@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "kernel/deform/holds/known_mask.h"
 #include "kernel/deform/holds/loose_parts.h"
 #include "kernel/deform/options.h"
+#include "kernel/deform/patch/lazy.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/rest_shape.h"
@@ -29,6 +29,7 @@
 #include "kernel/deform/system/gradients.h"
 #include "kernel/deform/system/linear_solution.h"
 #include "kernel/deform/system/rotation_system.h"
+#include "kernel/deform/volume/volume_springs.h"
 
 namespace lissom {
 
@@ -40,31 +41,6 @@ struct HandleResponses {
     Eigen::MatrixXd stiffness;
     /// The movable handles, in the order of its rows.
     std::vector<Index> movable;
-};
-
-/// A value that threads find when they first need it. It follows from immutable input, so that
-/// either of two values found at the same time may be kept; nobody waits, as a loop that waits may
-/// take up other work.
-template <typename Value>
-class Lazy {
-  public:
-    template <typename Find>
-    const Value& get(const Find& find) const {
-        if (const Value* found = look()) return *found;
-        auto value = std::make_unique<const Value>(find());
-        const std::lock_guard guard(lock_);
-        if (!value_) value_ = std::move(value);
-        return *value_;
-    }
-
-  private:
-    const Value* look() const {
-        const std::lock_guard guard(lock_);
-        return value_.get();
-    }
-
-    mutable std::mutex lock_;
-    mutable std::unique_ptr<const Value> value_;
 };
 
 /// The method of the thesis: both systems, and the basis of the first.
@@ -84,6 +60,8 @@ struct ImplicitMethod {
     /// Gradients of the weights of translations, of each handle of the solution at each of
     /// `gathered`; only for few handles that turn far.
     Lazy<std::vector<std::vector<Vec3>>> weight_gradients;
+    /// Only for poses that keep the volume.
+    Lazy<VolumeSprings> springs;
 };
 
 /// Vertices whose gradient is prescribed together: those of a handle, one with a constraint, or all

@@ -11,11 +11,13 @@
 #include "kernel/deform/holds/constraint_set.h"
 #include "kernel/deform/holds/poses.h"
 #include "kernel/deform/options.h"
+#include "kernel/deform/patch/lazy.h"
 #include "kernel/deform/patch/patch.h"
 #include "kernel/deform/patch/sparse_row.h"
 #include "kernel/deform/patch/working_patch.h"
 #include "kernel/deform/pipeline.h"
 #include "kernel/deform/rotation/rest_directions.h"
+#include "kernel/deform/volume/thickness.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/region.h"
 
@@ -44,6 +46,8 @@ struct RestShape {
     std::vector<std::pair<Index, Vec3>> surroundings;
     /// Positions of all vertices of the mesh, for refinements of a part of it; else empty.
     std::vector<Vec3> beyond = {};
+    /// Found for the first preparation that keeps the volume.
+    std::shared_ptr<const Lazy<Thickness>> thickness = std::make_shared<const Lazy<Thickness>>();
     /// Memory of all parts.
     MemoryHold hold = {};
 

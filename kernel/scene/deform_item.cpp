@@ -41,6 +41,7 @@ void add(Hasher& hasher, const DeformOptions& o) {
          {o.coherence_weight, o.degenerate_threshold, o.displacement, o.transition}) {
         hasher.add(number);
     }
+    if (o.volume != 0.0) hasher.add(o.volume);
     hasher.add(o.subdivide_borders);
     hasher.add(o.scale_free);
 }
@@ -117,6 +118,7 @@ std::uint64_t DeformContent::compute_hash() const {
     hasher.add(count_of(description.constraints));
     for (const PointConstraint& constraint : description.constraints) add(hasher, constraint);
     hasher.add(description.stiffness);
+    if (description.volume) hasher.add(*description.volume);
     add(hasher, shown_->value->positions);
     return hasher.value();
 }

@@ -107,6 +107,7 @@ const std::vector<Names>& room_orders() {
          "kernel/mesh/parameterize", "kernel/mesh/shapes"},
         {"kernel/deform/mesh_point", "kernel/deform/options", "kernel/deform/patch",
          "kernel/deform/rotation", "kernel/deform/holds", "kernel/deform/system",
+         "kernel/deform/volume",
          "kernel/deform/comparison_method", "kernel/deform/stats", "kernel/deform/pipeline",
          "kernel/deform/rest_shape", "kernel/deform/preparation", "kernel/deform/deform_report",
          "kernel/deform/frame", "kernel/deform", "kernel/deform/boundary"},

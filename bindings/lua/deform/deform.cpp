@@ -127,6 +127,13 @@ int set_stiffness(Call& call) {
     return done ? call.push_argument() : call.fail();
 }
 
+int keep_volume(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    const double share = call.number("share");
+    const bool done = call.attempt([&] { keep_volume(edit->deformer(), share); });
+    return done ? call.push_argument() : call.fail();
+}
+
 // Runs solve(Deformer&), writes the result into the mesh and returns it.
 template <typename Solve>
 int write_result(Call& call, const Solve& solve) {
@@ -567,6 +574,16 @@ deformer:solve())"},
              kBar +
              R"(deformer:stiffness(bar:region{ sphere = { center = { 0, 0, 0 }, radius = 0.8 } }, 100)
 top:rotate{ axis = "z", angle = 60 }
+deformer:solve())"},
+        {.name = "keep_volume",
+         .body = keep_volume,
+         .summary = "Sets how much of its volume a twisted or bent solid keeps, in place of the "
+                    "option volume. The next solve takes a frame, and no preparation.",
+         .arguments = {number("share", "0: none; 1: all.").between(0, 1)},
+         .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
+         .errors = {ErrorCode::invalid_argument, ErrorCode::unsupported},
+         .example = kBar + R"(top:rotate{ axis = "z", angle = 150 }
+deformer:keep_volume(1)
 deformer:solve())"},
         {.name = "handles",
          .body = handles,

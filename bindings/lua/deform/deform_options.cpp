@@ -36,6 +36,7 @@ DeformOptions deform_options(const Call& call) {
     if (call.has("free_rings")) options.free_rings = call.integer("free_rings");
     take_number(call, "displacement", options.displacement);
     options.transition = call.number("transition");
+    take_number(call, "volume", options.volume);
     take_number(call, "degenerate_threshold", options.degenerate_threshold);
     return options;
 }
@@ -92,6 +93,14 @@ std::vector<Parameter> deform_parameters() {
                 "examples/deform/refine.png.")
             .at_least(0)
             .optional(std::to_string(defaults.refine)),
+        number("volume",
+               "How much of the thickness at rest is kept, by springs across the inside: twisted "
+               "and bent solids keep their volume and get no waist. Acts between the two sides of "
+               "the region, and not where handles change the size; a sheet has no inside. 1 keeps "
+               "all of it, at about a third of a frame; keep_volume changes it. Compared in "
+               "examples/deform/volume.png.")
+            .between(0, 1)
+            .optional(shown(defaults.volume)),
         choice("loose", {"error", "stay", "follow"},
                "Treatment of separate parts that no handle holds, such as buttons and eyes: an "
                "error that names them; they stay; or each follows the surface nearest to it, as "

@@ -23,6 +23,7 @@ void solve_stretched(const SecondInput& input, FrameScratch::State& scratch,
     }
     input.motion.method().second->solve(scratch.rotations, scratch.deviation, input.draft,
                                         scratch.second, context);
+    keep_volume(input, scratch, context);
     // A vertex may have taken twice.
     for (std::size_t n = taken.size(); n-- > 0;) scratch.rotations[at(taken[n].vertex)] = before[n];
 }
@@ -62,10 +63,11 @@ void solve_second(const SecondInput& input, FrameScratch::State& scratch, const 
     if (motion.options().refine > 0) refine_result(input, scratch, context);
 }
 
-// Whether the full frame takes the same steps up to the last corrections. Refinements start from
-// all of them, and so do ties.
+// Whether the full frame takes the same steps up to the last corrections. Refinements, ties and
+// springs start from all of them.
 bool may_be_finished(const FrameInput& motion) {
-    return motion.options().refine == 0 && !motion.method().second->has_ties();
+    return motion.options().refine == 0 && volume_share(motion) == 0.0 &&
+           !motion.method().second->has_ties();
 }
 
 // Positions of the free vertices from the second system.
@@ -179,6 +181,10 @@ DeformFrame solve_frame(const std::shared_ptr<const Preparation>& preparation, c
         if (scratch.sized_for.lock() != preparation) {
             scratch.rotations.assign(prepared.patch().real_count, PaddedMat3::Zero());
             scratch.sized_for = preparation;
+        }
+        if (scratch.volume.springs_of.lock() != preparation) {
+            scratch.volume.springs.factored_for = 0.0;
+            scratch.volume.springs_of = preparation;
         }
         solve_second(input, scratch, context);
     }

@@ -24,6 +24,7 @@
 #include "kernel/deform/preparation.h"
 #include "kernel/deform/system/frame_loops.h"
 #include "kernel/deform/system/rotation_system.h"
+#include "kernel/deform/volume/volume_springs.h"
 
 namespace lissom {
 
@@ -95,6 +96,13 @@ struct RefineRoom {
     std::vector<Vec3> of_region, plain_shape, shape;
 };
 
+/// Memory of keep_volume; the springs' is of `springs_of`.
+struct VolumeRoom {
+    VolumeSprings::Scratch springs;
+    std::weak_ptr<const Preparation> springs_of;
+    std::vector<Vec4> values, strain;
+};
+
 struct FrameScratch::State {
     TargetMemo asked;
     DraftMemo draft;
@@ -109,6 +117,7 @@ struct FrameScratch::State {
     Rotations rotations;
     std::weak_ptr<const Preparation> sized_for;
     RefineRoom refine;
+    VolumeRoom volume;
     /// For refinements, of the preparation `surface_of`.
     std::optional<MovingSurface> surface;
     std::weak_ptr<const Preparation> surface_of;
@@ -207,6 +216,12 @@ double over_relaxation(double max_turn, bool last);
 /// change.
 void refine_rotations(const SecondInput& input, std::span<const Vec4> deviation, double further,
                       RefineRoom& room, const Context& context, Rotations& rotations);
+
+/// The share of the volume that a frame keeps.
+double volume_share(const FrameInput& motion);
+/// Corrects the deviation in `scratch`, a solution of the second system, by springs across the
+/// inside; does nothing for a share of 0.
+void keep_volume(const SecondInput& input, FrameScratch::State& scratch, const Context& context);
 
 /// Takes the refined deviation in `scratch` back towards that without refinement, `refine.plain`:
 /// more and more as parts that lie apart at rest come near to one another and as edges stretch

@@ -1,6 +1,7 @@
 /// Poses of the handles and targets of a deformation.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "kernel/core/geometry.h"
@@ -28,10 +29,12 @@ struct TargetPose {
     bool operator==(const TargetPose&) const = default;
 };
 
-/// One pose for each handle and each target of a constraint set.
+/// One pose for each handle and each target of a constraint set, and the share of the volume that
+/// is kept in place of DeformOptions::volume, if it is given.
 struct Poses {
     std::vector<HandlePose> handles;
     std::vector<TargetPose> targets;
+    std::optional<double> volume = std::nullopt;
 
     bool operator==(const Poses&) const = default;
 };

@@ -261,6 +261,15 @@ void RotationSystem::finish_draft(std::span<Vec4> x, Scratch& scratch,
     correct_further(x, scratch, context);
 }
 
+void RotationSystem::answer(std::span<const Vec3> force, std::span<Vec4> x, Scratch& scratch,
+                            const Context& context) const {
+    scratch.residual.assign(force.begin(), force.end());
+    find_correction(scratch, context);
+    add_correction(scratch, x, context);
+    correct_further(x, scratch, context);
+    if (ties_.has_hard()) enforce_ties(x, scratch.columns);
+}
+
 void RotationSystem::correct_further(std::span<Vec4> x, Scratch& scratch,
                                      const Context& context) const {
     if (corrections_ > 1) scratch.step.assign(vertex_count_, Vec4::Zero());

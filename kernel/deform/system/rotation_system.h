@@ -71,6 +71,11 @@ class RotationSystem {
     /// the bit. Not for a system with ties.
     void finish_draft(std::span<Vec4> x, Scratch& scratch, const Context& context) const;
 
+    /// Adds to `x`, positions of all local vertices, how the free ones answer to forces on them, to
+    /// nearly full precision. `force` has an entry for each free vertex; hard ties hold at zero.
+    void answer(std::span<const Vec3> force, std::span<Vec4> x, Scratch& scratch,
+                const Context& context) const;
+
     /// The sum over `vertices` of half the downward gradient of the energy without its ties, at
     /// positions x. Null transforms stand for zeros.
     Vec3 force(const PaddedMat3* transforms, std::span<const Vec4> x,

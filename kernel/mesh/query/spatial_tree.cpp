@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace lissom {
@@ -134,6 +135,20 @@ SpatialTree::SpatialTree(const Mesh& mesh, const Context& context)
     Triangulation triangulation = triangulate_faces(mesh.topology(), mesh.positions());
     triangles_ = std::move(triangulation.triangles);
     faces_ = std::move(triangulation.face);
+    build(context);
+}
+
+SpatialTree::SpatialTree(std::vector<Vec3> positions, std::vector<Triangle> triangles,
+                         const Context& context)
+    : positions_(std::move(positions)), triangles_(std::move(triangles)), faces_(triangles_.size()) {
+    if (triangles_.empty()) {
+        throw Error(ErrorCode::mesh_empty, "a spatial tree needs triangles");
+    }
+    std::iota(faces_.begin(), faces_.end(), 0);
+    build(context);
+}
+
+void SpatialTree::build(const Context& context) {
     std::vector<Box> boxes(triangles_.size());
     for (std::size_t t = 0; t < boxes.size(); ++t) boxes[t] = box_of(index_of(t));
     boxes_ = BoxTree(boxes, context);
@@ -141,7 +156,7 @@ SpatialTree::SpatialTree(const Mesh& mesh, const Context& context)
 }
 
 void SpatialTree::refit(const Mesh& mesh, const Context& context) {
-    if (mesh.shared_topology() != topology_) {
+    if (!topology_ || mesh.shared_topology() != topology_) {
         throw Error(ErrorCode::topology_mismatch,
                     "the mesh has another topology than the one that the spatial tree was built "
                     "for; build a new tree");

@@ -62,6 +62,10 @@ class SpatialTree {
     /// Copies the present shape of `mesh`, which may change or die afterwards.
     /// Errors: mesh_empty without faces; memory_limit; cancelled.
     explicit SpatialTree(const Mesh& mesh, const Context& context = {});
+    /// A tree of triangles that need not form a mesh: each counts as a face of its own. It has no
+    /// topology, and `refit` refuses it. Errors: as before.
+    SpatialTree(std::vector<Vec3> positions, std::vector<Triangle> triangles,
+                const Context& context = {});
 
     /// Takes the present shape of `mesh`, which must have the topology of the mesh that the tree
     /// was built for. Queries give the same answers as those of a new tree; the time is linear and
@@ -98,6 +102,7 @@ class SpatialTree {
     Box bounds() const { return boxes_.bounds(); }
 
     /// The shape that the tree is of: its triangles, the faces they are part of, and their boxes.
+    /// The topology is null, or must not be asked for, for a tree of triangles alone.
     const std::shared_ptr<const Topology>& shared_topology() const { return topology_; }
     const Topology& topology() const { return *topology_; }
     std::span<const Vec3> positions() const { return positions_; }
@@ -114,6 +119,7 @@ class SpatialTree {
         double distance = 0.0;
     };
 
+    void build(const Context& context);
     Box box_of(Index triangle) const;
     std::optional<Hit> nearest_triangle(const Vec3& point, double limit) const;
     std::optional<Hit> hit_triangle(Index triangle, const Line& ray) const;

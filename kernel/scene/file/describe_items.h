@@ -173,6 +173,10 @@ void describe(Archive& a, DeformOptions& options) {
     a.number("displacement", options.displacement);
     a.flag("scale_free", options.scale_free);
     a.number("transition", options.transition);
+    std::optional<double> volume;
+    if (options.volume != 0.0) volume = options.volume;
+    a.number("volume", volume);
+    options.volume = volume.value_or(0.0);
 }
 
 template <typename Archive>
@@ -223,6 +227,7 @@ void describe(Archive& a, DeformRecord& record) {
     a.objects("constraints", record.description.constraints,
               [](Archive& b, PointConstraint& x) { describe(b, x); });
     a.list("stiffness", record.description.stiffness);
+    a.number("volume", record.description.volume);
     a.list("rest", record.rest);
     a.list("shown", record.shown);
     a.list("gradients", record.gradients);
