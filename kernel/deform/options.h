@@ -71,9 +71,10 @@ struct DeformOptions {
     DeformMethod method = DeformMethod::implicit;
     SecondSystem second = SecondSystem::blend;
     LocalSize local_size = LocalSize::keep;
-    /// How much of the thickness at rest is kept, 0 to 1, by springs across the inside: twisted and
-    /// bent solids get no waist. Acts between the two sides of the region, and not where handles
-    /// change the size; sheets have no inside. keep_volume changes it at the cost of a frame.
+    /// Share of the thickness at rest that is kept, 0 to 1, by springs across the inside: twisted
+    /// and bent solids get no waist. It acts between the two sides of the region, and fades beside
+    /// handles that change the size; sheets have no inside. keep_volume changes it at the cost of a
+    /// frame.
     double volume = 0.0;
     LaplacianWeights weights = LaplacianWeights::cotangent;
     /// Rounds, 0 to 2, of fitting the rotations to the result and solving for it again: less

@@ -577,8 +577,9 @@ top:rotate{ axis = "z", angle = 60 }
 deformer:solve())"},
         {.name = "keep_volume",
          .body = keep_volume,
-         .summary = "Sets how much of its volume a twisted or bent solid keeps, in place of the "
-                    "option volume. The next solve takes a frame, and no preparation.",
+         .summary =
+             "Sets the share of its volume that a twisted or bent solid keeps, in place of the "
+             "option volume. It costs a frame, and no preparation.",
          .arguments = {number("share", "0: none; 1: all.").between(0, 1)},
          .results = {{"lissom.Deformer", "deformer", "The deformer itself."}},
          .errors = {ErrorCode::invalid_argument, ErrorCode::unsupported},

@@ -94,13 +94,14 @@ std::vector<Parameter> deform_parameters() {
             .at_least(0)
             .optional(std::to_string(defaults.refine)),
         number("volume",
-               "How much of the thickness at rest is kept, by springs across the inside: twisted "
-               "and bent solids keep their volume and get no waist. Acts between the two sides of "
-               "the region, and not where handles change the size; a sheet has no inside. 1 keeps "
+               "Share of the thickness at rest that is kept, by springs across the inside: twisted "
+               "and bent solids keep their volume and get no waist. It acts between the two sides "
+               "of the region, and fades beside handles that change the size; a sheet has no "
+               "inside. 1 keeps "
                "all of it, at about a third of a frame; keep_volume changes it. Compared in "
                "examples/deform/volume.png.")
             .between(0, 1)
-            .optional(shown(defaults.volume)),
+            .optional(plain_number(defaults.volume)),
         choice("loose", {"error", "stay", "follow"},
                "Treatment of separate parts that no handle holds, such as buttons and eyes: an "
                "error that names them; they stay; or each follows the surface nearest to it, as "

@@ -22,7 +22,7 @@ double strain_of(const Mat3& linear) {
     return std::max(std::log(stretch[0]), -std::log(stretch[2]));
 }
 
-// What handles ask for, spread over the surface; empty if none stretches.
+// The strains of the handles, spread over the surface; empty if none stretches.
 std::span<const Vec4> strains(const FrameInput& motion, VolumeRoom& room, const Context& context) {
     if (!motion.method().solution) return {};
     room.values.clear();

@@ -45,7 +45,7 @@ class VolumeSprings {
         const Mat3& base;
         std::span<const PaddedMat3> rotations;
         /// The logarithm of the greatest stretch that handles ask for near each vertex; empty
-        /// without any. Where it grows, the springs do nothing.
+        /// without any. The springs fade as it grows.
         std::span<const Vec4> strain;
     };
 

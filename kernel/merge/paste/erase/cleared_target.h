@@ -26,8 +26,8 @@ struct ClearedTarget {
     /// The vertices of the removed faces of the target as given.
     Region gone;
     PasteClearing found;
-    /// How much the patch turns from face to face, over how much the surface around it does or 30
-    /// degrees, whichever is more.
+    /// Turn of the patch from face to face, over the greater of 30 degrees and that of the surface
+    /// around it.
     double unevenness = 0.0;
 };
 
