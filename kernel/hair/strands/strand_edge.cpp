@@ -136,7 +136,7 @@ void soften_edge(Strands& strands, const std::vector<float>& inside,
         const auto width = static_cast<float>(options.width);
         factors.push_back((width + (1.0f - width) * inside[s]) * (baby[s] ? kBabyWidth : 1.0f));
     }
-    const auto part = [&](Index s, const std::vector<double>&) {
+    const auto part = [&](Index s, const std::vector<double>&, double) {
         const double whole = length(strands.strand(s));
         if (!(whole > 0.0) || !std::isfinite(whole)) return 1.0;
         return left_length(strands.id(s), whole, inside[at(s)], baby[at(s)], options);
