@@ -78,6 +78,7 @@ const std::vector<Rule>& rules() {
         {"viewer/window/panel/panel_style.cpp", {"viewer"}, {"ImGui"}},
         {"viewer/window/panel/panel_input.cpp", {"viewer"}, {"ImGui"}},
         {"viewer/window/panel/prompt.cpp", {"viewer"}, {"ImGui"}},
+        {"viewer/window/panel/boundary_pick.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},
         {"viewer/window/panel/console_view.cpp", {"viewer"}, {"ImGui"}},
         {"viewer/window/panel/side_view.cpp", {"viewer"}, {"ImGui", "printing", "platform"}},
         {"viewer/window/panel/tool_panel.cpp", {"kernel", "bindings", "viewer"}, {"ImGui"}},

@@ -1,4 +1,4 @@
-// A panel and a hand that works with it.
+/// A panel and a hand that works with it.
 #pragma once
 
 #include <string>
