@@ -21,7 +21,7 @@ int give_strand_details(Call& call) {
         options.scale = call.number("scale");
         options.turn = call.number("turn");
         options.refine = call.boolean("refine");
-        detail(strands, examples_of(call), options, call.context());
+        add_detail(strands, examples_of(call), options, call.context());
     });
 }
 

@@ -477,8 +477,8 @@ Strands details(const Strands& examples, double span, const Context& context) {
     return made;
 }
 
-void detail(Strands& strands, const Strands& examples, const DetailOptions& options,
-            const Context& context) {
+void add_detail(Strands& strands, const Strands& examples, const DetailOptions& options,
+                const Context& context) {
     require_detail(options);
     require_operator(strands, options);
     const std::vector<Example> list = examples_of(examples, options.span);

@@ -33,8 +33,8 @@ struct DetailOptions : StrandOperatorOptions {
 /// details of a strand that are given to it leave it as it is. Errors:
 /// invalid_argument for options out of range, or examples without a finite strand of three points
 /// and a length; not_finite; memory_limit, cancelled.
-void detail(Strands& strands, const Strands& examples, const DetailOptions& options = {},
-            const Context& context = {});
+void add_detail(Strands& strands, const Strands& examples, const DetailOptions& options = {},
+                const Context& context = {});
 
 /// Returns the examples with straight courses that hang down from their roots: their details alone,
 /// which can be saved as any strands and given to others. Strands of fewer than three points stay

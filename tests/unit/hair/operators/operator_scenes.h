@@ -77,7 +77,7 @@ inline std::vector<NamedOperator> all_operators() {
     ShrinkwrapOptions wraps;
     wraps.distance = above_floor;
     const auto give_details = [](Strands& s, const DetailOptions& options, const Context& c) {
-        detail(s, zigzag(), options, c);
+        add_detail(s, zigzag(), options, c);
     };
     using Effect = StrandOperatorOptions;
     const auto make = [](const std::string& name, const auto& function, const auto& options,

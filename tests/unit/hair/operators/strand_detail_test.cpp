@@ -88,7 +88,7 @@ TEST_CASE("details of a strand given to it leave it as it is") {
         Strands made = example;
         DetailOptions options;
         options.keep_length = keep;
-        detail(made, example, options);
+        add_detail(made, example, options);
         CHECK(made.point_count() == example.point_count());
         CHECK(difference(made, example) < 1e-6);
     }
@@ -98,7 +98,7 @@ TEST_CASE("a smooth strand with the details of a helix winds as often as the hel
     const Strands example = ringlet();
     Strands made = smooth_hair(20, 0.2, 41);
     const double before = turning(made.strand(3));
-    detail(made, example);
+    add_detail(made, example);
     for (Index s = 0; s < made.size(); ++s) {
         // The helix is longer than its course, and so has more turns than as much hair.
         const double part = length(made.strand(s)) / length(example.strand(0));
@@ -112,7 +112,7 @@ TEST_CASE("details keep roots, and lengths unless they are asked not to") {
     const Strands before = smooth_hair(30, 0.25, 60);
     DetailOptions options;
     Strands made = before;
-    detail(made, ringlet(), options);
+    add_detail(made, ringlet(), options);
     for (Index s = 0; s < made.size(); ++s) {
         CHECK(made.root(s) == before.root(s));
         CHECK(length(made.strand(s)) == doctest::Approx(length(before.strand(s))).epsilon(1e-3));
@@ -120,7 +120,7 @@ TEST_CASE("details keep roots, and lengths unless they are asked not to") {
     }
     options.keep_length = false;
     made = before;
-    detail(made, ringlet(), options);
+    add_detail(made, ringlet(), options);
     for (Index s = 0; s < made.size(); ++s) {
         CHECK(length(made.strand(s)) > 1.1 * length(before.strand(s)));
         CHECK(straight_length(made, s) ==
@@ -132,14 +132,14 @@ TEST_CASE("details turn with the strand that gets them, and not with the example
     const Mat3 rotation = Eigen::AngleAxisd(1.1, Vec3(1, 2, -0.5).normalized()).toRotationMatrix();
     const Strands hair = smooth_hair(10, 0.2, 161), example = ringlet();
     Strands made = hair, turned = hair, turned_example = example, other = hair;
-    detail(made, example);
+    add_detail(made, example);
     turn(turned, rotation);
-    detail(turned, example);
+    add_detail(turned, example);
     Strands expected = made;
     turn(expected, rotation);
     CHECK(difference(turned, expected) < 2e-5);
     turn(turned_example, rotation);
-    detail(other, turned_example);
+    add_detail(other, turned_example);
     CHECK(difference(other, made) < 2e-5);
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("strands longer than their example repeat it without a kink") {
     const Strands example = ringlet();
     DetailOptions options;
     options.keep_length = false;
-    detail(made, example, options);
+    add_detail(made, example, options);
     CHECK(sharpest(made.strand(0)) < 1.6 * sharpest(example.strand(0)));
     // It winds in its last third as much as in its middle one.
     const StrandView strand = made.strand(0);
@@ -163,10 +163,10 @@ TEST_CASE("twice the scale is twice as wide and long a detail") {
     DetailOptions options;
     options.scale = 2.0;
     options.keep_length = false;
-    detail(made, ringlet(), options);
+    add_detail(made, ringlet(), options);
     Strands same = smooth_hair(2, 0.2, 161);
     options.scale = 1.0;
-    detail(same, ringlet(), options);
+    add_detail(same, ringlet(), options);
     CHECK(turning(made.strand(0)) < 0.7 * turning(same.strand(0)));
     CHECK(length(made.strand(0)) == doctest::Approx(length(same.strand(0))).epsilon(0.1));
 }
@@ -178,7 +178,7 @@ TEST_CASE("strands of one guide take the details of one example") {
     assign_guides(hair, guides);
     Strands examples = ringlet();
     for (Index i = 1; i < 8; ++i) append(examples, ringlet(0.2 - 0.01 * i));
-    detail(hair, examples);
+    add_detail(hair, examples);
     std::vector<Index> numbers(at(hair.size()));
     double apart = 0.0;
     for (Index s = 0; s < hair.size(); ++s) {
@@ -196,8 +196,8 @@ TEST_CASE("details alone hang straight, and give the same hair as their example"
     Strands a = smooth_hair(3, 0.2, 161), b = a;
     DetailOptions options;
     options.refine = false;
-    detail(a, example, options);
-    detail(b, wisps, options);
+    add_detail(a, example, options);
+    add_detail(b, wisps, options);
     CHECK(turning(a.strand(1)) == doctest::Approx(turning(b.strand(1))).epsilon(0.1));
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("examples without bends are refused, and strands stay as they were") {
     Strands hair = smooth_hair(5, 0.2, 41);
     const std::uint64_t before = hash(hair);
     const auto refused = [&](const Strands& examples, const DetailOptions& options = {}) {
-        const Error error = error_of([&] { detail(hair, examples, options); });
+        const Error error = error_of([&] { add_detail(hair, examples, options); });
         CHECK(hash(hair) == before);
         return error.code() == ErrorCode::invalid_argument;
     };
