@@ -11,19 +11,19 @@ local lissom = {}
 ---@field count? integer The same as a number of strands. Default: all.
 ---@field unit? number Length of the mesh's unit; strands are in metres. In metres. Default: that of the places of the roots on the mesh, else 1.
 ---@field primary? number Strength of the white reflection. Default: 0.24.
----@field primary_exponent? number How sharp it is. Default: 70.
----@field primary_shift? number How far it leans towards the tip; negative: to the root. In degrees. Default: 5.73.
+---@field primary_exponent? number Its sharpness. Default: 70.
+---@field primary_shift? number Its lean towards the tip; negative: to the root. In degrees. Default: 5.73.
 ---@field secondary? number Strength of the coloured reflection. Default: 0.5.
----@field secondary_exponent? number How sharp it is. Default: 14.
----@field secondary_shift? number How far it leans towards the tip; negative: to the root. In degrees. Default: -8.594.
----@field shift_jitter? number How much reflections lean at random, by strand. In degrees. Default: 2.865.
----@field strand_tone? number How much brighter or darker strands are at random. Default: 0.12.
+---@field secondary_exponent? number Its sharpness. Default: 14.
+---@field secondary_shift? number Its lean towards the tip; negative: to the root. In degrees. Default: -8.594.
+---@field shift_jitter? number Random lean of reflections, by strand. In degrees. Default: 2.865.
+---@field strand_tone? number Random difference of strands' brightness. Default: 0.12.
 ---@field clump_tone? number The same for clumps of strands with neighbouring roots. Default: 0.18.
 ---@field clump_size? number Distance of the middles of these clumps at the roots. In metres. Default: 0.005.
 ---@field root_tone? number Factor of the colour at the root. Default: 0.72.
 ---@field tip_tone? number Factor of the colour at the tip. Default: 1.18.
----@field shadow? number How much strands shade each other and the meshes; 0: none. Default: 1.
----@field scalp_tint? number How far the scalp takes the hair's colour at dense roots. Default: 0.7.
+---@field shadow? number Strength of the shadows of strands on each other and on meshes; 0: none. Default: 1.
+---@field scalp_tint? number Part of the hair's colour that the scalp takes at dense roots. Default: 0.7.
 
 ---@class lissom.RenderOptions.Style_marks
 ---@field curves? boolean Draws the curves. Default: true.
@@ -49,7 +49,7 @@ local lissom = {}
 ---@field wire? boolean Draws the edges of the faces. Default: false.
 ---@field wire_width? number Their width. In pixels. Default: 1.
 ---@field strands? lissom.Strands|lissom.Strands[] Hair to draw, in metres. It hides paths and points.
----@field hair? lissom.RenderOptions.Hair How the strands are drawn.
+---@field hair? lissom.RenderOptions.Hair Appearance of the strands.
 ---@field style? lissom.Hairstyle A hairstyle whose curves to draw: streams cyan, dividing curves red, ponytails purple. Without a mesh or strands on its head.
 ---@field style_marks? lissom.RenderOptions.Style_marks Drawn parts of the style.
 ---@field region? lissom.Region|string The region of interest, drawn in blue.
@@ -69,7 +69,7 @@ local lissom = {}
 ---@field background? string A colour as for `color`, or "transparent". Default: "white".
 ---@field samples? integer Samples a pixel along edges of meshes: 1, 2, 4, ... as far as the driver has them. Default: 4.
 ---@field supersample? integer Pixels drawn along each side of one in the picture; 2 is for print. Default: 1.
----@field occlusion? number How much folds and contacts darken; 0 draws faster. Default: 1.
+---@field occlusion? number Darkness of folds and contacts; 0 draws faster. Default: 1.
 ---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"three-quarter" The side to look from, of the world and not of the object: with y upwards the camera stands at +z for front, -z for back, +x for right, -x for left. For a head that faces +z, as is usual, left shows its own right side. three-quarter stands between front and right, and above. Default: three-quarter.
 ---@field up? "y"|"z" The axis that points up in the view. Default: y.
 ---@field parallel? boolean Without perspective. Default: false.

@@ -27,7 +27,7 @@
 ---@field normal lissom.Vector Unit normal of the triangle; zero for a triangle without area.
 ---@field distance number Distance from the query point, or along the ray.
 
----How a surface differs from its rest, at every vertex.
+---Differences of a surface from its rest, at every vertex.
 ---@class lissom.Distortion
 ---@field stretch lissom.Buffer Length of the edge that changed most, over its length at rest: 1 as at rest.
 ---@field area lissom.Buffer Area of the faces around it, over their area at rest.
@@ -225,12 +225,12 @@
 ---An element that another comes from.
 ---@class lissom.Origin
 ---@field side string source or target.
----@field target integer|nil Which of the targets.
+---@field target integer|nil Number of the target.
 ---@field vertex integer|nil A vertex of that mesh.
 ---@field face integer|nil A face of that mesh.
----@field weight number How much it counts.
+---@field weight number Its part of all.
 
----How well seams are hidden; angles in degrees.
+---Visibility of seams; angles in degrees.
 ---@class lissom.SeamQuality
 ---@field max_dihedral number The greatest angle between faces across a seam.
 ---@field rms_dihedral number Their root mean square, weighted by edge length.
@@ -258,12 +258,12 @@
 ---@class lissom.JoinReport
 ---@field source_size integer Vertices of the source's boundary as it was joined.
 ---@field target_size integer Vertices of the target's.
----@field scale number How much the source grew there.
+---@field scale number Growth of the source there, as a factor.
 ---@field placed string Criterion of the source's rotation: keys, as placed, directions or shape.
 ---@field guessed boolean The shapes decided, or directions that contradict each other.
 ---@field certainty number|nil For a guess: the probability, 0 to 1, that it is right; below .75 give a key.
 ---@field any_turn boolean The parts are round: no turn is better than another.
----@field turn table How the source turns from how it lies: axis, a unit vector, and angle in degrees.
+---@field turn table Rotation of the source from its given place: axis, a unit vector, and angle in degrees.
 ---@field key number[][]|nil A point of the source's boundary and the point of the target's that it meets: keys = { key } makes the same result. nil in the thesis's transition.
 ---@field source_turn number Mean turn of the source's boundary at a vertex, as given.
 ---@field target_turn number The same of the target's.
@@ -297,7 +297,7 @@
 ---@field target_volume number The same of the target; 1 of a paste.
 ---@field radius number Radius of the seam.
 
----Why a merge is not good. tostring gives text and remedy.
+---Reason why a merge is not good. tostring gives text and remedy.
 ---@class lissom.MergeReason
 ---@field fault string crossings, side, folds, roughness, volume, bend, flare, spike, bite, seam, place or slivers; of a scatter "left out" as well.
 ---@field join integer|nil The join that it is of; nil of all of them.
@@ -310,12 +310,12 @@
 ---Loss of the target's edges that turn by more than 35 degrees, by a paste: parts of them stand out of the result, or lie below the surface still left of the target.
 ---@class lissom.TargetBite
 ---@field length number Their length, in radii of the seam.
----@field depth number How far they are from the result, at most, in these radii.
+---@field depth number Their greatest distance from the result, in these radii.
 
 ---Report of a merge.
 ---@class lissom.MergeReport
 ---@field bite lissom.TargetBite Loss of the sharp edges of its target, by a paste.
----@field ok boolean Whether the result is good: no faces run through one another that did not before, but for those that only touch; the surface around the seam does not fold back, is at most 1.4 times as rough as the parts were there (or turns by less than 8 degrees an edge), and bends by no more than 35 degrees from one side to the other and 60 along a tenth of it, or 1.3 times the angle before (and by the crease of a paste); the rim of the source of a merge turns outward by no more than 33 degrees more than before; a paste takes no sharp edge of its target along more than .3 of its radius or deeper than .15; each part keeps three fifths of its volume; the seam turns by no more than 30 degrees and 20 in the mean, or than the surfaces did beside the boundaries; no place is a toss; no triangle at the seam has less than 2 degrees, or than there were.
+---@field ok boolean Whether the result is good: no faces run through one another that did not before, but for those that only touch; the surface around the seam does not fold back, is at most 1.4 times as rough as the parts were there (or turns by less than 8 degrees an edge), the source at most 1.6 times as it was (or by 11 degrees; merged above 14 degrees 1.4 times) and the target 1.3 times (or by 5 degrees), and bends by no more than 35 degrees from one side to the other and 60 along a tenth of it, or 1.3 times the angle before (and by the crease of a paste); the rim of the source of a merge turns outward by no more than 65 degrees more than before, or 22.5 if it crumples; no tip lacks more than 88 degrees to flat (45 beside smooth parts), or 1.35 times as many as the sharpest before; a paste takes no sharp edge of its target along more than .3 of its radius or deeper than .15; each part keeps two fifths of its volume; the seam turns by no more than 30 degrees but for a thirtieth of its length and 20 in the mean, or than the surfaces did beside the boundaries; no place is a toss; no triangle at the seam has less than 2 degrees, or than there were.
 ---@field verdict string The same in one line, with the reasons.
 ---@field reasons lissom.MergeReason[] Each fault with its measure, its limit and a remedy; empty if ok. tostring(report) lists them.
 ---@field joins lissom.JoinReport[] One a join.
@@ -326,7 +326,7 @@
 ---@field transition table[] For each seam source and target: width, vertices, and flipped and unmapped ones, of its bands; its field `region` has the vertices that they moved.
 ---@field transition_kept number|nil The part of the way that the bands of a transition went: 0 if it was left out, since it would have folded the surface.
 ---@field intersections integer[][] Pairs of faces that run through one another and come from faces that did not.
----@field known_intersections integer How many pairs of moved or made faces come from faces that did.
+---@field known_intersections integer Number of pairs of moved or made faces that come from faces that did.
 ---@field seams lissom.Path[] The seams on the merged mesh.
 ---@field source lissom.Region The vertices of the merged mesh that are the source's.
 ---@field target lissom.Region Those that are the targets'.
@@ -351,7 +351,7 @@
 ---@field smooth_misfit number|nil The same of the misfit.
 ---@field stop string converged, iterations or cycle: why it ended.
 ---@field kept_outline boolean Nothing better than the outline was found.
----@field scale number How much the loop grows.
+---@field scale number Growth of the loop, as a factor.
 ---@field loop_size integer Vertices of the loop.
 ---@field closest_rounds integer Rounds of nearest points that were kept.
 
@@ -365,21 +365,21 @@
 ---@field min_scale number Least factor by which it changes a length.
 ---@field max_scale number The greatest.
 
----How much faces of the part were distorted.
+---Distortion of the part's faces.
 ---@class lissom.PasteDistortion
 ---@field anisotropy number 95th percentile of greatest over least stretch of a face.
 ---@field energy number Mean squared difference of the stretches from 1, after scaling.
----@field faces integer How many faces that is of.
+---@field faces integer Number of these faces.
 
 ---Part of a target that is removed under a part.
 ---@class lissom.PasteClearing
----@field faces integer How many faces, of the target as it is split there.
+---@field faces integer Number of faces, of the target as it is split there.
 ---@field area number Their area.
 ---@field height number How far they stand out of the surface that takes their place, or are sunk in it, at most.
 
 ---Report of a draft of a paste.
 ---@class lissom.PasteDraft
----@field scale number How much the part grew.
+---@field scale number Growth of the part, as a factor.
 ---@field smooth boolean The boundary runs through faces.
 ---@field kept_outline boolean It is the outline, if the surface is distorted less there.
 ---@field near lissom.PasteDistortion Within three rings of the boundary.
@@ -393,7 +393,7 @@
 ---@field angle number Angle of the placement, in degrees.
 ---@field angle_chosen boolean It was not given, and is the best of twelve.
 ---@field upright boolean Neither `toward` nor an angle was given, and the part's `up` points the same way on the target, as far as the surface allows.
----@field scale number How much the part grew.
+---@field scale number Growth of the part, as a factor.
 ---@field near lissom.PasteDistortion Within three rings of the boundary.
 ---@field laid lissom.PasteDistortion The same once the part lies on the target as it was opened.
 ---@field feature lissom.PasteDistortion In the feature.
@@ -475,7 +475,7 @@
 ---@field vector number[] {x, y, z}: the field there, of length 1 at most.
 ---@field kind string Its source: "stream", along a stream curve; "stop", vanishing beyond its end; "parting", along the Gaussian beside a dividing curve, and "separation" above it; "section", "spine" and "gather" of a ponytail: near its cross sections, along the rest of its spine, into its tie; "scalp", of avoid_scalp.
 ---@field curve integer? Place of the curve among style:curves(); nil for the scalp's.
----@field weight number How strictly it is kept.
+---@field weight number Weight with which it is kept.
 
 ---Sizes of a hairstyle.
 ---@class lissom.HairstyleStats
@@ -564,8 +564,10 @@
 ---@field insert fun(self: any, layer: any, operator: table, place: integer?): lissom.Groom Puts an operator before a place, or behind all.
 ---@field remove fun(self: any, layer: any, operator: integer): lissom.Groom Takes an operator out.
 ---@field grow fun(self: any, layer: any, options: table): lissom.Groom Changes options of the growth of a layer.
+---@field operators fun(self: any): string[] The names of all operators, in their order.
+---@field options fun(self: any, layer: any, operator: integer?): table[] Options of an operator, or without one of the growth of a layer, that a switch, a slider or a list sets: declarations as those of lissom.params, with `name` and the `value` that is set, if any; `above` if `min` itself is excluded. The layer by its name or number, the operator by its place.
 ---@field layer fun(self: any, layer: any): table A layer: its name, style, operators and so on.
----@field show fun(self: any, scene: lissom.Scene, name: string): lissom.Groom Adds the hair to a scene. From then on the groom follows undo and redo there: its text is the comment of that hair. Styles that are objects of the scene too are undone in place, others are read from the text.
+---@field show fun(self: any, scene: lissom.Scene, name: string): lissom.Groom Adds the hair to a scene, unless it is the hair that the groom was made of. From then on the groom follows undo and redo there: its text is the comment of that hair. Styles that are objects of the scene too are undone in place, others are read from the text.
 ---@field update fun(self: any, step: string?): lissom.Groom Evaluates the hair in the scene, as a step with this name, "groom" by default.
 ---@field text fun(self: any): string The groom with its styles as JSON.
 ---@field save fun(self: any, path: string): lissom.Groom Writes that text: lissom.save_groom.
@@ -577,7 +579,7 @@
 ---@field kind string mesh, deformation, strands, hairstyle or polyline.
 ---@field transform number[][] Rows of the 4 x 4 matrix from its space to the scene's.
 ---@field visible boolean Whether it is drawn.
----@field style table How it is drawn; the fields are the options of scene:set.
+---@field style table Its appearance; the fields are the options of scene:set.
 
 ---A step of a scene's history.
 ---@class lissom.HistoryStep
@@ -587,10 +589,10 @@
 ---The steps of a scene's history, oldest first.
 ---@class lissom.History
 ---@field [integer] lissom.HistoryStep The steps in order.
----@field place integer How many of them can be undone; the others can be done again.
+---@field place integer Number of those that can be undone; the others can be done again.
 ---@field bytes integer Memory of all steps, beside one copy of the present content.
 ---@field limit integer Limit of `bytes`.
----@field dropped integer How many steps were forgotten because of it.
+---@field dropped integer Number of steps that were forgotten because of it.
 
 ---Something under a pixel. For a point or a free line the fields of surfaces are nil.
 ---@class lissom.PickHit
@@ -606,7 +608,7 @@
 ---@field vertex integer? The nearest vertex of that triangle.
 ---@field ends integer[]? The two vertices of an edge, or of a segment of a boundary.
 ---@field segment integer? Segment of a line or boundary: it lies between this point and the next.
----@field along number? How far along the edge or segment, 0 to 1.
+---@field along number? Place along the edge or segment, 0 to 1.
 ---@field depth number Along the view, in the unit of the world.
 ---@field pixels number From the pixel that was asked about; 0 for faces.
 
@@ -626,7 +628,7 @@
 ---@field times number[] Time of each pixel.
 ---@field pressures number[] Pressure of each pixel.
 ---@field click boolean Whether the pen only touched the picture.
----@field beside integer How many of the points lay beside the supporting surface that was drawn on; their depth is a guess.
+---@field beside integer Number of points that lay beside the supporting surface that was drawn on; their depth is a guess.
 
 ---Reading of a hint stroke.
 ---@class lissom.HintReading
@@ -738,7 +740,7 @@
 ---@class lissom.WheelEvent
 ---@field x number From the left edge of the picture.
 ---@field y number From the top of the picture.
----@field lines number How far the wheel turned: upwards is above 0.
+---@field lines number Turn of the wheel: upwards is above 0.
 ---@field shift boolean? Whether this key is down.
 ---@field ctrl boolean? Likewise.
 ---@field alt boolean? Likewise.
@@ -757,7 +759,7 @@
 ---@field start number[]? Pixel at which the button went down, {x, y}.
 ---@field button string? left, right or middle.
 ---@field key string? The key, of key.
----@field lines number? How far the wheel turned, of wheel: upwards is above 0.
+---@field lines number? Turn of the wheel, of wheel: upwards is above 0.
 ---@field parameter string? The parameter that was set, of changed.
 ---@field shift boolean Whether this key is down.
 ---@field ctrl boolean Likewise.
@@ -927,7 +929,7 @@ function Mesh:copy() end
 ---@field region? lissom.Region Splits the faces of this region only. Triangles beside it are divided at their common edges, and polygons take the new vertices in, so that the mesh stays watertight. Default: all.
 
 ---A finer mesh. Old vertices keep their ids.
----@param levels? integer How often each face is split. Default: 1.
+---@param levels? integer Number of times that each face is split. Default: 1.
 ---@param options? lissom.Mesh.SubdivideOptions
 ---@return lissom.Mesh mesh # The new mesh.
 ---@overload fun(self: lissom.Mesh, options: lissom.Mesh.SubdivideOptions): lissom.Mesh
@@ -967,7 +969,7 @@ function Mesh:pick(origin, direction) end
 ---@return lissom.Buffer distances # One number a vertex.
 function Mesh:distances(options) end
 
----How far this mesh is stretched, sheared and folded beside another shape of it, as numbers of the vertices that lissom.render draws in colours: lissom.render{ mesh = mesh, scalars = mesh:distortion(rest).area, ... }.
+---Stretch, shear and folds of this mesh, compared with another shape of it, as numbers of the vertices that lissom.render draws in colours: lissom.render{ mesh = mesh, scalars = mesh:distortion(rest).area, ... }.
 ---@param rest lissom.Mesh A mesh with the same faces, such as a copy from before.
 ---@return lissom.Distortion found # Numbers of the vertices.
 function Mesh:distortion(rest) end
@@ -1103,7 +1105,7 @@ function Mesh:path(options) end
 ---@class lissom.Mesh.FillOptions
 ---@field method? "angle"|"area" Begins with the triangles whose greatest angle to one another and to the mesh is least, or with those of the least area, a lid. Default: "angle".
 ---@field subdivide? boolean Makes the patch as dense as the mesh around it. Default: true.
----@field density? number How dense, over the mesh around it; more than 1 lets a patch bend whose rim has few vertices. Default: 1.
+---@field density? number Its density over that of the mesh around it; more than 1 lets a patch bend whose rim has few vertices. Default: 1.
 ---@field fair? boolean Bends the patch to continue the surface smoothly. Default: true.
 ---@field continuity? "tangents"|"curvature" Order of continuity of a faired patch with the surface. With curvature a large patch in a round surface is round. Default: "tangents".
 ---@field maximum_vertices? integer Vertices that `subdivide` may insert. Default: 200000.
@@ -1120,7 +1122,7 @@ function Mesh:fill(boundary, options) end
 ---@param b lissom.Path Another one.
 ---@return lissom.Mesh mesh # The mesh itself.
 ---@return integer first_face # The first of the triangles.
----@return integer face_count # How many there are; the last of all faces.
+---@return integer face_count # Their number; they are the last of all faces.
 function Mesh:bridge(a, b) end
 
 ---@class lissom.Mesh.CutOptions.Plane
@@ -1147,8 +1149,8 @@ function Mesh:bridge(a, b) end
 function Mesh:cut(options) end
 
 ---@class lissom.Mesh.EraseOptions
----@field ring? number How far around the region the mesh may be cut, in radii of the region's outline. 0: along the outline itself. Default: 0.5.
----@field bend? number How much a cut through bent surface costs: an edge costs its length times 1 + bend R k, with the outline's radius R and k the sum of both principal curvatures, without signs. 0: the shortest loop. Default: 1.
+---@field ring? number Distance from the region within which the mesh may be cut, in radii of the region's outline. 0: along the outline itself. Default: 0.5.
+---@field bend? number Cost of a cut through bent surface: an edge costs its length times 1 + bend R k, with the outline's radius R and k the sum of both principal curvatures, without signs. 0: the shortest loop. Default: 1.
 ---@field continuity? "tangents"|"curvature" Continuity of the patch with the surface around it: curvature if that is even around the cut, else tangents. Default: "curvature".
 ---@field maximum_vertices? integer Vertices that the patch may have. Default: 200000.
 
@@ -1333,7 +1335,7 @@ function Path:region() end
 function Path:mesh() end
 
 ---@class lissom.Path.TrimOptions
----@field smoothing? number How smooth: standard deviation of the Gaussian that smooths the loop, as a fraction of its length. Default: 0.04.
+---@field smoothing? number Smoothing: standard deviation of the Gaussian that smooths the loop, as a fraction of its length. Default: 0.04.
 ---@field margin? number Distance of the new boundary from the innermost vertex of the old one, in edge lengths. Default: 0.15.
 ---@field slide? number A vertex slides onto the line if that crosses one of its edges within this fraction of the edge, so that no slivers appear. Default: 0.25.
 
@@ -1449,6 +1451,11 @@ function Deformer:constrain(options) end
 ---@param factor number 1 is as usual.
 ---@return lissom.Deformer deformer # The deformer itself.
 function Deformer:stiffness(region, factor) end
+
+---Sets the share of its volume that a twisted or bent solid keeps, in place of the option volume. It costs a frame, and no preparation.
+---@param share number 0: none; 1: all.
+---@return lissom.Deformer deformer # The deformer itself.
+function Deformer:keep_volume(share) end
 
 ---Its handles.
 ---@return lissom.Handle[] handles # In the order they were made.
@@ -1754,7 +1761,7 @@ function Paste:loop() end
 
 ---The part of the target that `clear` removes under the part, on the target as it was given: to draw it, or to ask before `merge`.
 ---@return lissom.Region region # The vertices of the faces that go; nil if nothing goes.
----@return lissom.PasteClearing report # How much that is.
+---@return lissom.PasteClearing report # Its extent.
 function Paste:clearing() end
 
 ---Frees the contents of the object. It may be called again; any other use is an error then.
@@ -1767,7 +1774,7 @@ local Scalp = {}
 ---@class lissom.Scalp.AtOptions
 ---@field azimuth number 0 in front, 90 at the head's left, 180 behind. In degrees.
 ---@field elevation number 0 is level, 90 up. In degrees.
----@field lift? number How far above the head. In metres. Default: 0.
+---@field lift? number Height above the head. In metres. Default: 0.
 
 ---Returns a point over the head, in a direction from the center of its frame.
 ---@param options lissom.Scalp.AtOptions
@@ -1777,7 +1784,7 @@ function Scalp:at(options) end
 ---@class lissom.Scalp.Normal_atOptions
 ---@field azimuth number 0 in front, 90 at the head's left, 180 behind. In degrees.
 ---@field elevation number 0 is level, 90 up. In degrees.
----@field lift? number How far above the head. In metres. Default: 0.
+---@field lift? number Height above the head. In metres. Default: 0.
 
 ---Returns the normal of the head below the point that `at` returns.
 ---@param options lissom.Scalp.Normal_atOptions
@@ -1797,7 +1804,7 @@ function Scalp:head() end
 function Scalp:guessed() end
 
 ---Certainty of the head's place and direction of view. Making a scalp whose confidence is below 0.5 gives a warning: look at `up` and `front`, or give them, and the region.
----@return number confidence # Near 1 for a whole bald head, near 0 for masks, halves of heads, and other shapes.
+---@return number confidence # Near 1 for a whole bald head, near 0 for masks, halves of heads, heads with modelled hair, and other shapes.
 function Scalp:confidence() end
 
 ---Reason for a low confidence.
@@ -1808,11 +1815,11 @@ function Scalp:doubt() end
 ---@return number[] center # {x, y, z}, in mesh units.
 function Scalp:center() end
 
----Which way is up.
+---Direction upwards.
 ---@return number[] direction # {x, y, z}, of length 1.
 function Scalp:up() end
 
----Which way the head looks.
+---Direction that the head looks in.
 ---@return number[] direction # {x, y, z}, of length 1.
 function Scalp:front() end
 
@@ -1820,7 +1827,7 @@ function Scalp:front() end
 ---@return number[] direction # {x, y, z}, of length 1.
 function Scalp:left() end
 
----How long a unit of the mesh is.
+---Length of a unit of the mesh.
 ---@return number unit # Metres in one unit of the mesh.
 function Scalp:unit() end
 
@@ -1828,7 +1835,7 @@ function Scalp:unit() end
 ---@return boolean known # False for models of some other size.
 function Scalp:knows_unit() end
 
----How large the head is: styles are made in metres of an average head.
+---Size of the head: styles are made in metres of an average head.
 ---@return number scale # Mesh units in one metre of a style.
 function Scalp:scale() end
 
@@ -1854,7 +1861,7 @@ local Hairstyle = {}
 ---@class lissom.Hairstyle.AtOptions
 ---@field azimuth number 0 in front, 90 at the head's left, 180 behind. In degrees.
 ---@field elevation number 0 is level, 90 up. In degrees.
----@field lift? number How far above the head. In metres. Default: 0.
+---@field lift? number Height above the head. In metres. Default: 0.
 
 ---Returns a point over the head, in a direction from the center of its frame.
 ---@param options lissom.Hairstyle.AtOptions
@@ -1864,7 +1871,7 @@ function Hairstyle:at(options) end
 ---@class lissom.Hairstyle.Normal_atOptions
 ---@field azimuth number 0 in front, 90 at the head's left, 180 behind. In degrees.
 ---@field elevation number 0 is level, 90 up. In degrees.
----@field lift? number How far above the head. In metres. Default: 0.
+---@field lift? number Height above the head. In metres. Default: 0.
 
 ---Returns the normal of the head below the point that `at` returns.
 ---@param options lissom.Hairstyle.Normal_atOptions
@@ -1874,10 +1881,6 @@ function Hairstyle:normal_at(options) end
 ---Its curves in their order.
 ---@return lissom.Curve[] curves # A list.
 function Hairstyle:curves() end
-
----Constraints of the field from the enabled curves and avoid_scalp: one vector a constrained grid point. `lissom.render{ style = }` draws them.
----@return lissom.StyleConstraint[] constraints # A list.
-function Hairstyle:constraints() end
 
 ---The scalp that it was made for.
 ---@return lissom.Scalp scalp # The scalp.
@@ -1905,7 +1908,7 @@ function Hairstyle:stats() end
 ---@field clearance? number The curve is moved out to this height. In metres. Default: 0.004; as in the thesis 0.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
----@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
+---@field weight? number Weight of the curve in the field (omega of the thesis). Default: 100.
 ---@field points? lissom.Vector[] From the root to the tip; the curve runs smoothly through them. In mesh units.
 
 ---Adds a stream curve: hair flows along it.
@@ -1921,16 +1924,16 @@ function Hairstyle:add_stream(points, options) end
 ---@field right? number[] The same for the other. Default: tilt.
 ---@field sigma? number Distance from the line to the crest of the hair. In metres. Default: a grid step.
 ---@field height? number h of the thesis: the crest is 0.39 times as high. In metres. Default: half a grid step.
----@field reach? number How far from the line hair is shaped. In metres. Default: 2.5 sigma.
----@field thickness? number How far above and below its line hair is shaped. In metres. Default: 0.8 grid steps.
+---@field reach? number Distance from the line within which hair is shaped. In metres. Default: 2.5 sigma.
+---@field thickness? number Distance above and below its line within which hair is shaped. In metres. Default: 0.8 grid steps.
 ---@field separation? number Magnitude of the vectors that keep both sides apart. Default: 0.3.
----@field wall_width? number How far from the line these stand. In metres. Default: 1.2 grid steps.
----@field wall_height? number How high. In metres. Default: 2.6 grid steps.
+---@field wall_width? number Distance of these from the line. In metres. Default: 1.2 grid steps.
+---@field wall_height? number Their height. In metres. Default: 2.6 grid steps.
 ---@field ramp? number Nearer to the line, vectors away from it fade; 0 as in the thesis. In metres. Default: 0.87 grid steps; as in the thesis 0.
 ---@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024; as in the thesis 0.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
----@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
+---@field weight? number Weight of the curve in the field (omega of the thesis). Default: 100.
 ---@field points? lissom.Vector[] On the scalp, or near it. In mesh units.
 
 ---Adds a dividing curve: hair parts along it. In a grid of more points the same lengths in metres mean the same style; the defaults follow the grid.
@@ -1952,14 +1955,14 @@ function Hairstyle:add_dividing(points, options) end
 ---@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps; as in the thesis 0.
 ---@field free? number Nearer to the head than this the tail leaves hair alone. In metres. Default: 1.5 grid steps; as in the thesis 0.
 ---@field lead? number The ring begins so far in front of the tie. In metres. Default: 1.5 grid steps; as in the thesis half a grid step.
----@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4; as in the thesis 0.
----@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2; as in the thesis 0.
+---@field grip? number Strength with which the tail holds its hair together: the turn inward of vectors just outside, a grid step. 0 as in the thesis. Default: 4; as in the thesis 0.
+---@field spread? number Strength with which hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2; as in the thesis 0.
 ---@field tightness? number Magnitude of the vectors that do so. Default: 0.6.
 ---@field tail_length? number Length of the hair behind the tie. In metres. Default: as long as the spine; as in the thesis as long as hair without a tie.
 ---@field ragged? number Share of that by which tips differ. Default: 0.45; as in the thesis 0.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
----@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
+---@field weight? number Weight of the curve in the field (omega of the thesis). Default: 100.
 ---@field spine? lissom.Vector[] From the tie to the tip of the tail. In mesh units.
 
 ---Adds a ponytail: hair is drawn into a tie and goes on along a spine.
@@ -1968,6 +1971,10 @@ function Hairstyle:add_dividing(points, options) end
 ---@return lissom.Curve curve # The curve, behind all others.
 ---@overload fun(self: lissom.Hairstyle, options: lissom.Hairstyle.Add_ponytailOptions): lissom.Curve
 function Hairstyle:add_ponytail(spine, options) end
+
+---Constraints of the field from the enabled curves and avoid_scalp: one vector a constrained grid point. `lissom.render{ style = }` draws them.
+---@return lissom.StyleConstraint[] constraints # A list.
+function Hairstyle:constraints() end
 
 ---Brings the field up to date with the curves. `grow` and `field` do so by themselves.
 ---@return lissom.Hairstyle style # The hairstyle itself.
@@ -2016,10 +2023,10 @@ function Hairstyle:forget_scalp() end
 ---@field max_turn? number A strand ends before a segment that turns by more than this, as about a sink of the field; 180 lets strands turn as they like. In degrees. Default: 88; as in the thesis 180.
 ---@field max_segments? integer A strand has no more segments. Default: 400.
 ---@field into? lissom.Strands Strands whose place the new ones take. After an error they are as they were, or empty if growth had begun. Default: new strands.
----@field count? integer How many strands; the first n of more are the same. Default: 100000.
+---@field count? integer Number of strands; the first n of more are the same. Default: 100000.
 
 ---Grows hair that follows the field from its roots on the scalp. Lengths are those of a style, in metres of an average head. Strands that pass through the tie of a ponytail are in the group of its name.
----@param count? integer How many strands; the first n of more are the same. Default: 100000.
+---@param count? integer Number of strands; the first n of more are the same. Default: 100000.
 ---@param options? lissom.Hairstyle.GrowOptions
 ---@return lissom.Strands hair # The strands.
 ---@overload fun(self: lissom.Hairstyle, options: lissom.Hairstyle.GrowOptions): lissom.Strands
@@ -2067,7 +2074,7 @@ function Hairstyle:text() end
 ---@class lissom.Hairstyle.SketchOptions
 ---@field camera? lissom.Camera Camera of the first stroke, in mesh units. Default: the strokes say it.
 ---@field size? integer|integer[] {width, height} of the picture in pixels; one number for a square. Default: {1280, 960}.
----@field strands? integer How many strands the tools grow, to be returned. Default: 0.
+---@field strands? integer Number of strands that the tools grow, to be returned. Default: 0.
 
 ---Draws on the style by the tools of the window: each stroke is a drag of a tool, with its meaning there. All strokes are done, or, if a tool refuses one, none: the error names the stroke and the reason.
 ---@param strokes table A list of lissom.SketchStroke. Fields that a stroke leaves out, but for its points or its key, are those of the one before.
@@ -2122,11 +2129,11 @@ function Curve:set_points(points) end
 ---@field right? number[] The same for the other. Default: tilt.
 ---@field sigma? number Distance from the line to the crest of the hair. In metres. Default: a grid step.
 ---@field height? number h of the thesis: the crest is 0.39 times as high. In metres. Default: half a grid step.
----@field reach? number How far from the line hair is shaped. In metres. Default: 2.5 sigma.
----@field thickness? number How far above and below its line hair is shaped. In metres. Default: 0.8 grid steps.
+---@field reach? number Distance from the line within which hair is shaped. In metres. Default: 2.5 sigma.
+---@field thickness? number Distance above and below its line within which hair is shaped. In metres. Default: 0.8 grid steps.
 ---@field separation? number Magnitude of the vectors that keep both sides apart. Default: 0.3.
----@field wall_width? number How far from the line these stand. In metres. Default: 1.2 grid steps.
----@field wall_height? number How high. In metres. Default: 2.6 grid steps.
+---@field wall_width? number Distance of these from the line. In metres. Default: 1.2 grid steps.
+---@field wall_height? number Their height. In metres. Default: 2.6 grid steps.
 ---@field ramp? number Nearer to the line, vectors away from it fade; 0 as in the thesis. In metres. Default: 0.87 grid steps; as in the thesis 0.
 ---@field gap? number Width of the bare skin along the line. In metres. Default: 0.0024; as in the thesis 0.
 ---@field radius? number Radius of the tie, the first cross section. In metres. Default: from section or profiles, else 1.5 grid steps.
@@ -2139,14 +2146,14 @@ function Curve:set_points(points) end
 ---@field ring? number It is at least so wide. In metres. Default: 2.5 grid steps; as in the thesis 0.
 ---@field free? number Nearer to the head than this the tail leaves hair alone. In metres. Default: 1.5 grid steps; as in the thesis 0.
 ---@field lead? number The ring begins so far in front of the tie. In metres. Default: 1.5 grid steps; as in the thesis half a grid step.
----@field grip? number How strongly the tail holds its hair together: by how much vectors just outside turn inward, a grid step. 0 as in the thesis. Default: 4; as in the thesis 0.
----@field spread? number How strongly hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2; as in the thesis 0.
+---@field grip? number Strength with which the tail holds its hair together: the turn inward of vectors just outside, a grid step. 0 as in the thesis. Default: 4; as in the thesis 0.
+---@field spread? number Strength with which hair spreads again behind the tie and fills the tail. 0 as in the thesis. Default: 2; as in the thesis 0.
 ---@field tightness? number Magnitude of the vectors that do so. Default: 0.6.
 ---@field tail_length? number Length of the hair behind the tie. In metres. Default: as long as the spine; as in the thesis as long as hair without a tie.
 ---@field ragged? number Share of that by which tips differ. Default: 0.45; as in the thesis 0.
 ---@field name? string For people, and for groups of strands.
 ---@field enabled? boolean Curves that are not have no effect. Default: true.
----@field weight? number How firmly the field is held to the curve (omega of the thesis). Default: 100.
+---@field weight? number Weight of the curve in the field (omega of the thesis). Default: 100.
 
 ---Changes some of the options that it was made with.
 ---@param options? lissom.Curve.SetOptions
@@ -2239,10 +2246,10 @@ function Curve:section() end
 function Curve:profiles() end
 
 ---@class lissom.Curve.SupportOptions
----@field mode? "ruled"|"strip" Which surface. Default: "strip".
+---@field mode? "ruled"|"strip" Kind of surface. Default: "strip".
 ---@field camera lissom.Camera The viewpoint; that of the stroke may be another.
 ---@field width? number To each side of the curve; a strip is narrower in bends. In metres of an average head. Default: 0.03 of a strip, 0.075 of a ruled surface.
----@field extension? number How far it goes on beyond the tip. In metres of an average head. Default: 0.035.
+---@field extension? number Length beyond the tip. In metres of an average head. Default: 0.035.
 
 ---The surface through the curve that strokes about it are drawn on (Figure 4.3): the strip keeps the depth of the curve and changes how it looks from the viewpoint, the ruled surface of the lines of sight keeps how it looks and changes its depth, seen from aside. Up to about 50 degrees from the viewpoint the strip is seen better, beyond that the ruled one. Give it to camera:stroke as `on`.
 ---@param options lissom.Curve.SupportOptions
@@ -2282,7 +2289,7 @@ function Strands:root(strand) end
 ---@return lissom.Buffer points # A row of x, y, z a point.
 function Strands:points() end
 
----How many points each strand has.
+---Numbers of points of the strands.
 ---@return integer[] counts # One number a strand.
 function Strands:point_counts() end
 
@@ -2301,7 +2308,7 @@ function Strands:hash() end
 ---@class lissom.Strands.StatsOptions
 ---@field sharp_turn? number A turn between two segments above this is sharp. In degrees. Default: 90.
 ---@field style? lissom.Hairstyle Measures too how many strands are inside its head, on which they grew, by the distance to its surface. Default: not measured.
----@field depth? number How deep they must be to count. In metres. Default: 0.0005, as the head is larger than an average one.
+---@field depth? number Depth from which on they count. In metres. Default: 0.0005, as the head is larger than an average one.
 
 ---Counts, lengths and turns, and how many strands are damaged.
 ---@param options? lissom.Strands.StatsOptions
@@ -2311,7 +2318,7 @@ function Strands:stats(options) end
 ---@class lissom.Strands.SaveOptions.Camera
 ---@field eye lissom.Vector Its position, in units of the head.
 ---@field target lissom.Vector The middle of the picture.
----@field up? "x"|"y"|"z"|lissom.Vector Which way is up. Default: "y".
+---@field up? "x"|"y"|"z"|lissom.Vector Direction upwards. Default: "y".
 ---@field fov? number Vertical opening angle. In degrees. Default: 30.
 
 ---@class lissom.Strands.SaveOptions
@@ -2415,12 +2422,12 @@ function Strands:set_widths(options) end
 function Strands:set_colors(options) end
 
 ---@class lissom.Strands.ClumpOptions
----@field clumps? integer Number of guides: the strands of the lowest ids. Default: the guides that strands have, else 900.
+---@field clumps? integer Number of guides: the strands of the lowest ids. Default: the guides that strands have, else 900, at most one for eight strands.
 ---@field strength? number Part of the way to the guide that tips move. Default: 0.7.
 ---@field variation? number The strength of a clump is up to this fraction higher or lower, at random. Default: 0.5.
 ---@field shape? number The pull grows with this power of the place along the strand. Default: 1.
 ---@field radius? number Strands rooted further from their guide stay. In metres. Default: 0.03.
----@field apart? number How much it counts for the choice of a guide that strands are combed apart, as at a parting. Default: 0.5.
+---@field apart? number Weight of it in the choice of a guide that strands are combed apart, as at a parting. Default: 0.5.
 ---@field tip_spread? number Random distance by which tips miss their guide. In metres. Default: 0.001.
 ---@field offset? number Random distance by which the tip of a whole clump moves. In metres. Default: 0.
 ---@field within_groups? boolean Guides are of the strand's own group. Default: true.
@@ -2491,7 +2498,7 @@ function Strands:smooth(options) end
 
 ---@class lissom.Strands.GuidesOptions
 ---@field count? integer Number of guides: the strands of the lowest ids. Default: 400.
----@field apart? number How much it counts for the choice of a guide that strands are combed apart, as at a parting. Default: 0.5.
+---@field apart? number Weight of it in the choice of a guide that strands are combed apart, as at a parting. Default: 0.5.
 ---@field radius? number Strands rooted further from a guide follow none. In metres. Default: inf.
 ---@field within_groups? boolean Guides are of the strand's own group. Default: true.
 
@@ -2506,7 +2513,7 @@ function Strands:guides(options) end
 ---@field guides? integer Assigns so many guides, which stay with the strands: those of the lowest ids. Default: the guides that strands have, else 400.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field keep_length? boolean Segments keep their lengths. Default: false.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2521,7 +2528,7 @@ function Strands:gather(options) end
 ---@field guides? integer Assigns so many guides, which stay with the strands: those of the lowest ids. Default: the guides that strands have, else 400.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field keep_length? boolean Segments keep their lengths. Default: false.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2536,7 +2543,7 @@ function Strands:twist(options) end
 ---@field guides? integer Assigns so many guides, which stay with the strands: those of the lowest ids. Default: the guides that strands have, else 400.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field keep_length? boolean Segments keep their lengths. Default: false.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2556,12 +2563,13 @@ function Strands:pinch(options) end
 ---@field phase? number Part of a turn by which strands of a guide differ: .06 is a wire, .2 a ribbon, .5 a coil, 1 fuzz. Default: 0.22.
 ---@field depth? number 1 is a helix, 0 a wave in a surface. Default: 1.
 ---@field together? boolean Neighbouring guides begin their turns alike. Default: false.
+---@field begin? number[]|(fun(strand: integer, x: number, y: number, z: number): number) Turns that strands have at their roots: if they grow with the way from a line, crests run along it, as in finger waves. Default: those of the guide.
 ---@field hand? "random"|"left"|"right"|"mirrored" Sense of the turns: mirrored is right for roots with x above 0, and left for others. Default: "random".
 ---@field points_per_turn? integer Strands with fewer points get more; 0 keeps them. Default: 12.
 ---@field guides? integer Assigns so many guides, which stay with the strands: those of the lowest ids. Default: the guides that strands have, else 400.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2581,12 +2589,13 @@ function Strands:curl(options) end
 ---@field phase? number Part of a turn by which strands of a guide differ: .06 is a wire, .2 a ribbon, .5 a coil, 1 fuzz. Default: 0.05.
 ---@field depth? number 1 is a helix, 0 a wave in a surface. Default: 0.6.
 ---@field together? boolean Neighbouring guides begin their turns alike. Default: true.
+---@field begin? number[]|(fun(strand: integer, x: number, y: number, z: number): number) Turns that strands have at their roots: if they grow with the way from a line, crests run along it, as in finger waves. Default: those of the guide.
 ---@field hand? "random"|"left"|"right"|"mirrored" Sense of the turns: mirrored is right for roots with x above 0, and left for others. Default: "mirrored".
 ---@field points_per_turn? integer Strands with fewer points get more; 0 keeps them. Default: 12.
 ---@field guides? integer Assigns so many guides, which stay with the strands: those of the lowest ids. Default: the guides that strands have, else 400.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2599,10 +2608,10 @@ function Strands:wave(options) end
 ---@field amplitude? number Distance, about, that tips move. In metres. Default: 0.0009.
 ---@field wavelength? number Length along the strand of one bend. In metres. Default: 0.03.
 ---@field flyaways? number Part of the strands that move more. Default: 0.03.
----@field flyaway? number How many times as far those move. Default: 4.
+---@field flyaway? number Factor of their moves. Default: 4.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.7.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.7.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2614,7 +2623,7 @@ function Strands:frizz(options) end
 ---@class lissom.Strands.StraightenOptions
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2629,7 +2638,7 @@ function Strands:straighten(options) end
 ---@field variation? number Each strand turns up to this more or less, at random. In degrees. Default: 0.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
 ---Turns strands about their roots; lengths stay.
@@ -2639,12 +2648,12 @@ function Strands:rotate(options) end
 
 ---@class lissom.Strands.RollOptions
 ---@field radius? number Radius of the roll. In metres. Default: 0.015.
----@field start? number Where it begins: 0 at the root, 1 at the tip. Default: 0.5.
+---@field start? number Its beginning: 0 at the root, 1 at the tip. Default: 0.5.
 ---@field outward? boolean Rolls away from the head. Default: false.
 ---@field center? lissom.Vector Inside of the head, in metres of the strands. Default: the middle of all roots.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
 ---Rolls up the ends of strands, as on curlers; lengths stay.
@@ -2657,7 +2666,7 @@ function Strands:roll(options) end
 ---@field center? lissom.Vector Inside of the head, in metres of the strands. Default: the middle of all roots.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: from 0 to 1.
+---@field shape? number|number[] Course of the effect along the strand. Default: from 0 to 1.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2671,7 +2680,7 @@ function Strands:puff(options) end
 ---@field offsets? lissom.Vector[] Besides, one vector for each strand. Default: none.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 1.
+---@field shape? number|number[] Course of the effect along the strand. Default: 1.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2686,7 +2695,7 @@ function Strands:displace(options) end
 ---@field variation? number Each is up to this part longer or shorter, at random. Default: 0.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
 ---Makes strands longer or shorter by scaling them about their roots.
@@ -2739,7 +2748,7 @@ function Strands:cull(options) end
 ---@field ramp? number Length from the root over which it comes to stay off so far. In metres. Default: 0.01.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2748,12 +2757,27 @@ function Strands:cull(options) end
 ---@return lissom.Strands strands # The strands themselves.
 function Strands:push_out(options) end
 
+---@class lissom.Strands.Soften_edgeOptions
+---@field head lissom.Hairstyle A style on the head that they grew on.
+---@field reach? number Distance inside the hairline from which hair is as usual. In metres. Default: 0.02.
+---@field width? number Factor of the widths at the edge. Default: 0.45.
+---@field length? number Factor of the lengths at the edge. Default: 0.8.
+---@field baby? number Share of the strands at the edge that are baby hair. Default: 0.35.
+---@field baby_length? number Length of baby hair, at most. In metres. Default: 0.022.
+---@field stray? number Distance that tips of baby hair lean away. In metres. Default: 0.006.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Makes strands at the hairline finer and shorter, and some of them baby hair.
+---@param options lissom.Strands.Soften_edgeOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:soften_edge(options) end
+
 ---@class lissom.Strands.ShrinkwrapOptions
 ---@field head lissom.Hairstyle A style on the head that they grew on.
 ---@field lift? number Distance above the surface. In metres. Default: 0.003.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2791,7 +2815,7 @@ function Strands:duplicate(options) end
 ---@field near? integer Number of guides around a root that a strand is between. Default: 4.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
----@field shape? number|number[] How the effect goes along the strand. Default: 0.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
 ---@field keep_length? boolean Segments keep their lengths. Default: true.
 ---@field seed? integer Another seed gives another result of the same kind. Default: 1.
 
@@ -2808,6 +2832,31 @@ function Strands:blend(options) end
 ---@param options lissom.Strands.AttachOptions
 ---@return lissom.Strands strands # The strands themselves.
 function Strands:attach(options) end
+
+---@class lissom.Strands.DetailOptions
+---@field from lissom.Strands|string The examples.
+---@field span? number Bends shorter than this are details, longer ones the course of a strand. In metres. Default: 0.06.
+---@field scale? number Size of the details, as a multiple of that of the examples. Default: 1.
+---@field turn? number Details of each guide are turned about the strand by up to this part of a turn, at random. Default: 0.
+---@field refine? boolean Strands with longer segments than their example get more points. Default: true.
+---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
+---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
+---@field shape? number|number[] Course of the effect along the strand. Default: 0.
+---@field keep_length? boolean Segments keep their lengths. Default: true.
+---@field seed? integer Another seed gives another result of the same kind. Default: 1.
+
+---Gives strands the curls and kinks of examples in place of their own, by differential coordinates along each strand, while its course stays; strands of a guide take those of one example.
+---@param options lissom.Strands.DetailOptions
+---@return lissom.Strands strands # The strands themselves.
+function Strands:detail(options) end
+
+---@class lissom.Strands.DetailsOptions
+---@field span? number Bends shorter than this are details, longer ones the course of a strand. In metres. Default: 0.06.
+
+---Takes the details alone: the same strands with straight courses, which hang down from their roots. Saved, they are examples for strands:detail.
+---@param options? lissom.Strands.DetailsOptions
+---@return lissom.Strands strands # The new strands.
+function Strands:details(options) end
 
 ---@class lissom.Strands.Feed_braidOptions
 ---@field spine lissom.Vector[] The middle of the braid.
@@ -3083,7 +3132,7 @@ function Polyline:length() end
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Polyline:close() end
 
----How a world is seen in a picture. It does not change. Pixels count from the top left corner of the picture.
+---View of a world in a picture. It does not change. Pixels count from the top left corner of the picture.
 ---@class lissom.Camera
 local Camera = {}
 
@@ -3190,7 +3239,7 @@ function Camera:parallel(parallel) end
 ---@field points? lissom.Vector[] Points of the world, such as the middles of handles.
 ---@field points_on_top? boolean They are drawn over everything, and no surface hides them. Default: true.
 ---@field kinds? "point"|"polyline"|"vertex"|"boundary"|"edge"|"face"|string[] Kinds to look for, in this order of preference regardless of the order given: point, polyline, vertex, boundary, edge, face. Default: "face".
----@field radius? number How far from the pixel all but faces may be seen. In pixels. Default: 8.
+---@field radius? number Distance from the pixel within which all but faces are picked. In pixels. Default: 8.
 ---@field through? boolean Includes elements hidden by surfaces. Default: false.
 ---@field back_faces? boolean Faces that are seen from behind count; if not, they neither are picked nor hide anything. Default: true.
 
@@ -3209,7 +3258,7 @@ function Camera:pick(options) end
 ---@field points? lissom.Vector[] Points of the world, such as the middles of handles.
 ---@field points_on_top? boolean They are drawn over everything, and no surface hides them. Default: true.
 ---@field kinds? "point"|"polyline"|"vertex"|"boundary"|"edge"|"face"|string[] Kinds to look for, in this order of preference regardless of the order given: point, polyline, vertex, boundary, edge, face. Default: "face".
----@field radius? number How far from the pixel all but faces may be seen. In pixels. Default: 8.
+---@field radius? number Distance from the pixel within which all but faces are picked. In pixels. Default: 8.
 ---@field through? boolean Includes elements hidden by surfaces. Default: false.
 ---@field back_faces? boolean Faces that are seen from behind count; if not, they neither are picked nor hide anything. Default: true.
 ---@field most? integer At most so many. Default: 1000.
@@ -3252,7 +3301,7 @@ function Camera:select(options) end
 ---@field on? lissom.Scalp|lissom.Strands|lissom.Mesh|lissom.Support|lissom.Curve The surface drawn on. Default: only on the picture.
 ---@field plane? lissom.Camera.StrokeOptions.Plane The plane that is drawn on.
 ---@field depth? "envelope"|"last" On a scalp: in front of all of the head, changing gently; or as deep as the scalp, and beyond it as deep as it was left (section 4.5). Default: "envelope".
----@field lift? number How far in front of the surface; of a scalp in metres of an average head. Default: 0.02 on a scalp by the envelope, else 0.
+---@field lift? number Distance in front of the surface; of a scalp in metres of an average head. Default: 0.02 on a scalp by the envelope, else 0.
 ---@field smoothing? number Multiple of the smoothing that suits a mouse; 0 keeps every wiggle. Default: 1.
 ---@field spacing? number Between two points of the result. In pixels. Default: 4.
 ---@field scale? number Pixels of the picture to a logical one, on dense screens. Default: 1.
@@ -3271,7 +3320,7 @@ function Camera:close() end
 local Gizmo = {}
 
 ---@class lissom.Gizmo.HitOptions
----@field reach? number How near is near enough. In pixels. Default: 7.
+---@field reach? number Distance within which a part is picked. In pixels. Default: 7.
 
 ---The part under a pixel. Axes that are seen end-on and planes from the side are not offered.
 ---@param camera lissom.Camera The camera that it is seen by.
@@ -3371,7 +3420,7 @@ function Gizmo:close() end
 ---@class lissom.Support
 local Support = {}
 
----Which surface it is.
+---Kind of the surface.
 ---@return string mode # "ruled" or "strip".
 function Support:mode() end
 
@@ -3379,7 +3428,7 @@ function Support:mode() end
 ---@return number share # Fraction of its length, 0 to 1.
 function Support:end_on() end
 
----How squarely a camera sees the surface. Strokes need 0.3.
+---Cosine at which a camera sees the surface. Strokes need 0.3.
 ---@param camera lissom.Camera The camera.
 ---@return number cosine # 0, seen edge-on, to 1.
 function Support:seen_from(camera) end
@@ -3552,7 +3601,7 @@ lissom.part = {}
 lissom.pick = {}
 
 ---@class lissom.LoadOptions
----@field weld? "seams"|"all"|boolean Which vertices at the same place become one. "seams": those that join open edges at the same place and of opposite direction, so that surfaces that only touch, as closed lips do, stay apart; "all": all of them; false: none. Default: "all" for .stl, "seams" for others.
+---@field weld? "seams"|"all"|boolean Vertices at the same place that become one. "seams": those that join open edges at the same place and of opposite direction, so that surfaces that only touch, as closed lips do, stay apart; "all": all of them; false: none. Default: "all" for .stl, "seams" for others.
 ---@field unused? "drop"|"keep" Treatment of vertices that no face uses. "keep" leaves them in their order, for programs that match vertices by number; with weld = false all vertices of a sound file keep their numbers. Default: "drop".
 ---@field repair? boolean false makes each defect that would be mended, and each face without area, an error that names the elements. Default: true.
 ---@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: as it is.
@@ -3567,7 +3616,7 @@ function lissom.load(path, options) end
 ---@class lissom.MeshOptions
 ---@field positions lissom.Vector[]|lissom.Buffer Positions of the vertices.
 ---@field faces integer[][] For each face the ids of its vertices, counter-clockwise seen from outside.
----@field weld? "seams"|"all"|boolean Which vertices at the same place become one. "seams": those that join open edges at the same place and of opposite direction, so that surfaces that only touch, as closed lips do, stay apart; "all": all of them; false: none. Default: false.
+---@field weld? "seams"|"all"|boolean Vertices at the same place that become one. "seams": those that join open edges at the same place and of opposite direction, so that surfaces that only touch, as closed lips do, stay apart; "all": all of them; false: none. Default: false.
 ---@field repair? boolean Whether defects are mended, as lissom.load does. Default: false.
 
 ---Makes a mesh from positions and faces.
@@ -3678,12 +3727,13 @@ function lissom.shapes.head(options) end
 ---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian for the smoothest surface, which may stretch, poisson for one that may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend"; as in the thesis "laplacian".
 ---@field coherence? integer Rings of neighbours that turn alike. Default: 1; as in the thesis 2.
 ---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
----@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Less of it is kept the nearer parts of the surface come to one another and the more edges stretch, and nothing crosses that would not without; a draft does not check. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
+---@field refine? integer Rounds, 0 to 2, of fitting the rotations to the result and solving for it again: less distortion for half a frame each. For bars and limbs that bend and twist. Less of it is kept the nearer parts of the surface come to one another and the more edges stretch, and nothing crosses that would not without; a draft does not check. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
+---@field volume? number Share of the thickness at rest that is kept, by springs across the inside: twisted and bent solids keep their volume and get no waist. It acts between the two sides of the region, and fades beside handles that change the size; a sheet has no inside. 1 keeps all of it, at about a third of a frame; keep_volume changes it. Compared in examples/deform/volume.png. Default: 0.
 ---@field loose? "error"|"stay"|"follow" Treatment of separate parts that no handle holds, such as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece; in a basis as an affine one. Default: "error".
 ---@field free_rings? integer Rings of vertices that handles release if they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
 ---@field subdivide_borders? boolean Works on a surface that is subdivided along borders of handles that are coarse beside the region; the mesh keeps its faces. Default: true.
----@field flat? "extended"|"displaced" How a vertex whose surroundings are flat knows how it turns: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
----@field displacement? number How far degenerate vertices are displaced, and how far beside flat ones their unknown lies. In mean lengths of their edges. Default: 0.2.
+---@field flat? "extended"|"displaced" Rotation of a vertex whose surroundings are flat: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
+---@field displacement? number Distance by which degenerate vertices are displaced, and beside flat ones their unknown lies. In mean lengths of their edges. Default: 0.2.
 ---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate and is displaced. Below about 100 that is nearly every vertex. Default: 20000; as in the thesis 200000.
 ---@field transition? number Width of the zone along the region's outline, in geodesic distance, over which the deformation fades into the fixed part. In mesh units. Default: 0.
 ---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis unless another option gives them; the page thesis.md of the reference names all of it. Default: "default".
@@ -3703,12 +3753,13 @@ function lissom.deform(mesh, options) end
 ---@field second? "blend"|"laplacian"|"poisson" The system that makes the shape from the rotations: blend is smooth at handles with little distortion, laplacian is the thesis's, poisson has the least distortion. Keep blend unless something asks for another: laplacian for the smoothest surface, which may stretch, poisson for one that may crease at handles, as along an edge of the part. Compared in examples/deform/second.png. Default: "blend"; as in the thesis "laplacian".
 ---@field coherence? integer Rings of neighbours that turn alike. Default: 1; as in the thesis 2.
 ---@field weights? "cotangent"|"uniform" Weights of the Laplacian coordinates. Default: "cotangent".
----@field refine? integer How often, 0 to 2, rotations are fitted to the result and it is solved for again: less distortion for half a frame each. For bars and limbs that bend and twist. Less of it is kept the nearer parts of the surface come to one another and the more edges stretch, and nothing crosses that would not without; a draft does not check. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
+---@field refine? integer Rounds, 0 to 2, of fitting the rotations to the result and solving for it again: less distortion for half a frame each. For bars and limbs that bend and twist. Less of it is kept the nearer parts of the surface come to one another and the more edges stretch, and nothing crosses that would not without; a draft does not check. Beside handles that change their size it fades to nothing. Compared in examples/deform/refine.png. Default: 0.
+---@field volume? number Share of the thickness at rest that is kept, by springs across the inside: twisted and bent solids keep their volume and get no waist. It acts between the two sides of the region, and fades beside handles that change the size; a sheet has no inside. 1 keeps all of it, at about a third of a frame; keep_volume changes it. Compared in examples/deform/volume.png. Default: 0.
 ---@field loose? "error"|"stay"|"follow" Treatment of separate parts that no handle holds, such as buttons and eyes: an error that names them; they stay; or each follows the surface nearest to it, as a rigid piece; in a basis as an affine one. Default: "error".
 ---@field free_rings? integer Rings of vertices that handles release if they nearly touch another, at most two edges apart, so that the surface between has room: handles that go different ways would tear it. report says how many help. Default: 0.
 ---@field subdivide_borders? boolean Works on a surface that is subdivided along borders of handles that are coarse beside the region; the mesh keeps its faces. Default: true.
----@field flat? "extended"|"displaced" How a vertex whose surroundings are flat knows how it turns: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
----@field displacement? number How far degenerate vertices are displaced, and how far beside flat ones their unknown lies. In mean lengths of their edges. Default: 0.2.
+---@field flat? "extended"|"displaced" Rotation of a vertex whose surroundings are flat: extended, by an unknown of its own beside it, so that a flat part that is moved within its plane stays flat; displaced, by moving it out of the plane while solving. Default: "extended"; as in the thesis "displaced".
+---@field displacement? number Distance by which degenerate vertices are displaced, and beside flat ones their unknown lies. In mean lengths of their edges. Default: 0.2.
 ---@field degenerate_threshold? number Condition number from which a vertex counts as degenerate and is displaced. Below about 100 that is nearly every vertex. Default: 20000; as in the thesis 200000.
 ---@field transition? number Width of the zone along the region's outline, in geodesic distance, over which the deformation fades into the fixed part. In mesh units. Default: 0.
 ---@field fidelity? "default"|"thesis" thesis: coherence 2, second laplacian, and the weights and threshold of the thesis unless another option gives them; the page thesis.md of the reference names all of it. Default: "default".
@@ -3726,14 +3777,14 @@ function lissom.deformer(mesh, options) end
 
 ---@class lissom.MergeOptions
 ---@field joins? table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the directions below decide, or else `place`; the report says which turn was taken and how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join. Default: the boundaries of source and target that lie nearest to each other, one join for each target.
----@field place? "as placed"|"shape" How joins without keys and directions are turned about the axis of the boundary. as placed: least from how the source lies beside the target, so that a part that was laid roughly, or both as they were modelled, come right; the result is the same if both are moved together, or if the source is moved without a turn and scaled. shape: as the shapes of both parts suggest, the same wherever the source lies; the report says how certain that is. A part that must be turned over by more than 150 degrees is placed by shape as well. Default: "as placed".
+---@field place? "as placed"|"shape" Turn of joins without keys and directions about the axis of the boundary. as placed: least from how the source lies beside the target, so that a part that was laid roughly, or both as they were modelled, come right; the result is the same if both are moved together, or if the source is moved without a turn and scaled. shape: as the shapes of both parts suggest, the same wherever the source lies; the report says how certain that is. A part that must be turned over by more than 150 degrees is placed by shape as well. Default: "as placed".
 ---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
 ---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: the view of a face.
 ---@field target_front? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field configuration? "free"|"fixed" free: the source comes from any place, turned and scaled to fit (thesis 3.3.1). fixed: it stays in place and bends near the boundaries (3.3.2). Default: "free".
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
----@field features? "common"|"fitted" How those of the free configuration find the similarity they move by. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with the fitted similarity: less distortion around them, by 5 to 44 % on four merges of real models, in up to twice the time. Default: "fitted"; as in the thesis "common".
+---@field features? "common"|"fitted" Similarity by which those of the free configuration move. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with the fitted similarity: less distortion around them, by 5 to 44 % on four merges of real models, in up to twice the time. Default: "fitted"; as in the thesis "common".
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it if `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn"; as in the thesis "keep".
 ---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform"; as in the thesis "band".
@@ -3765,14 +3816,14 @@ function lissom.merge(source, target, options) end
 
 ---@class lissom.MergerOptions
 ---@field joins? table List of { source = boundary, target = boundary, keys = { { s, t }, ... } }: which boundaries meet, and points that do: vertices of the boundaries, or points {x, y, z} on them, the source's first. Between keys arc length decides. Without keys the directions below decide, or else `place`; the report says which turn was taken and how certain it is. All sources lie on one mesh; targets may lie on several, and each boundary is in one join. Default: the boundaries of source and target that lie nearest to each other, one join for each target.
----@field place? "as placed"|"shape" How joins without keys and directions are turned about the axis of the boundary. as placed: least from how the source lies beside the target, so that a part that was laid roughly, or both as they were modelled, come right; the result is the same if both are moved together, or if the source is moved without a turn and scaled. shape: as the shapes of both parts suggest, the same wherever the source lies; the report says how certain that is. A part that must be turned over by more than 150 degrees is placed by shape as well. Default: "as placed".
+---@field place? "as placed"|"shape" Turn of joins without keys and directions about the axis of the boundary. as placed: least from how the source lies beside the target, so that a part that was laid roughly, or both as they were modelled, come right; the result is the same if both are moved together, or if the source is moved without a turn and scaled. shape: as the shapes of both parts suggest, the same wherever the source lies; the report says how certain that is. A part that must be turned over by more than 150 degrees is placed by shape as well. Default: "as placed".
 ---@field source_up? "x"|"y"|"z"|lissom.Vector A direction of the source that is to lie the way `target_up` does, for joins without keys. It counts as far as it lies in the plane of the boundary: that of a neck's axis says little.
 ---@field target_up? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field source_front? "x"|"y"|"z"|lissom.Vector Another direction of the source: the view of a face.
 ---@field target_front? "x"|"y"|"z"|lissom.Vector The direction of the targets that belongs to it.
 ---@field configuration? "free"|"fixed" free: the source comes from any place, turned and scaled to fit (thesis 3.3.1). fixed: it stays in place and bends near the boundaries (3.3.2). Default: "free".
 ---@field fixed? lissom.Region[] Regions of the source that keep their shape: in the free configuration each moves as a whole, in the fixed one it stays. Default: none.
----@field features? "common"|"fitted" How those of the free configuration find the similarity they move by. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with the fitted similarity: less distortion around them, by 5 to 44 % on four merges of real models, in up to twice the time. Default: "fitted"; as in the thesis "common".
+---@field features? "common"|"fitted" Similarity by which those of the free configuration move. common: each has one deformation gradient, an unknown of the systems (thesis 3.5). fitted: the surface is deformed without them first, and again with the fitted similarity: less distortion around them, by 5 to 44 % on four merges of real models, in up to twice the time. Default: "fitted"; as in the thesis "common".
 ---@field reach? number fixed configuration: how far from its boundaries the source deforms, along edges. In units of the source. Default: all of it if `fixed` is given, else three radii of the boundary.
 ---@field frames? "turn"|"keep" fixed configuration: whether the surface at the boundary turns to meet the target's, or keeps its directions as in the thesis, which leaves a crease. Default: "turn"; as in the thesis "keep".
 ---@field seam? "conform"|"fair"|"band" conform: vertices of both boundaries are inserted into the faces of the other side. fair: then the surface around the seam is bent smooth, unless a transition does that. band: a band of the target's faces is replaced, as in the thesis. Default: "conform"; as in the thesis "band".
@@ -3868,10 +3919,17 @@ function lissom.part.load(path) end
 
 ---@class lissom.ScalpOptions
 ---@field region? lissom.Region The hairy part. Default: the region "scalp", or the part above an average hairline.
----@field up? "x"|"y"|"z"|lissom.Vector Which way is up. Default: guessed.
----@field front? "x"|"y"|"z"|lissom.Vector Which way the head looks. Default: guessed.
----@field unit? number How long a unit of the mesh is. In metres. Default: m, cm, mm, dm or inch, if one makes this the width of a head; else that of an average head.
+---@field up? "x"|"y"|"z"|lissom.Vector Direction upwards. Default: guessed.
+---@field front? "x"|"y"|"z"|lissom.Vector Direction that the head looks in. Default: guessed.
+---@field unit? number Length of a unit of the mesh. In metres. Default: m, cm, mm, dm or inch, if one makes this the width of a head; else that of an average head.
 ---@field softness? number Width of the band over which hair thins out at the hairline. In metres. Default: 0.011.
+---@field hairline? number[][] The edge of the hair: {azimuth, elevation} in degrees around the head, smooth between. Without negative azimuths both sides are alike. This and the following count before a region "scalp" of the mesh. Default: an average hairline.
+---@field drawn? lissom.Vector[] A line on the head through which the hairline runs; on one side it counts for both. In mesh units.
+---@field forehead? number Rise of the hairline over the forehead. In metres. Default: 0.
+---@field recession? number Depth of the bays beside the middle. In metres. Default: 0.
+---@field peak? number Depth of a widow's peak. In metres. Default: 0.
+---@field sideburns? number Length added to the hair in front of the ears. In metres. Default: 0.
+---@field nape? number Length added to the hair at the nape. In metres. Default: 0.
 
 ---Finds the scalp of a bald head, bust or body, and which way it looks.
 ---@param head lissom.Mesh The head.
@@ -3898,7 +3956,7 @@ function lissom.load_style(path, head, options) end
 ---@field resolution? integer Grid points of the field. 25,000 do for smooth styles, 50,000 for ponytails. Default: 50000.
 ---@field volume? lissom.HairstyleOptions.Volume A box in metres of an average head, around the center of its frame: x to its left, y up, z to the front. Hair ends at its faces. Default: around the head, down to the chest.
 ---@field solver? "dual"|"cholesky" dual is fast; cholesky is the thesis's way, a reference: it updates its factor, or makes it again in a build without CHOLMOD. Default: "dual".
----@field boundary? "zero_flux"|"thesis" How the field behaves at the box. Default: "zero_flux"; as in the thesis "thesis".
+---@field boundary? "zero_flux"|"thesis" Condition of the field at the box. Default: "zero_flux"; as in the thesis "thesis".
 ---@field tension? number Keeps the field from growing far from the curves. Default: 0.03; as in the thesis 0.
 ---@field fidelity? "default"|"thesis" thesis: chapter 4 to the letter, for comparison. It changes the defaults, also for the curves and for `grow`; the page thesis.md of the reference names all of it. Default: "default".
 
@@ -3920,7 +3978,7 @@ function lissom.read_style(text, head, options) end
 
 ---@class lissom.GroomOptions
 ---@field head lissom.Mesh The head of all styles.
----@field layers? table A list of layers, tables with `style`, a lissom.Hairstyle; `grow`, options of style:grow; `mask`, the part of the scalp that it grows on: numbers for the vertices of the head, function(vertex, x, y, z) or a lissom.Region; `operators`, a list of tables that begin with the name of a method of lissom.Strands, with its options (push_out, shrinkwrap, cut, braid, bun and feed_braid get the layer's head or scalp), and are skipped with `off = true`; `name`; `on`, true by default; `over`, whether it is lifted over the layers below, true by default, by `gap` more than they are thick, 0.001 metres by default; `collide`, whether hair that operators moved is pushed out of the head at the end, true by default. Functions of vertices are asked once. Default: those of `hair`.
+---@field layers? table A list of layers, tables with `style`, a lissom.Hairstyle; `grow`, options of style:grow; `mask`, the part of the scalp that it grows on: numbers for the vertices of the head, function(vertex, x, y, z) or a lissom.Region; `operators`, a list of tables that begin with the name of a method of lissom.Strands, with its options (push_out, shrinkwrap, cut, braid, bun and feed_braid get the layer's head or scalp), and are skipped with `off = true`; a braid or a bun without a spine or a center follows the curve of the style whose name is `along`, else its first ponytail, as it was drawn; `name`; `on`, true by default; `over`, whether it is lifted over the layers below, true by default, by `gap` more than they are thick, 0.001 metres by default; `collide`, whether hair that operators moved is pushed out of the head at the end, true by default. Functions of vertices are asked once. Default: those of `hair`.
 ---@field hair? lissom.Strands Hair of a groom in a scene, to go on with it. Default: none.
 ---@field scalp? lissom.Scalp With `hair`: the scalp of its styles. Default: guessed.
 
@@ -3957,7 +4015,8 @@ function lissom.load_strands(path, options) end
 
 ---@class lissom.StrandsOptions
 ---@field points lissom.Vector[] The points of all strands, root to tip, in metres.
----@field counts integer[] How many of them each strand has.
+---@field counts integer[] Number of points of each strand.
+---@field like? lissom.Strands As many strands, whose roots, groups, ids, guides, widths and colours the new ones have. Default: none.
 
 ---Strands of given points.
 ---@param options lissom.StrandsOptions

@@ -23,14 +23,15 @@ void note(Names& names, const char* name, bool differs) {
 }
 
 Names of_deformer() {
-    const auto& [method, second, size, weights, refine, coherence, coherence_weight, threshold,
-                 flat, loose, free_rings, borders, displacement, scale_free, transition,
+    const auto& [method, second, size, volume, weights, refine, coherence, coherence_weight,
+                 threshold, flat, loose, free_rings, borders, displacement, scale_free, transition,
                  comparison] = DeformOptions{};
     const DeformOptions t = thesis_deform_options();
     Names names;
     note(names, "method", method != t.method);
     note(names, "second", second != t.second);
     note(names, "local_size", size != t.local_size);
+    note(names, "volume", volume != t.volume);
     note(names, "weights", weights != t.weights);
     note(names, "refine", refine != t.refine);
     note(names, "coherence", coherence != t.coherence);
