@@ -16,7 +16,7 @@ local presets = {
 }
 
 local params = lissom.params{
-    out = { type = "string", default = "out", help = "folder of presets.png" },
+    out = { type = "folder", default = "out", help = "folder of presets.png" },
     count = { type = "integer", default = 5000, min = 100, help = "strands of each" },
     size = { type = "integer", default = 120, min = 32, help = "pixels of a cell" },
     columns = { type = "integer", default = 7, min = 1, help = "cells in a row" },

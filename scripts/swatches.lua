@@ -5,7 +5,7 @@ local lissom = require "lissom"
 local styling = require "styling"
 
 local params = lissom.params{
-    out = { type = "string", default = "out", help = "folder of operators.png" },
+    out = { type = "folder", default = "out", help = "folder of operators.png" },
     count = { type = "integer", default = 900, min = 50, help = "strands of each" },
     size = { type = "integer", default = 130, min = 32, help = "pixels of a cell" },
     columns = { type = "integer", default = 10, min = 1, help = "cells in a row" },

@@ -10,7 +10,7 @@ local params = lissom.params{
     scale = { type = "number", default = 1, min = 0.2, max = 5, help = "size of the details" },
     count = { type = "integer", default = 12000, min = 100, help = "strands" },
     size = { type = "integer", default = 400, min = 64, help = "pixels of a picture" },
-    out = { type = "string", default = "out", help = "folder of details.png and the example" },
+    out = { type = "folder", default = "out", help = "folder of details.png and the example" },
 }
 
 local head = lissom.shapes.head{ vertices = 12000 }

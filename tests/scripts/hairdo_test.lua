@@ -316,7 +316,7 @@ end)
 -- ---- Operators
 
 local vigorous = {
-    gather = { guides = 40, spread = 0.004 }, twist = { guides = 40, wavelength = 0.03 },
+    gather = { guides = 40, spread = 0.004 }, twist = { guides = 300, wavelength = 0.03 },
     pinch = { guides = 40 }, curl = { guides = 40, radius = 0.02, ramp = 0.01 },
     wave = { guides = 40, radius = 0.02 }, frizz = { amplitude = 0.01 },
     clump = { clumps = 60, strength = 1 }, noise = { amplitude = 0.05 }, smooth = { iterations = 30 },

@@ -10,7 +10,7 @@ namespace {
 
 // Differences of the distance are taken over so many metres to each side.
 constexpr double kProbe = 0.001;
-constexpr int kRounds = 3, kSteps = 4, kWrapSteps = 8;
+constexpr int kRounds = 3, kLastRounds = 8, kSteps = 4, kWrapSteps = 8;
 // A point counts as outside from so much below its clearance on.
 constexpr double kPushSlack = 1e-5;
 
@@ -25,7 +25,7 @@ class Pusher {
             if (options_.keep_length) work_.restore_lengths();
             if (!push()) break;
         }
-        push_segments();
+        for (int round = 0; round < kLastRounds && push_quarters(); ++round) continue;
         return true;
     }
 
@@ -64,20 +64,37 @@ class Pusher {
         return push_segments() || any;
     }
 
-    // Raises both ends of segments whose middle is in the body; roots stay.
     bool push_segments() {
         bool any = false;
         for (Index k = 1; k < work_.count(); ++k) {
-            if (work_.weight(k) == 0.0) continue;
-            const Vec3 a = work_.point(k - 1), b = work_.point(k), middle = 0.5 * (a + b);
-            Vec3 raised = middle;
-            const double least = 0.5 * (k > 1 ? floor_at(k - 1) : 0.0);
-            if (k == 1 || !raise(raised, least)) continue;
-            work_.set_point(k - 1, a + (raised - middle));
-            work_.set_point(k, b + (raised - middle));
-            any = true;
+            if (work_.weight(k) != 0.0 && raise_between(k, 0.5)) any = true;
         }
         return any;
+    }
+
+    // The same for places between the middle and the ends too.
+    bool push_quarters() {
+        bool any = push_segments();
+        for (Index k = 1; k < work_.count(); ++k) {
+            if (work_.weight(k) == 0.0) continue;
+            if (k > 1 && raise_between(k, 0.25)) any = true;
+            if (raise_between(k, 0.75)) any = true;
+        }
+        return any;
+    }
+
+    // Moves both ends of the segment before point k, the least that takes the place at `share` of
+    // its way out of the body; the root stays.
+    bool raise_between(Index k, double share) {
+        const Vec3 a = work_.point(k - 1), b = work_.point(k), place = a + share * (b - a);
+        Vec3 raised = place;
+        const double least = 0.5 * (k > 1 ? floor_at(k - 1) : 0.0);
+        if (!raise(raised, least)) return false;
+        const Vec3 move = raised - place;
+        const double other = 1.0 - share, both = share * share + other * other;
+        if (k > 1) work_.set_point(k - 1, a + other / both * move);
+        work_.set_point(k, b + (k > 1 ? share / both : 1.0 / share) * move);
+        return true;
     }
 
     const PushOutOptions& options_;

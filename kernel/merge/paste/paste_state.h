@@ -142,7 +142,7 @@ struct Paste::State {
     /// Clears the target under the boundary that was found, and seeks it there again. If that fails
     /// nothing changes.
     void clear_under_boundary(const PasteEffort& effort, const Context& context);
-    /// How much lines on a chart of `target` cut through features of the target as given.
+    /// Relief of the target as given that lines on a chart of `target` cut.
     std::vector<double> relief_of(const PasteChart& chart, const PastePlacement& placement,
                                   const Context& context) const;
     std::unique_ptr<PasteMap> map_of(std::span<const Index> target_faces,
