@@ -229,7 +229,7 @@ class Plans(Folder):
 
     def test_scripts_that_ship_have_plans(self):
         root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-        scripts = [script for folder in ("scripts/presets", "scripts/recipes", "examples/deform", "examples/hair", "examples/batch")
+        scripts = [script for folder in ("scripts/presets", "scripts/recipes", "examples/deform", "examples/hair")
                    for script in glob.glob(os.path.join(root, folder, "*.lua"))]
         self.assertGreater(len(scripts), 40)
         for script in scripts:
