@@ -15,7 +15,7 @@ local params = lissom.params{
         help = "the style" },
     length = { type = "number", default = 1, min = 0.8, max = 1.2, help = "times that of the preset" },
     count = { type = "integer", default = 8000, min = 100, max = 200000, help = "strands" },
-    size = { type = "integer", default = 320, min = 64, max = 2048, unit = "pixels", help = "of the picture" },
+    size = { type = "integer", default = 320, min = 64, max = 2048, unit = "pixels", help = "its size" },
     out = { type = "file", default = "hair.png", help = "the picture" },
 }
 

@@ -15,7 +15,7 @@ local function on_heads(name, check)
     end
 end
 
--- Hardly anything deeper inside the head than half a millimetre, between points too; no damage, no sharp turn.
+-- Hardly anything deeper in the head than half a millimetre, between points too; no damage, no sharp turn.
 local function expect_sound(style, hair)
     local stats = hair:stats{ style = style }
     expect.truthy(stats.penetrating <= 0.002 * #hair)

@@ -140,7 +140,9 @@ SpatialTree::SpatialTree(const Mesh& mesh, const Context& context)
 
 SpatialTree::SpatialTree(std::vector<Vec3> positions, std::vector<Triangle> triangles,
                          const Context& context)
-    : positions_(std::move(positions)), triangles_(std::move(triangles)), faces_(triangles_.size()) {
+    : positions_(std::move(positions)),
+      triangles_(std::move(triangles)),
+      faces_(triangles_.size()) {
     if (triangles_.empty()) {
         throw Error(ErrorCode::mesh_empty, "a spatial tree needs triangles");
     }
