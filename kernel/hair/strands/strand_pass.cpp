@@ -200,13 +200,14 @@ void StrandWork::scale_segments(const float* lengths) {
     for (Index k = 1; k < count_; ++k, p += 3) {
         const float scale = scales_[at(k)];
         const float* const old = old_ + 3 * at(k);
+        const float* const last = old - 3;
         // A segment without direction takes the old one.
         const bool has_direction = scale < kLongest;
         const float old_scale = segments_[at(k)] > 0.0f ? lengths[k] / segments_[at(k)] : 0.0f;
         for (std::size_t i = 0; i < 3; ++i) {
             const float segment = p[i] - before[i];
             before[i] = p[i];
-            end[i] += has_direction ? scale * segment : old_scale * (old[i] - old[i - 3]);
+            end[i] += has_direction ? scale * segment : old_scale * (old[i] - last[i]);
             p[i] = old_[i] + end[i];
         }
     }
