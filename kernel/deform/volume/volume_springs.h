@@ -56,8 +56,8 @@ class VolumeSprings {
     /// Whether there is no inside to keep.
     bool empty() const { return rows_.empty(); }
     /// Corrects positions `x` of all local vertices, a solution of the second system, for a volume
-    /// kept by `share`, above 0 and at most 1. Scratch of other springs has `factored_for` set to
-    /// 0.
+    /// kept by `share`, above 0 and at most 1. The caller sets `factored_for` of scratch from other
+    /// springs to 0.
     void correct(const Shape& shape, double share, std::span<Vec4> x, Scratch& scratch,
                  const Context& context) const;
 
