@@ -12,7 +12,7 @@ for _, tests in ipairs{ "**/*_test.lua", "**/scenes/**/*.lua", "tests/scripts" }
    files[tests] = { read_globals = { "test", "expect" } }
 end
 -- What LÖVE runs.
-for _, folder in ipairs{ "examples/love", "tests/embed/love", "tests/embed/hosts" } do
+for _, folder in ipairs{ "examples/love", "tests/embed/love", "tests/embed/hosts", "tests/hosts/love" } do
    files[folder] = { std = "luajit+love" }
 end
 -- Annotations for editors, made from the registration table: they declare and define nothing.

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# Runs the five scripts of examples/hosts in every host there is; each must return the same to the bit. Usage:
+# hosts_test.sh ROOT LIBRARY [PROGRAM=... LUA54=... LUAJIT=... PYTHON=... BLENDER=... LOVE=...] : files and commands of hosts
+set -euo pipefail
+
+root=$1 library=$2
+shift 2
+export LISSOM_HOSTS=$root/examples/hosts LISSOM_LIBRARY=$library
+here=$root/tests/hosts
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+declare -A host=()
+for word in "$@"; do host[${word%%=*}]=${word#*=}; done
+
+# Whether a host is there; makes what it needs.
+prepare() { # HOST
+    case $1 in
+    lua54) command -v lua5.4 >/dev/null ;;
+    luajit) command -v luajit >/dev/null ;;
+    python)
+        cp -r "$root/bindings/python/lissom" "$work/lissom" &&
+            "${host[PYTHON]}" -B "$root/bindings/python/generate.py" "$root/bindings/c/lissom.h" "$work/lissom"
+        ;;
+    blender)
+        command -v "${host[BLENDER]}" >/dev/null &&
+            python3 -B "$root/bindings/blender/make.py" --unpacked "$work/blender"
+        ;;
+    love)
+        command -v "${host[LOVE]}" >/dev/null && command -v xvfb-run >/dev/null && mkdir "$work/love" &&
+            cp "$here"/love/*.lua "$here/hosts.lua" "${host[LUAJIT]}/lissom.so" "$work/love"
+        ;;
+    esac
+}
+
+# Runs the script LISSOM_SCRIPT.
+run_in() { # HOST
+    case $1 in
+    program) "${host[PROGRAM]}" run "$here/hosts.lua" ;;
+    lua54) LUA_CPATH="${host[LUA54]}/?.so" lua5.4 "$here/hosts.lua" ;;
+    luajit) LUA_CPATH="${host[LUAJIT]}/?.so" luajit "$here/hosts.lua" ;;
+    python) PYTHONPATH=$work "${host[PYTHON]}" -B "$here/hosts.py" "$LISSOM_HOSTS" "$LISSOM_SCRIPT" ;;
+    blender)
+        "${host[BLENDER]}" --background --factory-startup --python-exit-code 1 --python "$here/hosts.py" \
+            -- "$LISSOM_HOSTS" "$LISSOM_SCRIPT" "$work/blender"
+        ;;
+    love)
+        XDG_DATA_HOME=$work XDG_CONFIG_HOME=$work \
+            xvfb-run -a -s '-screen 0 640x480x24' "${host[LOVE]}" "$work/love"
+        ;;
+    esac
+}
+
+status=0
+for name in program lua54 luajit python blender love; do
+    key=${name^^}
+    if [ -z "${host[$key]:-}" ] || ! prepare "$name"; then
+        echo "skipped: $name is not installed or not built"
+        continue
+    fi
+    for script in bend horn ponytail stroke batch; do
+        LISSOM_SCRIPT=$script run_in "$name" >"$work/out" 2>&1 || {
+            cat "$work/out"
+            status=1
+        }
+        grep '^HASH ' "$work/out" >>"$work/$name.txt" || echo "failed: $script returns nothing in $name"
+    done
+    [ -e "$work/first.txt" ] || { cp "$work/$name.txt" "$work/first.txt" && cat "$work/first.txt"; }
+    if diff "$work/first.txt" "$work/$name.txt"; then echo "$name: the same"; else status=1; fi
+done
+[ "$(grep -c . "$work/first.txt")" = 5 ] || status=1
+exit $status

@@ -1,0 +1,5 @@
+-- Runs the scripts inside LÖVE.
+function love.load()
+    require "hosts"
+    love.event.quit(0)
+end
