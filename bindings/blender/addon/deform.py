@@ -22,14 +22,14 @@ class Drag:
     def __init__(self, obj, options):
         self.name = obj.name
         self.context = new_context()
+        self.buffer = floats(3 * len(obj.data.vertices))
+        self.transforms = None
         try:
             self._prepare(obj, options)
+            self.target = _Target(obj, options.into)
         except BaseException:
             self.context.close()
             raise
-        self.buffer = floats(3 * len(obj.data.vertices))
-        self.transforms = None
-        self.target = _Target(obj, options.into)
 
     def _prepare(self, obj, options):
         self.mesh = surface_of(obj, self.context)

@@ -35,8 +35,9 @@ def set_rest(empty, obj):
 
 
 def transform_of(empty, obj):
-    """Returns the transform of a handle from its rest shape, in the space of its mesh."""
-    return obj.matrix_world.inverted() @ empty.matrix_world @ rest_of(empty).inverted()
+    """Returns the transform of a handle from its rest shape, in the space of its mesh; at rest the identity, to the bit."""
+    now, rest = obj.matrix_world.inverted() @ empty.matrix_world, rest_of(empty)
+    return Matrix() if now == rest else now @ rest.inverted()
 
 
 def pinned_groups(obj):

@@ -27,16 +27,16 @@ class Layers:
         self._give_keys(obj, mesh)
         self._give_materials(obj, mesh)
 
-    def take(self, obj, mesh, inputs):
-        """Writes the layers of a result to an object of Blender that was made from it. `inputs` are the objects in the order
-        that the origins of the result name."""
+    def take(self, obj, mesh):
+        """Writes the layers of a result to an object of Blender that was made from it. The origins of the result number the
+        objects in their order: the target of a merge, then its source."""
         self._take_uvs(obj, mesh)
         self._take_colors(obj, mesh)
         self._take_groups(obj, mesh)
         self._take_keys(obj, mesh)
         self._take_materials(obj, mesh)
-        _take_smoothness(obj, mesh, inputs)
-        _take_edges(obj, mesh, inputs)
+        _take_smoothness(obj, mesh, self.objects)
+        _take_edges(obj, mesh, self.objects)
 
     # ---- Texture coordinates
 

@@ -109,7 +109,39 @@ def _told(report):
     return [line for line in (report.verdict + "\n" + report.warnings).splitlines() if line]
 
 
-class LISSOM_OT_merge(Work, bpy.types.Operator):
+class _OnTwoMeshes(Work):
+    """Part of an operator that makes one mesh of two."""
+    hide: BoolProperty(name="Hide Originals", default=True, description="Hide both meshes; they are kept as they are")
+
+    @classmethod
+    def poll(cls, context):
+        """Whether a mesh is active."""
+        return context.object is not None and context.object.type == "MESH"
+
+    def sides(self, source, target, library):
+        """Returns the meshes of both objects with their layers, in the space of the target, and these layers."""
+        layers = Layers((target, source))
+        self.subject = source
+        part = surface_of(source, library)
+        layers.give(source, part)
+        part.transform(rows_of(target.matrix_world.inverted() @ source.matrix_world))
+        self.subject = target
+        body = surface_of(target, library)
+        layers.give(target, body)
+        return part, body, layers
+
+    def put(self, context, mesh, report, layers):
+        """Adds the result as an object in the place of the target, and tells what the report says."""
+        target, source = layers.objects
+        data = new_mesh(f"{target.name} merged", mesh)
+        obj = add_object(context, data.name, data, target.matrix_world, target)
+        layers.take(obj, mesh)
+        for one in layers.objects if self.hide else ():
+            one.hide_set(True)
+        self.tell("INFO" if report.ok else "WARNING", _told(report) + notes_of(source) + notes_of(target))
+
+
+class LISSOM_OT_merge(_OnTwoMeshes, bpy.types.Operator):
     """Merges the selected mesh onto the active one at open boundaries, without a seam. Selected loops are those that meet,
     else the nearest; as many selected vertices on both loops meet each other"""
     bl_idname, bl_label, bl_options = "lissom.merge", "Merge", {"REGISTER", "UNDO"}
@@ -118,41 +150,19 @@ class LISSOM_OT_merge(Work, bpy.types.Operator):
                            description="Keep the part where it is and bend its end, instead of moving it to the boundary")
     smooth: IntProperty(name="Smooth", default=3, min=0, max=20, description="Umbrella steps at the seam, at most")
     transition: BoolProperty(name="Transition", default=False, description="Let details of both sides fade into each other")
-    hide: BoolProperty(name="Hide Originals", default=True, description="Hide both meshes; they are kept as they are")
-
-    @classmethod
-    def poll(cls, context):
-        return context.object is not None and context.object.type == "MESH"
 
     def steps(self, context):
         leave_edit_mode(context)
         source, target = source_and_target(context)
         with new_context() as library:
-            self.subject = source
-            part = surface_of(source, library)
-            self.subject = target
-            body = surface_of(target, library)
-            layers = Layers((target, source))
-            layers.give(source, part)
-            layers.give(target, body)
-            part.transform(rows_of(target.matrix_world.inverted() @ source.matrix_world))
+            part, body, layers = self.sides(source, target, library)
             joins = joins_of(_Side(source, part), _Side(target, body))
             mesh, report = yield part.begin_merge(body, joins, fixed_configuration=self.in_place, smooth=self.smooth,
                                                   transition=self.transition)
-            self.put(context, mesh, layers, (target, source))
-        self.tell("INFO" if report.ok else "WARNING", _told(report) + notes_of(source) + notes_of(target))
-
-    def put(self, context, mesh, layers, inputs):
-        """Adds the result as an object in the place of the target."""
-        target = inputs[0]
-        data = new_mesh(f"{target.name} merged", mesh)
-        obj = add_object(context, data.name, data, target.matrix_world, target)
-        layers.take(obj, mesh, inputs)
-        for one in inputs if self.hide else ():
-            one.hide_set(True)
+            self.put(context, mesh, report, layers)
 
 
-class LISSOM_OT_paste(Work, bpy.types.Operator):
+class LISSOM_OT_paste(_OnTwoMeshes, bpy.types.Operator):
     """Pastes the selected faces of the other mesh onto the active one: at its selected vertices, else at the 3D cursor"""
     bl_idname, bl_label, bl_options = "lissom.paste", "Paste Feature", {"REGISTER", "UNDO"}
 
@@ -161,10 +171,6 @@ class LISSOM_OT_paste(Work, bpy.types.Operator):
     angle: FloatProperty(name="Angle", default=0, subtype="ANGLE", description="Turn about the normal of the surface")
     iterations: IntProperty(name="Optimize", default=20, min=0, max=100,
                             description="Steps of the search for the boundary of least distortion")
-    hide: BoolProperty(name="Hide Originals", default=True, description="Hide both meshes; they are kept as they are")
-
-    poll = LISSOM_OT_merge.poll
-    put = LISSOM_OT_merge.put
 
     def draw(self, _context):
         layout = self.layout
@@ -179,21 +185,13 @@ class LISSOM_OT_paste(Work, bpy.types.Operator):
         if not chosen or len(chosen) == len(source.data.vertices):
             raise Problem(f"select the feature on '{source.name}' with some of the surface around it, in edit mode")
         with new_context() as library:
-            self.subject = source
-            part = surface_of(source, library)
-            self.subject = target
-            body = surface_of(target, library)
-            layers = Layers((target, source))
-            layers.give(source, part)
-            layers.give(target, body)
-            part.transform(rows_of(target.matrix_world.inverted() @ source.matrix_world))
+            part, body, layers = self.sides(source, target, library)
             region = lissom.Region.of_vertices(part, array.array("i", chosen))
             paste = yield lissom.Paste.begin_create(part, body, region, **self.placement(context, target))
             if self.iterations:
                 yield paste.begin_optimize(self.iterations)
             mesh, report = yield paste.begin_merge()
-            self.put(context, mesh, layers, (target, source))
-        self.tell("INFO" if report.ok else "WARNING", _told(report) + notes_of(source) + notes_of(target))
+            self.put(context, mesh, report, layers)
 
     def placement(self, context, target):
         """Returns where the feature goes."""

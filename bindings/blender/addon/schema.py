@@ -30,7 +30,8 @@ def _about(parameter):
 
 def _limits(parameter, type_, least, greatest):
     """Least and greatest value; those of the script are also where a slider ends."""
-    return {"min": type_(max(parameter.get("min", least), least)), "max": type_(min(parameter.get("max", greatest), greatest))}
+    return {"min": type_(max(parameter.get("min", least), least)),
+            "max": type_(min(parameter.get("max", greatest), greatest))}
 
 
 def _integer(parameter, about):

@@ -138,11 +138,16 @@ def values_of(operator, parameters, inputs):
     taken in their space."""
     values = {}
     for parameter in sorted(parameters, key=lambda one: one["type"] not in ("mesh", "head")):
-        value = getattr(operator, PREFIX + parameter["name"])
+        value = exact(getattr(operator, PREFIX + parameter["name"]))
         value = _handed(operator, parameter, value, inputs)
-        if value is not None and value != parameter.get("default"):
+        if value is not None and value != exact(parameter.get("default")):
             values[parameter["name"]] = value
     return values
+
+
+def exact(value):
+    """Returns a number as it was typed: properties of Blender hold it in 32 bits, of which seven digits are certain."""
+    return float(f"{value:.7g}") if isinstance(value, float) else value
 
 
 def _handed(operator, parameter, value, inputs):
@@ -171,10 +176,10 @@ def flat(results):
     return [] if results is None else [results]
 
 
-def put_results(operator, context, results, first, record):
+def put_results(operator, context, results, inputs, record):
     """Shows the results of a script: meshes as objects, or in the mesh that came in if it has the same faces, hair as Curves,
     and texts and numbers as reports."""
-    unit = next((one.unit()[0] for one in results if isinstance(one, lissom.Hairstyle)), 1.0)
+    first, unit = inputs.first, unit_of(results, inputs)
     color = next((one for one in results if isinstance(one, str) and re.fullmatch("#[0-9a-f]{6}", one)), None)
     for one in results:
         if isinstance(one, lissom.Mesh):
@@ -183,6 +188,15 @@ def put_results(operator, context, results, first, record):
             _put_strands(context, one, unit, first, record, operator.bl_label, color)
         elif isinstance(one, (str, int, float)) and one not in ("", color):
             operator.report({"INFO"}, str(one))
+
+
+def unit_of(results, inputs):
+    """Returns the metres in one unit of the head, by which strands are larger than it: that of the style that came with them,
+    else of the first mesh as a head."""
+    style = next((one for one in results if isinstance(one, lissom.Hairstyle)), None)
+    if style is None and inputs.meshes and any(isinstance(one, lissom.Strands) for one in results):
+        style = lissom.Hairstyle.create(next(iter(inputs.meshes.values())))
+    return style.unit()[0] if style else 1.0
 
 
 def put_mesh(context, mesh, first, name):
@@ -225,7 +239,7 @@ def groom_by_script(context, library, head, record):
     strands = [one for one in results if isinstance(one, lissom.Strands)]
     if not strands:
         raise Problem(f"the script '{source.name}' returns no hair any more")
-    return strands[0], next((one.unit()[0] for one in results if isinstance(one, lissom.Hairstyle)), 1.0)
+    return strands[0], unit_of(results, inputs)
 
 
 # ---- Operators
@@ -251,12 +265,14 @@ class ScriptOperator(Work):
     def steps(self, context):
         """Runs the script as a job, and shows its results."""
         leave_edit_mode(context)
+        if self.source.is_preset and not getattr(self, PREFIX + "head"):
+            raise Problem("select the head as the active object, or name it in the parameters")
         with new_context() as library, tempfile.TemporaryDirectory(prefix="lissom-") as folder:
             script, inputs = self.source.load(library), Inputs(context, library, folder)
             values = values_of(self, self.parameters, inputs)
             script.set(**values)
             results = flat((yield script.begin_run()))
-            put_results(self, context, results, inputs.first, self.record(values))
+            put_results(self, context, results, inputs, self.record(values))
 
     def record(self, values):
         """Returns how hair of the script is groomed again."""
