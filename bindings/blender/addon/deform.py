@@ -53,7 +53,7 @@ class Drag:
     def moved(self):
         """Reads the empties; returns whether one has moved since the last call."""
         obj = bpy.data.objects[self.name]
-        now = [transform_of(bpy.data.objects[name], obj).freeze() for _, name in self.handles]
+        now = [transform_of(bpy.data.objects[name], obj) for _, name in self.handles]
         if now == self.transforms:
             return False
         self.transforms = now

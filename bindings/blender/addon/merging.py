@@ -6,7 +6,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
 from .layers import Layers
-from .meshes import add_object, leave_edit_mode, new_mesh, rows_of, selected_vertices, surface_of
+from .meshes import add_object, leave_edit_mode, new_mesh, positions_of, rows_of, selected_vertices, surface_of
 from .native import lissom, new_context
 from .problems import Problem, check_mesh, notes_of
 from .work import Work
@@ -30,14 +30,16 @@ def boundaries_of(mesh):
 
 def chosen_boundaries(obj, boundaries):
     """Returns the numbers of boundaries that selected vertices lie on, each with the selected ones in order. A selection
-    that touches none is a Problem; without a selection no boundary is chosen."""
+    that touches none is a Problem; without a selection, or if all is selected, no boundary is chosen."""
     selected = set(selected_vertices(obj))
+    if len(selected) == len(obj.data.vertices):
+        return {}
     found = {}
     for number, loop in enumerate(boundaries):
         on = [vertex for vertex in loop if vertex in selected]
         if on:
             found[number] = on
-    if selected and not found and len(selected) < len(obj.data.vertices):
+    if selected and not found:
         raise Problem(f"the selection of '{obj.name}' lies on no open boundary: select the loop of a hole, or delete the "
                       "faces on one side of the loop")
     return found
@@ -56,7 +58,8 @@ class _Side:
 
     def __init__(self, obj, mesh):
         self.obj, self.mesh = obj, mesh
-        self.positions = [tuple(row) for row in mesh.positions()]
+        flat = positions_of(mesh)
+        self.positions = [tuple(flat[i:i + 3]) for i in range(0, len(flat), 3)]
         self.boundaries = boundaries_of(mesh)
         if not self.boundaries:
             raise Problem(f"'{obj.name}' is closed and has no boundary to merge at: delete the faces where the other shall "

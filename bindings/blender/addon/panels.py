@@ -18,23 +18,13 @@ class LISSOM_PT_main(_Panel, bpy.types.Panel):
     """Tells what is wrong if the library cannot be loaded."""
     bl_label = "Lissom"
 
-    @classmethod
-    def poll(cls, _context):
-        return bool(native.problem)
-
     def draw(self, _context):
         self.layout.label(text="The library is not there", icon="ERROR")
         for line in textwrap.wrap(native.problem, 44):
             self.layout.label(text=line)
 
 
-class _ToolPanel(_Panel):
-    @classmethod
-    def poll(cls, _context):
-        return not native.problem
-
-
-class LISSOM_PT_deform(_ToolPanel, bpy.types.Panel):
+class LISSOM_PT_deform(_Panel, bpy.types.Panel):
     """Handles of the active mesh, and the deformation."""
     bl_label = "Deform"
 
@@ -57,7 +47,7 @@ class LISSOM_PT_deform(_ToolPanel, bpy.types.Panel):
         row.operator("lissom.deform", icon="MOD_SIMPLEDEFORM")
 
 
-class LISSOM_PT_merge(_ToolPanel, bpy.types.Panel):
+class LISSOM_PT_merge(_Panel, bpy.types.Panel):
     """Operators on two meshes."""
     bl_label = "Merge"
 
@@ -68,7 +58,7 @@ class LISSOM_PT_merge(_ToolPanel, bpy.types.Panel):
         column.operator("lissom.paste", icon="PASTEDOWN")
 
 
-class LISSOM_PT_hair(_ToolPanel, bpy.types.Panel):
+class LISSOM_PT_hair(_Panel, bpy.types.Panel):
     """Hair on heads."""
     bl_label = "Hair"
 
@@ -85,7 +75,7 @@ class LISSOM_PT_hair(_ToolPanel, bpy.types.Panel):
             row.operator("lissom.groom_again", icon="FILE_REFRESH")
 
 
-class LISSOM_PT_scripts(_ToolPanel, bpy.types.Panel):
+class LISSOM_PT_scripts(_Panel, bpy.types.Panel):
     """The scripts of the add-on's folder and of the user's."""
     bl_label = "Scripts"
 
@@ -111,4 +101,5 @@ class LISSOM_MT_presets(bpy.types.Menu):
                 self.layout.operator(operator.bl_idname)
 
 
-CLASSES = (LISSOM_PT_main, LISSOM_PT_deform, LISSOM_PT_merge, LISSOM_PT_hair, LISSOM_PT_scripts, LISSOM_MT_presets)
+CLASSES = (LISSOM_PT_main,) if native.problem else (
+    LISSOM_PT_deform, LISSOM_PT_merge, LISSOM_PT_hair, LISSOM_PT_scripts, LISSOM_MT_presets)

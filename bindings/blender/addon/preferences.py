@@ -6,7 +6,8 @@ from . import native
 
 
 def _reload(_preferences, _context):
-    bpy.ops.lissom.reload_scripts()
+    if not native.problem:
+        bpy.ops.lissom.reload_scripts()
 
 
 class LissomPreferences(bpy.types.AddonPreferences):

@@ -34,7 +34,7 @@ def _points(points):
 
 def _transform(map_):
     rows = list(map_)
-    flat = [float(n) for row in rows[:3] for n in row] if hasattr(rows[0], "__iter__") else [float(n) for n in rows[:12]]
+    flat = [float(n) for row in rows[:3] for n in row] if hasattr(rows[0], "__len__") else [float(n) for n in rows[:12]]
     return _abi.lissom_transform(_numbers(flat, 12))
 
 
