@@ -15,6 +15,8 @@ import bpy
 FOLDER, PICTURES = sys.argv[sys.argv.index("--") + 1:]
 sys.path.insert(0, FOLDER)
 
+bpy.context.preferences.view.show_splash = False
+
 import lissom_blender  # noqa: E402
 from lissom_blender import handles, meshes, native  # noqa: E402
 
@@ -27,20 +29,18 @@ def view():
     return {"window": window, "screen": window.screen, "area": area, "region": region}
 
 
-def press(kind, **options):
-    """Presses and lets go of a key over the middle of the 3D view."""
-    place = view()
-    area, region = place["area"], place["region"]
-    x, y = region.x + region.width // 3, region.y + region.height // 3
-    for value in ("PRESS", "RELEASE"):
-        place["window"].event_simulate(type=kind, value=value, x=x, y=y, **options)
-
-
-def move():
-    """Moves the mouse to the middle of the 3D view."""
+def middle():
+    """A place of the window that lies on the 3D view."""
     region = view()["region"]
-    view()["window"].event_simulate(type="MOUSEMOVE", value="NOTHING", x=region.x + region.width // 3,
-                                    y=region.y + region.height // 3)
+    return region.x + region.width // 3, region.y + region.height // 3
+
+
+def press(kind, place=None, **options):
+    """Presses and lets go of a key or button over a place, that of `middle` by default."""
+    x, y = place or middle()
+    view()["window"].event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
+    for value in ("PRESS", "RELEASE"):
+        view()["window"].event_simulate(type=kind, value=value, x=x, y=y, **(options if value == "PRESS" else {}))
 
 
 def start(operator, **options):
@@ -97,15 +97,14 @@ def frame_all():
 # ---- What the hand does: each step yields the seconds until the next.
 
 def prepare():
-    """Opens the sidebar on the add-on."""
+    """Opens the sidebar and clicks on the tab of the add-on, the fourth: scripts cannot choose one in Blender 3.4."""
     lissom_blender.register()
-    place = view()
-    place["area"].spaces.active.show_region_ui = True
-    yield 0.5
-    for region in place["area"].regions:
-        if region.type == "UI":
-            region.active_panel_category = "Lissom" if hasattr(region, "active_panel_category") else None
-    yield 0.5
+    press("ESC")
+    view()["area"].spaces.active.show_region_ui = True
+    yield 1.0
+    bar = next(region for region in view()["area"].regions if region.type == "UI")
+    press("LEFTMOUSE", (bar.x + bar.width - 15, bar.y + bar.height - 165))
+    yield 1.0
 
 
 def drag_and_keep():
@@ -119,7 +118,6 @@ def drag_and_keep():
     assert start(bpy.ops.lissom.deform) == {"RUNNING_MODAL"}
     yield 1.5
     activate(empty)
-    move()
     yield 0.2
     for key in ("R", "Y"):
         press(key)
