@@ -19,11 +19,11 @@ IGNORED = shutil.ignore_patterns("__pycache__", "tools")
 
 
 def write_addon(folder):
-    """Writes the add-on without the library: its own modules, the Python package, and the Lua modules that ship."""
+    """Writes the add-on without the library: its own modules, the Python package, the Lua modules that ship, and scripts to start from."""
     shutil.copytree(os.path.join(HERE, "addon"), folder, ignore=IGNORED)
     wheel.make_package(os.path.join(folder, "lissom"))
     shutil.copytree(os.path.join(ROOT, "scripts"), os.path.join(folder, "lua"), ignore=IGNORED)
-    os.makedirs(os.path.join(folder, "scripts"), exist_ok=True)
+    shutil.copytree(os.path.join(ROOT, "examples", "hosts"), os.path.join(folder, "scripts"))
     for name in ("LICENSE", "NOTICE"):
         shutil.copy(os.path.join(ROOT, name), folder)
 

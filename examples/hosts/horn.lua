@@ -9,20 +9,20 @@ local p = lissom.params{
         help = "above its middle" },
     size = { type = "number", default = 0.5, min = 0.05, max = 2,
         help = "of the horn, times that of the mesh" },
-    bow = { type = "number", default = 40, min = -90, max = 90, unit = "degrees", help = "bow of the horn" },
+    bow = { type = "number", default = 50, min = -90, max = 90, unit = "degrees", help = "bow of the horn" },
 }
 
 -- A ball of which the top is drawn out to a horn; returns it with the horn and the surface around it.
 local function horned_ball()
     local ball = lissom.shapes.sphere{ segments = 17, kind = "triangles" }
     local region = ball:region{ plane = { point = { 0, 0.6, 0 }, normal = { 0, 1, 0 } } }
-    local top = ball:region{ plane = { point = { 0, 0.97, 0 }, normal = { 0, 1, 0 } } }
+    local top = ball:region{ plane = { point = { 0, 0.99, 0 }, normal = { 0, 1, 0 } } }
     local deformer = lissom.deformer(ball)
-    deformer:pin(ball:region{ plane = { point = { 0, 0.8, 0 }, normal = { 0, -1, 0 } } })
+    deformer:pin(ball:region{ plane = { point = { 0, 0.88, 0 }, normal = { 0, -1, 0 } } })
     local tip = deformer:add_handle(top)
-    tip:scale(0.3)
-    tip:rotate("z", p.bow)
-    tip:translate(0, 0.8, 0)
+    tip:scale(0.15)
+    tip:rotate("x", p.bow)
+    tip:translate(0, 1.2, 0.01 * p.bow)
     deformer:solve()
     return ball, region
 end
