@@ -72,7 +72,7 @@ def frames(drag, obj, quality):
 
 class Options:
     """Those of the operator."""
-    into, region, refine, scale_details, loose = "KEY", "", 0, False, "FOLLOW"
+    into, region, refine, scale_details, free_rings, loose = "KEY", "", 0, False, 0, "FOLLOW"
 
 
 def main():

@@ -20,7 +20,7 @@ WORDS = sys.argv[sys.argv.index("--") + 1:]
 sys.path.insert(0, WORDS[0])
 
 import lissom_blender  # noqa: E402
-from lissom_blender import hair, handles, meshes, native, scripts  # noqa: E402
+from lissom_blender import deform, hair, handles, meshes, native, scripts  # noqa: E402
 
 lissom = native.lissom
 
@@ -112,6 +112,14 @@ def error_of(call, **options):
     raise AssertionError("no error")
 
 
+class Options:
+    """Those of the operator Deform."""
+    into, region, refine, scale_details, loose = "MESH", "", 0, False, "FOLLOW"
+
+    def __init__(self, free_rings):
+        self.free_rings = free_rings
+
+
 class AddonTest(unittest.TestCase):
     def setUp(self):
         for one in list(bpy.data.objects):
@@ -190,10 +198,48 @@ class Deform(AddonTest):
             select(obj, ring(24))
             activate(obj)
             bpy.ops.lissom.add_handle(kind="MOVE")
-        self.assertIn("vertex groups", error_of(bpy.ops.lissom.deform))
+        text = error_of(bpy.ops.lissom.deform)
+        self.assertIn("'Handle.001' (20 vertices) overlaps 'Handle'", text)
+        self.assertIn("take them out of one of the vertex groups", text)
         self.assertIsNone(obj.data.shape_keys)
         self.assertEqual(coordinates(obj), before)
         self.assertEqual(set(meshes.selected_vertices(obj)), set(ring(24)))
+
+    def test_torn_surface_is_told_and_mended(self):
+        obj = tube("Tube")
+        add_handles(obj)
+        select(obj, ring(22))
+        activate(obj)
+        bpy.ops.lissom.add_handle(kind="MOVE")
+        handles.empties_of(obj)[-1].location.x += 2
+        bpy.context.view_layer.update()
+        activate(obj)
+        torn = deform.Drag(obj, Options(0))
+        torn.moved()
+        torn.show("full")
+        self.assertIn("free_rings", " ".join(torn.warnings()))
+        torn.close()
+        mended = deform.Drag(obj, Options(3))
+        mended.moved()
+        mended.show("full")
+        self.assertNotIn("free_rings", " ".join(mended.warnings()))
+        mended.close()
+
+    def test_handle_is_selected_by_its_button(self):
+        obj = tube("Tube")
+        empty = add_handles(obj)
+        self.assertEqual(bpy.ops.lissom.select_handle(name=empty.name), {"FINISHED"})
+        self.assertEqual((bpy.context.object, bpy.context.selected_objects), (empty, [empty]))
+        self.assertEqual(bpy.ops.lissom.deform(), {"FINISHED"})
+        self.assertIn("no empty", error_of(bpy.ops.lissom.select_handle, name="none"))
+
+    def test_handles_at_rest_leave_the_shape(self):
+        obj = tube("Tube")
+        add_handles(obj)
+        activate(obj)
+        bpy.ops.lissom.deform()
+        moved = numbers(obj.data.shape_keys.key_blocks["Lissom"].data, "co", 3)
+        self.assertLess(max(abs(a - b) for a, b in zip(moved, coordinates(obj))), 1e-6)
 
     def test_without_a_handle_it_says_what_to_do(self):
         activate(tube("Tube"))
@@ -404,8 +450,13 @@ class Hair(AddonTest):
         curves.data.materials[0].diffuse_color = (0, 1, 0, 1)
         for vertex in obj.data.vertices:
             vertex.co.x *= 1.3
+        self.assertFalse(hair.has_changed(curves))
+        obj.data.update()
+        bpy.context.view_layer.update()
+        self.assertTrue(hair.has_changed(curves))
         activate(curves)
         self.assertEqual(bpy.ops.lissom.groom_again(), {"FINISHED"})
+        self.assertFalse(hair.has_changed(curves))
         self.assertEqual(bpy.context.object, curves)
         self.assertEqual(tuple(curves.data.materials[0].diffuse_color), (0, 1, 0, 1))
         roots = [curves.data.points[one.first_point_index].position for one in curves.data.curves]

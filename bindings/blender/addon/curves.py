@@ -61,8 +61,12 @@ def _edges(offsets):
 
 def _node_group():
     group = bpy.data.node_groups.new(_NODES, "GeometryNodeTree")
-    group.inputs.new("NodeSocketGeometry", "Geometry")
-    group.outputs.new("NodeSocketGeometry", "Geometry")
+    if hasattr(group, "interface"):
+        for way in ("INPUT", "OUTPUT"):
+            group.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    else:
+        group.inputs.new("NodeSocketGeometry", "Geometry")
+        group.outputs.new("NodeSocketGeometry", "Geometry")
     start, end = group.nodes.new("NodeGroupInput"), group.nodes.new("NodeGroupOutput")
     convert = group.nodes.new("GeometryNodeMeshToCurve")
     group.links.new(start.outputs[0], convert.inputs[0])

@@ -1,5 +1,6 @@
 """Deformation by handles: live while empties are moved, into a shape key or the mesh."""
 import array
+import re
 import time
 
 import bpy
@@ -7,7 +8,7 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from . import native
 from .handles import empties_of, group_vertices, pinned_groups, set_rest, transform_of
-from .meshes import floats, leave_edit_mode, read, surface_of, vertices_in_group
+from .meshes import floats, leave_edit_mode, read, surface_of
 from .native import lissom, new_context
 from .problems import Problem, check_editable, notes_of, select_elements, text_of
 
@@ -33,22 +34,30 @@ class Drag:
 
     def _prepare(self, obj, options):
         self.mesh = surface_of(obj, self.context)
-        region = None
-        if options.region:
-            region = self._region(vertices_in_group(obj, options.region))
+        self.is_whole = not options.region
+        region = None if self.is_whole else self._region(group_vertices(obj, options.region))
         self.deformer = lissom.Deformer.create(self.mesh, region, refine=options.refine, scale_details=options.scale_details,
-                                               loose=options.loose.lower())
+                                               loose=options.loose.lower(), free_rings=options.free_rings)
+        self._groups = []
         for name in pinned_groups(obj):
-            self.deformer.pin(self._region(group_vertices(obj, name)))
-        self.handles = [(self._handle(obj, empty), empty.name) for empty in empties_of(obj)]
+            self._add(obj, name, self.deformer.pin)
+        self.handles = [(self._add(obj, empty.lissom_handle.group, self.deformer.add_handle), empty.name)
+                        for empty in empties_of(obj)]
         if not self.handles:
             raise Problem(f"'{obj.name}' has no handle: select vertices in edit mode, and Add Handle")
 
     def _region(self, vertices):
         return lissom.Region.of_vertices(self.mesh, array.array("i", vertices))
 
-    def _handle(self, obj, empty):
-        return self.deformer.add_handle(self._region(group_vertices(obj, empty.lissom_handle.group)))
+    def _add(self, obj, group, add):
+        """Adds a handle or a pin; an error names the vertex groups, where the library has numbers of handles."""
+        self._groups.append(group)
+        region = self._region(group_vertices(obj, group))
+        try:
+            return add(region)
+        except lissom.Error as error:
+            text = re.sub(r"handle (\d+)\b", lambda match: f"'{self._groups[int(match[1]) - 1]}'", error.message)
+            raise lissom.Error(error.code, text, error.element, error.ids, error.count) from None
 
     def moved(self):
         """Reads the empties; returns whether one has moved since the last call."""
@@ -64,8 +73,11 @@ class Drag:
     def show(self, quality):
         """Solves for the handles as `moved` has read them, and writes the result into the object."""
         self.deformer.solve(quality)
-        self.deformer.apply(self.mesh)
-        self.mesh.positions(out=self.buffer)
+        if self.is_whole:
+            self.deformer.positions(out=self.buffer)
+        else:
+            self.deformer.apply(self.mesh)
+            self.mesh.positions(out=self.buffer)
         self.target.write(bpy.data.objects[self.name], self.buffer)
 
     def restore(self):
@@ -80,6 +92,10 @@ class Drag:
         if self.target.into == "MESH":
             for _, name in self.handles:
                 set_rest(bpy.data.objects[name], obj)
+
+    def warnings(self):
+        """Returns what is wrong with the last result, a line each with a remedy."""
+        return self.deformer.report(self.mesh, False).warnings.splitlines()
 
     def close(self):
         """Frees the deformer."""
@@ -140,6 +156,8 @@ class LISSOM_OT_deform(bpy.types.Operator):
     refine: IntProperty(name="Refine", default=0, min=0, max=2, description="ARAP iterations, over-relaxed")
     scale_details: BoolProperty(name="Scale Details", default=False,
                                 description="Scale details with the surface around them instead of keeping their size")
+    free_rings: IntProperty(name="Free Rings", default=0, min=0, max=10,
+                            description="Rings of vertices that handles release if they nearly touch another")
     loose: EnumProperty(name="Loose Parts", default="FOLLOW",
                         items=[("FOLLOW", "Follow", "Parts without a handle follow the surface nearest to them"),
                                ("STAY", "Stay", "Parts without a handle stay where they are"),
@@ -156,7 +174,7 @@ class LISSOM_OT_deform(bpy.types.Operator):
         layout.prop(self, "into")
         if obj:
             layout.prop_search(self, "region", obj, "vertex_groups")
-        for name in ("refine", "scale_details", "loose"):
+        for name in ("refine", "scale_details", "free_rings", "loose"):
             layout.prop(self, name)
 
     # ---- Once, for scripts and the redo panel
@@ -168,7 +186,7 @@ class LISSOM_OT_deform(bpy.types.Operator):
         try:
             self.drag.moved()
             self.drag.show("full")
-            self.drag.keep()
+            self._keep()
         except (lissom.Error, Problem) as error:
             self.drag.restore()
             return self._failed(error)
@@ -205,8 +223,9 @@ class LISSOM_OT_deform(bpy.types.Operator):
                 self._leave(context)
                 return self._failed(error)
             except KeyError:
-                self.report({"WARNING"}, "A handle was deleted: the deformation ends with what it had")
-                return self._finish(context)
+                self.report({"WARNING"}, "A handle or the shape key was deleted or undone: the deformation ends")
+                self._leave(context)
+                return {"CANCELLED"}
         return {"PASS_THROUGH"}
 
     def cancel(self, context):
@@ -268,9 +287,14 @@ class LISSOM_OT_deform(bpy.types.Operator):
     def _finish(self, context):
         if self._is_draft:
             self.drag.show("full")
-        self.drag.keep()
+        self._keep()
         self._leave(context)
         return {"FINISHED"}
+
+    def _keep(self):
+        for line in self.drag.warnings():
+            self.report({"WARNING"}, line)
+        self.drag.keep()
 
     def _leave(self, context):
         context.workspace.status_text_set(None)

@@ -2,6 +2,7 @@
 import json
 
 import bpy
+from bpy.app.handlers import persistent
 from bpy.props import FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
@@ -45,6 +46,8 @@ def put_hair(context, head, strands, unit, record, name, color=COLOR, replaced=N
     obj = new_curves(context, name, strands, unit, head.matrix_world)
     put_on_surface(obj, head, uvs)
     obj[RECORD] = json.dumps(record)
+    context.view_layer.update()
+    _changed.discard(head.name)
     if replaced:
         _take_place(obj, replaced)
     else:
@@ -222,6 +225,33 @@ def record_of(obj):
     """Returns how hair was groomed; None for curves that were not."""
     text = obj.get(RECORD) if obj is not None and obj.type == "CURVES" else None
     return json.loads(text) if isinstance(text, str) else None
+
+
+# Names of meshes that have changed since hair of them was groomed.
+_changed = set()
+
+
+@persistent
+def _note_changes(_scene, depsgraph):
+    """Hears of each change of Blender's data."""
+    for update in depsgraph.updates:
+        if update.is_updated_geometry and isinstance(update.id, bpy.types.Object) and update.id.type == "MESH":
+            _changed.add(update.id.name)
+
+
+def has_changed(obj):
+    """Returns whether the head of hair has changed since it was groomed."""
+    return obj.data.surface is not None and obj.data.surface.name in _changed
+
+
+def register():
+    """Begins to listen to changes."""
+    bpy.app.handlers.depsgraph_update_post.append(_note_changes)
+
+
+def unregister():
+    """Ends it."""
+    bpy.app.handlers.depsgraph_update_post.remove(_note_changes)
 
 
 class LISSOM_OT_groom_again(Work, bpy.types.Operator):

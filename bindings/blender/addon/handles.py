@@ -93,6 +93,25 @@ class LISSOM_OT_add_handle(bpy.types.Operator):
             add_empty(context, obj, group.name, vertices)
 
 
+class LISSOM_OT_select_handle(bpy.types.Operator):
+    """Selects the empty of this handle, to move it"""
+    bl_idname, bl_label, bl_options = "lissom.select_handle", "Select Handle", {"REGISTER", "UNDO"}
+
+    name: StringProperty(name="Empty")
+
+    def execute(self, context):
+        empty = context.view_layer.objects.get(self.name)
+        if empty is None:
+            self.report({"ERROR"}, f"there is no empty '{self.name}' any more")
+            return {"CANCELLED"}
+        leave_edit_mode(context)
+        for other in context.selected_objects:
+            other.select_set(False)
+        empty.select_set(True)
+        context.view_layer.objects.active = empty
+        return {"FINISHED"}
+
+
 def add_empty(context, obj, group, vertices):
     """Adds the empty of a handle in the middle of its vertices."""
     points = [obj.data.vertices[vertex].co for vertex in vertices]
@@ -110,7 +129,7 @@ def add_empty(context, obj, group, vertices):
     return empty
 
 
-CLASSES = (LissomHandle, LISSOM_OT_add_handle)
+CLASSES = (LissomHandle, LISSOM_OT_add_handle, LISSOM_OT_select_handle)
 
 
 def register():

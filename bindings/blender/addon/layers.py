@@ -176,8 +176,9 @@ def _take_smoothness(obj, mesh, inputs):
     is_most = 2 * sum(map(sum, smooth)) > sum(map(len, smooth))
     origins = zip(*_origins(mesh.face_origins, len(obj.data.polygons)))
     obj.data.polygons.foreach_set("use_smooth", [bool(smooth[i][face]) if i >= 0 else is_most for i, face in origins])
-    obj.data.use_auto_smooth = inputs[0].data.use_auto_smooth
-    obj.data.auto_smooth_angle = inputs[0].data.auto_smooth_angle
+    for name in ("use_auto_smooth", "auto_smooth_angle"):
+        if hasattr(obj.data, name):
+            setattr(obj.data, name, getattr(inputs[0].data, name))
 
 
 def _take_edges(obj, mesh, inputs):
@@ -197,7 +198,7 @@ def _take_edges(obj, mesh, inputs):
 def _marked_edges(mesh):
     marked = {}
     for edge in mesh.edges:
-        flags = {name: getattr(edge, name) for name in _EDGE_FLAGS if getattr(edge, name)}
+        flags = {name: getattr(edge, name) for name in _EDGE_FLAGS if getattr(edge, name, None)}
         if flags:
             marked[frozenset(edge.vertices)] = flags
     return marked

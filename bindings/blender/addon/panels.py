@@ -5,7 +5,7 @@ import bpy
 
 from . import native
 from .deform import subject_of
-from .hair import record_of
+from .hair import has_changed, record_of
 from .handles import empties_of, pinned_groups
 from .scripts import registry
 
@@ -38,7 +38,10 @@ class LISSOM_PT_deform(_Panel, bpy.types.Panel):
             return
         column = layout.column(align=True)
         for empty in empties_of(obj):
-            column.label(text=empty.lissom_handle.group, icon="EMPTY_DATA")
+            row = column.row()
+            row.alignment = "LEFT"
+            button = row.operator("lissom.select_handle", text=empty.lissom_handle.group, icon="EMPTY_DATA", emboss=False)
+            button.name = empty.name
         for name in pinned_groups(obj):
             column.label(text=name, icon="PINNED")
         layout.operator_context = "INVOKE_DEFAULT"
@@ -70,9 +73,11 @@ class LISSOM_PT_hair(_Panel, bpy.types.Panel):
         column.operator("lissom.hair_from_style", icon="FILE_FOLDER")
         column.operator("lissom.save_style", icon="FILE_TICK")
         if record_of(context.object):
-            row = self.layout.row()
-            row.operator_context = "INVOKE_DEFAULT"
-            row.operator("lissom.groom_again", icon="FILE_REFRESH")
+            column = self.layout.column()
+            column.operator_context = "INVOKE_DEFAULT"
+            if has_changed(context.object):
+                column.label(text="The head has changed", icon="INFO")
+            column.operator("lissom.groom_again", icon="FILE_REFRESH")
 
 
 class LISSOM_PT_scripts(_Panel, bpy.types.Panel):
