@@ -19,7 +19,8 @@ IGNORED = shutil.ignore_patterns("__pycache__", "tools")
 
 
 def write_addon(folder):
-    """Writes the add-on without the library: its own modules, the Python package, the Lua modules that ship, and scripts to start from."""
+    """Writes the add-on without the library: its own modules, the Python package, the Lua modules that ship, and scripts to
+    start from."""
     shutil.copytree(os.path.join(HERE, "addon"), folder, ignore=IGNORED)
     wheel.make_package(os.path.join(folder, "lissom"))
     shutil.copytree(os.path.join(ROOT, "scripts"), os.path.join(folder, "lua"), ignore=IGNORED)

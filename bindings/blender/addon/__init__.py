@@ -18,7 +18,7 @@ _MODULES = (preferences, panels) if native.problem else (preferences, handles, d
 
 
 def register():
-    """Adds what the add-on has."""
+    """Adds the classes and properties of the add-on."""
     for module in _MODULES:
         for one in module.CLASSES:
             bpy.utils.register_class(one)
@@ -26,7 +26,7 @@ def register():
 
 
 def unregister():
-    """Removes it."""
+    """Removes them."""
     for module in reversed(_MODULES):
         getattr(module, "unregister", lambda: None)()
         for one in reversed(module.CLASSES):

@@ -94,7 +94,7 @@ class Drag:
                 set_rest(bpy.data.objects[name], obj)
 
     def warnings(self):
-        """Returns what is wrong with the last result, a line each with a remedy."""
+        """Returns the faults of the last result, a line each with a remedy."""
         return self.deformer.report(self.mesh, False).warnings.splitlines()
 
     def close(self):

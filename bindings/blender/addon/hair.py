@@ -39,7 +39,7 @@ def give_regions(obj, mesh):
 
 def put_hair(context, head, strands, unit, record, name, color=COLOR, replaced=None):
     """Adds a Curves object with hair of a head. `record` tells how it was groomed. An object that it replaces gives it its
-    name, its material and what was set on it."""
+    name, its material and its settings."""
     if not strands.size:
         raise Problem("no hair grows: does the scalp lie on the head, and do curves begin at it?")
     uvs = strands.read("root_uv", out=floats(2 * strands.size)) if strands.has("root_uv") else None
@@ -57,7 +57,7 @@ def put_hair(context, head, strands, unit, record, name, color=COLOR, replaced=N
 
 
 def _take_place(obj, replaced):
-    """Gives an object that already is what it was before the content of a new one, which goes."""
+    """Gives an existing object the content of a new one, which is removed."""
     data, before = obj.data, replaced.data
     for material in before.materials:
         data.materials.append(material)
@@ -274,7 +274,7 @@ class LISSOM_OT_groom_again(Work, bpy.types.Operator):
             put_hair(context, head, strands, unit, record, obj.name, replaced=obj)
 
     def grow(self, context, library, head, record):
-        """Repeats what the record tells, as steps."""
+        """Repeats the groom of the record, as steps."""
         if "script" in record:
             from .scripts import groom_by_script
             return (yield from groom_by_script(context, library, head, record))

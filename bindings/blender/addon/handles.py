@@ -8,7 +8,7 @@ from .problems import Problem, check_editable, check_mesh
 
 
 class LissomHandle(bpy.types.PropertyGroup):
-    """What an empty moves."""
+    """The mesh and the vertex group that an empty moves."""
     subject: PointerProperty(type=bpy.types.Object, name="Object", description="The mesh that the handle belongs to")
     group: StringProperty(name="Vertex Group", description="The vertices that follow the empty")
     rest: FloatVectorProperty(size=16, description="Matrix of the empty in the space of the mesh, at rest")

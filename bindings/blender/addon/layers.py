@@ -1,4 +1,4 @@
-"""What lies on a surface: texture coordinates, colours, materials, weights, shape keys. It goes to the library as attributes
+"""Layers of a surface: texture coordinates, colours, materials, weights, shape keys. They go to the library as attributes
 of meshes, through a merge, and back."""
 import bpy
 

@@ -1,4 +1,4 @@
-"""Merge and paste: operators on two meshes, by what is selected on them."""
+"""Merge and paste: operators on two meshes, by the selection on them."""
 import array
 import math
 
@@ -54,7 +54,7 @@ def _distance(a, b):
 
 
 class _Side:
-    """One of both meshes of a merge: its object, its mesh in the space of the target, and what is selected on it."""
+    """One of both meshes of a merge: its object, its mesh in the space of the target, and the selection on it."""
 
     def __init__(self, obj, mesh):
         self.obj, self.mesh = obj, mesh
@@ -97,7 +97,7 @@ def matched_keys(source, target):
 
 
 def joins_of(source, target):
-    """Returns the joins for what is selected; none if nothing is: the nearest boundaries then meet."""
+    """Returns the joins of the selected boundaries; none without a selection: the nearest boundaries then meet."""
     if not source.chosen and not target.chosen:
         return []
     joins = []
@@ -134,7 +134,7 @@ class _OnTwoMeshes(Work):
         return part, body, layers
 
     def put(self, context, mesh, report, layers):
-        """Adds the result as an object in the place of the target, and tells what the report says."""
+        """Adds the result as an object in the place of the target, and tells the report."""
         target, source = layers.objects
         data = new_mesh(f"{target.name} merged", mesh)
         obj = add_object(context, data.name, data, target.matrix_world, target)

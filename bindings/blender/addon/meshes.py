@@ -112,7 +112,7 @@ def add_object(context, name, data, matrix=None, beside=None):
 
 
 def leave_edit_mode(context):
-    """Ends the edit mode, so that the mesh has what was edited. Returns the mode as it was."""
+    """Ends the edit mode, so that the mesh has its changes. Returns the mode as it was."""
     mode = context.object.mode if context.object else "OBJECT"
     if mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")

@@ -1,6 +1,6 @@
 """The library, or the reason why there is none."""
 
-# The text of what is wrong if the library cannot be loaded, else "".
+# The reason why the library cannot be loaded, else "".
 problem = ""
 
 try:

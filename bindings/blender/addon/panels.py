@@ -15,7 +15,7 @@ class _Panel:
 
 
 class LISSOM_PT_main(_Panel, bpy.types.Panel):
-    """Tells what is wrong if the library cannot be loaded."""
+    """Tells why the library cannot be loaded."""
     bl_label = "Lissom"
 
     def draw(self, _context):

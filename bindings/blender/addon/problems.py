@@ -1,8 +1,8 @@
-"""What an operator refuses, and how Blender shows what an error is about."""
+"""Problems that operators refuse, remedies for errors of the library, and the selection of the elements concerned."""
 
 
 class Problem(Exception):
-    """Something that the user can mend; its text says what is wrong and what to do."""
+    """Something that the user can mend; its text names the fault and the remedy."""
 
 
 def check_editable(obj):
@@ -26,12 +26,12 @@ def check_mesh(obj, role="the active object"):
 
 
 def notes_of(obj):
-    """Returns sentences on what an operator does not look at: modifiers and other users of the mesh."""
+    """Returns sentences on modifiers, which operators ignore, and on other users of the mesh."""
     notes = []
     names = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
     if names:
         notes.append(f"'{obj.name}' is taken without its modifiers ({', '.join(names)}); apply them first to work on "
-                     "what they make")
+                     "their result")
     if obj.data.users > 1:
         notes.append(f"the mesh of '{obj.name}' has {obj.data.users} users, which change together; Object > Relations > "
                      "Make Single User parts them")
@@ -49,7 +49,7 @@ _REMEDIES = {
 
 
 def text_of(error):
-    """Returns the text of an error of the library with what to do about it in Blender."""
+    """Returns the text of an error of the library with its remedy in Blender."""
     remedy = _REMEDIES.get(error.code)
     return f"{error.message} ({remedy})" if remedy else error.message
 

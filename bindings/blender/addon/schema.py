@@ -1,4 +1,4 @@
-"""Parameters of scripts as properties of operators: sliders, choices, and pickers for what Blender has."""
+"""Parameters of scripts as properties of operators: sliders, choices, and pickers of objects, groups and loops."""
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 _INTEGERS = (-2**31, 2**31 - 1)

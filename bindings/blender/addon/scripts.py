@@ -134,7 +134,7 @@ def _boundary_number(obj, library):
 
 
 def values_of(operator, parameters, inputs):
-    """Returns the values of parameters that differ from the script's own, by name. Meshes go first: what lies on them is
+    """Returns the values of parameters that differ from the script's own, by name. Meshes go first: all that lies on them is
     taken in their space."""
     values = {}
     for parameter in sorted(parameters, key=lambda one: one["type"] not in ("mesh", "head")):
