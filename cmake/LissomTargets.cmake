@@ -17,7 +17,11 @@ endfunction()
 # lissom_target_defaults(TARGET): what every target of this project is compiled with.
 function(lissom_target_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_20)
-    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON LISSOM_OWN ON)
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF LISSOM_OWN ON)
+    # WebAssembly has no shared libraries here, and code for them is slower.
+    if(NOT EMSCRIPTEN)
+        set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    endif()
     # Before what a project around this one includes, where there may be a folder of the same name.
     target_include_directories(${target} BEFORE PRIVATE ${PROJECT_SOURCE_DIR})
     lissom_includes(${target})

@@ -48,10 +48,10 @@ class Extended {
     static Extended rounded(long double value) {
         constexpr int kDropped = LDBL_MANT_DIG - 64;
         constexpr Bits kLast = Bits{1} << kDropped;
-        const Bits bits = std::bit_cast<Bits>(value);
+        const Bits bits = __builtin_bit_cast(Bits, value);
         const Bits odd = (bits >> kDropped) & 1;
         const Bits nearest = (bits + (kLast / 2 - 1) + odd) & ~(kLast - 1);
-        return Extended(std::bit_cast<long double>(nearest), Exact{});
+        return Extended(__builtin_bit_cast(long double, nearest), Exact{});
     }
 
     long double value_ = 0.0L;

@@ -1,7 +1,6 @@
 /// Hasher: a 64-bit hash of content that is the same on every platform.
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "kernel/core/index.h"
+#include "kernel/core/numbers/bits.h"
 
 namespace lissom {
 
@@ -25,8 +25,7 @@ class Hasher {
     void add(bool value) { add(std::uint64_t{value}); }
     /// Every NaN counts as the same, since its payload differs between machines.
     void add(double value) {
-        add(std::isnan(value) ? std::uint64_t{0x7ff8000000000000}
-                              : std::bit_cast<std::uint64_t>(value));
+        add(std::isnan(value) ? std::uint64_t{0x7ff8000000000000} : bits_as<std::uint64_t>(value));
     }
     void add(std::string_view text) {
         add(static_cast<std::uint64_t>(text.size()));

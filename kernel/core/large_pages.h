@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "kernel/core/numbers/bits.h"
+
 namespace lissom {
 
 /// Memory for which the system is asked for large pages.
@@ -29,7 +31,7 @@ void prefer_large_pages(void* memory, std::size_t bytes);
 /// An array that has not been written, with them.
 template <typename Value>
 std::unique_ptr<Value[]> large_array(std::size_t count) {
-    auto array = std::make_unique_for_overwrite<Value[]>(count);
+    auto array = unfilled<Value[]>(count);
     prefer_large_pages(array.get(), count * sizeof(Value));
     return array;
 }

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "kernel/core/geometry.h"
+#include "kernel/core/numbers/bits.h"
 
 namespace lissom {
 
@@ -44,7 +44,7 @@ class ValuePool {
     static std::uint64_t hash(const Tuple& values) {
         std::uint64_t h = 0;
         for (const double value : values) {
-            h = (h ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15u;
+            h = (h ^ bits_as<std::uint64_t>(value)) * 0x9e3779b97f4a7c15u;
             h ^= h >> 32;
         }
         return h;
@@ -52,7 +52,7 @@ class ValuePool {
 
     static bool same_bits(const Tuple& a, const Tuple& b) {
         using Bits = std::array<std::uint64_t, Width>;
-        return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+        return bits_as<Bits>(a) == bits_as<Bits>(b);
     }
 
     // Returns the slot of `key`, or the free slot for it.

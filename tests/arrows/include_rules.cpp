@@ -56,6 +56,7 @@ const std::vector<Rule>& rules() {
         {"bindings/c/lissom.h", {}, {"platform"}},
         {"bindings/c/thesis_parts.cpp", {"kernel", "kernel/thesis", "bindings/c"}, {}},
         {"bindings/c/script", {"kernel", "bindings/c", "bindings/lua"}, {"Eigen", "Lua", "JSON"}},
+        {"bindings/wasm", {"bindings/c", "bindings/wasm"}, {"platform"}},
         {"bindings/engine", {}, {"platform"}},
         {"bindings/lua", {"kernel", "bindings/lua"}, {"Eigen", "Lua"}},
         {"bindings/lua/deform/thesis_parts.cpp", {"kernel", "kernel/thesis", "bindings/lua"}, {}},

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstdint>
 #include <mutex>
 
 #include "bindings/c/context.h"
@@ -80,7 +81,7 @@ const HostAllocator* allocator_for(std::size_t size) noexcept {
 
 void* take_host_block(const HostAllocator& allocator, std::size_t size) noexcept {
     const std::size_t whole = size + sizeof(BlockHeader);
-    if (whole < size || size >> 56 != 0) return nullptr;
+    if (whole < size || std::uint64_t{size} >> 56 != 0) return nullptr;
     void* const base = allocator.allocate(allocator.user, whole, kHostAlignment);
     if (!base) return nullptr;
     if (reinterpret_cast<std::uintptr_t>(base) % kHostAlignment != 0) {

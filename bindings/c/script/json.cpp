@@ -1,12 +1,12 @@
 #include "bindings/c/script/json.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "kernel/core/error.h"
+#include "kernel/core/numbers/number_text.h"
 
 namespace lissom::c {
 namespace {
@@ -110,7 +110,7 @@ void write_text(std::string& json, const std::string& text) {
 template <typename Number>
 void write_number(std::string& json, Number number) {
     char text[64];
-    const char* end = std::to_chars(text, text + sizeof text, number).ptr;
+    const char* end = lissom::write_number(text, text + sizeof text, number).ptr;
     json.append(static_cast<const char*>(text), end);
     const bool whole = std::all_of(static_cast<const char*>(text), end,
                                    [](char c) { return c == '-' || (c >= '0' && c <= '9'); });

@@ -1,5 +1,7 @@
 // Functions of strings that end when the script has to.
+#include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <string_view>
@@ -261,8 +263,9 @@ int repeat(lua_State* L) {
         lua_pushliteral(L, "");
         return 1;
     }
-    constexpr std::size_t kMost = std::numeric_limits<lua_Integer>::max();
-    if (size + between > kMost / static_cast<std::size_t>(times)) {
+    constexpr std::uint64_t kMost = std::min<std::uint64_t>(
+        std::numeric_limits<lua_Integer>::max(), std::numeric_limits<std::size_t>::max());
+    if (size + between > kMost / static_cast<std::uint64_t>(times)) {
         return luaL_error(L, "resulting string too large");
     }
     lua_pushvalue(L, lua_upvalueindex(1));

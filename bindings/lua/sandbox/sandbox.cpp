@@ -26,11 +26,29 @@ constexpr int kLooks = LUA_MASKCOUNT | LUA_MASKCALL;
 // Bytes that a C function passes over in the time of an instruction, about.
 constexpr std::size_t kBytesAnInstruction = 64;
 
+// Where no thread can be started the time is looked at between instructions, and calls of the
+// kernel are not ended by it.
+#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+constexpr bool kHasThreads = false;
+#else
+constexpr bool kHasThreads = true;
+#endif
+
+using Clock = std::chrono::steady_clock;
+
+Clock::time_point end_of_time(double seconds) {
+    constexpr double kAges = 1e9;
+    if (kHasThreads || seconds <= 0.0 || seconds > kAges) return Clock::time_point::max();
+    return Clock::now() +
+           std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
 // Asks for a stop when the time is over, unless it is gone before.
 class Watch {
   public:
     Watch(double seconds, const std::function<void()>& over) {
-        if (seconds > 0.0) watcher_ = std::thread([this, seconds, over] { wait(seconds, over); });
+        if (kHasThreads && seconds > 0.0)
+            watcher_ = std::thread([this, seconds, over] { wait(seconds, over); });
     }
     Watch(const Watch&) = delete;
     Watch& operator=(const Watch&) = delete;
@@ -77,12 +95,22 @@ struct Sandbox::Parts : Work {
     FolderRights rights;
     std::atomic<SandboxEnd> end = SandboxEnd::none;
     std::int64_t instructions = 0;
+    // Used without threads.
+    Clock::time_point last_moment = Clock::time_point::max();
+    unsigned looks = 0;
     // Whether a script runs, and not the host.
     std::atomic<bool> runs = false;
     // Bytes of warnings, from any thread.
     std::atomic<std::size_t> warned = 0;
     lua_State* L = nullptr;
     std::shared_ptr<MemoryAccount> account = {};
+
+    // A look at the clock takes as long as hundreds of instructions.
+    bool time_is_over() {
+        constexpr unsigned kLooksAtOnce = 128;
+        return last_moment != Clock::time_point::max() && ++looks % kLooksAtOnce == 0 &&
+               Clock::now() >= last_moment;
+    }
 
     void ask(SandboxEnd why) {
         SandboxEnd none = SandboxEnd::none;
@@ -120,6 +148,7 @@ void look_at_limits(lua_State* L, lua_Debug* event) {
     if (parts.limits.instructions != 0 && parts.instructions > parts.limits.instructions) {
         parts.ask(SandboxEnd::instructions);
     }
+    if (parts.time_is_over()) parts.ask(SandboxEnd::seconds);
     if (sandbox.state().context.cancelled()) parts.ask(SandboxEnd::cancelled);
     if (!parts.stop.asked()) return;
     // A script that catches the error gets it again at once: it cannot go on.
@@ -345,6 +374,7 @@ int Sandbox::call(int arguments, int results, int handler) {
     parts.end = SandboxEnd::none;
     parts.stop.clear();
     parts.instructions = 0;
+    parts.last_moment = end_of_time(parts.limits.seconds);
     lua_sethook(parts.L, look_at_limits, kLooks, kInstructions);
     int status = LUA_OK;
     bool has_ended = false;

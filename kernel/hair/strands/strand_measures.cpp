@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <string_view>
 
+#include "kernel/core/numbers/bits.h"
 #include "kernel/hair/strands/strand_random.h"
 
 namespace lissom {
@@ -149,7 +149,7 @@ class Hasher {
     void add(std::uint32_t value) { add(std::uint64_t{value}); }
     // Every NaN counts as the same, since its payload differs between machines.
     void add(float value) {
-        add(std::isnan(value) ? std::uint32_t{0x7fc00000} : std::bit_cast<std::uint32_t>(value));
+        add(std::isnan(value) ? std::uint32_t{0x7fc00000} : bits_as<std::uint32_t>(value));
     }
     template <int N>
     void add(const Eigen::Matrix<float, N, 1>& vector) {

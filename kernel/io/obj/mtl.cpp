@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "kernel/core/numbers/number_text.h"
 #include "kernel/io/stream/text_reader.h"
 #include "kernel/io/stream/text_writer.h"
 #include "kernel/io/stream/words.h"
@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 11> kMtlStatements{
 
 std::optional<double> finite_number(std::string_view word) {
     double value = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = read_number(word.data(), word.data() + word.size(), value);
     const bool good = error == std::errc() && end == word.data() + word.size();
     return good && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }

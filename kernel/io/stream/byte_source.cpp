@@ -1,9 +1,9 @@
 #include "kernel/io/stream/byte_source.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 
+#include "kernel/core/numbers/bits.h"
 #include "kernel/io/stream/file.h"
 #include "kernel/io/stream/open_file.h"
 
@@ -15,7 +15,7 @@ constexpr std::size_t kPieceNumbers = 3 * (std::size_t{1} << 15);
 
 bool is_finite(float x) {
     constexpr std::uint32_t kExponent = 0x7f800000;
-    return (std::bit_cast<std::uint32_t>(x) & kExponent) != kExponent;
+    return (bits_as<std::uint32_t>(x) & kExponent) != kExponent;
 }
 
 // Without a branch in the loop, so that it is vectorised.

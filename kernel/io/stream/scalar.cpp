@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/core/numbers/bits.h"
+
 namespace lissom {
 
 std::size_t size_of(ScalarType type) {
@@ -46,7 +48,7 @@ double rounded_to(ScalarType integer_type, double value) {
 // some vectorized code.
 bool is_float(double value) {
     constexpr std::uint64_t kBitsBeyondFloat = (std::uint64_t{1} << 29) - 1;
-    if ((std::bit_cast<std::uint64_t>(value) & kBitsBeyondFloat) != 0) return false;
+    if ((bits_as<std::uint64_t>(value) & kBitsBeyondFloat) != 0) return false;
     const double magnitude = std::abs(value);
     return magnitude == 0.0 || (magnitude >= std::numeric_limits<float>::min() &&
                                 magnitude <= std::numeric_limits<float>::max());

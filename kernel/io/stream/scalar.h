@@ -9,6 +9,7 @@
 #include <cstring>
 #include <string>
 
+#include "kernel/core/numbers/bits.h"
 #include "kernel/io/stream/endianness.h"
 #include "kernel/mesh/attributes.h"
 
@@ -57,7 +58,7 @@ T from_bytes(const char* next, Endianness order) {
     std::array<char, sizeof(T)> bytes;
     std::memcpy(bytes.data(), next, sizeof(T));
     if (!is_native(order)) std::reverse(bytes.begin(), bytes.end());
-    return std::bit_cast<T>(bytes);
+    return bits_as<T>(bytes);
 }
 
 /// Appends the bytes of a number in a file.

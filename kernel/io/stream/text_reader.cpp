@@ -1,9 +1,10 @@
 #include "kernel/io/stream/text_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <system_error>
+
+#include "kernel/core/numbers/number_text.h"
 
 namespace lissom {
 namespace {
@@ -26,7 +27,7 @@ std::int64_t decimal_magnitude(const char* first, const char* last) {
     if (c == last || ++c == last) return exponent;
     if (*c == '+') ++c;
     std::int64_t written = 0;
-    if (std::from_chars(c, last, written).ec == std::errc::result_out_of_range) {
+    if (read_number(c, last, written).ec == std::errc::result_out_of_range) {
         return *c == '-' ? -1 : 1;
     }
     constexpr std::int64_t kLimit = std::int64_t{1} << 60;
@@ -117,7 +118,7 @@ double TextReader::number() {
     const char* const start = at_;
     skip_plus();
     double value = 0.0;
-    const auto [stop, error] = std::from_chars(at_, end_, value);
+    const auto [stop, error] = read_number(at_, end_, value);
     if (error == std::errc::invalid_argument) refuse_word(start, "a number");
     if (error == std::errc::result_out_of_range) value = out_of_range_value(at_, stop);
     at_ = stop;
@@ -130,7 +131,7 @@ std::int64_t TextReader::integer() {
     const char* const start = at_;
     skip_plus();
     std::int64_t value = 0;
-    const auto [stop, error] = std::from_chars(at_, end_, value);
+    const auto [stop, error] = read_number(at_, end_, value);
     if (error == std::errc::invalid_argument) refuse_word(start, "a whole number");
     if (error == std::errc::result_out_of_range) {
         value = *at_ == '-' ? std::numeric_limits<std::int64_t>::min()

@@ -1,9 +1,10 @@
 /// Appends numbers to text, the same in every locale; private to kernel/io.
 #pragma once
 
-#include <charconv>
 #include <string>
 #include <string_view>
+
+#include "kernel/core/numbers/number_text.h"
 
 namespace lissom {
 
@@ -11,7 +12,7 @@ namespace lissom {
 template <typename Number>
 void append_number(std::string& text, Number value) {
     char digits[32];
-    const auto [stop, error] = std::to_chars(digits, digits + sizeof(digits), value);
+    const auto [stop, error] = write_number(digits, digits + sizeof(digits), value);
     text.append(digits, stop);
 }
 

@@ -1,10 +1,11 @@
 #include "kernel/io/usda/text.h"
 #include "kernel/io/stream/percent.h"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <system_error>
+
+#include "kernel/core/numbers/number_text.h"
 
 namespace lissom {
 namespace {
@@ -56,7 +57,7 @@ double number_of(const UsdaText::Token& token) {
     std::string_view text = token.value;
     if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0.0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [stop, error] = read_number(text.data(), text.data() + text.size(), value);
     const bool whole = stop == text.data() + text.size();
     // A number out of range is near zero or beyond any length.
     if (whole && error == std::errc::result_out_of_range) {

@@ -1,11 +1,12 @@
 #include "kernel/mesh/repair/carry_soup.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
+
+#include "kernel/core/numbers/bits.h"
 
 namespace lissom {
 namespace {
@@ -49,7 +50,7 @@ struct SoupSources {
 
 bool same_values(std::span<const double> a, std::span<const double> b) {
     return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) {
-        return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) || x == y;
+        return bits_as<std::uint64_t>(x) == bits_as<std::uint64_t>(y) || x == y;
     });
 }
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/numbers/number_text.h"
 #include "kernel/io/stream/file.h"
 #include "kernel/io/stream/folder.h"
 
@@ -53,7 +53,7 @@ bool all_finite(const std::vector<Number>& numbers) {
 template <typename Number>
 void append_shortest(std::string& text, Number value) {
     char digits[40];
-    const auto [stop, error] = std::to_chars(digits, digits + sizeof digits, value);
+    const auto [stop, error] = write_number(digits, digits + sizeof digits, value);
     text.append(digits, stop);
 }
 
@@ -141,8 +141,7 @@ class WordReader {
     Number number() {
         Number value{};
         const std::string_view given = word();
-        const auto [stop, error] =
-            std::from_chars(given.data(), given.data() + given.size(), value);
+        const auto [stop, error] = read_number(given.data(), given.data() + given.size(), value);
         if (error != std::errc() || stop != given.data() + given.size() || given.empty()) {
             refuse("'" + std::string(given) + "' is not the number that belongs here");
         }
@@ -152,8 +151,7 @@ class WordReader {
     Index corner() {
         const std::string_view given = word();
         Index value = 0;
-        const auto [stop, error] =
-            std::from_chars(given.data(), given.data() + given.size(), value);
+        const auto [stop, error] = read_number(given.data(), given.data() + given.size(), value);
         const bool ends = stop == given.data() + given.size() || *stop == '/';
         if (error != std::errc() || !ends || value < 1) {
             refuse("'" + std::string(given) + "' is no vertex");

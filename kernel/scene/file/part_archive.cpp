@@ -86,7 +86,7 @@ std::size_t padded(std::size_t size) {
 
 void PartWriter::add(std::string_view name, std::string_view bytes) {
     require(name.size() < kName.length, "a part's name is too long", ErrorCode::internal);
-    require(bytes.size() < kMaxBytes, "an object of the scene has 8 GiB or more",
+    require(std::uint64_t{bytes.size()} < kMaxBytes, "an object of the scene has 8 GiB or more",
             ErrorCode::file_too_large);
     const Header header = header_of(name, bytes.size());
     bytes_.append(header.data(), kRecord);

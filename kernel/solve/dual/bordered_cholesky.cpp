@@ -5,6 +5,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/core/lanes.h"
+#include "kernel/core/numbers/bits.h"
 #include "kernel/solve/sparse/dense_kernels.h"
 
 namespace lissom {
@@ -17,7 +18,7 @@ constexpr Index kFillGrain = 16, kRowGrain = 72, kRowStep = 12;
 using Scratch = std::unique_ptr<double[]>;
 
 Scratch make_scratch() {
-    return std::make_unique_for_overwrite<double[]>(kPackedSize);
+    return unfilled<double[]>(kPackedSize);
 }
 
 // A column more than there are rows at most, and never a multiple of a large power of two, which
@@ -88,7 +89,7 @@ void BorderedCholesky::reserve(Index size, const Context& context) {
     if (size <= stride_) return;
     MemoryCharge charge = context.charge(bytes(size), "the factor of the constraints");
     const Index stride = stride_for(size);
-    auto value = std::make_unique_for_overwrite<double[]>(bytes(size) / sizeof(double));
+    auto value = unfilled<double[]>(bytes(size) / sizeof(double));
     for (Index j = 0; j < size_; ++j) {
         std::copy_n(entry(j, j), size_ - j, value.get() + j + std::ptrdiff_t{j} * stride);
     }

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "kernel/core/error.h"
+#include "kernel/core/numbers/bits.h"
 #include "kernel/solve/sparse/dense_kernels.h"
 
 namespace lissom {
@@ -237,8 +238,8 @@ void MaximinFactor::fill_values(const GridGreen& green, Columns& columns,
     const DenseKernels kernels = dense_kernels(best_processor());
     std::vector<Index> failures(columns.point.size(), kNoIndex);
     context.parallel_for(0, count_of(columns.point), kColumnGrain, [&](Index begin, Index end) {
-        const auto packed = std::make_unique_for_overwrite<double[]>(kPackedSize);
-        const auto block = std::make_unique_for_overwrite<double[]>(kNeighbors * kNeighbors);
+        const auto packed = unfilled<double[]>(kPackedSize);
+        const auto block = unfilled<double[]>(kNeighbors * kNeighbors);
         std::vector<GridPoint> points;
         for (Index i = begin; i < end; ++i) {
             if (keep_column(columns, i, places)) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "kernel/core/numbers/bits.h"
 #include "kernel/solve/sparse/dense_kernels.h"
 
 namespace lissom {
@@ -15,8 +16,7 @@ constexpr Index kBlock = kPanelColumns, kBlockGrain = 4;
 // Buffers of one thread.
 struct TransformScratch {
     explicit TransformScratch(Index n)
-        : packed(std::make_unique_for_overwrite<double[]>(kPackedSize)),
-          halves(std::make_unique_for_overwrite<double[]>(at(n + 1) * kBlock)) {}
+        : packed(unfilled<double[]>(kPackedSize)), halves(unfilled<double[]>(at(n + 1) * kBlock)) {}
     std::unique_ptr<double[]> packed, halves;
 };
 

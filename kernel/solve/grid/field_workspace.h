@@ -6,6 +6,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/core/numbers/bits.h"
 #include "kernel/solve/grid/cosine_transform.h"
 #include "kernel/solve/grid/grid_size.h"
 
@@ -19,7 +20,7 @@ inline std::size_t field_entries(const GridSize& size) {
 }
 
 inline FieldBuffer make_field(const GridSize& size) {
-    return std::make_unique_for_overwrite<double[]>(field_entries(size));
+    return unfilled<double[]>(field_entries(size));
 }
 
 /// Two buffers that transforms write to, kept because fresh pages cost more than a transform.

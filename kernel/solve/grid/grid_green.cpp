@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "kernel/core/numbers/bits.h"
 #include "kernel/solve/sparse/dense_kernels.h"
 
 namespace lissom {
@@ -41,7 +42,7 @@ std::vector<double> sum_axis(const std::vector<double>& from, Index n, const Con
     const DenseKernels kernels = dense_kernels(best_processor());
     const Index blocks = (columns + kPanelColumns - 1) / kPanelColumns;
     context.parallel_for(0, blocks, 8, [&](Index begin, Index end) {
-        const auto packed = std::make_unique_for_overwrite<double[]>(kPackedSize);
+        const auto packed = unfilled<double[]>(kPackedSize);
         for (Index first = begin * kPanelColumns; first < std::min(columns, end * kPanelColumns);
              first += kPanelColumns) {
             DenseProduct product;

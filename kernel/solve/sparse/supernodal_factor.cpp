@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "kernel/core/large_pages.h"
+#include "kernel/core/numbers/bits.h"
 
 namespace lissom {
 namespace {
@@ -31,9 +32,9 @@ struct Block {
 // Buffers of one chunk of work.
 struct Scratch {
     explicit Scratch(Index tallest)
-        : product(std::make_unique_for_overwrite<double[]>(at(tallest) * kUpdateColumns)),
-          packed(std::make_unique_for_overwrite<double[]>(kPackedSize)),
-          local(std::make_unique_for_overwrite<Index[]>(at(tallest))) {}
+        : product(unfilled<double[]>(at(tallest) * kUpdateColumns)),
+          packed(unfilled<double[]>(kPackedSize)),
+          local(unfilled<Index[]>(at(tallest))) {}
 
     std::unique_ptr<double[]> product, packed;
     std::unique_ptr<Index[]> local;
@@ -43,7 +44,7 @@ struct Scratch {
 class BlockExecutor {
   public:
     BlockExecutor(Index size, Index tallest, std::size_t max_chunks, const Context* context)
-        : position(std::make_unique_for_overwrite<Index[]>(at(size))), context_(context) {
+        : position(unfilled<Index[]>(at(size))), context_(context) {
         for (std::size_t i = 0; i < max_chunks; ++i) scratch_.emplace_back(tallest);
     }
 
