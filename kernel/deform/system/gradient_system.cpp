@@ -134,6 +134,36 @@ class Assembler {
         return most;
     }
 
+    void add_gradient(Index a, double weight, RowAccumulator<Vec3>& row) const {
+        row.add(a, weight * gradients_.self[a]);
+        for (Index e = rings_.begin[a]; e < rings_.begin[a + 1]; ++e) {
+            row.add(rings_.neighbor[e], weight * gradients_.neighbor[e]);
+        }
+    }
+
+    // Adds the difference of the gradient at `a` from those of its pairs and ties, known ones
+    // apart.
+    void add_coherence_row(Index a, RowAccumulator<Vec3>& row, RowAccumulator<double>& known_row,
+                           RowAccumulator<double>& pairs) const {
+        double total = 0.0;
+        for_each_pair(a, pairs, [&](Index b, double weight) {
+            total += weight;
+            if (known_.gradient[b]) {
+                known_row.add(b, -weight);
+            } else {
+                add_gradient(b, -weight, row);
+            }
+        });
+        const double tie_unit = work_.gradient_unit() / options_.coherence_weight;
+        const auto [first, last] = ties_of_.equal_range(a);
+        for (auto tie = first; tie != last; ++tie) {
+            const double weight = tie->second->weight * tie_unit;
+            total += weight;
+            known_row.add(tie->second->anchor, -weight);
+        }
+        if (total > 0.0) add_gradient(a, total, row);
+    }
+
     CoherenceRows coherence_rows(Index begin, Index end) const {
         CoherenceRows rows;
         const std::size_t most = max_columns(begin, end);
@@ -141,31 +171,9 @@ class Assembler {
         rows.value.reserve(most);
         RowAccumulator<Vec3> row(rings_.size());
         RowAccumulator<double> known_row(rings_.size()), pairs(rings_.size());
-        const auto add_gradient = [&](Index a, double weight) {
-            row.add(a, weight * gradients_.self[a]);
-            for (Index e = rings_.begin[a]; e < rings_.begin[a + 1]; ++e) {
-                row.add(rings_.neighbor[e], weight * gradients_.neighbor[e]);
-            }
-        };
-        const double tie_unit = work_.gradient_unit() / options_.coherence_weight;
         for (Index a = begin; a < end; ++a) {
             if (gradients_.defined[a] && !known_.gradient[a]) {
-                double total = 0.0;
-                for_each_pair(a, pairs, [&](Index b, double weight) {
-                    total += weight;
-                    if (known_.gradient[b]) {
-                        known_row.add(b, -weight);
-                    } else {
-                        add_gradient(b, -weight);
-                    }
-                });
-                const auto [first, last] = ties_of_.equal_range(a);
-                for (auto tie = first; tie != last; ++tie) {
-                    const double weight = tie->second->weight * tie_unit;
-                    total += weight;
-                    known_row.add(tie->second->anchor, -weight);
-                }
-                if (total > 0.0) add_gradient(a, total);
+                add_coherence_row(a, row, known_row, pairs);
             }
             row.drain([&](Index c, const Vec3& v) {
                 rows.column.push_back(c);

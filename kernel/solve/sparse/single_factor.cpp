@@ -79,6 +79,63 @@ double max_component(std::span<const Vec3> rows) {
     return greatest;
 }
 
+// One solve over ranges of supernodes: unknowns in the order of elimination at `at`, and for each
+// bin room for the rows below a supernode.
+class SingleSolve {
+  public:
+    SingleSolve(const SingleFactor::Supernodes& nodes, const std::vector<Index>& permutation,
+                std::span<const Vec3> b, std::span<Vec3> x, Lanes<float>* at, Lanes<float>* below,
+                Index tallest, double greatest)
+        : nodes_(nodes),
+          permutation_(permutation),
+          b_(b),
+          x_(x),
+          at_(at),
+          below_(below),
+          tallest_(tallest),
+          in_(1.0 / greatest),
+          // The factor was divided by `scale`: L L^T stands for A / scale^2.
+          out_(greatest / (nodes.scale * nodes.scale)),
+          view_{nodes.super.data(), nodes.first_row.data(), nodes.first_value.data(),
+                nodes.row.data(), nodes.value.data()} {}
+
+    void read(Index first, Index last) const {
+        for (Index i = nodes_.super[first]; i < nodes_.super[last]; ++i) {
+            at_[i] = to_lanes(b_[permutation_[i]], in_);
+        }
+    }
+
+    void write(Index first, Index last) const {
+        for (Index i = nodes_.super[first]; i < nodes_.super[last]; ++i) {
+            x_[permutation_[i]] = from_lanes(at_[i], out_);
+        }
+    }
+
+    void lower(Index first, Index last, Index bin) const {
+        sweeps_.lower(view_, first, last, at_, below_of(bin));
+    }
+
+    void upper(Index first, Index last, Index bin) const {
+        sweeps_.upper(view_, first, last, at_, below_of(bin));
+    }
+
+  private:
+    Lanes<float>* below_of(Index bin) const {
+        return below_ + static_cast<std::ptrdiff_t>(bin) * tallest_;
+    }
+
+    const SingleFactor::Supernodes& nodes_;
+    const std::vector<Index>& permutation_;
+    std::span<const Vec3> b_;
+    std::span<Vec3> x_;
+    Lanes<float>* at_;
+    Lanes<float>* below_;
+    Index tallest_;
+    double in_, out_;
+    View view_;
+    Sweeps sweeps_ = choose_sweeps();
+};
+
 }  // namespace
 
 SingleFactor::SingleFactor(Supernodes supernodes, std::vector<Index> permutation,
@@ -182,44 +239,28 @@ void SingleFactor::solve(std::span<const Vec3> b, std::span<Vec3> x, Scratch& sc
         std::fill(x.begin(), x.end(), Vec3::Zero());
         return;
     }
-    // The factor was divided by scale_: L L^T stands for A / scale_^2.
-    const double in = 1.0 / greatest, out = greatest / (nodes_.scale * nodes_.scale);
     const std::size_t lanes = extended_size_ + (bins_.size() + 1) * tallest_;
     scratch.resize(4 * lanes);
-    auto* at = reinterpret_cast<Lanes<float>*>(scratch.data());
-    Lanes<float>* const below = at + extended_size_;
-    const auto below_of = [&](Index bin) {
-        return below + static_cast<std::ptrdiff_t>(bin) * tallest_;
-    };
-    const View view{nodes_.super.data(), nodes_.first_row.data(), nodes_.first_value.data(),
-                    nodes_.row.data(), nodes_.value.data()};
-    const Sweeps sweeps = choose_sweeps();
-    const auto read = [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) at[i] = to_lanes(b[permutation_[i]], in);
-    };
-    const auto write = [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) x[permutation_[i]] = from_lanes(at[i], out);
-    };
+    auto* const at = reinterpret_cast<Lanes<float>*>(scratch.data());
+    const auto own_bin = count_of(bins_);
+    const SingleSolve work{nodes_, permutation_, b, x, at, at + extended_size_, tallest_, greatest};
 
     for_each_bin(context, [&](const Subtree& t, Index bin) {
-        read(nodes_.super[t.first], nodes_.super[t.last]);
+        work.read(t.first, t.last);
         for (std::size_t i = 0; i < t.above.size(); ++i) at[t.extension + i] = Lanes<float>{};
-        sweeps.lower(view, t.first, t.last, at, below_of(bin));
+        work.lower(t.first, t.last, bin);
     });
-    const auto own_bin = count_of(bins_);
-    for (const Index s : top_) read(nodes_.super[s], nodes_.super[s + 1]);
+    for (const Index s : top_) work.read(s, s + 1);
     for (const Subtree& t : subtrees_) {
         for (std::size_t i = 0; i < t.above.size(); ++i) at[t.above[i]] += at[t.extension + i];
     }
-    for (const Index s : top_) sweeps.lower(view, s, s + 1, at, below_of(own_bin));
-    for (auto s = top_.rbegin(); s != top_.rend(); ++s) {
-        sweeps.upper(view, *s, *s + 1, at, below_of(own_bin));
-    }
-    for (const Index s : top_) write(nodes_.super[s], nodes_.super[s + 1]);
+    for (const Index s : top_) work.lower(s, s + 1, own_bin);
+    for (auto s = top_.rbegin(); s != top_.rend(); ++s) work.upper(*s, *s + 1, own_bin);
+    for (const Index s : top_) work.write(s, s + 1);
     for_each_bin(context, [&](const Subtree& t, Index bin) {
         for (std::size_t i = 0; i < t.above.size(); ++i) at[t.extension + i] = at[t.above[i]];
-        sweeps.upper(view, t.first, t.last, at, below_of(bin));
-        write(nodes_.super[t.first], nodes_.super[t.last]);
+        work.upper(t.first, t.last, bin);
+        work.write(t.first, t.last);
     });
 }
 
