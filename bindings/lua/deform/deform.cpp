@@ -18,7 +18,30 @@ namespace lissom::lua {
 
 std::size_t DeformObject::memory_bytes() const {
     if (!content) return 0;
-    return stats_of(*content).factor_bytes + content->positions().size() * 4 * sizeof(Mat3);
+    std::size_t bytes = stats_of(*content).factor_bytes;
+    for (const AttachedMesh& part : attached) bytes += part.attachment.memory_bytes();
+    return bytes + content->positions().size() * 4 * sizeof(Mat3);
+}
+
+void DeformObject::show_result(const Context& context) {
+    if (attached.empty()) {
+        content->apply_to(mesh->mesh);
+        mesh->changed();
+        return;
+    }
+    Mesh surface = mesh->mesh;
+    content->apply_to(surface);
+    std::vector<Mesh> moved;
+    for (const AttachedMesh& part : attached) {
+        moved.push_back(part.mesh->mesh);
+        part.attachment.follow(surface, moved.back(), context);
+    }
+    mesh->mesh = std::move(surface);
+    mesh->changed();
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        attached[i].mesh->mesh = std::move(moved[i]);
+        attached[i].mesh->changed();
+    }
 }
 
 Deformer& DeformObject::deformer() {
@@ -141,9 +164,11 @@ int write_result(Call& call, const Solve& solve) {
     const bool done = call.attempt([&] {
         Deformer& deformer = edit->deformer();
         require_surroundings(deformer, edit->mesh->mesh);
+        for (const AttachedMesh& part : edit->attached) {
+            require_current(*part.mesh, part.topology, "the attached mesh");
+        }
         solve(deformer);
-        deformer.apply_to(edit->mesh->mesh);
-        edit->mesh->changed();
+        edit->show_result(call.context());
     });
     if (!done) return call.fail();
     call.charge(edit);
@@ -605,6 +630,7 @@ deformer:solve())"},
          .example = kBar + "assert(deformer:mesh() == bar)"}};
     for (Function& method : solving_methods()) type.methods.push_back(std::move(method));
     for (Function& method : deform_engine_methods()) type.methods.push_back(std::move(method));
+    for (Function& method : attachment_methods()) type.methods.push_back(std::move(method));
     return type;
 }
 

@@ -3,11 +3,20 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "bindings/lua/mesh/mesh_object.h"
+#include "kernel/deform/attach/attachment.h"
 #include "kernel/deform/deformer.h"
 
 namespace lissom::lua {
+
+/// A mesh that follows the surface of a deformer.
+struct AttachedMesh {
+    std::shared_ptr<MeshObject> mesh;
+    std::shared_ptr<const Topology> topology;
+    Attachment attachment;
+};
 
 struct DeformObject {
     static constexpr const char* kTypeName = "lissom.Deformer";
@@ -23,9 +32,13 @@ struct DeformObject {
     std::shared_ptr<const Topology> topology;
     /// Empty once it was closed.
     std::shared_ptr<Deformer> content;
+    std::vector<AttachedMesh> attached;
     std::size_t charged_bytes = 0;
 
     std::size_t memory_bytes() const;
+    /// Writes the last result into the mesh, and moves the attached meshes along; after an error
+    /// all are as before. Throws topology_mismatch if an attached mesh has another topology by now.
+    void show_result(const Context& context);
     /// Throws handle_removed if it was closed, topology_mismatch if the mesh has another topology
     /// by now or was closed.
     Deformer& deformer();

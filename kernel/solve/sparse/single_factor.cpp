@@ -83,30 +83,27 @@ double max_component(std::span<const Vec3> rows) {
 // bin room for the rows below a supernode.
 class SingleSolve {
   public:
-    SingleSolve(const SingleFactor::Supernodes& nodes, const std::vector<Index>& permutation,
-                std::span<const Vec3> b, std::span<Vec3> x, Lanes<float>* at, Lanes<float>* below,
-                Index tallest, double greatest)
-        : nodes_(nodes),
+    SingleSolve(const View& view, const std::vector<Index>& permutation, std::span<const Vec3> b,
+                std::span<Vec3> x, Lanes<float>* at, Lanes<float>* below, Index tallest, double in,
+                double out)
+        : view_(view),
           permutation_(permutation),
           b_(b),
           x_(x),
           at_(at),
           below_(below),
           tallest_(tallest),
-          in_(1.0 / greatest),
-          // The factor was divided by `scale`: L L^T stands for A / scale^2.
-          out_(greatest / (nodes.scale * nodes.scale)),
-          view_{nodes.super.data(), nodes.first_row.data(), nodes.first_value.data(),
-                nodes.row.data(), nodes.value.data()} {}
+          in_(in),
+          out_(out) {}
 
     void read(Index first, Index last) const {
-        for (Index i = nodes_.super[first]; i < nodes_.super[last]; ++i) {
+        for (Index i = view_.super[first]; i < view_.super[last]; ++i) {
             at_[i] = to_lanes(b_[permutation_[i]], in_);
         }
     }
 
     void write(Index first, Index last) const {
-        for (Index i = nodes_.super[first]; i < nodes_.super[last]; ++i) {
+        for (Index i = view_.super[first]; i < view_.super[last]; ++i) {
             x_[permutation_[i]] = from_lanes(at_[i], out_);
         }
     }
@@ -124,7 +121,7 @@ class SingleSolve {
         return below_ + static_cast<std::ptrdiff_t>(bin) * tallest_;
     }
 
-    const SingleFactor::Supernodes& nodes_;
+    View view_;
     const std::vector<Index>& permutation_;
     std::span<const Vec3> b_;
     std::span<Vec3> x_;
@@ -132,7 +129,6 @@ class SingleSolve {
     Lanes<float>* below_;
     Index tallest_;
     double in_, out_;
-    View view_;
     Sweeps sweeps_ = choose_sweeps();
 };
 
@@ -243,7 +239,11 @@ void SingleFactor::solve(std::span<const Vec3> b, std::span<Vec3> x, Scratch& sc
     scratch.resize(4 * lanes);
     auto* const at = reinterpret_cast<Lanes<float>*>(scratch.data());
     const auto own_bin = count_of(bins_);
-    const SingleSolve work{nodes_, permutation_, b, x, at, at + extended_size_, tallest_, greatest};
+    const View view{nodes_.super.data(), nodes_.first_row.data(), nodes_.first_value.data(),
+                    nodes_.row.data(), nodes_.value.data()};
+    // The factor was divided by `scale`: L L^T stands for A / scale^2.
+    const SingleSolve work(view, permutation_, b, x, at, at + extended_size_, tallest_,
+                           1.0 / greatest, greatest / (nodes_.scale * nodes_.scale));
 
     for_each_bin(context, [&](const Subtree& t, Index bin) {
         work.read(t.first, t.last);
