@@ -32,7 +32,6 @@ std::vector<Function> buffer_methods_of_mesh();
 
 Type deformer_type();
 std::vector<Function> deform_engine_methods();
-std::vector<Function> attachment_methods();
 Type handle_type();
 std::vector<Function> deform_functions();
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "bindings/lua/core/registry.h"
 #include "bindings/lua/mesh/mesh_object.h"
 #include "kernel/deform/attach/attachment.h"
 #include "kernel/deform/deformer.h"
@@ -50,5 +51,8 @@ struct HandleObject {
     std::shared_ptr<DeformObject> edit;
     HandleId id;
 };
+
+/// Returns the methods attach and detach of a deformer.
+std::vector<Function> attachment_methods();
 
 }  // namespace lissom::lua
