@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bindings/lua/core/listeners.h"
+#include "bindings/lua/mesh/mesh_resample.h"
 #include "kernel/core/build_info.h"
 #include "kernel/core/version.h"
 #include "kernel/mesh/report.h"
@@ -22,6 +23,7 @@ Type whole_mesh_type() {
     add(mesh.methods, mesh_query_methods());
     add(mesh.methods, mesh_file_methods());
     add(mesh.methods, mesh_report_methods());
+    add(mesh.methods, resample_methods());
     add(mesh.methods, buffer_methods_of_mesh());
     add(mesh.methods, region_methods_of_mesh());
     add(mesh.methods, path_methods_of_mesh());
@@ -101,6 +103,7 @@ Library kernel_library() {
     add(library.records, error_records());
     add(library.records, cut_records());
     add(library.records, parameterize_records());
+    add(library.records, resample_records());
     add(library.records, merge_records());
     add(library.records, paste_records());
     add(library.records, erase_records());

@@ -222,6 +222,16 @@
 ---@field crossings integer Pairs of boundary edges that cross in the plane.
 ---@field boundaries integer Boundaries of the faces.
 
+---The motion of one surface onto another.
+---@class lissom.AlignReport
+---@field matrix number[][] The motion, as rows {x, y, z, shift}.
+---@field scale number Factor by which it scaled the mesh.
+---@field residual_before number RMS distance between the surfaces before, over the part that they both have.
+---@field residual number The same now.
+---@field greatest number Greatest of those distances.
+---@field iterations integer Steps made.
+---@field converged boolean Whether the last step hardly moved the mesh.
+
 ---An element that another comes from.
 ---@class lissom.Origin
 ---@field side string source or target.
@@ -994,6 +1004,82 @@ function Mesh:save(path, options) end
 ---Elements that were welded, split, dropped, flagged or left out when the mesh was loaded: a list of findings, each also under the name of its kind. Empty for a mesh that was made otherwise.
 ---@return lissom.Report report # The findings.
 function Mesh:report() end
+
+---@class lissom.Mesh.DecimateOptions
+---@field faces? integer Number of faces wanted; give this or `error`, or both. Default: no limit.
+---@field error? number Greatest error of one collapse: the root of the mean squared distance to the planes of the faces that it replaces. In mesh units. Default: no limit.
+---@field region? lissom.Region Only faces of this region change. Default: all.
+---@field crease? number Edges whose faces' normals differ by more than this are lines that are kept; 180 for none. In degrees. Default: 180.
+---@field attributes? number A difference as great as the range of an attribute counts as this part of the mesh's size; 0 looks at the shape alone. Default: 0.1.
+---@field keep_borders? boolean Vertices of open borders stay. Default: false.
+
+---A mesh with fewer faces for nearly the same surface: edges collapse, those first that change shape and attributes the least (quadrics). Polygons are triangulated. Open borders, seams of texture coordinates, outlines of groups, materials and named regions stay lines; morph targets and skins are carried. If those lines need more faces than were wanted, there are more.
+---@param options? lissom.Mesh.DecimateOptions
+---@return lissom.Mesh mesh # The new mesh.
+---@return number error # Greatest error of a collapse.
+function Mesh:decimate(options) end
+
+---@class lissom.Mesh.RemeshOptions
+---@field edge? number Length of edges; the longest where they adapt. In mesh units. Default: the mean of the mesh.
+---@field error? number Edges are shorter where the surface is curved, so that they stay this near to it. In mesh units. Default: all edges alike.
+---@field shortest? number Shortest edge where they adapt. In mesh units. Default: an eighth of `edge`.
+---@field region? lissom.Region Only faces of this region change, and not its outline. Default: all.
+---@field crease? number Edges whose faces' normals differ by more than this are lines that are kept; 180 for none. In degrees. Default: 40.
+---@field iterations? integer Rounds of splits, collapses, flips and moves. Default: 8.
+
+---The surface with triangles of even size and shape: long edges are split, short ones collapse, others flip, and vertices move along the surface. Open borders, seams, outlines of groups, materials and named regions, creases and their corners stay. Attributes are those of the nearest point of the old surface.
+---@param options? lissom.Mesh.RemeshOptions
+---@return lissom.Mesh mesh # The new mesh.
+function Mesh:remesh(options) end
+
+---@class lissom.Mesh.SymmetrizeOptions.Plane
+---@field point lissom.Vector A point of the plane.
+---@field normal lissom.Vector Towards the half that is kept.
+
+---@class lissom.Mesh.SymmetrizeOptions
+---@field plane lissom.Mesh.SymmetrizeOptions.Plane The plane of symmetry.
+---@field weld? number Vertices of open borders this near to the plane are on it. In mesh units. Default: a hundredth of the mean edge.
+
+---The half on one side of a plane with its mirror image, welded along the plane. A mesh that crosses the plane is cut; one that only reaches it is a half model. Texture coordinates are those of the half, morph targets are mirrored.
+---@param options lissom.Mesh.SymmetrizeOptions
+---@return lissom.Mesh mesh # The new mesh.
+---@return integer[] mirror # For each vertex its mirror image; itself on the plane.
+function Mesh:symmetrize(options) end
+
+---@class lissom.Mesh.ThickenOptions
+---@field thickness number Thickness of the shell. In mesh units.
+---@field outside? number Part of the thickness that lies outside the surface. Default: 0.
+---@field check? boolean Whether faces that run through one another are searched for. Default: true.
+
+---A solid shell around the surface, for printing: a second side inside, with rims along open borders. The vertices and faces of the surface come first, then those of the inner side in the same order, then the rims. A closed surface becomes hollow.
+---@param options lissom.Mesh.ThickenOptions
+---@return lissom.Mesh mesh # The new mesh.
+---@return integer[][] crossings # Pairs of faces that run through one another and did not before.
+function Mesh:thicken(options) end
+
+---@class lissom.Mesh.OffsetOptions
+---@field distance number Distance outwards; inwards if it is negative. In mesh units.
+---@field check? boolean Whether faces that run through one another are searched for. Default: true.
+
+---Moves the surface along its normals, so that its faces move evenly.
+---@param options lissom.Mesh.OffsetOptions
+---@return lissom.Mesh mesh # The mesh itself.
+---@return integer[][] crossings # Pairs of faces that run through one another and did not before.
+function Mesh:offset(options) end
+
+---@class lissom.Mesh.AlignOptions
+---@field to lissom.Mesh The surface that it is put onto.
+---@field start? "placed"|"axes" Begins as the meshes lie, or with the centroids and principal axes on each other, whatever the meshes' places. Default: "placed".
+---@field scale? boolean Scales the mesh too. Default: false.
+---@field overlap? number Part of the surfaces that both have. Default: 1.
+---@field samples? integer Points on each surface that are used. Default: 2000.
+---@field iterations? integer Greatest number of steps. Default: 60.
+
+---Moves the mesh onto another surface as nearly as it fits (iterated closest points), and tells how near that is.
+---@param options lissom.Mesh.AlignOptions
+---@return lissom.Mesh mesh # The mesh itself.
+---@return lissom.AlignReport report # The motion and how near it comes.
+function Mesh:align(options) end
 
 ---The positions as a typed buffer without a copy: x, y, z of vertex 1, of vertex 2, and so on.
 ---@return lissom.Buffer positions # Three numbers a vertex.
