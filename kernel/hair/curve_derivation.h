@@ -26,6 +26,8 @@ struct DerivedCurve {
     std::optional<TiltFit> tilt;
     /// Tie of a ponytail.
     std::optional<HairTie> tie;
+    /// Whether a stream leads into a tie, without its vanishing extension.
+    bool gathered = false;
 };
 
 /// Errors: as Hairstyle::set.

@@ -35,6 +35,8 @@ struct DerivedStyle {
 struct StyleGround {
     const Scalp& scalp;
     const DistanceGrid& distances;
+    /// Whether streams that end close to a tie lead into it.
+    bool gathers = false;
     /// Whether errors name the curve, by its number from 1 behind the first `known` ones.
     bool names_curves = false;
     std::size_t known = 0;

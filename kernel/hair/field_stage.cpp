@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "kernel/hair/curve/constraint_kind.h"
+#include "kernel/hair/derived_style.h"
+
 namespace lissom {
 namespace {
 
@@ -14,6 +17,18 @@ std::vector<const CurveClaim*> in_edit_order(const std::vector<CurveClaim>& clai
     std::stable_sort(order.begin(), order.end(),
                      [](const CurveClaim* a, const CurveClaim* b) { return a->edit < b->edit; });
     return order;
+}
+
+// Points that curves style: beyond the end of a stream hair falls on.
+std::vector<Index> points_of_curves(const std::vector<CurveClaim>& claims) {
+    std::vector<Index> points;
+    for (const CurveClaim& claim : claims) {
+        if (claim.owner == kScalpOwner) continue;
+        for (const GridConstraint& one : claim.constraints) {
+            if (one.tag != static_cast<int>(ConstraintKind::stop)) points.push_back(one.point);
+        }
+    }
+    return points;
 }
 
 bool has_rows_of(const CurveClaim& a, const CurveClaim& b) {
@@ -50,8 +65,10 @@ void FieldStage::give(const std::vector<CurveClaim>& claims) {
     given_ = std::move(now);
 }
 
-void FieldStage::solve(const std::vector<CurveClaim>& claims, const Context& context) {
+void FieldStage::solve(const std::vector<CurveClaim>& claims, FieldGravity gravity,
+                       const Context& context) {
     if (solved(claims)) return;
+    gravity.styled = points_of_curves(claims);
     try {
         give(claims);
     } catch (...) {
@@ -59,7 +76,7 @@ void FieldStage::solve(const std::vector<CurveClaim>& claims, const Context& con
         given_.clear();
         throw;
     }
-    field_.solve(context);
+    field_.solve(context, gravity);
 }
 
 }  // namespace lissom

@@ -6,6 +6,7 @@
 
 #include "kernel/core/context.h"
 #include "kernel/hair/curve_conflicts.h"
+#include "kernel/hair/field/field_gravity.h"
 #include "kernel/hair/field/hair_field.h"
 
 namespace lissom {
@@ -19,9 +20,10 @@ class FieldStage {
     const HairField& field() const { return field_; }
     /// Returns whether the field is that of these claims.
     bool solved(const std::vector<CurveClaim>& claims) const;
-    /// After an error the values of the field are those of the last solve.
-    /// Errors: as HairField::solve.
-    void solve(const std::vector<CurveClaim>& claims, const Context& context);
+    /// Solves with gravity away from the claims of curves; all but its `styled` is taken from
+    /// `gravity`, which must follow from the claims. After an error the values of the field are
+    /// those of the last solve. Errors: as HairField::solve.
+    void solve(const std::vector<CurveClaim>& claims, FieldGravity gravity, const Context& context);
     /// Same as HairField::put_back.
     void put_back(std::vector<float> values) { field_.put_back(std::move(values)); }
 

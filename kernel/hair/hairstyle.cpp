@@ -141,7 +141,7 @@ struct Hairstyle::State {
 
     // Takes these inputs, or throws and changes nothing.
     void accept(StyleInputs inputs) {
-        accept(std::move(inputs), {*scalp, field.field().distances()}, {});
+        accept(std::move(inputs), {*scalp, field.field().distances(), gathers()}, {});
     }
     void accept(StyleInputs inputs, const StyleGround& ground, const Context& context) {
         style = with_memory_errors(
@@ -150,6 +150,8 @@ struct Hairstyle::State {
     bool over_scalp(const Vec3& point) const;
     std::vector<GridConstraint> scalp_step(const ScalpStepOptions& options) const;
     std::vector<HairTie> ties(std::vector<std::string>& names) const;
+    FieldGravity gravity() const;
+    bool gathers() const { return options.gravity > 0.0; }
 
     // The head, and its constant properties.
     Mesh original;
@@ -172,6 +174,7 @@ Hairstyle::Hairstyle(const Mesh& head, std::shared_ptr<const Scalp> scalp,
         throw Error(ErrorCode::topology_mismatch,
                     "the scalp was made for another head; make one for this head");
     }
+    require(options.gravity >= 0.0 && options.gravity <= 1.0, "gravity must be from 0 to 1");
     require_affordable(options, context);
     state_ = std::make_unique<State>(head, std::move(scalp), options, context);
 }
@@ -237,7 +240,8 @@ std::vector<CurveId> Hairstyle::add_all(std::vector<StyleCurve> curves, const Co
         ids.push_back(id);
         wanted.curves.push_back({id, std::move(curve), edit++});
     }
-    state_->accept(std::move(wanted), {*state_->scalp, field().distances(), true, known}, context);
+    state_->accept(std::move(wanted),
+                   {*state_->scalp, field().distances(), state_->gathers(), true, known}, context);
     if (!ids.empty()) state_->last_id = ids.back().value;
     return ids;
 }
@@ -362,7 +366,8 @@ void Hairstyle::restore(StyleInputs inputs) {
 // ---- The field
 
 void Hairstyle::solve(const Context& context) {
-    with_memory_errors([&] { state_->field.solve(state_->style.claims, context); });
+    with_memory_errors(
+        [&] { state_->field.solve(state_->style.claims, state_->gravity(), context); });
 }
 
 bool Hairstyle::solved() const {
@@ -422,6 +427,13 @@ std::vector<HairTie> Hairstyle::State::ties(std::vector<std::string>& names) con
         result.push_back(*style.curves[c]->tie);
         names.push_back(one.name.empty() ? "ponytail " + std::to_string(result.size()) : one.name);
     }
+    return result;
+}
+
+FieldGravity Hairstyle::State::gravity() const {
+    FieldGravity result{.amount = options.gravity};
+    std::vector<std::string> names;
+    for (const HairTie& tie : ties(names)) result.ties.push_back(tie.center);
     return result;
 }
 

@@ -43,6 +43,10 @@ struct HairstyleOptions {
     /// Box that hair may fill; strands end at its faces. Absent: Scalp::default_volume.
     std::optional<Box> volume = std::nullopt;
     GridFieldOptions field = HairField::default_options();
+    /// Hair that no curve is near falls along the head, goes to the sides over the face, and to the
+    /// nearest tie if there are ponytails; a stream that ends close to a tie leads into it, and
+    /// from the end of any other hair falls on. 0 to 1; 0 for the field of the curves alone.
+    double gravity = 0.0;
     /// Defaults of curves, for scripts and style files, and of hair
     /// (Hairstyle::default_hair).
     HairFidelity fidelity = HairFidelity::lissom;

@@ -274,6 +274,10 @@ void describe(Archive& a, StyleContent& content) {
     a.choice("solver", content.options.field.solver, {"dual", "cholesky"});
     a.choice("boundary", content.options.field.boundary, {"zero_flux", "thesis"});
     a.number("tension", content.options.field.tension);
+    std::optional<double> gravity;
+    if (content.options.gravity != 0.0) gravity = content.options.gravity;
+    a.number("gravity", gravity);
+    content.options.gravity = gravity.value_or(0.0);
     a.flag("avoid_scalp", content.avoids_scalp, false);
 }
 

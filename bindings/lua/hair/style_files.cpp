@@ -26,6 +26,7 @@ HairstyleOptions style_options(const Call& call) {
     options.field.solver = call.choice<GridSolver>("solver");
     if (call.has("boundary")) options.field.boundary = call.choice<GridBoundary>("boundary");
     if (call.has("tension")) options.field.tension = call.number("tension");
+    if (call.has("gravity")) options.gravity = call.number("gravity");
     return options;
 }
 
@@ -133,6 +134,13 @@ std::vector<Parameter> style_fields() {
             .optional(plain_number(HairField::default_options().tension))
             .thesis("4.4.1", "0")
             .at_least(0),
+        number("gravity",
+               "Hair that no curve is near falls along the head, goes to the sides over the face, "
+               "and to the nearest tie if there are ponytails; a stream that ends close to a tie "
+               "leads into it, and from the end of any other hair falls on. 0: the curves alone "
+               "determine all hair.")
+            .optional(plain_number(HairstyleOptions{}.gravity))
+            .between(0, 1),
         choice("fidelity", {"default", "thesis"},
                "thesis: chapter 4 to the letter, for comparison. It changes the defaults, also "
                "for the curves and for `grow`; the page thesis.md of the reference names all of "

@@ -72,10 +72,11 @@ void HairField::clear_constraints() {
     field_.clear();
 }
 
-void HairField::solve(const Context& context) {
+void HairField::solve(const Context& context, const FieldGravity& gravity) {
     if (!field_.solved()) stale_ = true;
     field_.solve(context);
     field_.evaluate(next_, context);
+    add_gravity(next_, gradients_, layout(), gravity, context);
     values_.swap(next_);
     stale_ = false;
 }

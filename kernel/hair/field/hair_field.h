@@ -8,6 +8,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/hair/field/distance_grid.h"
+#include "kernel/hair/field/field_gravity.h"
 #include "kernel/hair/field/grid_layout.h"
 #include "kernel/solve/field/grid_field.h"
 #include "kernel/solve/grid/grid_constraints.h"
@@ -37,8 +38,9 @@ class HairField {
     void set_constraints(ConstraintOwner owner, std::vector<GridConstraint> constraints);
     /// Removes the constraints of all curves. Takes effect with the next solve.
     void clear_constraints();
-    /// After an error `values` are those of the last solve. Errors: as GridField::solve.
-    void solve(const Context& context = {});
+    /// Solves, and blends the directions with those of falling hair. After an error `values` are
+    /// those of the last solve. Errors: as GridField::solve.
+    void solve(const Context& context = {}, const FieldGravity& gravity = {});
     /// Returns whether `values` are those of the constraints as they are.
     bool solved() const { return !stale_ && field_.solved(); }
     const GridField& grid() const { return field_; }

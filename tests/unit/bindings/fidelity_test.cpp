@@ -80,7 +80,7 @@ Names of_merge() {
 }
 
 Names of_style() {
-    const auto& [resolution, volume, field, fidelity] = HairstyleOptions{};
+    const auto& [resolution, volume, field, gravity, fidelity] = HairstyleOptions{};
     const auto& [boundary, solver, tension, dense_limit, tolerance, refinements] = field;
     const HairstyleOptions t = style_options_with(HairFidelity::thesis);
     Names names;
@@ -89,6 +89,7 @@ Names of_style() {
     note(names, "boundary", boundary != t.field.boundary);
     note(names, "solver", solver != t.field.solver);
     note(names, "tension", tension != t.field.tension);
+    CHECK(gravity == t.gravity);
     CHECK(dense_limit == t.field.dense_limit);
     CHECK(tolerance == t.field.tolerance);
     CHECK(refinements == t.field.refinements);
