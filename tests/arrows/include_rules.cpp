@@ -119,7 +119,8 @@ const std::vector<Names>& room_orders() {
          "kernel/merge/paste/placement", "kernel/merge/paste/search", "kernel/merge/paste/part",
          "kernel/merge/paste/erase", "kernel/merge/paste"},
         {"kernel/hair/field", "kernel/hair/scalp", "kernel/hair/curve", "kernel/hair/strands",
-         "kernel/hair/operators", "kernel/hair/growth", "kernel/hair"},
+         "kernel/hair/guides", "kernel/hair/cards", "kernel/hair/operators", "kernel/hair/growth",
+         "kernel/hair"},
         {"kernel/sketch", "kernel/sketch/support"},
         {"kernel/io/stream", "kernel/io/record", "kernel/io/gltf/file", "kernel/io/gltf/mesh",
          "kernel/io/gltf", "kernel/io/obj", "kernel/io/off", "kernel/io/ply", "kernel/io/stl",
@@ -130,10 +131,10 @@ const std::vector<Names>& room_orders() {
         {"bindings/cli/terminal", "bindings/cli/process", "bindings/cli/test/picture_check",
          "bindings/cli", "bindings/cli/test"},
         {"viewer/render/draw/image", "viewer/render/draw", "viewer/render/strands",
-         "viewer/render/gl", "viewer/render", "viewer/lua", "viewer/window/screen",
-         "viewer/window/tools", "viewer/window/session", "viewer/window/document",
-         "viewer/window/session/session", "viewer/window/makers", "viewer/window/panel",
-         "viewer/window/app", "viewer/window", "viewer/main"},
+         "viewer/render/cards", "viewer/render/gl", "viewer/render", "viewer/lua",
+         "viewer/window/screen", "viewer/window/tools", "viewer/window/session",
+         "viewer/window/document", "viewer/window/session/session", "viewer/window/makers",
+         "viewer/window/panel", "viewer/window/app", "viewer/window", "viewer/main"},
     };
     return orders;
 }

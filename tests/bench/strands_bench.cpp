@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "bindings/engine/lissom_hair.h"
+#include "kernel/hair/guides/guide_set.h"
 #include "kernel/hair/operators/strand_bend.h"
 #include "kernel/hair/operators/strand_braid.h"
 #include "kernel/hair/operators/strand_collision.h"
@@ -18,6 +20,7 @@
 #include "kernel/hair/strands/strand_noise.h"
 #include "kernel/hair/strands/strand_operators.h"
 #include "kernel/hair/strands/strand_trim.h"
+#include "kernel/io/hair/guide_file.h"
 #include "tests/bench/report.h"
 
 namespace lissom::bench {
@@ -109,6 +112,52 @@ std::vector<Operator> operators() {
     };
 }
 
+// 100K strands of 16 points rebuilt by the engine's header, on two threads, against writing them.
+void run_guides(Report& report, const Strands& hair, const Context& context) {
+    const std::string name = "rebuild from guides";
+    if (!report.wants(name)) return;
+    const GuideSet set = make_guide_set(hair, {.count = 400, .points = 16}, context);
+    const std::string bytes = encode_guides(set);
+    std::vector<std::uint32_t> memory((bytes.size() + 3) / 4);
+    std::memcpy(memory.data(), bytes.data(), bytes.size());
+    lissom_hair open;
+    require(lissom_hair_open(&open, memory.data(), bytes.size()) == LISSOM_HAIR_OK,
+            "the guide file does not open");
+    const std::size_t numbers = 3 * std::size_t{open.point_count};
+    std::vector<float> guides(open.guides, open.guides + numbers * open.guide_count);
+    std::vector<float> turns(3 * guides.size()), out(numbers * open.strand_count);
+    for (std::size_t i = 0; i < guides.size(); ++i) guides[i] += 1e-3f * static_cast<float>(i % 7);
+    lissom_hair_turns(&open, guides.data(), turns.data());
+    const auto over_strands = [&](const auto& work) {
+        return seconds([&] { context.parallel_for(0, kStrands, 512, work); });
+    };
+    const auto rebuild = [&](const float* turned) {
+        return over_strands([&](Index begin, Index end) {
+            lissom_hair_rebuild(&open, guides.data(), turned, static_cast<std::uint32_t>(begin),
+                                static_cast<std::uint32_t>(end - begin),
+                                out.data() + numbers * at(begin));
+        });
+    };
+    const auto write = [&] {
+        return over_strands([&](Index begin, Index end) {
+            std::memset(out.data() + numbers * at(begin), 1,
+                        numbers * at(end - begin) * sizeof(float));
+        });
+    };
+    const auto add = [&](const std::string& row, const float* turned, double target) {
+        const Quotient quotient = quotient_of(
+            9, [&] { return rebuild(turned); }, write);
+        report.add({row, 1e3 * quotient.above, "ms"});
+        report.add_ratio(row + " / writing its points", "memory on two threads", quotient, target);
+    };
+    const int16_t* const details = open.details;
+    open.details = nullptr;
+    add(name, nullptr, 3.0);
+    open.details = details;
+    add(name + ", with details", nullptr, -1.0);
+    add(name + ", with turned details", turns.data(), -1.0);
+}
+
 void run(Report& report) {
     ContextOptions options;
     options.threads = 2;
@@ -137,6 +186,7 @@ void run(Report& report) {
         report.add_ratio(one.name + " / reading and writing its points", "memory on two threads",
                          quotient, one.target);
     }
+    run_guides(report, grown, context);
 }
 
 }  // namespace

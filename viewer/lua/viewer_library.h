@@ -18,5 +18,6 @@ void set_picture_listener(lua_State* L, const PictureListener* listener);
 
 /// Returns its parts; private to viewer.
 std::vector<Function> render_functions();
+std::vector<Function> bake_functions();
 
 }  // namespace lissom::lua

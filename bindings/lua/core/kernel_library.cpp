@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "bindings/lua/core/engine_library.h"
 #include "bindings/lua/core/listeners.h"
 #include "bindings/lua/mesh/mesh_resample.h"
 #include "kernel/core/build_info.h"
@@ -94,11 +95,13 @@ Library kernel_library() {
     add(library.functions, parameter_functions());
     library.functions.push_back(listen_function());
     add(library.functions, error_functions());
-    library.types = {whole_mesh_type(), region_type(),  whole_path_type(),      buffer_type(),
-                     deformer_type(),   handle_type(),  merger_type(),          provenance_type(),
-                     paste_type(),      scalp_type(),   whole_hairstyle_type(), whole_curve_type(),
-                     strands_type(),    scene_type(),   polyline_type(),        whole_camera_type(),
-                     gizmo_type(),      support_type(), tool_view_type(),       parameters_type()};
+    library.types = {
+        whole_mesh_type(), region_type(),       whole_path_type(),      buffer_type(),
+        deformer_type(),   handle_type(),       merger_type(),          provenance_type(),
+        paste_type(),      scalp_type(),        whole_hairstyle_type(), whole_curve_type(),
+        strands_type(),    guide_set_type(),    cards_type(),           scene_type(),
+        polyline_type(),   whole_camera_type(), gizmo_type(),           support_type(),
+        tool_view_type(),  parameters_type()};
     library.records = kernel_records();
     add(library.records, error_records());
     add(library.records, cut_records());
@@ -112,6 +115,8 @@ Library kernel_library() {
     add(library.records, hairstyle_records());
     add(library.records, curve_records());
     add(library.records, strand_records());
+    add(library.records, guide_set_records());
+    add(library.records, cards_records());
     add(library.records, groom_records());
     add(library.records, scene_records());
     add(library.records, pick_records());

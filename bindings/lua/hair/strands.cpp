@@ -3,6 +3,8 @@
 
 #include <cstdio>
 
+#include "bindings/lua/hair/engine/cards_object.h"
+#include "bindings/lua/hair/engine/guide_set_object.h"
 #include "bindings/lua/hair/strands_methods.h"
 
 namespace lissom::lua {
@@ -89,6 +91,8 @@ Type strands_type() {
     for (Function& method : strand_fill_methods()) type.methods.push_back(std::move(method));
     for (Function& method : strand_detail_methods()) type.methods.push_back(std::move(method));
     for (Function& method : strand_braid_methods()) type.methods.push_back(std::move(method));
+    type.methods.push_back(guide_set_method());
+    type.methods.push_back(cards_method());
     return type;
 }
 

@@ -1,6 +1,7 @@
 #include "tests/unit/engine/header_in_c.h"
 
 #include "bindings/engine/lissom_basis.h"
+#include "bindings/engine/lissom_hair.h"
 
 #define MOST_HANDLES 8
 
@@ -16,5 +17,13 @@ int evaluate_in_c(const void* bytes, size_t size, const double* transforms, size
         lissom_basis_local(&basis, transforms + 12 * h, local + 12 * h);
     }
     lissom_basis_evaluate(&basis, local, first, count, out, 3 * sizeof(float));
+    return (int)status;
+}
+
+int rebuild_in_c(const void* bytes, size_t size, uint32_t count, float* out) {
+    lissom_hair hair;
+    const lissom_hair_status status = lissom_hair_open(&hair, bytes, size);
+    if (status != LISSOM_HAIR_OK) return (int)status;
+    lissom_hair_rebuild(&hair, (const float*)0, (const float*)0, 0, count, out);
     return (int)status;
 }

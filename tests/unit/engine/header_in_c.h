@@ -14,6 +14,9 @@ extern "C" {
 int evaluate_in_c(const void* bytes, size_t size, const double* transforms, size_t handle_count,
                   uint32_t first, uint32_t count, float* out);
 
+/// Opens hair and rebuilds its first `count` strands at rest; returns the status.
+int rebuild_in_c(const void* bytes, size_t size, uint32_t count, float* out);
+
 #ifdef __cplusplus
 }
 #endif

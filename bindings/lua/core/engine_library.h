@@ -1,0 +1,16 @@
+/// Types of scripts for hair in engines: guide sets and cards.
+#pragma once
+
+#include <vector>
+
+#include "bindings/lua/core/registry.h"
+
+namespace lissom::lua {
+
+Type guide_set_type();
+std::vector<Record> guide_set_records();
+
+Type cards_type();
+std::vector<Record> cards_records();
+
+}  // namespace lissom::lua

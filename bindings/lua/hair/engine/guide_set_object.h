@@ -1,0 +1,31 @@
+/// The guide sets of a script, and methods of strands that make what engines take; private to the
+/// binding.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "bindings/lua/core/registry.h"
+#include "kernel/hair/guides/guide_set.h"
+
+namespace lissom::lua {
+
+struct GuideSetObject {
+    static constexpr const char* kTypeName = "lissom.GuideSet";
+
+    explicit GuideSetObject(GuideSet content) : set(std::move(content)) {}
+
+    GuideSet set;
+    std::size_t charged_bytes = 0;
+
+    std::size_t memory_bytes() const {
+        return set.guided.size() * sizeof(GuidedStrand) +
+               set.curves.size() * sizeof(Eigen::Vector3f) +
+               set.details.size() * sizeof(std::int16_t);
+    }
+};
+
+/// guide_set.cpp.
+Function guide_set_method();
+
+}  // namespace lissom::lua

@@ -1,0 +1,125 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "kernel/core/error.h"
+#include "kernel/hair/cards/card_slots.h"
+#include "kernel/hair/cards/hair_cards.h"
+#include "kernel/mesh/measure/triangulation.h"
+
+namespace lissom {
+namespace {
+
+// Rounds in which a face between faces with roots joins them, so that no hole remains.
+constexpr int kCloseRounds = 2;
+// Repeats of the slot around the head.
+constexpr double kRepeats = 6.0;
+
+// Faces with roots, and those of whose vertices all touch such faces.
+std::vector<char> hairy_faces(const Strands& strands, const Mesh& head) {
+    std::vector<char> hairy(at(head.face_count()), 0);
+    for (const Index face : strands.roots().faces) {
+        if (face >= 0 && face < head.face_count()) hairy[at(face)] = 1;
+    }
+    for (int round = 0; round < kCloseRounds; ++round) {
+        std::vector<char> touched(at(head.vertex_count()), 0);
+        for (Index f = 0; f < head.face_count(); ++f) {
+            if (!hairy[at(f)]) continue;
+            for (const Index v : head.topology().face(f)) touched[at(v)] = 1;
+        }
+        for (Index f = 0; f < head.face_count(); ++f) {
+            const auto corners = head.topology().face(f);
+            hairy[at(f)] = hairy[at(f)] || std::all_of(corners.begin(), corners.end(),
+                                                       [&](Index v) { return touched[at(v)]; });
+        }
+    }
+    return hairy;
+}
+
+// Whether all faces around each vertex are hairy.
+std::vector<char> inner_vertices(const Mesh& head, const std::vector<char>& hairy) {
+    std::vector<char> inner(at(head.vertex_count()), 1);
+    for (Index f = 0; f < head.face_count(); ++f) {
+        if (hairy[at(f)]) continue;
+        for (const Index v : head.topology().face(f)) inner[at(v)] = 0;
+    }
+    return inner;
+}
+
+std::vector<Vec3> triangle_normals(const Mesh& head, const Triangulation& triangles) {
+    std::vector<Vec3> normals(at(head.vertex_count()), Vec3::Zero());
+    for (const Triangle& t : triangles.triangles) {
+        const Vec3 a = head.position(t[0]);
+        const Vec3 normal = (head.position(t[1]) - a).cross(head.position(t[2]) - a);
+        for (const Index v : t) normals[at(v)] += normal;
+    }
+    for (Vec3& normal : normals) {
+        normal = normal.norm() > 0.0 ? Vec3(normal.normalized()) : Vec3(Vec3::UnitY());
+    }
+    return normals;
+}
+
+// Across: back and forth around the head, so that the slot has no seam. Down: from the top.
+Eigen::Vector2d place_of(const Vec3& p, const Box& box) {
+    const Vec3 d = p - box.center();
+    const double turn = kRepeats * std::atan2(d.x(), d.z()) / (2.0 * kPi);
+    const double height = std::max(box.max.y() - box.min.y(), 1e-9);
+    return {std::abs(2.0 * (turn - std::floor(turn)) - 1.0), (box.max.y() - p.y()) / height};
+}
+
+Index densest_slot(const HairCards& cards) {
+    Index best = 0;
+    double most = -1.0;
+    for (Index i = 0; i < count_of(cards.slots); ++i) {
+        const Card& card = cards.cards[at(cards.slots[at(i)].card)];
+        double width = 0.0;
+        for (const CardSection& section : card.sections) width += section.half_width;
+        const double dense = static_cast<double>(card.strands.size()) / std::max(width, 1e-9);
+        if (dense <= most) continue;
+        most = dense;
+        best = i;
+    }
+    return best;
+}
+
+}  // namespace
+
+void add_cap(HairCards& cards, const Strands& strands, const Mesh& head,
+             const CardCapOptions& options) {
+    require(strands.roots().faces.size() == at(strands.size()) && !cards.slots.empty(),
+            "the strands have no roots on the head; use strands:attach, or cap = false");
+    const std::vector<char> hairy = hairy_faces(strands, head);
+    const std::vector<char> inner = inner_vertices(head, hairy);
+    const Triangulation all = triangulate_faces(head.topology(), head.positions());
+    const std::vector<Vec3> normals = triangle_normals(head, all);
+    std::vector<Index> number(at(head.vertex_count()), kNoIndex);
+    CardCap& cap = cards.cap;
+    for (std::size_t t = 0; t < all.triangles.size(); ++t) {
+        if (!hairy[at(all.face[t])]) continue;
+        Triangle made{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Index v = all.triangles[t][c];
+            if (number[at(v)] == kNoIndex) {
+                number[at(v)] = count_of(cap.positions);
+                cap.positions.push_back(options.unit * head.position(v) +
+                                        options.offset * normals[at(v)]);
+                cap.normals.push_back(normals[at(v)]);
+                cap.cover.push_back(inner[at(v)] ? 1.0 : 0.0);
+            }
+            made[c] = number[at(v)];
+        }
+        cap.triangles.push_back(made);
+    }
+    require(!cap.triangles.empty(), "no strand is rooted on a face of this head");
+    Box box;
+    for (const Vec3& p : cap.positions) box.extend(p);
+    for (const Vec3& p : cap.positions) cap.places.push_back(place_of(p, box));
+    CardSlot slot = cards.slots[at(densest_slot(cards))];
+    slot.is_solid = true;
+    cards.slots.push_back(slot);
+    place_slots(cards.slots);
+}
+
+}  // namespace lissom

@@ -1,0 +1,31 @@
+/// Light from all around within hair; private to kernel/hair.
+#pragma once
+
+#include <vector>
+
+#include "kernel/core/context.h"
+#include "kernel/core/geometry.h"
+#include "kernel/hair/strands/strands.h"
+
+namespace lissom {
+
+/// The optical density of hair on a grid of cells of about 5 mm.
+class HairDensity {
+  public:
+    explicit HairDensity(const Strands& strands);
+
+    /// Returns the part of the light from all around that reaches a point, 0 to 1, over 26
+    /// directions; hair further than 8 cm counts no more.
+    double openness(const Vec3& point) const;
+
+  private:
+    Index cell_of(const Vec3& point) const;
+
+    Box box_;
+    double cell_ = 0.005;
+    Eigen::Array3i counts_ = Eigen::Array3i::Zero();
+    /// Part of the light that a metre through the cell holds back.
+    std::vector<float> density_;
+};
+
+}  // namespace lissom

@@ -1,0 +1,158 @@
+--- Hair for an engine: a head and a preset in; a folder out, with strands, guides, cards and their pictures,
+-- in levels of detail, one manifest that names them all, and a sheet of pictures to look at.
+--
+--     lissom run scripts/export_hair.lua --head head.obj --preset bob --out out/bob
+--     lissom batch scripts/export_hair.lua --over 'heads/*.obj' --out 'out/{name}' -- --preset bob
+local hairdo = require "hairdo"
+local lissom = require "lissom"
+local styling = require "styling"
+
+local params = hairdo.params{
+    name = "hair",
+    count = 20000,
+    more = {
+        preset = { type = "string", default = "bob", help = "a hairstyle of scripts/presets" },
+        color = { type = "string", default = "", help = "of the hair, \"#rrggbb\"; else the preset's" },
+        guides = { type = "integer", default = 300, min = 3, help = "strands that an engine simulates" },
+        points = { type = "integer", default = 16, min = 2, max = 256, help = "of guided strands" },
+        cards = { type = "integer", default = 200, min = 1, max = 100000, help = "of the finest cards" },
+        slots = { type = "integer", default = 32, min = 1, max = 256, help = "pictures in an atlas" },
+        atlas = { type = "integer", default = 2048, min = 64, max = 8192, unit = "pixels",
+            help = "sides of the atlas" },
+    },
+}
+
+-- ---- Text
+
+local function quoted(text)
+    return '"' .. text:gsub('[%c"\\]', function(c) return string.format("\\u%04x", c:byte()) end) .. '"'
+end
+
+local function sorted_keys(t)
+    local keys = {}
+    for key in pairs(t) do keys[#keys + 1] = key end
+    table.sort(keys)
+    return keys
+end
+
+local function json(value, indent)
+    indent = indent or ""
+    if type(value) == "string" then return quoted(value) end
+    if type(value) ~= "table" then return type(value) == "number" and string.format("%.9g", value)
+        or tostring(value) end
+    local parts, inner = {}, indent .. "  "
+    if #value > 0 then
+        for i, item in ipairs(value) do parts[i] = inner .. json(item, inner) end
+        return "[\n" .. table.concat(parts, ",\n") .. "\n" .. indent .. "]"
+    end
+    for i, key in ipairs(sorted_keys(value)) do
+        parts[i] = inner .. quoted(key) .. ": " .. json(value[key], inner)
+    end
+    return "{\n" .. table.concat(parts, ",\n") .. "\n" .. indent .. "}"
+end
+
+-- ---- Levels
+
+local function path(name) return params.out .. "/" .. name end
+
+-- The hair as so large a part of its strands, each with so many points and so much wider.
+local function strand_level(hair, part, points)
+    local count = math.max(1, math.floor(#hair * part + 0.5))
+    local level = hair:select{ first = count }
+    level:resample{ count = points }
+    return level, #hair / count
+end
+
+local function save_strands(level, widen, number)
+    local name = string.format("strands_%d.usda", number)
+    level:save(path(name))
+    return { kind = "strands", file = name, strands = #level, points = level:stats().points,
+        width_factor = widen }
+end
+
+local function save_cards(hair, style, count, sections, number, color)
+    local cards = hair:cards{ count = count, style = style, sections = sections, slots = params.slots }
+    local names = {}
+    for _, kind in ipairs{ "color", "flow", "data" } do
+        names[kind] = string.format("cards_%d_%s.png", number, kind)
+    end
+    local mesh = string.format("cards_%d.glb", number)
+    local size = math.max(64, math.floor(params.atlas / 2 ^ (number - 1)))
+    local preview = lissom.bake_cards{ cards = cards, color = color, size = size, mesh = path(mesh),
+        file = path(names.color), flow = path(names.flow), data = path(names.data), strand_tone = 0.12 }
+    local stats = cards:stats()
+    return { kind = "cards", file = mesh, cards = stats.cards, triangles = stats.triangles,
+        slots = stats.slots, atlas = names, atlas_size = size, covered = stats.covered,
+        off_card = stats.rms }, preview
+end
+
+local head = hairdo.head(params)
+local preset = require("presets." .. params.preset)
+local style, hair, look = preset.grow(head, {},
+    { scalp = hairdo.scalp(head, params), resolution = params.resolution, count = params.count })
+local color = params.color ~= "" and params.color or look.color or "#8a6a4a"
+local unit = style:scalp():unit()
+
+local manifest = {
+    version = 1, generator = "Lissom " .. lissom.version, preset = params.preset, color = color,
+    units = { strands = "metres", guides = "metres", cards = "units of the head", head_unit = unit },
+    up = "y", levels = {},
+}
+
+-- Strands and guides.
+hair:set_colors{ color = styling.linear(color) }
+local shown = {}
+for number, level in ipairs{ { 1, 24 }, { 0.5, 16 }, { 0.25, 12 } } do
+    local strands, widen = strand_level(hair, level[1], level[2])
+    manifest.levels[#manifest.levels + 1] = save_strands(strands, widen, number)
+    shown[#shown + 1] = { strands = strands, caption = #strands .. " strands" }
+end
+local set = hair:guide_set{ count = params.guides, points = params.points }
+set:save(path("hair.guides"))
+local off = set:error()
+manifest.guides = { file = "hair.guides", guides = #set, strands = #hair, points = params.points,
+    error_rms = off.rms, error_max = off.max }
+
+-- Cards.
+for number, level in ipairs{ { 1, 12 }, { 0.5, 8 }, { 0.25, 6 } } do
+    local count = math.max(1, math.floor(params.cards * level[1] + 0.5))
+    local entry, preview = save_cards(hair, style, count, level[2], number, color)
+    manifest.levels[#manifest.levels + 1] = entry
+    shown[#shown + 1] = { mesh = preview,
+        caption = entry.cards .. " cards, " .. entry.triangles .. " triangles" }
+end
+
+-- ---- The sheet: each level from the front and from behind.
+
+local function append_colored(mesh, preview)
+    local skin = { 0.79, 0.58, 0.48 }
+    local colors = {}
+    for _ = 1, mesh:face_count() do
+        for k = 1, 3 do colors[#colors + 1] = skin[k] end
+    end
+    local both = lissom.mesh{ positions = mesh:positions(), faces = mesh:faces() }
+    both:add_attribute{ name = "color", domain = "face", width = 3, values = colors }
+    return preview and both:append(preview) and both or both
+end
+
+local function save_sheet()
+    local files = {}
+    for _, side in ipairs{ "front", "back" } do
+        local meshes, strands, captions = {}, {}, {}
+        for i, level in ipairs(shown) do
+            meshes[i] = append_colored(head, level.mesh)
+            strands[i] = level.strands or hair:select{ first = 1 }
+            captions[i] = level.caption
+        end
+        local file = "levels_" .. side .. ".png"
+        lissom.render{ meshes = meshes, strands = strands, columns = 3, captions = captions, view = side,
+            size = { params.size, params.size }, hair = { unit = unit }, file = path(file) }
+        files[#files + 1] = file
+    end
+    return files
+end
+
+if params.pictures then manifest.pictures = save_sheet() end
+local file = assert(io.open(path("manifest.json"), "w"))
+file:write(json(manifest), "\n")
+file:close()

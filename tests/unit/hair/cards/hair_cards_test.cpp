@@ -1,0 +1,171 @@
+#include "kernel/hair/cards/hair_cards.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "kernel/hair/strands/strand_guides.h"
+#include "kernel/hair/strands/strand_measures.h"
+#include "tests/unit/hair/strands/strand_support.h"
+#include "tests/unit/support.h"
+
+namespace lissom::test {
+namespace {
+
+constexpr double kBall = 0.1;
+
+double to_ball(const Vec3& p) {
+    return p.norm() - kBall;
+}
+
+// Hair of 12 cm that hangs from the upper half of a ball of 10 cm, close to it.
+Strands ball_hair(Index count) {
+    std::vector<std::vector<Vec3>> lists;
+    for (Index s = 0; s < count; ++s) {
+        const double up = 0.2 + 0.75 * std::fmod(0.618034 * s, 1.0);
+        const double turn = 2.0 * kPi * std::fmod(0.754878 * s, 1.0);
+        const double start = std::acos(up);
+        std::vector<Vec3> points;
+        for (int k = 0; k < 13; ++k) {
+            const double a = start + 0.12 / kBall * k / 12, r = kBall + 0.004 + 0.0005 * k;
+            points.push_back(
+                r * Vec3(std::sin(a) * std::cos(turn), std::cos(a), std::sin(a) * std::sin(turn)));
+        }
+        lists.push_back(points);
+    }
+    return strands_of(lists);
+}
+
+CardOptions on_ball(Index count) {
+    CardOptions options;
+    options.count = count;
+    options.distance = to_ball;
+    return options;
+}
+
+TEST_CASE("hair cards: every strand has a card, and lies on it nearly whole") {
+    const Strands hair = ball_hair(600);
+    const HairCards cards = make_cards(hair, on_ball(40));
+    CHECK(cards.cards.size() == 40);
+    std::set<Index> seen;
+    for (const Card& card : cards.cards) seen.insert(card.strands.begin(), card.strands.end());
+    CHECK(seen.size() == 600);
+    CHECK(cards.covered > 0.85);
+    CHECK(cards.rms < 0.01);
+    // More cards lie closer.
+    CHECK(make_cards(hair, on_ball(120)).rms < cards.rms);
+}
+
+TEST_CASE("hair cards: none goes through the head") {
+    const Strands hair = ball_hair(600);
+    for (const Index count : {1, 10, 60}) {
+        const CardOptions options = on_ball(count);
+        const Mesh mesh = card_mesh(make_cards(hair, options), hair, options);
+        for (const Vec3& p : mesh.positions()) CHECK(to_ball(p) > 0.5 * options.clearance);
+        if (count < 60) continue;
+        for (Index f = 0; f < mesh.face_count(); ++f) {
+            Vec3 middle = Vec3::Zero();
+            for (const Index v : mesh.topology().face(f)) middle += mesh.position(v) / 3.0;
+            CHECK(to_ball(middle) > 0.0);
+        }
+    }
+}
+
+TEST_CASE("hair cards: sections have orthonormal axes, fronts look away from the head") {
+    const HairCards cards = make_cards(ball_hair(400), on_ball(30));
+    for (const Card& card : cards.cards) {
+        for (const CardSection& section : card.sections) {
+            CHECK(section.across.norm() == doctest::Approx(1.0));
+            CHECK(section.out.norm() == doctest::Approx(1.0));
+            CHECK(std::abs(section.across.dot(section.out)) < 1e-9);
+            CHECK(section.out.dot(section.center.normalized()) > 0.3);
+            CHECK(section.half_width > 0.0);
+        }
+    }
+}
+
+TEST_CASE("hair cards: the mesh has texture coordinates in its slots and unit normals") {
+    const Strands hair = ball_hair(400);
+    CardOptions options = on_ball(30);
+    options.slots = 7;
+    const HairCards cards = make_cards(hair, options);
+    REQUIRE(cards.slots.size() <= 7);
+    const Mesh mesh = card_mesh(cards, hair, options);
+    CHECK(mesh.face_count() == 30 * 2 * (options.sections - 1));
+    const Attribute* const uv = mesh.attributes().find("uv");
+    const Attribute* const normal = mesh.attributes().find("normal");
+    const Attribute* const color = mesh.attributes().find("color");
+    REQUIRE((uv && normal && color));
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        const Card& card = cards.cards[at(v / (2 * options.sections))];
+        const CardSlot& slot = cards.slots[at(card.slot)];
+        CHECK(uv->at(v)[0] >= slot.low.x() - 1e-9);
+        CHECK(uv->at(v)[1] <= slot.high.y() + 1e-9);
+        const Vec3 n(normal->at(v)[0], normal->at(v)[1], normal->at(v)[2]);
+        CHECK(n.norm() == doctest::Approx(1.0));
+        CHECK(color->at(v)[0] > 0.0);
+        CHECK(color->at(v)[0] <= 1.0);
+    }
+    // Slots do not overlap.
+    for (std::size_t a = 0; a < cards.slots.size(); ++a) {
+        for (std::size_t b = a + 1; b < cards.slots.size(); ++b) {
+            const auto low = cards.slots[a].low.cwiseMax(cards.slots[b].low);
+            const auto high = cards.slots[a].high.cwiseMin(cards.slots[b].high);
+            CHECK((high - low).minCoeff() <= 0.0);
+        }
+    }
+}
+
+TEST_CASE("hair cards: a place on a card is that which it was made of") {
+    const HairCards cards = make_cards(ball_hair(200), on_ball(8));
+    const Card& card = cards.cards[3];
+    const CardSection& section = card.sections[5];
+    const Vec3 p = section.center + 0.5 * section.half_width * section.across;
+    const CardPoint place = place_on_card(card, p);
+    CHECK(place.u == doctest::Approx(0.5).epsilon(0.15));
+    CHECK(place.v == doctest::Approx(5.0 / 11.0).epsilon(0.05));
+    CHECK(std::abs(place.out) < 1e-3);
+}
+
+TEST_CASE("hair cards: groups share no card, and locks stay whole") {
+    Strands hair = ball_hair(300);
+    std::vector<Index> groups;
+    for (Index s = 0; s < 300; ++s) groups.push_back(hair.root(s).x() > 0.0f ? 1 : 0);
+    hair.set_groups(groups, {"left", "right"});
+    assign_guides(hair, {.count = 30});
+    const HairCards cards = make_cards(hair, on_ball(20));
+    const std::vector<Index> guides = present_guides(hair);
+    for (const Card& card : cards.cards) {
+        const std::set<Index> own(card.strands.begin(), card.strands.end());
+        for (const Index s : card.strands) {
+            CHECK(hair.group(s) == hair.group(card.strands.front()));
+            CHECK(own.contains(guides[at(s)]));
+        }
+    }
+}
+
+TEST_CASE("hair cards: budgets, one strand, bad input, threads") {
+    const Strands hair = ball_hair(100);
+    CardOptions options = on_ball(10);
+    options.triangles = 100;
+    CHECK(card_mesh(make_cards(hair, options), hair, options).face_count() <= 100);
+    options.triangles = 19;
+    CHECK_THROWS_AS(make_cards(hair, options), Error);
+    CHECK_THROWS_AS(make_cards(hair, {.count = 0}), Error);
+    CHECK_THROWS_AS(make_cards(hair, {.count = 10'000'000}), Error);
+    CHECK_THROWS_AS(make_cards({}, {}), Error);
+    const HairCards one = make_cards(ball_hair(1), {});
+    REQUIRE(one.cards.size() == 1);
+    CHECK(one.cards[0].sections.front().half_width > 0.0);
+    ContextOptions two;
+    two.threads = 2;
+    const Mesh a = card_mesh(make_cards(hair, on_ball(9)), hair, on_ball(9));
+    const Mesh b =
+        card_mesh(make_cards(hair, on_ball(9), Context(two)), hair, on_ball(9), Context(two));
+    for (Index v = 0; v < a.vertex_count(); ++v) CHECK(a.position(v) == b.position(v));
+}
+
+}  // namespace
+}  // namespace lissom::test
