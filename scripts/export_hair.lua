@@ -55,7 +55,8 @@ end
 
 local function path(name) return params.out .. "/" .. name end
 
--- The hair as so large a part of its strands, each with so many points and so much wider.
+-- The hair as so large a part of its strands, each with so many points; the second result is how much wider
+-- an engine draws them to cover as much.
 local function strand_level(hair, part, points)
     local count = math.max(1, math.floor(#hair * part + 0.5))
     local level = hair:select{ first = count }

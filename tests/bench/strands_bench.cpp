@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bindings/engine/lissom_hair.h"
+#include "kernel/core/error.h"
 #include "kernel/hair/guides/guide_set.h"
 #include "kernel/hair/operators/strand_bend.h"
 #include "kernel/hair/operators/strand_braid.h"
@@ -105,7 +106,7 @@ std::vector<Operator> operators() {
         {"noise", kTarget, [](Strands& s, const Context& c) { noise(s, {}, c); }},
         {"cut", kTarget, [=](Strands& s, const Context& c) { cut(s, cuts, c); }},
         {"trim", kTarget, [=](Strands& s, const Context& c) { trim(s, trims, c); }},
-        {"detail", kTarget, [=](Strands& s, const Context& c) { detail(s, kinked, kinks, c); }},
+        {"detail", kTarget, [=](Strands& s, const Context& c) { add_detail(s, kinked, kinks, c); }},
         {"braid", -1.0, [=](Strands& s, const Context& c) { braid(s, braids, c); }},
         {"bun", -1.0, [=](Strands& s, const Context& c) { bun(s, buns, c); }},
         {"push_out", -1.0, [=](Strands& s, const Context& c) { push_out(s, pushes, c); }},

@@ -80,4 +80,24 @@ local lissom = {}
 ---@return string file # The file that was written.
 function lissom.render(options) end
 
+---@class lissom.Bake_cardsOptions
+---@field cards lissom.Cards Cards that strands:cards made.
+---@field file? string The colours as .png; alpha is steep about `cutoff`. Default: none.
+---@field flow? string As .png, like a normal map: direction towards the tip across (red) and from tip to root (green), height over the card of -5 to 5 mm (blue). Default: none.
+---@field data? string As .png: 0 at the root to 1 at the tip (red), a number of the strand (green), covered part of the texel (blue). Default: none.
+---@field mesh? string The cards as .glb with colours and flow inside. Default: none.
+---@field across? integer Faces of the preview across each card. Default: 24.
+---@field size? integer Texels along each side. Default: 2048.
+---@field cutoff? number Alpha below it is not drawn. Default: 0.5.
+---@field color? string Colour of all strands, instead of their own. Default: the strands' own, else a brown.
+---@field strand_tone? number Random difference of strands' brightness. Default: 0.12.
+---@field clump_tone? number The same for clumps of strands with neighbouring roots. Default: 0.18.
+---@field root_tone? number Factor of the colour at the root. Default: 0.72.
+---@field tip_tone? number Factor of the colour at the tip. Default: 1.18.
+
+---Bakes the pictures of hair cards, without light: colour with alpha, flow and data, and saves the cards with them. Needs no display.
+---@param options lissom.Bake_cardsOptions
+---@return lissom.Mesh preview # The cards without what is clear, as faces of the colours of their parts, for renderers without textures such as lissom.render.
+function lissom.bake_cards(options) end
+
 return lissom

@@ -565,6 +565,27 @@
 ---@field count integer Number of strands concerned.
 ---@field strands integer[] The strands, the first hundred of them.
 
+---A strand as a sum of guides.
+---@class lissom.GuideWeights
+---@field guides integer[] Three numbers of guides, as `guides` has them.
+---@field weights number[] Their weights, which sum to 1.
+---@field length number Factor of the guides' shape.
+---@field root lissom.Vector Its root, in metres.
+
+---Distances between strands and their sums of guides, in metres.
+---@class lissom.GuideError
+---@field rms number Root of the mean square.
+---@field max number The greatest.
+---@field strand integer|nil The strand that has it.
+
+---Measures of cards.
+---@class lissom.CardStats
+---@field cards integer Number of cards.
+---@field slots integer Pictures in the atlas, that of the cap among them.
+---@field triangles integer Number of triangles, those of the cap among them.
+---@field covered number Part of the strands' points that lie on their cards.
+---@field rms number Distance of strands from the plane of their card, in metres.
+
 ---Layers of hair and their operators.
 ---@class lissom.Groom
 ---@field evaluated integer Number of growths and operators that ran so far.
@@ -3019,8 +3040,90 @@ function Strands:braid(options) end
 ---@return integer count # Number of strands that pass the tie.
 function Strands:bun(options) end
 
+---@class lissom.Strands.Guide_setOptions
+---@field count? integer Number of guides, for of = "count". Default: 200.
+---@field of? "count"|"groups"|"locks" Guides: as many as `count`, one for each group, or one for each guide that strands follow, as one a curl. Default: "count".
+---@field points? integer Points of each guide, and of strands that are rebuilt. Default: 16.
+---@field shape? number Weight of the difference of two strands' shapes against the distance of their roots. Default: 1.
+
+---Chooses guides for engines and simulations, by k-medoids over place and shape, and finds three of them with weights for each strand.
+---@param options? lissom.Strands.Guide_setOptions
+---@return lissom.GuideSet set # The guides and weights.
+function Strands:guide_set(options) end
+
+---@class lissom.Strands.CardsOptions
+---@field count? integer Number of cards. Default: 200.
+---@field triangles? integer Triangles of all cards, instead of `sections`. Default: as sections say.
+---@field sections? integer Points along each card. Default: 12.
+---@field slots? integer Pictures in the atlas, which cards that are alike share. Default: 32.
+---@field coverage? number Part of the points of its strands that a card is wide enough for. Default: 0.97.
+---@field bend? number Normals are those of the card at 0, and those of the head below it at 1. Default: 0.7.
+---@field clearance? number Least distance of cards from the head of `style`. In metres. Default: 0.002.
+---@field style? lissom.Hairstyle A style on the head of the strands. Default: none: cards may go through the head.
+---@field cap? boolean Adds the skin below the hair, a little over it, in its colour. Default: true with `style`.
+
+---Makes cards: strips of triangles along clusters of strands, as games draw hair. `lissom.bake_cards` makes their pictures.
+---@param options? lissom.Strands.CardsOptions
+---@return lissom.Cards cards # The cards, with a copy of the strands.
+function Strands:cards(options) end
+
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Strands:close() end
+
+---A few strands that move, and all others as sums of three of them.
+---@class lissom.GuideSet
+---@operator len: integer
+local GuideSet = {}
+
+---The guides, as strands with points at equal steps and the ids of the strands that they are.
+---@return lissom.Strands guides # In the order that weights count them.
+function GuideSet:guides() end
+
+---A strand as a sum of guides: its points are root + length * (the weighted sum of the guides' points less their roots).
+---@param strand integer Its number among the strands that the set was made of.
+---@return lissom.GuideWeights weights # The guide of the greatest weight first.
+function GuideSet:weights(strand) end
+
+---Distances between the strands and their sums of guides, without details.
+---@return lissom.GuideError error # Over all points.
+function GuideSet:error() end
+
+---@class lissom.GuideSet.RebuildOptions
+---@field guides? lissom.Strands Moved guides, with as many points as those of `guides`. Default: those at rest.
+---@field details? boolean Adds the differences of the strands from their sums. Default: true.
+
+---All strands from the guides, as lissom_hair.h does it in an engine; details do not turn here.
+---@param options? lissom.GuideSet.RebuildOptions
+---@return lissom.Strands strands # In the order of the strands.
+function GuideSet:rebuild(options) end
+
+---@class lissom.GuideSet.SaveOptions
+---@field details? boolean Writes the details, six bytes a point. Default: true.
+
+---Writes a guide file, which bindings/engine/lissom_hair.h reads, whole or not at all.
+---@param path string The file.
+---@param options? lissom.GuideSet.SaveOptions
+---@return lissom.GuideSet set # The set itself.
+function GuideSet:save(path, options) end
+
+---Frees the contents of the object. It may be called again; any other use is an error then.
+function GuideSet:close() end
+
+---Strips of triangles that stand for strands, and slots of an atlas.
+---@class lissom.Cards
+---@operator len: integer
+local Cards = {}
+
+---The triangles: a copy, in the unit of the head of `style`, else in metres. It has "uv", "normal", "tangent" towards the tip, "color" (light from all around, and alpha that ends the cap), "color2" (the same light, 0 at the root to 1 at the tip, a number of the card) and the material "hair".
+---@return lissom.Mesh mesh # The mesh.
+function Cards:mesh() end
+
+---Counts, and how well the strands lie on their cards.
+---@return lissom.CardStats stats # The measures.
+function Cards:stats() end
+
+---Frees the contents of the object. It may be called again; any other use is an error then.
+function Cards:close() end
 
 ---Named objects in an order, with a history of their changes.
 ---@class lissom.Scene

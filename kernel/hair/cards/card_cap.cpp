@@ -1,7 +1,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "kernel/core/error.h"
@@ -38,14 +39,28 @@ std::vector<char> hairy_faces(const Strands& strands, const Mesh& head) {
     return hairy;
 }
 
-// Whether all faces around each vertex are hairy.
-std::vector<char> inner_vertices(const Mesh& head, const std::vector<char>& hairy) {
-    std::vector<char> inner(at(head.vertex_count()), 1);
-    for (Index f = 0; f < head.face_count(); ++f) {
-        if (hairy[at(f)]) continue;
-        for (const Index v : head.topology().face(f)) inner[at(v)] = 0;
+// For each vertex, the edges of triangles that begin there and have none on the other side.
+std::vector<Index> border_edges(const std::vector<Triangle>& triangles, Index vertices) {
+    std::set<std::pair<Index, Index>> edges;
+    for (const Triangle& t : triangles) {
+        for (std::size_t c = 0; c < 3; ++c) edges.insert({t[c], t[(c + 1) % 3]});
     }
-    return inner;
+    std::vector<Index> counts(at(vertices), 0);
+    for (const auto& edge : edges) {
+        if (!edges.contains({edge.second, edge.first})) ++counts[at(edge.first)];
+    }
+    return counts;
+}
+
+// Drops triangles at vertices where parts of the cap touch at nothing else, until there are none.
+void drop_pinches(std::vector<Triangle>& triangles, Index vertices) {
+    for (;;) {
+        const std::vector<Index> counts = border_edges(triangles, vertices);
+        const auto dropped = std::erase_if(triangles, [&](const Triangle& t) {
+            return std::any_of(t.begin(), t.end(), [&](Index v) { return counts[at(v)] > 1; });
+        });
+        if (dropped == 0) return;
+    }
 }
 
 std::vector<Vec3> triangle_normals(const Mesh& head, const Triangulation& triangles) {
@@ -91,22 +106,26 @@ void add_cap(HairCards& cards, const Strands& strands, const Mesh& head,
     require(strands.roots().faces.size() == at(strands.size()) && !cards.slots.empty(),
             "the strands have no roots on the head; use strands:attach, or cap = false");
     const std::vector<char> hairy = hairy_faces(strands, head);
-    const std::vector<char> inner = inner_vertices(head, hairy);
     const Triangulation all = triangulate_faces(head.topology(), head.positions());
     const std::vector<Vec3> normals = triangle_normals(head, all);
+    std::vector<Triangle> triangles;
+    for (std::size_t t = 0; t < all.triangles.size(); ++t) {
+        if (hairy[at(all.face[t])]) triangles.push_back(all.triangles[t]);
+    }
+    drop_pinches(triangles, head.vertex_count());
+    const std::vector<Index> border = border_edges(triangles, head.vertex_count());
     std::vector<Index> number(at(head.vertex_count()), kNoIndex);
     CardCap& cap = cards.cap;
-    for (std::size_t t = 0; t < all.triangles.size(); ++t) {
-        if (!hairy[at(all.face[t])]) continue;
+    for (const Triangle& t : triangles) {
         Triangle made{};
         for (std::size_t c = 0; c < 3; ++c) {
-            const Index v = all.triangles[t][c];
+            const Index v = t[c];
             if (number[at(v)] == kNoIndex) {
                 number[at(v)] = count_of(cap.positions);
                 cap.positions.push_back(options.unit * head.position(v) +
                                         options.offset * normals[at(v)]);
                 cap.normals.push_back(normals[at(v)]);
-                cap.cover.push_back(inner[at(v)] ? 1.0 : 0.0);
+                cap.cover.push_back(border[at(v)] == 0 ? 1.0 : 0.0);
             }
             made[c] = number[at(v)];
         }

@@ -63,7 +63,7 @@ double HairDensity::openness(const Vec3& point) const {
             }
         }
     }
-    return sum / rays;
+    return std::min(1.0, 2.0 * sum / rays);
 }
 
 }  // namespace lissom

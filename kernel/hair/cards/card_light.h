@@ -14,8 +14,8 @@ class HairDensity {
   public:
     explicit HairDensity(const Strands& strands);
 
-    /// Returns the part of the light from all around that reaches a point, 0 to 1, over 26
-    /// directions; hair further than 8 cm counts no more.
+    /// Returns the light from all around that reaches a point, over 26 directions, as a part of
+    /// what an open surface gets from one side, 0 to 1; hair further than 8 cm counts no more.
     double openness(const Vec3& point) const;
 
   private:

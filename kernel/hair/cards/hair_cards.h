@@ -8,6 +8,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/hair/strands/strands.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

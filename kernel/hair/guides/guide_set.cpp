@@ -57,6 +57,10 @@ ClusterOptions clusters_of(const Strands& strands, const GuideSetOptions& option
     return clusters;
 }
 
+// Without memory from the heap.
+using FewProducts = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+using FewNumbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
+
 // Coefficients c >= 0 with the least |sum c_i a_i - b|^2, of the products of the vectors.
 struct Fit {
     std::array<double, 3> coefficients{};
@@ -70,13 +74,13 @@ Fit fit_of(const Eigen::Matrix3d& products, const Vec3& with_target, double targ
     for (int i = 0; i < 3; ++i) {
         if (chosen >> i & 1u) places[at(n++)] = i;
     }
-    Eigen::MatrixXd a(n, n);
-    Eigen::VectorXd b(n);
+    FewProducts a(n, n);
+    FewNumbers b(n);
     for (int i = 0; i < n; ++i) {
         b[i] = with_target[places[at(i)]];
         for (int j = 0; j < n; ++j) a(i, j) = products(places[at(i)], places[at(j)]);
     }
-    const Eigen::VectorXd x = a.ldlt().solve(b);
+    const FewNumbers x = a.ldlt().solve(b);
     Fit fit;
     fit.error = std::numeric_limits<double>::infinity();
     if (!x.allFinite() || x.minCoeff() < 0.0) return fit;

@@ -108,14 +108,15 @@ class PreviewMaker {
         const auto k = std::min(static_cast<Index>(v * last), static_cast<Index>(last) - 1);
         const double part = v * last - k;
         const Index a = first_ + 2 * k;
-        const auto mixed = [&](const auto& value) {
-            const auto low = value(a) + u * (value(a + 1) - value(a));
-            const auto high = value(a + 2) + u * (value(a + 3) - value(a + 2));
-            return std::pair(low, high);
+        const auto place = [&](Index left) -> Vec3 {
+            const Vec3 p = surface_.position(left), q = surface_.position(left + 1);
+            return p + u * (q - p);
         };
-        const auto [p, q] = mixed([&](Index i) -> Vec3 { return surface_.position(i); });
-        const auto [x, y] = mixed([&](Index i) { return light(i); });
-        return {p + part * (q - p), x + part * (y - x)};
+        const auto shine = [&](Index left) {
+            return light(left) + u * (light(left + 1) - light(left));
+        };
+        const Vec3 p = place(a), q = place(a + 2);
+        return {p + part * (q - p), shine(a) + part * (shine(a + 2) - shine(a))};
     }
 
     void add_face(const Card& card, double u0, double u1, double v0, double v1) {
