@@ -52,7 +52,7 @@ std::vector<Index> border_edges(const std::vector<Triangle>& triangles, Index ve
     return counts;
 }
 
-// Drops triangles at vertices where parts of the cap touch at nothing else, until there are none.
+// Drops triangles at vertices that are all that parts of the cap share, until there are none.
 void drop_pinches(std::vector<Triangle>& triangles, Index vertices) {
     for (;;) {
         const std::vector<Index> counts = border_edges(triangles, vertices);
@@ -77,7 +77,7 @@ std::vector<Vec3> triangle_normals(const Mesh& head, const Triangulation& triang
 }
 
 // Across: back and forth around the head, so that the slot has no seam. Down: from the top.
-Eigen::Vector2d place_of(const Vec3& p, const Box& box) {
+Eigen::Vector2d cap_place(const Vec3& p, const Box& box) {
     const Vec3 d = p - box.center();
     const double turn = kRepeats * std::atan2(d.x(), d.z()) / (2.0 * kPi);
     const double height = std::max(box.max.y() - box.min.y(), 1e-9);
@@ -134,7 +134,7 @@ void add_cap(HairCards& cards, const Strands& strands, const Mesh& head,
     require(!cap.triangles.empty(), "no strand is rooted on a face of this head");
     Box box;
     for (const Vec3& p : cap.positions) box.extend(p);
-    for (const Vec3& p : cap.positions) cap.places.push_back(place_of(p, box));
+    for (const Vec3& p : cap.positions) cap.places.push_back(cap_place(p, box));
     CardSlot slot = cards.slots[at(densest_slot(cards))];
     slot.is_solid = true;
     cards.slots.push_back(slot);

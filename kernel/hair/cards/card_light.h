@@ -15,7 +15,7 @@ class HairDensity {
     explicit HairDensity(const Strands& strands);
 
     /// Returns the light from all around that reaches a point, over 26 directions, as a part of
-    /// what an open surface gets from one side, 0 to 1; hair further than 8 cm counts no more.
+    /// the light on an open surface, 0 to 1; hair further than 8 cm counts no more.
     double openness(const Vec3& point) const;
 
   private:

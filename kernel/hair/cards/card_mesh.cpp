@@ -13,8 +13,8 @@ namespace {
 
 constexpr Index kLightGrain = 64;
 
-Vec3 surface_normal(const std::function<double(const Vec3&)>& distance, const Vec3& middle,
-                    const Vec3& p) {
+Vec3 head_normal(const std::function<double(const Vec3&)>& distance, const Vec3& middle,
+                 const Vec3& p) {
     Vec3 out = p - middle;
     if (distance) {
         constexpr double kStep = 2e-3;
@@ -70,7 +70,7 @@ void add_card(const HairCards& cards, std::size_t c, const CardOptions& options,
         const Vec3 along = course_at(card, k);
         for (const double u : {-1.0, 1.0}) {
             const Vec3 p = section.center + u * section.half_width * section.across;
-            const Vec3 away = surface_normal(options.distance, middle, p);
+            const Vec3 away = head_normal(options.distance, middle, p);
             Vec3 normal = (1.0 - options.bend) * section.out + options.bend * away;
             normal -= 0.5 * normal.dot(along) * along;
             const Eigen::Vector2d uv(slot.low.x() + 0.5 * (u + 1.0) * size.x(),

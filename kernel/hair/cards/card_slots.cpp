@@ -68,8 +68,8 @@ Index nearest_look(const std::vector<CardLook>& looks, const std::vector<Index>&
 }
 
 // The card of each slot becomes the one nearest to the mean of those that share it.
-void center(const std::vector<CardLook>& looks, const std::vector<Index>& slot_of,
-            std::vector<Index>& chosen) {
+void center_slots(const std::vector<CardLook>& looks, const std::vector<Index>& slot_of,
+                  std::vector<Index>& chosen) {
     for (Index i = 0; i < count_of(chosen); ++i) {
         CardLook mean = CardLook::Zero();
         double count = 0.0;
@@ -111,7 +111,7 @@ void share_slots(const Strands& even, Index count, HairCards& cards) {
     std::vector<Index> slot_of(looks.size(), 0);
     for (int round = 0; round < 6; ++round) {
         for (Index c = 0; c < count_of(looks); ++c) slot_of[at(c)] = nearest_look(looks, chosen, c);
-        center(looks, slot_of, chosen);
+        center_slots(looks, slot_of, chosen);
     }
     for (const Index card : chosen) {
         CardSlot slot;

@@ -75,7 +75,7 @@ double quantile(std::vector<double>& values, double part) {
 
 // The course of the cluster: means of its points, smoothed over the length of a section, so that
 // curls lie on their card and not along it.
-std::vector<Vec3> smoothed(std::vector<Vec3> points, Index sections) {
+std::vector<Vec3> smoothed_course(std::vector<Vec3> points, Index sections) {
     const auto n = count_of(points);
     const Index reach = std::max<Index>(1, n / (2 * std::max<Index>(sections - 1, 1)));
     for (int pass = 0; pass < 2; ++pass) {
@@ -107,7 +107,7 @@ std::vector<Vec3> evenly(const std::vector<Vec3>& points, Index count) {
     return result;
 }
 
-Vec3 direction_at(const std::vector<CardSection>& sections, Index k) {
+Vec3 card_direction(const std::vector<CardSection>& sections, Index k) {
     const Index last = count_of(sections) - 1;
     const Vec3 along =
         sections[at(std::min(k + 1, last))].center - sections[at(std::max(k - 1, 0))].center;
@@ -152,15 +152,15 @@ class CardMaker {
             for (Index k = 0; k < kCardPoints; ++k) mean[at(k)] += point_of(strand, k);
         }
         for (Vec3& p : mean) p /= static_cast<double>(card_.strands.size());
-        set_centers(smoothed(std::move(mean), count_));
+        set_centers(smoothed_course(std::move(mean), count_));
     }
 
     // Lets the card begin and end with nearly all of its strands.
     void reach_ends() {
         std::vector<double> before, behind;
         const Index last = count_ - 1;
-        const Vec3 first = direction_at(card_.sections, 0),
-                   end = direction_at(card_.sections, last);
+        const Vec3 first = card_direction(card_.sections, 0),
+                   end = card_direction(card_.sections, last);
         for (const Index s : card_.strands) {
             const StrandView strand = even_.strand(s);
             const Vec3 root = point_of(strand, 0), tip = point_of(strand, kCardPoints - 1);
@@ -191,7 +191,7 @@ class CardMaker {
         double before = 0.0;
         for (Index k = 0; k < count_; ++k) {
             CardSection& section = card_.sections[at(k)];
-            const Vec3 along = direction_at(card_.sections, k);
+            const Vec3 along = card_direction(card_.sections, k);
             const Vec3 up = away_from(options_.distance, middle_, section.center);
             Vec3 across = along.cross(up);
             if (across.norm() < 1e-6) across = along.unitOrthogonal();

@@ -68,7 +68,7 @@ struct CardSlot {
     bool is_solid = false;
 };
 
-/// The skin of the head below hair, which shows its colour where cards begin.
+/// The skin of the head below hair; it shows the colour of hair at the roots of cards.
 struct CardCap {
     std::vector<Vec3> positions, normals;
     std::vector<Triangle> triangles;

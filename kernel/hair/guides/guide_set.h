@@ -26,7 +26,7 @@ struct GuideSetOptions {
     Index count = 200;
     /// Points of each guide and of each strand that is rebuilt, at equal steps; 2 to 256.
     Index points = 16;
-    /// As ClusterOptions::shape.
+    /// Weight of shapes: ClusterOptions::shape.
     double shape = 1.0;
 };
 

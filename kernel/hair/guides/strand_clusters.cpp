@@ -49,7 +49,7 @@ void require_clusters(const Strands& strands, const ClusterOptions& options) {
 }
 
 // Strands that go into one cluster together: their mean and number.
-struct Unit {
+struct ClusterPart {
     Feature mean = Feature::Zero();
     double weight = 0.0;
     // The lowest id of its strands.
@@ -57,8 +57,8 @@ struct Unit {
 };
 
 // The strands of one group.
-struct Family {
-    std::vector<Unit> units;
+struct ClusterFamily {
+    std::vector<ClusterPart> units;
     std::vector<Index> cluster_of_unit;
     // Their clusters begin at this number.
     Index first = 0, count = 0;
@@ -80,7 +80,7 @@ class Clustering {
         result.of_strand.assign(at(strands_.size()), kNoIndex);
         for (Index s = 0; s < strands_.size(); ++s) {
             if (unit_of_[at(s)] == kNoIndex) continue;
-            const Family& family = families_.at(family_of(s));
+            const ClusterFamily& family = families_.at(family_of(s));
             result.of_strand[at(s)] = family.first + family.cluster_of_unit[at(unit_of_[at(s)])];
         }
         find_medoids(result);
@@ -123,11 +123,11 @@ class Clustering {
         unit_of_.assign(at(strands_.size()), kNoIndex);
         for (Index s = 0; s < strands_.size(); ++s) {
             if (!has_length_[at(s)]) continue;
-            Family& family = families_[family_of(s)];
+            ClusterFamily& family = families_[family_of(s)];
             const auto [place, is_new] =
                 known.try_emplace({family_of(s), key_of(s)}, count_of(family.units));
             if (is_new) family.units.emplace_back();
-            Unit& unit = family.units[at(place->second)];
+            ClusterPart& unit = family.units[at(place->second)];
             unit.mean += features_[at(s)];
             unit.weight += 1.0;
             unit.id = std::min(unit.id, strands_.id(s));
@@ -136,7 +136,7 @@ class Clustering {
         }
         require(!families_.empty(), "no strand has a length, so there is nothing to cluster");
         for (auto& [group, family] : families_) {
-            for (Unit& unit : family.units) unit.mean /= unit.weight;
+            for (ClusterPart& unit : family.units) unit.mean /= unit.weight;
         }
     }
 
@@ -145,7 +145,7 @@ class Clustering {
         Index left = options_.count - count_of(families_);
         for (auto& [group, family] : families_) family.count = 1;
         while (left-- > 0) {
-            Family* needs = nullptr;
+            ClusterFamily* needs = nullptr;
             for (auto& [group, family] : families_) {
                 if (family.count == count_of(family.units)) continue;
                 if (!needs || family.weight * needs->count > needs->weight * family.count) {
@@ -163,7 +163,7 @@ class Clustering {
         count_ = first;
     }
 
-    void improve(Family& family) {
+    void improve(ClusterFamily& family) {
         std::vector<Feature> means = first_means(family);
         for (int round = 0;; ++round) {
             const std::vector<Index> before = family.cluster_of_unit;
@@ -174,7 +174,7 @@ class Clustering {
         fill_empty(family, means);
     }
 
-    static std::vector<Feature> first_means(const Family& family) {
+    static std::vector<Feature> first_means(const ClusterFamily& family) {
         std::vector<Index> order;
         for (Index u = 0; u < count_of(family.units); ++u) order.push_back(u);
         const auto lower = [&](Index a, Index b) {
@@ -188,7 +188,7 @@ class Clustering {
         return means;
     }
 
-    void assign(Family& family, const std::vector<Feature>& means) const {
+    void assign(ClusterFamily& family, const std::vector<Feature>& means) const {
         family.cluster_of_unit.resize(family.units.size());
         context_.parallel_for(
             0, count_of(family.units), kClusterGrain, [&](Index begin, Index end) {
@@ -214,7 +214,8 @@ class Clustering {
         return best;
     }
 
-    static std::vector<Feature> means_of(const Family& family, const std::vector<Feature>& old) {
+    static std::vector<Feature> means_of(const ClusterFamily& family,
+                                         const std::vector<Feature>& old) {
         std::vector<Feature> sums(old.size(), Feature::Zero());
         std::vector<double> weights(old.size(), 0.0);
         for (std::size_t u = 0; u < family.units.size(); ++u) {
@@ -229,7 +230,7 @@ class Clustering {
     }
 
     // Gives each cluster without units the one that lies furthest from the mean of its own.
-    static void fill_empty(Family& family, const std::vector<Feature>& means) {
+    static void fill_empty(ClusterFamily& family, const std::vector<Feature>& means) {
         std::vector<Index> sizes(means.size(), 0);
         for (const Index c : family.cluster_of_unit) ++sizes[at(c)];
         for (Index c = 0; c < count_of(means); ++c) {
@@ -276,9 +277,9 @@ class Clustering {
     const Context& context_;
     std::vector<Feature> features_;
     std::vector<char> has_length_;
-    // Unit of each strand in its family; kNoIndex for strands without length.
+    // ClusterPart of each strand in its family; kNoIndex for strands without length.
     std::vector<Index> unit_of_;
-    std::map<FamilyKey, Family> families_;
+    std::map<FamilyKey, ClusterFamily> families_;
     Index count_ = 0;
 };
 

@@ -9,11 +9,12 @@
 
 namespace lissom {
 
-/// What stays together in a cluster.
+/// Strands that stay together in a cluster.
 enum class ClusterUnit {
     strand,  ///< nothing: each strand on its own
     lock,    ///< strands of one guide (Strands::guides), as those of a curl
-    /// As `strand`, but strands of several guides share no cluster, as those of several groups.
+    /// Nothing, as for `strand`, but strands of several guides share no cluster, as those of
+    /// several groups.
     within_lock,
 };
 

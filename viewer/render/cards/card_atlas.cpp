@@ -213,8 +213,8 @@ std::uint8_t byte_of(double x) {
     return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(x, 0.0, 1.0)));
 }
 
-void put(const SlotPainter& slot, const std::vector<Texel>& texels, double cutoff,
-         CardAtlas& atlas) {
+void put_slot(const SlotPainter& slot, const std::vector<Texel>& texels, double cutoff,
+              CardAtlas& atlas) {
     const float factor = alpha_factor(texels, cutoff);
     for (int y = 0; y < slot.height(); ++y) {
         for (int x = 0; x < slot.width(); ++x) {
@@ -254,7 +254,7 @@ CardAtlas bake_atlas(const HairCards& cards, const Strands& strands,
     context.parallel_for(0, count_of(cards.slots), 1, [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
             SlotPainter painter(cards, cards.slots[at(i)], drawn, options.size);
-            put(painter, painter.paint(), options.cutoff, atlas);
+            put_slot(painter, painter.paint(), options.cutoff, atlas);
         }
     });
     return atlas;
