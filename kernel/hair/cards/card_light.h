@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/strands/strands.h"
 
 namespace lissom {

@@ -1,7 +1,11 @@
 /// Slots of an atlas that cards share; private to kernel/hair.
 #pragma once
 
+#include <vector>
+
+#include "kernel/core/index.h"
 #include "kernel/hair/cards/hair_cards.h"
+#include "kernel/hair/strands/strands.h"
 
 namespace lissom {
 
