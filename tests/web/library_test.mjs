@@ -1,0 +1,166 @@
+// The library as WebAssembly, in node:
+//     node library_test.mjs FOLDER_OF_LISSOM_WASM
+// Ends with 77, as a test that is left out, if it was not built.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import path from 'node:path';
+import { openLibrary } from './library.mjs';
+
+const folder = process.argv[2];
+if (!fs.existsSync(path.join(folder, 'lissom.wasm'))) {
+    console.log('skipped: the preset wasm was not built');
+    process.exit(77);
+}
+const { module, log, ask, run } = await openLibrary(folder);
+const cases = [];
+const test = (name, check) => cases.push({ name, check });
+const refused = script => { try { run(script); } catch (error) { return error; } return assert.fail('no error'); };
+
+test('a deformed mesh keeps its vertices, and its handle is where it was turned to', () => {
+    const { results } = run(`
+local lissom = require "lissom"
+local bar = lissom.shapes.bar{ length = 4, width = 1, across = 6, along = 24 }
+local count, high = bar:vertex_count(), bar:bounds().max[2]
+local function slab(from, to) return bar:region{ box = { min = { -9, from, -9 }, max = { 9, to, 9 } } } end
+local deformer = lissom.deformer(bar)
+deformer:pin(slab(bar:bounds().min[2], bar:bounds().min[2] + 0.1))
+deformer:add_handle(slab(high - 0.1, high)):rotate{ axis = "z", angle = 90, about = { 0, 0, 0 } }
+deformer:solve()
+return bar:vertex_count() == count, bar:bounds().min[1], bar:self_intersections()`);
+    assert.equal(results[0], true);
+    // The upper end lies at x = -high.
+    assert.ok(Math.abs(results[1] + 2) < 1e-3, String(results[1]));
+    assert.deepEqual(results[2], []);
+});
+
+test('a head and a cactus merge into one closed surface', () => {
+    const { results } = run(`
+local lissom = require "lissom"
+local head = lissom.shapes.head{ vertices = 3000 }
+head = head:cut{ plane = { point = {0, -0.15, 0}, normal = {0, 1, 0}, seed = {0, 0.1, 0} } }
+local cactus = lissom.shapes.cactus{ vertices = 3000, ribs = 0 }
+cactus = cactus:cut{ plane = { point = {0, 1.7, 0}, normal = {0, -1, 0} } }
+local mesh = lissom.merge(head, cactus)
+return mesh:is_closed(), mesh:is_manifold(), mesh:genus(), mesh:components()`);
+    assert.deepEqual(results, [true, true, 0, 1]);
+});
+
+test('hair grows, its lists are as long as they say, and its head gives the unit', () => {
+    const { results } = run(`
+local lissom = require "lissom"
+local head = lissom.shapes.head{ vertices = 3000 }
+local style = lissom.hairstyle(head, { resolution = 8000 })
+for _, side in ipairs{ -1, 1 } do
+    style:add_stream{ style:at{ azimuth = 10 * side, elevation = 60, lift = 0.01 },
+        style:at{ azimuth = 75 * side, elevation = 35, lift = 0.02 },
+        style:at{ azimuth = 90 * side, elevation = -20, lift = 0.02 } }
+end
+local hair = style:grow{ count = 500, length = 0.2 }
+return hair, head, style:scalp():unit()`);
+    ask('page_read_strands', results[0].object);
+    const bytes = number => module._page_list_bytes(number);
+    const points = bytes(5) / 12, strands = bytes(6) / 4 - 1;
+    assert.ok(strands > 400 && points > 5 * strands, `${strands} strands, ${points} points`);
+    assert.equal(bytes(7), 4 * points);
+    const unit = module._page_root_unit(results[0].object, results[1].object);
+    assert.ok(Math.abs(unit / results[2] - 1) < 0.02, `${unit} in place of ${results[2]}`);
+});
+
+test('numbers go into text and come back equal', () => {
+    const { results } = run(`
+local lissom = require "lissom"
+local mesh = lissom.shapes.cactus{ vertices = 2000 }:transform{ rotate = { axis = {1, 2, 3}, angle = 17 }, scale = 1 / 3 }
+mesh:save("/tmp/a.obj") mesh:save("/tmp/a.ply") mesh:save("/tmp/a.off")
+local text, binary, plain = lissom.load("/tmp/a.obj"), lissom.load("/tmp/a.ply"), lissom.load("/tmp/a.off")
+local function far(a, b)
+    local most = 0
+    for v = 1, a:vertex_count() do
+        local x, y, z = a:position(v)
+        local i, j, k = b:position(v)
+        most = math.max(most, math.abs(x - i), math.abs(y - j), math.abs(z - k))
+    end
+    return most
+end
+return far(mesh, text), far(mesh, plain), far(mesh, binary)`);
+    assert.deepEqual(results.slice(0, 2), [0, 0]);
+    assert.ok(results[2] < 1e-6);
+});
+
+test('drawn corners: three a triangle, of unit normals, and edges of faces alone', () => {
+    const { results } = run('return require("lissom").shapes.box()');
+    ask('page_read_mesh', results[0].object, 50);
+    const list = (number, Type) => {
+        const at = module._page_list(number), bytes = module._page_list_bytes(number);
+        return new Type(module.HEAPU8.slice(at, at + bytes).buffer);
+    };
+    const normals = list(1, Float32Array), edges = list(3, Uint8Array);
+    assert.equal(normals.length, 3 * edges.length);
+    for (let c = 0; c < normals.length; c += 3) assert.ok(Math.abs(Math.hypot(...normals.subarray(c, c + 3)) - 1) < 1e-5);
+    // The sides are quads: a third of the sides of their triangles is a diagonal.
+    assert.equal(edges.filter(edge => edge === 0).length, edges.length / 3);
+});
+
+test('parameters are declared, set, and refused', () => {
+    const script = 'local p = require("lissom").params{ n = { type = "integer", default = 3, min = 1, max = 9 } }\nreturn p.n * 2';
+    assert.equal(run(script).results[0], 6);
+    const { results, parameters } = run(script, { n: 4 });
+    assert.equal(results[0], 8);
+    assert.equal(parameters[0].name, 'n');
+    assert.throws(() => run(script, { m: 1 }), /n/);
+});
+
+test('errors have the line and the code', () => {
+    assert.match(refused('local lissom = require "lissom"\nreturn lissom.shapes.box{ widht = 2 }').message, /script\.lua:2:.*widht/s);
+    assert.match(refused('local x = = 2').message, /script\.lua:1:/);
+    assert.equal(refused('require("lissom").load("absent.obj")').code, 'script_error');
+    assert.match(refused('local function f() return f() + 1 end\nreturn f()').message, /stack overflow/);
+    assert.match(refused('error(setmetatable({}, { __tostring = function() return "own" end }))').message, /own/);
+});
+
+test('what is caught stays caught: pcall, coroutines, lissom.try', () => {
+    const { results } = run(`
+local lissom = require "lissom"
+local a, message = pcall(error, "x")
+local mesh, problem = lissom.try(lissom.load, "absent.obj")
+local c = coroutine.wrap(function() for i = 1, 3 do coroutine.yield(i) end error("end") end)
+return a, message, mesh == nil, problem.code, c() + c() + c(), (pcall(c))`);
+    assert.deepEqual(results, [false, 'x', true, 'file_not_found', 6, false]);
+});
+
+test('print goes to the log', () => {
+    log.length = 0;
+    run('print("one", 2)');
+    assert.match(log.join(''), /one\s2/);
+});
+
+test('memory that is refused leaves the context usable', () => {
+    ask('page_open', 64e6);
+    assert.equal(refused('return require("lissom").shapes.sphere{ segments = 4000 }').status !== 0, true);
+    assert.equal(run('return 1').results[0], 1);
+    ask('page_open', 0);
+});
+
+test('the time of a sandbox ends a script without an end, and the next one runs', () => {
+    ask('page_open', 0);
+    ask('page_sandbox', 0.3);
+    const start = performance.now();
+    const error = refused('while true do end');
+    const seconds = (performance.now() - start) / 1000;
+    assert.match(error.message, /time of the script is over/);
+    assert.ok(seconds > 0.25, `${seconds} s`);
+    assert.equal(run('return 2').results[0], 2);
+    ask('page_open', 0);
+});
+
+let failed = 0;
+for (const { name, check } of cases) {
+    try {
+        check();
+        console.log(`ok      ${name}`);
+    } catch (error) {
+        ++failed;
+        console.log(`FAILED  ${name}\n${error.stack}`);
+    }
+}
+console.log(`${cases.length - failed} of ${cases.length} passed`);
+process.exit(failed ? 1 : 0);

@@ -1,0 +1,87 @@
+// Light inside of hair: on a grid around it, how much of the light from all sides arrives, and from where.
+const directions = [];
+for (let x = -1; x <= 1; ++x)
+    for (let y = -1; y <= 1; ++y)
+        for (let z = -1; z <= 1; ++z) if (x || y || z) directions.push([x, y, z]);
+
+function boundsOf(points) {
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    for (let i = 0; i < points.length; ++i) {
+        const k = i % 3;
+        if (points[i] < low[k]) low[k] = points[i];
+        if (points[i] > high[k]) high[k] = points[i];
+    }
+    return { low, high };
+}
+
+// Cells along the longest side, and a margin of two around.
+function gridAround(points, cells) {
+    const { low, high } = boundsOf(points);
+    const step = Math.max(...high.map((x, k) => x - low[k]), 1e-6) / cells;
+    return { step, origin: low.map(x => x - 2 * step), size: high.map((x, k) => Math.ceil((x - low[k]) / step) + 4) };
+}
+
+// Optical depth of a step through each cell.
+function depths(grid, points, offsets, widths) {
+    const { size, origin, step } = grid, depth = new Float32Array(size[0] * size[1] * size[2]);
+    const area = step * step;
+    for (let s = 0; s + 1 < offsets.length; ++s) {
+        for (let p = offsets[s]; p + 1 < offsets[s + 1]; ++p) {
+            const a = 3 * p, b = a + 3;
+            const long = Math.hypot(points[b] - points[a], points[b + 1] - points[a + 1], points[b + 2] - points[a + 2]);
+            const at = [0, 1, 2].map(k => Math.floor((0.5 * (points[a + k] + points[b + k]) - origin[k]) / step));
+            depth[at[0] + size[0] * (at[1] + size[1] * at[2])] += 0.785 * long * widths[p] / area;
+        }
+    }
+    return depth.map(d => 1.4 * (1 - Math.exp(-d / 1.4)));
+}
+
+// What lies below a surface lets nothing through. `head` are corners of triangles in the points' unit.
+function addHead(grid, depth, head) {
+    const { size, origin, step } = grid, fill = 1.5;
+    for (let t = 0; t + 8 < head.length; t += 9) {
+        const a = [0, 1, 2].map(k => head[t + 3 + k] - head[t + k]), b = [0, 1, 2].map(k => head[t + 6 + k] - head[t + k]);
+        const n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        const l = Math.hypot(...n) || 1;
+        for (const below of [2, 3]) {
+            const at = [0, 1, 2].map(k => Math.floor(((head[t + k] + head[t + 3 + k] + head[t + 6 + k]) / 3
+                - below * step * n[k] / l - origin[k]) / step));
+            if (at.every((x, k) => x >= 0 && x < size[k])) depth[at[0] + size[0] * (at[1] + size[1] * at[2])] = fill;
+        }
+    }
+}
+
+function arrives(grid, depth, x, y, z, d) {
+    const { size } = grid, long = Math.hypot(d[0], d[1], d[2]);
+    let sum = 0.5 * depth[x + size[0] * (y + size[1] * z)];
+    for (;;) {
+        x += d[0]; y += d[1]; z += d[2];
+        if (x < 0 || y < 0 || z < 0 || x >= size[0] || y >= size[1] || z >= size[2]) return Math.exp(-sum * long);
+        sum += depth[x + size[0] * (y + size[1] * z)];
+        if (sum > 5) return 0;
+    }
+}
+
+// Returns the grid and, a texel a cell, the mean of light from all sides and its slope along the axes.
+export function hairLight(points, offsets, widths, head) {
+    if (points.length < 6) return null;
+    const grid = gridAround(points, 40), { size } = grid;
+    const depth = depths(grid, points, offsets, widths);
+    if (head) addHead(grid, depth, head);
+    const texels = new Uint8Array(4 * depth.length);
+    let at = 0;
+    for (let z = 0; z < size[2]; ++z)
+        for (let y = 0; y < size[1]; ++y)
+            for (let x = 0; x < size[0]; ++x) {
+                let mean = 0, slope = [0, 0, 0];
+                for (const d of directions) {
+                    const light = arrives(grid, depth, x, y, z, d) / directions.length;
+                    const long = Math.hypot(d[0], d[1], d[2]);
+                    mean += light;
+                    for (let k = 0; k < 3; ++k) slope[k] += 2.4 * light * d[k] / long;
+                }
+                texels[at++] = 255 * mean;
+                for (let k = 0; k < 3; ++k) texels[at++] = 127.5 + 127.5 * Math.min(Math.max(slope[k], -1), 1);
+            }
+    return { size, origin: grid.origin, step: grid.step, texels };
+}

@@ -1,0 +1,396 @@
+// Draws pictures of a script with WebGL 2: meshes, hair and lines, turned by mouse, pen and fingers.
+import { cross, dot, length, lookAt, minus, perspective, plus, scaling, times, unit } from './matrix.js';
+import { css, rgb } from './colors.js';
+import { hairFragment, hairVertex, lineVertex, meshFragment, meshVertex } from './shaders.js';
+
+const sides = {
+    front: [0, 0, 1], back: [0, 0, -1], left: [-1, 0, 0.0001], right: [1, 0, 0.0001], top: [0, 1, 0.0001], bottom: [0, -1, 0.0001],
+    'three-quarter': [0.62, 0.42, 0.78],
+};
+const identity = scaling(1);
+
+function compiled(gl, vertex, fragment) {
+    const program = gl.createProgram();
+    for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+        const shader = gl.createShader(type);
+        gl.shaderSource(shader, text);
+        gl.compileShader(shader);
+        gl.attachShader(program, shader);
+        if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost()) throw new Error(gl.getShaderInfoLog(shader));
+    }
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) throw new Error(gl.getProgramInfoLog(program));
+    const places = {};
+    const count = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS);
+    for (let i = 0; i < count; ++i) {
+        const { name } = gl.getActiveUniform(program, i);
+        places[name] = gl.getUniformLocation(program, name);
+    }
+    const slots = {};
+    const inputs = gl.getProgramParameter(program, gl.ACTIVE_ATTRIBUTES);
+    for (let i = 0; i < inputs; ++i) {
+        const { name } = gl.getActiveAttrib(program, i);
+        slots[name] = gl.getAttribLocation(program, name);
+    }
+    return { program, places, slots };
+}
+
+export class View {
+    // Calls `changed` after a frame. Throws if the browser has no WebGL 2.
+    constructor(canvas, changed = () => {}) {
+        this.canvas = canvas;
+        this.changed = changed;
+        this.gl = canvas.getContext('webgl2', { antialias: true, alpha: true, powerPreference: 'high-performance' });
+        if (!this.gl) throw new Error('this browser has no WebGL 2');
+        this.settings = { wire: false, flat: false, colors: true };
+        this.drawn = { meshes: [], strands: [], lines: null };
+        this.resetCamera({});
+        this.open();
+        this.listen();
+        canvas.addEventListener('webglcontextlost', event => event.preventDefault());
+        canvas.addEventListener('webglcontextrestored', () => { this.open(); if (this.picture) this.upload(this.picture); this.ask(); });
+        new ResizeObserver(() => { if (!this.touched && this.picture?.box && !this.picture.camera) this.fit(this.picture.box); this.ask(); }).observe(canvas);
+    }
+
+    open() {
+        const gl = this.gl;
+        this.mesh = compiled(gl, meshVertex, meshFragment);
+        this.hair = compiled(gl, hairVertex, hairFragment);
+        this.line = compiled(gl, lineVertex, hairFragment);
+        gl.enable(gl.DEPTH_TEST);
+        gl.depthFunc(gl.LEQUAL);
+        this.noLight = this.texture3d([1, 1, 1], new Uint8Array([255, 128, 128, 128]));
+    }
+
+    // ---- What is drawn
+
+    // A picture of worker.js. The camera stays, unless `frame`.
+    show(picture, frame) {
+        this.picture = picture;
+        this.upload(picture);
+        if (frame) this.frame();
+        this.ask();
+    }
+
+    upload(picture) {
+        this.free();
+        this.drawn.meshes = picture.meshes.map(mesh => this.uploadMesh(mesh));
+        this.drawn.strands = picture.strands.map(strands => this.uploadStrands(strands));
+        this.drawn.lines = this.uploadLines(picture);
+    }
+
+    free() {
+        const gl = this.gl, { meshes, strands, lines } = this.drawn;
+        for (const one of [...meshes, ...strands, ...(lines ? [lines] : [])]) {
+            gl.deleteVertexArray(one.array);
+            one.buffers.forEach(buffer => gl.deleteBuffer(buffer));
+            if (one.light) gl.deleteTexture(one.light.texture);
+        }
+        this.drawn = { meshes: [], strands: [], lines: null };
+    }
+
+    buffer(values) {
+        const gl = this.gl, buffer = gl.createBuffer();
+        gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+        gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
+        return buffer;
+    }
+
+    attribute(slot, buffer, size, type, normal, stride, offset, divisor = 0) {
+        const gl = this.gl;
+        if (slot === undefined) return;
+        gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+        gl.enableVertexAttribArray(slot);
+        gl.vertexAttribPointer(slot, size, type, normal, stride, offset);
+        gl.vertexAttribDivisor(slot, divisor);
+    }
+
+    uploadMesh(mesh) {
+        const gl = this.gl, { slots } = this.mesh, array = gl.createVertexArray();
+        gl.bindVertexArray(array);
+        const buffers = [mesh.positions, mesh.normals, mesh.colors, mesh.flags].map(values => this.buffer(values));
+        this.attribute(slots.a_position, buffers[0], 3, gl.FLOAT, false, 0, 0);
+        this.attribute(slots.a_normal, buffers[1], 3, gl.FLOAT, false, 0, 0);
+        this.attribute(slots.a_color, buffers[2], 4, gl.UNSIGNED_BYTE, true, 0, 0);
+        this.attribute(slots.a_flags, buffers[3], 1, gl.UNSIGNED_BYTE, false, 0, 0);
+        gl.bindVertexArray(null);
+        return { array, buffers, count: mesh.positions.length / 3, place: mesh.place || identity };
+    }
+
+    uploadStrands(strands) {
+        const gl = this.gl, { slots } = this.hair, array = gl.createVertexArray();
+        gl.bindVertexArray(array);
+        const buffers = [this.buffer(strands.points), this.buffer(strands.colors)];
+        for (const [name, point] of [['a_before', 0], ['a_from', 1], ['a_to', 2], ['a_after', 3]]) {
+            this.attribute(slots[name], buffers[0], 4, gl.FLOAT, false, 16, 16 * point, 1);
+        }
+        for (const [name, point] of [['a_from_color', 1], ['a_to_color', 2]]) {
+            this.attribute(slots[name], buffers[1], 4, gl.UNSIGNED_BYTE, true, 4, 4 * point, 1);
+        }
+        gl.bindVertexArray(null);
+        const light = strands.light && { ...strands.light, texture: this.texture3d(strands.light.size, strands.light.texels) };
+        return { array, buffers, count: strands.points.length / 4 - 3, starts: strands.starts, light, look: strands.look };
+    }
+
+    uploadLines(picture) {
+        const gl = this.gl, from = [], to = [], colors = [];
+        for (const line of picture.lines || []) {
+            const color = [...rgb(line.color), 255];
+            for (let i = 0; i + 5 < line.points.length; i += 3) {
+                from.push(...line.points.slice(i, i + 3));
+                to.push(...line.points.slice(i + 3, i + 6));
+                colors.push(...color);
+            }
+        }
+        if (from.length === 0) return null;
+        const { slots } = this.line, array = gl.createVertexArray();
+        gl.bindVertexArray(array);
+        const buffers = [this.buffer(new Float32Array(from)), this.buffer(new Float32Array(to)), this.buffer(new Uint8Array(colors))];
+        this.attribute(slots.a_from, buffers[0], 3, gl.FLOAT, false, 0, 0, 1);
+        this.attribute(slots.a_to, buffers[1], 3, gl.FLOAT, false, 0, 0, 1);
+        this.attribute(slots.a_color, buffers[2], 4, gl.UNSIGNED_BYTE, true, 0, 0, 1);
+        gl.bindVertexArray(null);
+        return { array, buffers, count: from.length / 3 };
+    }
+
+    texture3d(size, texels) {
+        const gl = this.gl, texture = gl.createTexture();
+        gl.bindTexture(gl.TEXTURE_3D, texture);
+        gl.texImage3D(gl.TEXTURE_3D, 0, gl.RGBA8, ...size, 0, gl.RGBA, gl.UNSIGNED_BYTE, texels);
+        for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T, gl.TEXTURE_WRAP_R]) gl.texParameteri(gl.TEXTURE_3D, axis, gl.CLAMP_TO_EDGE);
+        for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_3D, filter, gl.LINEAR);
+        return texture;
+    }
+
+    // ---- The camera
+
+    resetCamera({ view, up, camera }) {
+        this.up = up === 'z' ? [0, 0, 1] : [0, 1, 0];
+        this.fov = (camera?.fov || 30) * Math.PI / 180;
+        const side = sides[view] || sides['three-quarter'];
+        this.toward = unit(up === 'z' ? [side[0], -side[2], side[1]] : side);
+        this.target = [0, 0, 0];
+        this.distance = 5;
+        if (!camera) return;
+        const back = minus(camera.eye, camera.target);
+        this.toward = unit(back);
+        this.target = camera.target;
+        this.distance = length(back);
+        if (Math.abs(camera.up[2]) > Math.abs(camera.up[1])) this.up = [0, 0, Math.sign(camera.up[2])];
+    }
+
+    // Cells side by side, each with its meshes; all in one unless the picture has columns.
+    cells() {
+        const meshes = this.drawn.meshes, columns = this.picture?.columns || 0;
+        if (!columns || meshes.length < 2) return [{ meshes, box: this.picture?.box, hair: true, x: 0, y: 0, w: 1, h: 1 }];
+        const wide = this.canvas.clientWidth >= this.canvas.clientHeight;
+        const across = wide ? Math.min(columns, meshes.length) : 1;
+        const rows = Math.ceil(meshes.length / across);
+        return meshes.map((mesh, i) => ({
+            meshes: [mesh], box: this.picture.meshes[i].box, hair: false, caption: this.picture.meshes[i].caption,
+            x: i % across / across, y: 1 - (Math.floor(i / across) + 1) / rows, w: 1 / across, h: 1 / rows,
+        }));
+    }
+
+    frame() {
+        const { picture } = this;
+        if (!picture?.box) return;
+        this.touched = false;
+        this.resetCamera(picture);
+        if (!picture.camera) this.fit(picture.box);
+    }
+
+    fit(box) {
+        const cells = this.cells(), cell = cells[0];
+        const boxes = cells.length > 1 ? this.picture.meshes.map(mesh => mesh.box) : [box];
+        const aspect = this.canvas.clientWidth * cell.w / Math.max(this.canvas.clientHeight * cell.h, 1);
+        const forward = this.toward, right = unit(cross(this.up, forward)), over = cross(forward, right);
+        const half = Math.tan(this.fov / 2);
+        this.target = box.low.map((x, k) => 0.5 * (x + box.high[k]));
+        this.distance = 1e-6;
+        for (const one of boxes) {
+            const center = cells.length > 1 ? one.low.map((x, k) => 0.5 * (x + one.high[k])) : this.target;
+            for (let i = 0; i < 8; ++i) {
+                const corner = minus([0, 1, 2].map(k => (i >> k & 1 ? one.high : one.low)[k]), center);
+                const reach = Math.max(Math.abs(dot(corner, right)) / (half * aspect), Math.abs(dot(corner, over)) / half);
+                this.distance = Math.max(this.distance, dot(corner, forward) + 1.12 * reach);
+            }
+        }
+    }
+
+    orbit(dx, dy) {
+        const right = unit(cross(this.up, this.toward)), turn = (v, axis, a) => {
+            const c = Math.cos(a), s = Math.sin(a), along = dot(axis, v) * (1 - c), side = cross(axis, v);
+            return v.map((x, k) => c * x + s * side[k] + along * axis[k]);
+        };
+        this.toward = turn(this.toward, this.up, -dx);
+        const tilted = turn(this.toward, right, -dy);
+        if (Math.abs(dot(tilted, this.up)) < 0.999) this.toward = tilted;
+        this.toward = unit(this.toward);
+        this.ask();
+    }
+
+    pan(dx, dy) {
+        const right = unit(cross(this.up, this.toward)), over = cross(this.toward, right);
+        const step = 2 * this.distance * Math.tan(this.fov / 2) / Math.max(this.canvas.clientHeight, 1);
+        this.target = plus(plus(this.target, right, -dx * step), over, dy * step);
+        this.ask();
+    }
+
+    zoom(factor) {
+        this.touched = true;
+        this.distance = Math.max(this.distance * factor, 1e-6);
+        this.ask();
+    }
+
+    listen() {
+        const { canvas } = this, fingers = new Map();
+        canvas.addEventListener('contextmenu', event => event.preventDefault());
+        canvas.addEventListener('dblclick', () => { if (this.picture?.box) { this.fit(this.picture.box); this.ask(); } });
+        canvas.addEventListener('wheel', event => { event.preventDefault(); this.zoom(Math.exp(0.0012 * event.deltaY)); }, { passive: false });
+        canvas.addEventListener('pointerdown', event => {
+            canvas.setPointerCapture(event.pointerId);
+            fingers.set(event.pointerId, event);
+            this.moving = this.touched = true;
+        });
+        const lift = event => { fingers.delete(event.pointerId); if (fingers.size === 0) { this.moving = false; this.ask(); } };
+        canvas.addEventListener('pointerup', lift);
+        canvas.addEventListener('pointercancel', lift);
+        canvas.addEventListener('pointermove', event => {
+            const before = fingers.get(event.pointerId);
+            if (!before) return;
+            const dx = event.clientX - before.clientX, dy = event.clientY - before.clientY;
+            const other = [...fingers.values()].find(one => one.pointerId !== event.pointerId);
+            fingers.set(event.pointerId, event);
+            if (other) {
+                const spread = one => Math.hypot(one.clientX - other.clientX, one.clientY - other.clientY) || 1;
+                this.zoom(spread(before) / spread(event));
+                this.pan(dx / 2, dy / 2);
+            } else if (event.buttons & 6 || event.shiftKey) {
+                this.pan(dx, dy);
+            } else {
+                this.orbit(0.008 * dx, 0.008 * dy);
+            }
+        });
+        canvas.addEventListener('keydown', event => {
+            const step = { ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, -0.15], ArrowDown: [0, 0.15] }[event.key];
+            if (step) { event.preventDefault(); this.orbit(...step); }
+            if (event.key === '+' || event.key === '-') this.zoom(event.key === '+' ? 0.85 : 1 / 0.85);
+        });
+    }
+
+    // ---- A frame
+
+    ask() {
+        if (this.asked) return;
+        this.asked = requestAnimationFrame(() => { this.asked = 0; this.draw(); });
+    }
+
+    size() {
+        const { canvas } = this, scale = Math.min(window.devicePixelRatio || 1, 2);
+        const width = Math.max(Math.round(canvas.clientWidth * scale), 1), height = Math.max(Math.round(canvas.clientHeight * scale), 1);
+        if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
+        return { width, height, scale };
+    }
+
+    draw() {
+        const gl = this.gl, { width, height, scale } = this.size();
+        gl.viewport(0, 0, width, height);
+        gl.clearColor(0, 0, 0, 0);
+        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        const cells = this.cells();
+        for (const cell of cells) this.drawCell(cell, cells.length > 1, width, height, scale);
+        this.frames = (this.frames || 0) + 1;
+        this.changed(cells);
+    }
+
+    drawCell(cell, centred, width, height, scale) {
+        const gl = this.gl, w = Math.round(cell.w * width), h = Math.round(cell.h * height);
+        gl.viewport(Math.round(cell.x * width), Math.round(cell.y * height), w, h);
+        const target = centred && cell.box ? plus(cell.box.low.map((x, k) => 0.5 * (x + cell.box.high[k])),
+            minus(this.target, this.picture.box.low.map((x, k) => 0.5 * (x + this.picture.box.high[k])))) : this.target;
+        const view = lookAt(plus(target, this.toward, this.distance), target, this.up);
+        const reach = cell.box ? length(minus(cell.box.high, cell.box.low)) + length(minus(target, cell.box.low)) : 1;
+        const near = Math.max(this.distance - reach, 0.002 * this.distance);
+        const projection = perspective(this.fov, w / h, near, this.distance + reach);
+        const light = cell.hair ? this.drawn.strands.find(one => one.light)?.light : null;
+        const shared = { view, projection, light, h };
+        this.drawMeshes(cell.meshes, shared, scale);
+        if (cell.hair) this.drawStrands(shared);
+        if (cell.hair && this.drawn.lines) this.drawLines(shared, w, h, scale);
+        gl.bindVertexArray(null);
+    }
+
+    useLight({ places }, { view, projection, light }, shadow) {
+        const gl = this.gl;
+        gl.uniformMatrix4fv(places.u_view, false, view);
+        gl.uniformMatrix4fv(places.u_projection, false, projection);
+        gl.activeTexture(gl.TEXTURE0);
+        gl.bindTexture(gl.TEXTURE_3D, light ? light.texture : this.noLight);
+        gl.uniform1i(places.u_hair, 0);
+        gl.uniform4fv(places.u_hair_grid, light ? [...light.origin, light.step] : [0, 0, 0, 0]);
+        gl.uniform3fv(places.u_hair_size, light ? light.size : [1, 1, 1]);
+        gl.uniform1f(places.u_shadow, shadow);
+    }
+
+    drawMeshes(meshes, shared, scale) {
+        const gl = this.gl, { program, places } = this.mesh;
+        gl.useProgram(program);
+        this.useLight(this.mesh, shared, 1);
+        gl.uniform1f(places.u_wire, this.settings.wire || this.picture?.wire ? scale : 0);
+        gl.uniform1i(places.u_flat, this.settings.flat || this.picture?.flat ? 1 : 0);
+        for (const mesh of meshes) {
+            gl.uniformMatrix4fv(places.u_place, false, mesh.place);
+            gl.bindVertexArray(mesh.array);
+            gl.drawArrays(gl.TRIANGLES, 0, mesh.count);
+        }
+    }
+
+    // While the view moves fewer and wider strands are drawn, as far as frames are slow.
+    drawStrands(shared) {
+        const gl = this.gl, { program, places } = this.hair;
+        if (this.drawn.strands.length === 0) return;
+        gl.useProgram(program);
+        const start = performance.now();
+        const level = this.moving ? this.level || 1 : 1;
+        for (const strands of this.drawn.strands) {
+            this.useLight(this.hair, shared, strands.look.shadow);
+            gl.uniform4fv(places.u_lobes, strands.look.lobes);
+            gl.uniform1f(places.u_wide, 1 / Math.sqrt(level));
+            gl.uniform1f(places.u_thinnest, 0.42 * 2 * Math.tan(this.fov / 2) / shared.h);
+            gl.bindVertexArray(strands.array);
+            const count = strands.starts[Math.floor(level * (strands.starts.length - 1))];
+            gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, Math.max(count - 1, 0));
+        }
+        if (!this.moving) return;
+        // A pixel is read, so that the time is that of the frame.
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+        const ms = performance.now() - start;
+        if (ms > 40) this.level = Math.max(0.08, level * 30 / ms);
+        else if (ms < 12) this.level = Math.min(1, level * 1.25);
+    }
+
+    drawLines(shared, w, h, scale) {
+        const gl = this.gl, { program, places } = this.line, { lines } = this.drawn;
+        gl.useProgram(program);
+        gl.uniformMatrix4fv(places.u_view, false, shared.view);
+        gl.uniformMatrix4fv(places.u_projection, false, shared.projection);
+        gl.uniform2f(places.u_pixel, 2 / w, 2 / h);
+        gl.uniform1f(places.u_width, 3 * scale);
+        gl.bindVertexArray(lines.array);
+        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
+    }
+
+    // The picture as it is seen, as PNG with a background.
+    async png(background) {
+        this.draw();
+        const flat = document.createElement('canvas');
+        flat.width = this.canvas.width;
+        flat.height = this.canvas.height;
+        const context = flat.getContext('2d');
+        context.fillStyle = background || css('white');
+        context.fillRect(0, 0, flat.width, flat.height);
+        context.drawImage(this.canvas, 0, 0);
+        return new Promise(resolve => flat.toBlob(resolve, 'image/png'));
+    }
+}

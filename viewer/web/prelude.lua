@@ -1,0 +1,184 @@
+-- What scripts have in a page beside the library: the modules of scripts/, and lissom.render, whose pictures
+-- the page draws. `playground.shown(...)` returns the pictures of a run and what it returned, as tables of
+-- objects.
+local lissom = require "lissom"
+
+package.path = "./?.lua;/lissom/scripts/?.lua;/lissom/?.lua"
+
+local playground = { pictures = {} }
+
+local function kind_of(value)
+    -- Objects of the library show the name of their kind in place of a metatable.
+    local name = type(value) == "userdata" and getmetatable(value)
+    return type(name) == "string" and name or type(value)
+end
+
+-- A list of a value that may be one or a list.
+local function listed(value)
+    if value == nil then return {} end
+    if type(value) == "table" then return value end
+    return { value }
+end
+
+local function camera_table(camera)
+    if camera == nil then return nil end
+    return { eye = camera:eye(), target = camera:target(), up = camera:up(), fov = camera:fov() }
+end
+
+local function region_names(options, mesh)
+    if options.regions == true then return mesh:regions() end
+    return listed(options.regions or nil)
+end
+
+-- Parts of a mesh in colours: `region` a name or a region, whose vertices are told.
+local function part(mesh, region, color)
+    if type(region) == "string" then
+        local found = lissom.try(function() return mesh:region(region) end)
+        if not found then return nil end
+        return { region = found, color = color, name = region }
+    end
+    return { region = region, color = color }
+end
+
+local function parts_of(options, mesh)
+    local parts = {}
+    local function add(region, color) parts[#parts + 1] = part(mesh, region, color) end
+    local names = region_names(options, mesh)
+    for i, name in ipairs(names) do add(name, i) end
+    if options.region ~= nil then add(options.region, "region") end
+    for _, handle in ipairs(listed(options.handles)) do add(handle, "handle") end
+    return parts
+end
+
+local function scalars_of(options)
+    local scalars = options.scalars
+    if kind_of(scalars) == "lissom.Buffer" then return { buffer = scalars } end
+    if type(scalars) == "table" then return { numbers = scalars } end
+    if type(scalars) == "string" then return { name = scalars } end
+    return nil
+end
+
+-- Meshes and strands are copied: the script may go on to change them.
+local function drawn_meshes(options, meshes)
+    local drawn = {}
+    for i, mesh in ipairs(meshes) do
+        local color = type(options.color) == "table" and options.color[i] or options.color
+        if type(color) == "table" then color = nil end
+        local copy = mesh:copy()
+        drawn[i] = {
+            mesh = copy, color = color, offset = options.offsets and options.offsets[i],
+            parts = parts_of(options, copy), scalars = scalars_of(options),
+            caption = options.captions and options.captions[i],
+        }
+    end
+    return drawn
+end
+
+local function look_of(hair)
+    local look = {}
+    for _, key in ipairs{ "color", "unit", "primary", "secondary", "shadow", "root_tone", "tip_tone" } do
+        look[key] = hair and hair[key]
+    end
+    return look
+end
+
+local function lines_of(options)
+    local lines = {}
+    for _, path in ipairs(options.paths or {}) do
+        lines[#lines + 1] = path:points()
+    end
+    return lines
+end
+
+local function picture_of(options)
+    local meshes = options.meshes or listed(options.mesh)
+    local strands = {}
+    for _, one in ipairs(listed(options.strands)) do strands[#strands + 1] = one:copy() end
+    if options.style and #meshes == 0 and #strands == 0 then meshes = { options.style:head() } end
+    return {
+        name = tostring(options.file or "picture"):match("([^/]+)$"):gsub("%.png$", ""),
+        meshes = drawn_meshes(options, meshes), strands = strands, hair = look_of(options.hair),
+        wire = options.wire, flat = options.shading == "flat", crease = options.crease,
+        boundaries = options.boundaries, columns = options.columns, fit = options.fit, view = options.view,
+        up = options.up, camera = camera_table(options.camera), range = options.range,
+        vertex_colors = options.vertex_colors, lines = lines_of(options), points = options.points,
+    }
+end
+
+-- ---- What a script returns
+
+local add_value
+
+local function add_scene(picture, scene)
+    for _, name in ipairs(scene:names()) do
+        local entry = scene:info(name)
+        if entry.visible ~= false then
+            add_value(picture, scene:get(name), entry.style or {}, entry.transform)
+        end
+    end
+end
+
+local adders = {
+    ["lissom.Mesh"] = function(picture, mesh, style, transform)
+        local color = type(style.color) == "string" and style.color or nil
+        table.insert(picture.meshes, { mesh = mesh, color = color, parts = {}, transform = transform })
+    end,
+    ["lissom.Strands"] = function(picture, strands) picture.strands[#picture.strands + 1] = strands end,
+    ["lissom.Scene"] = add_scene,
+    ["lissom.Hairstyle"] = function(picture, style) add_value(picture, style:head()) end,
+    ["lissom.Path"] = function(picture, path) picture.lines[#picture.lines + 1] = path:points() end,
+}
+
+function add_value(picture, value, style, transform, depth)
+    if type(value) == "table" and (depth or 0) < 3 then
+        for _, one in pairs(value) do add_value(picture, one, style, transform, (depth or 0) + 1) end
+        return
+    end
+    local add = adders[kind_of(value)]
+    if not add or picture.seen[value] then return end
+    picture.seen[value] = true
+    add(picture, value, style or {}, transform)
+end
+
+local function returned_picture(...)
+    local picture = { name = "result", meshes = {}, strands = {}, lines = {}, hair = {}, seen = {} }
+    for i = 1, select("#", ...) do add_value(picture, (select(i, ...))) end
+    picture.seen = nil
+    if #picture.meshes == 0 and #picture.strands == 0 then return nil end
+    return picture
+end
+
+function playground.shown(...)
+    local pictures = playground.pictures
+    playground.pictures = {}
+    local returned = returned_picture(...)
+    if returned then table.insert(pictures, 1, returned) end
+    return pictures
+end
+
+function playground.run(file)
+    playground.pictures = {}
+    local chunk, problem = loadfile(file)
+    if not chunk then error(problem, 0) end
+    return playground.shown(chunk())
+end
+
+function lissom.render(options)
+    if type(options) ~= "table" then
+        lissom.error{ message = "lissom.render takes a table of options", level = 3 }
+    end
+    if options.scene then
+        local picture = picture_of{ file = options.file, view = options.view, camera = options.camera,
+            up = options.up }
+        picture.seen = {}
+        add_scene(picture, options.scene)
+        picture.seen = nil
+        table.insert(playground.pictures, picture)
+        return options.file
+    end
+    table.insert(playground.pictures, picture_of(options))
+    return options.file
+end
+
+_G.playground = playground
+return playground
