@@ -1674,6 +1674,22 @@ function Deformer:bake_texture(path, options) end
 ---@return table report # `joints`, their number; `max_error` and `rms_error`, distances of the skinned vertices from the deformation's over all poses, in mesh units.
 function Deformer:skin(options) end
 
+---@class lissom.Deformer.AttachOptions
+---@field mode? "components"|"vertices" Pieces that keep their shape: connected components, such as buttons and eyes; or none, each vertex follows the surface nearest to it, as clothes do. Default: "components".
+---@field scale? boolean Whether pieces grow and shrink with the surface below them. Default: false.
+---@field max_distance? number Greatest distance of a component from the surface; beyond it is an error. In mesh units. Default: the size of the surface.
+
+---Attaches another mesh, such as buttons or clothes, to the surface as both are now. Each solve moves it along. Attached again, it takes its new place.
+---@param mesh lissom.Mesh The mesh that follows.
+---@param options? lissom.Deformer.AttachOptions
+---@return lissom.Deformer deformer # The deformer itself.
+function Deformer:attach(mesh, options) end
+
+---Lets an attached mesh stay at its present place from now on.
+---@param mesh lissom.Mesh The mesh; one that is not attached is passed over.
+---@return lissom.Deformer deformer # The deformer itself.
+function Deformer:detach(mesh) end
+
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Deformer:close() end
 
