@@ -11,7 +11,7 @@
 namespace lissom {
 namespace {
 
-constexpr std::uint64_t kAngleStream = 41, kLengthStream = 42;
+constexpr std::uint64_t kAngleStream = 41, kBendLengthStream = 42;
 
 void require_center(const std::optional<Vec3>& center, const char* message) {
     require(!center || center->allFinite(), message);
@@ -158,7 +158,7 @@ void set_length(Strands& strands, const LengthOptions& options, const Context& c
     Progress progress(context, "set lengths of strands");
     std::vector<double> scales(strands.guides().arcs.empty() ? 0 : at(strands.size()), 1.0);
     const auto change = [&](StrandWork& work) {
-        const double random = signed_random(mixed(options.seed, work.id(), kLengthStream));
+        const double random = signed_random(mixed(options.seed, work.id(), kBendLengthStream));
         const double wanted = options.length.value_or(work.length()) * options.scale *
                               (1.0 + options.variation * random);
         const double part = work.weight_at(1.0);

@@ -25,7 +25,7 @@ double feed_random(std::uint64_t seed, std::uint64_t id, std::uint64_t stream) {
 bool is_above_zero(double value) {
     return value > 0.0 && std::isfinite(value);
 }
-bool is_part(double value) {
+bool is_fraction(double value) {
     return value >= 0.0 && value <= 1.0;
 }
 
@@ -43,8 +43,8 @@ void require_feed(const Strands& strands, const FeedBraidOptions& options) {
     require(options.wide >= 0.0 && options.high >= 0.0 && options.wavelength >= 0.0 &&
                 std::isfinite(options.wide + options.high + options.wavelength),
             "'wide', 'high' and 'wavelength' of a feed-in braid must be finite and not negative");
-    require(options.joined > 0.0 && options.joined <= 1.0 && is_part(options.tail) &&
-                is_part(options.loose),
+    require(options.joined > 0.0 && options.joined <= 1.0 && is_fraction(options.tail) &&
+                is_fraction(options.loose),
             "'joined', 'tail' and 'loose' of a feed-in braid are parts from 0 to 1");
 }
 

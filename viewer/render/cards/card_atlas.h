@@ -15,7 +15,7 @@ struct CardAtlasOptions {
     /// Colours of the strands, without light; its lobes and shadows are not used.
     StrandStyle style = {};
     /// Alpha is made steeper about this number and shifted, so that as large a part of each slot is
-    /// above it as strands cover, in the picture and in pictures of half its size and less.
+    /// above it as strands cover, at the full size of the picture.
     double cutoff = 0.5;
 };
 
