@@ -30,7 +30,7 @@ void add(std::string& bytes, T value) {
     append_number(bytes, value, Endianness::little);
 }
 
-std::size_t padded(std::size_t bytes) {
+std::size_t padded_size(std::size_t bytes) {
     return (bytes + 15) / 16 * 16;
 }
 
@@ -60,8 +60,9 @@ void add_strand(const GuidedStrand& strand, std::string& bytes) {
 std::string encode_guides(const GuideSet& set, const GuideFileOptions& options) {
     require_finite(set);
     const std::size_t strands = kGuideHeader + kGuidedBytes * set.guided.size();
-    const std::size_t curves = padded(strands + 12 * set.curves.size());
-    const std::size_t size = options.details ? padded(curves + 2 * set.details.size()) : curves;
+    const std::size_t curves = padded_size(strands + 12 * set.curves.size());
+    const std::size_t size =
+        options.details ? padded_size(curves + 2 * set.details.size()) : curves;
     std::string bytes;
     bytes.reserve(size);
     add_header(set, options.details, size, bytes);

@@ -1,6 +1,8 @@
 // The header that rebuilds hair from guides does as the kernel does.
 #include <doctest/doctest.h>
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <cstring>
 #include <string>
