@@ -47,7 +47,7 @@ test("a guide file has a header that engines read", function()
     expect.equal(#bytes % 16, 0)
 end)
 
-test("cards stand for the hair, stay out of the head and have pictures", function()
+test("cards stand for the hair and stay out of the head", function()
     local head, style, hair = bob()
     local cards = hair:cards{ count = 60, style = style, slots = 12 }
     local stats = cards:stats()
@@ -66,6 +66,13 @@ test("cards stand for the hair, stay out of the head and have pictures", functio
         if out < -1e-3 then inside = inside + 1 end
     end
     expect.truthy(inside <= 0.01 * #positions / 3, inside)
+end)
+
+test("cards have pictures", function()
+    if not pcall(function() return lissom.bake_cards end) then test.skip("a renderer") end
+    local _, style, hair = bob()
+    local cards = hair:cards{ count = 60, style = style, slots = 12 }
+    local stats = cards:stats()
     local glb = test.file("cards.glb")
     local preview = lissom.bake_cards{ cards = cards, file = test.file("color.png"), mesh = glb,
         flow = test.file("flow.png"), data = test.file("data.png"), size = 256 }

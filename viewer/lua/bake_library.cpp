@@ -126,7 +126,7 @@ std::vector<Function> bake_functions() {
     points = { { 0, 0, 0 }, { 0, 0.1, 0 }, { 0, 0.2, 0 }, { 0.01, 0, 0 }, { 0.02, 0.1, 0 } },
     counts = { 3, 2 } }
 local path = os.tmpname() .. ".png"
-local preview = lissom.bake_cards{ cards = hair:cards{ count = 2 }, file = path, size = 64 }
+local preview = lissom.bake_cards{ cards = hair:cards{ count = 2 }, file = path, size = 128 }
 assert(preview:face_count() > 0)
 os.remove(path))"}};
 }

@@ -97,7 +97,8 @@ void place_slots(std::vector<CardSlot>& slots) {
     const int rows = std::max(1, static_cast<int>(std::lround(std::sqrt(n / kSlotAspect))));
     const int columns = (static_cast<int>(slots.size()) + rows - 1) / rows;
     for (int i = 0; i < static_cast<int>(slots.size()); ++i) {
-        const double x = i % columns, y = i / columns;
+        const int column = i % columns, row = i / columns;
+        const double x = column, y = row;
         const double margin = kSlotMargin / columns;
         slots[at(i)].low = {x / columns + margin, 1.0 - (y + 1.0) / rows + margin};
         slots[at(i)].high = {(x + 1.0) / columns - margin, 1.0 - y / rows - margin};

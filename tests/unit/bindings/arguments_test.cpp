@@ -68,6 +68,9 @@ provenance = select(2, merger:solve()).provenance
 local globe = lissom.shapes.sphere{ segments = 8 }
 paste = lissom.paste{ source = globe, target = globe:copy(), placement = { at = { 0, 1, 0 }, scale = 0.5 },
     region = globe:region{ plane = { point = { 0, 0, 0 }, normal = { 0, 1, 0 } } } }
+local tuft = lissom.strands{ counts = { 2, 2, 2, 2 }, points = { { 0, 0, 0 }, { 0, 1, 0 }, { 0.1, 0, 0 }, { 0.1, 1, 0 },
+    { 0, 0, 0.1 }, { 0, 1, 0.1 }, { 0.1, 0, 0.1 }, { 0.1, 1, 0.1 } } }
+guides, cards = tuft:guide_set{ count = 3 }, tuft:cards{ count = 2 }
 local eye = lissom.camera{ eye = { 0, 0, 5 } }
 lissom.tool_host{ scene = lissom.scene{}, camera = eye, tool = lissom.tool{ name = "draws",
     draw = function(_, given) view = given end } }:draw()
@@ -86,7 +89,7 @@ function fresh()
         ["lissom.Deformer"] = deformer, ["lissom.Handle"] = handle, ["lissom.Params"] = params,
         ["lissom.Strands"] = strands, ["lissom.Scalp"] = scalp, ["lissom.Hairstyle"] = style,
         ["lissom.Curve"] = curve, ["lissom.Merger"] = merger, ["lissom.Provenance"] = provenance,
-        ["lissom.Paste"] = paste,
+        ["lissom.Paste"] = paste, ["lissom.GuideSet"] = guides, ["lissom.Cards"] = cards,
         ["lissom.Scene"] = scene, ["lissom.Camera"] = camera, ["lissom.Gizmo"] = gizmo,
         ["lissom.Support"] = support, ["lissom.ToolView"] = view,
         ["lissom.Polyline"] = lissom.polyline{ points = { { 0, 0, 0 }, { 0, 1, 0 } } } }
