@@ -105,7 +105,8 @@ const std::vector<Names>& room_orders() {
     static const std::vector<Names> orders = {
         {"kernel/solve/sparse", "kernel/solve/grid", "kernel/solve/dual", "kernel/solve/field"},
         {"kernel/mesh", "kernel/mesh/measure", "kernel/mesh/query", "kernel/mesh/edit",
-         "kernel/mesh/repair", "kernel/mesh/render", "kernel/mesh/cut", "kernel/mesh/fill",
+         "kernel/mesh/repair", "kernel/mesh/render", "kernel/mesh/cut",
+         "kernel/mesh/edit/symmetrize", "kernel/mesh/fill",
          "kernel/mesh/parameterize", "kernel/mesh/shapes"},
         {"kernel/deform/mesh_point", "kernel/deform/options", "kernel/deform/patch",
          "kernel/deform/rotation", "kernel/deform/holds", "kernel/deform/system",

@@ -246,3 +246,51 @@ test("bridge: two boundaries become one part, and what cannot be joined is refus
     expect.truthy(pair:is_closed())
     expect.equal(pair:genus(), 1)
 end)
+
+-- Other triangles for the same surface.
+do
+    local plant = lissom.shapes.cactus{ vertices = 2000 }
+
+    test("decimation keeps regions and returns its error", function()
+        local coarse, err = plant:decimate{ faces = 800 }
+        expect.truthy(coarse:face_count() <= 800 and coarse:face_count() > 700)
+        expect.truthy(err > 0 and err < 0.1 * plant:size())
+        expect.near(coarse:volume(), plant:volume(), 0.05 * plant:volume())
+        expect.truthy(#coarse:region("left_arm") > 3)
+        local same = plant:decimate{ error = 0 }
+        expect.near(same:volume(), plant:volume(), 1e-9 * plant:volume())
+    end)
+
+    test("decimation without a limit says so", function()
+        local _, e = lissom.try(function() return plant:decimate{} end)
+        expect.equal(e.code, "invalid_argument")
+    end)
+
+    test("remeshing makes even edges", function()
+        local even = plant:remesh{ edge = 0.1 * plant:size() }
+        expect.equal(even:components(), plant:components())
+        expect.near(even:area(), plant:area(), 0.05 * plant:area())
+    end)
+
+    test("a mirrored half, its partners, and a shell", function()
+        local plane = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } }
+        local even, mirror = plant:symmetrize{ plane = plane }
+        expect.equal(#mirror, #even)
+        local x, y, z = even:position(1)
+        local a, b, c = even:position(mirror[1])
+        expect.near({ a, b, c }, { -x, y, z }, 1e-12)
+        local shell, crossings = lissom.shapes.grid():thicken{ thickness = 0.02 }
+        expect.truthy(shell:is_closed() and #crossings == 0)
+        expect.near(shell:volume(), 0.02, 1e-9)
+        local grown = lissom.shapes.box():offset{ distance = 0.5 }
+        expect.near(grown:volume(), 8, 0.1)
+    end)
+
+    test("a copy is put back with its scale", function()
+        local moved = plant:copy():transform{ rotate = { axis = "y", angle = 20 }, scale = 1.1 }
+        local same, report = moved:align{ to = plant, scale = true }
+        expect.truthy(same == moved)
+        expect.near(report.scale, 1 / 1.1, 1e-4)
+        expect.truthy(report.residual < 1e-3 * plant:size() and report.converged)
+    end)
+end

@@ -5,12 +5,15 @@
 
 #include "bindings/lua/core/engine_library.h"
 #include "bindings/lua/core/listeners.h"
-#include "bindings/lua/mesh/mesh_resample.h"
 #include "kernel/core/build_info.h"
 #include "kernel/core/version.h"
 #include "kernel/mesh/report.h"
 
 namespace lissom::lua {
+
+// Of bindings/lua/mesh, a room after this one.
+std::vector<Function> resample_methods();
+std::vector<Record> resample_records();
 namespace {
 
 template <typename T>

@@ -46,20 +46,33 @@ bool is_welded(const Mesh& mesh, const MirrorPlane& plane, Index v) {
            std::abs(plane.distance(mesh.position(v))) <= plane.weld;
 }
 
-void snap_borders(Mesh& mesh, const MirrorPlane& plane) {
-    std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-        if (is_welded(mesh, plane, v)) positions[at(v)] = plane.onto(positions[at(v)]);
+// The part on the kept side, and whether each of its vertices is on the plane.
+struct Half {
+    Mesh mesh;
+    std::vector<char> on_plane;
+};
+
+void snap(Half& half, const MirrorPlane& plane) {
+    std::vector<Vec3> positions(half.mesh.positions().begin(), half.mesh.positions().end());
+    for (Index v = 0; v < half.mesh.vertex_count(); ++v) {
+        if (half.on_plane[at(v)]) positions[at(v)] = plane.onto(positions[at(v)]);
     }
-    mesh.set_positions(std::move(positions));
+    half.mesh.set_positions(std::move(positions));
 }
 
-// The part on the kept side, with its border on the plane.
-Mesh kept_half(const Mesh& mesh, const MirrorPlane& plane, const Context& context) {
-    Mesh half = mesh;
-    snap_borders(half, plane);
+Half with_snapped_borders(Mesh mesh, const MirrorPlane& plane) {
+    Half half{std::move(mesh), {}};
+    for (Index v = 0; v < half.mesh.vertex_count(); ++v) {
+        half.on_plane.push_back(is_welded(half.mesh, plane, v) ? 1 : 0);
+    }
+    snap(half, plane);
+    return half;
+}
+
+Half kept_half(const Mesh& mesh, const MirrorPlane& plane, const Context& context) {
+    Half half = with_snapped_borders(mesh, plane);
     double low = 0.0, high = 0.0;
-    for (const Vec3& p : half.positions()) {
+    for (const Vec3& p : half.mesh.positions()) {
         low = std::min(low, plane.distance(p));
         high = std::max(high, plane.distance(p));
     }
@@ -68,8 +81,13 @@ Mesh kept_half(const Mesh& mesh, const MirrorPlane& plane, const Context& contex
             "nothing of the mesh lies on the side of the plane that is kept; turn its normal");
     if (low >= -rounding) return half;
     const CutPlane by{.point = plane.point, .normal = plane.normal};
-    half = cut(half, by, {.loops = CutLoops::all}, context).kept.mesh;
-    snap_borders(half, plane);
+    Cut made = cut(half.mesh, by, {.loops = CutLoops::all}, context);
+    half = with_snapped_borders(std::move(made.kept.mesh), plane);
+    // Vertices that could not slide onto the line without a fold are beside the plane.
+    for (const CutLine& line : made.lines) {
+        for (const Index v : line.kept.vertices()) half.on_plane[at(v)] = 1;
+    }
+    snap(half, plane);
     return half;
 }
 
@@ -113,15 +131,12 @@ Symmetrized symmetrize(const Mesh& mesh, const SymmetrizeOptions& options, const
     const MirrorPlane plane = mirror_plane(mesh, options);
     Progress progress(context, "symmetrize");
     progress.step(0.5);
-    Mesh both = kept_half(mesh, plane, context);
-    const Index half = both.vertex_count();
-    std::vector<char> on_plane;
-    for (Index v = 0; v < half; ++v) on_plane.push_back(is_welded(both, plane, v) ? 1 : 0);
+    const Half half = kept_half(mesh, plane, context);
     progress.step(0.5);
-    Mesh image = both;
+    Mesh both = half.mesh, image = half.mesh;
     transform(image, plane.reflection(), context);
     append(both, image, context);
-    return welded(both, half, on_plane, context);
+    return welded(both, half.mesh.vertex_count(), half.on_plane, context);
 }
 
 }  // namespace lissom
