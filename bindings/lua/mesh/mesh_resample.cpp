@@ -252,7 +252,7 @@ Function symmetrize_method() {
                     {"integer[]", "mirror",
                      "For each vertex its mirror image; itself on the plane."}},
         .errors = {ErrorCode::mesh_empty, ErrorCode::invalid_argument, ErrorCode::not_finite,
-                   ErrorCode::nonmanifold_edge, ErrorCode::nonmanifold_vertex,
+                   ErrorCode::boundary_conflict, ErrorCode::nonmanifold_vertex,
                    ErrorCode::memory_limit, ErrorCode::cancelled},
         .example = R"(local cactus = lissom.shapes.cactus{ vertices = 2000 }
 local even, mirror = cactus:symmetrize{ plane = { point = { 0, 0, 0 }, normal = { 1, 0, 0 } } }

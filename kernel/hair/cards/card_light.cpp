@@ -66,4 +66,16 @@ double HairDensity::openness(const Vec3& point) const {
     return std::min(1.0, 2.0 * sum / rays);
 }
 
+Vec3 away_from_head(const std::function<double(const Vec3&)>& distance, const Vec3& middle,
+                    const Vec3& p, double step) {
+    Vec3 out = p - middle;
+    if (distance) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const Vec3 aside = step * Vec3::Unit(axis);
+            out[axis] = distance(p + aside) - distance(p - aside);
+        }
+    }
+    return out.norm() > 0.0 && out.allFinite() ? Vec3(out.normalized()) : Vec3(Vec3::UnitY());
+}
+
 }  // namespace lissom

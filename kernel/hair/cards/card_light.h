@@ -1,6 +1,7 @@
-/// Light from all around within hair; private to kernel/hair.
+/// Light from all around within hair, and the way out of the head; private to kernel/hair.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "kernel/core/geometry.h"
@@ -8,6 +9,11 @@
 #include "kernel/hair/strands/strands.h"
 
 namespace lissom {
+
+/// Returns the unit direction away from the head at `p`: the differences of its `distance` over
+/// `step` metres; without a distance, away from `middle`.
+Vec3 away_from_head(const std::function<double(const Vec3&)>& distance, const Vec3& middle,
+                    const Vec3& p, double step);
 
 /// The optical density of hair on a grid of cells of about 5 mm.
 class HairDensity {

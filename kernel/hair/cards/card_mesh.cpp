@@ -13,18 +13,8 @@ namespace {
 
 constexpr Index kLightGrain = 64;
 
-Vec3 head_normal(const std::function<double(const Vec3&)>& distance, const Vec3& middle,
-                 const Vec3& p) {
-    Vec3 out = p - middle;
-    if (distance) {
-        constexpr double kStep = 2e-3;
-        for (int axis = 0; axis < 3; ++axis) {
-            const Vec3 step = kStep * Vec3::Unit(axis);
-            out[axis] = distance(p + step) - distance(p - step);
-        }
-    }
-    return out.norm() > 0.0 && out.allFinite() ? Vec3(out.normalized()) : Vec3(Vec3::UnitY());
-}
+// Metres.
+constexpr double kNormalStep = 2e-3;
 
 // The vertices of all cards and of the cap.
 struct CardArrays {
@@ -70,7 +60,7 @@ void add_card(const HairCards& cards, std::size_t c, const CardOptions& options,
         const Vec3 along = course_at(card, k);
         for (const double u : {-1.0, 1.0}) {
             const Vec3 p = section.center + u * section.half_width * section.across;
-            const Vec3 away = head_normal(options.distance, middle, p);
+            const Vec3 away = away_from_head(options.distance, middle, p, kNormalStep);
             Vec3 normal = (1.0 - options.bend) * section.out + options.bend * away;
             normal -= 0.5 * normal.dot(along) * along;
             const Eigen::Vector2d uv(slot.low.x() + 0.5 * (u + 1.0) * size.x(),

@@ -1,5 +1,7 @@
 #include "kernel/hair/cards/hair_cards.h"
 
+#include "kernel/hair/cards/card_light.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -52,18 +54,8 @@ StrandClusters clusters_for(const Strands& strands, const CardOptions& options,
     return cluster_strands(strands, clusters, context);
 }
 
-Vec3 away_from(const std::function<double(const Vec3&)>& distance, const Vec3& middle,
-               const Vec3& p) {
-    Vec3 out = p - middle;
-    if (distance) {
-        constexpr double kStep = 1e-3;
-        for (int axis = 0; axis < 3; ++axis) {
-            const Vec3 step = kStep * Vec3::Unit(axis);
-            out[axis] = distance(p + step) - distance(p - step);
-        }
-    }
-    return out.norm() > 0.0 && out.allFinite() ? Vec3(out.normalized()) : Vec3(Vec3::UnitY());
-}
+// Metres.
+constexpr double kAwayStep = 1e-3;
 
 // The smallest number that at least `part` of the values do not exceed.
 double quantile(std::vector<double>& values, double part) {
@@ -192,7 +184,7 @@ class CardMaker {
         for (Index k = 0; k < count_; ++k) {
             CardSection& section = card_.sections[at(k)];
             const Vec3 along = card_direction(card_.sections, k);
-            const Vec3 up = away_from(options_.distance, middle_, section.center);
+            const Vec3 up = away_from_head(options_.distance, middle_, section.center, kAwayStep);
             Vec3 across = along.cross(up);
             if (across.norm() < 1e-6) across = along.unitOrthogonal();
             across.normalize();
@@ -278,7 +270,8 @@ class CardMaker {
             }
         }
         if (deepest <= 1e-6) return true;
-        section.center += deepest * away_from(options_.distance, middle_, section.center);
+        section.center +=
+            deepest * away_from_head(options_.distance, middle_, section.center, kAwayStep);
         return false;
     }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/derive.h"
@@ -69,7 +71,26 @@ Half with_snapped_borders(Mesh mesh, const MirrorPlane& plane) {
     return half;
 }
 
-Half kept_half(const Mesh& mesh, const MirrorPlane& plane, const Context& context) {
+// Whether an edge on the plane has the surface on both sides: four faces would meet there.
+bool touches_plane(const Half& half) {
+    const Topology& topology = half.mesh.topology();
+    std::set<std::pair<Index, Index>> border;
+    for (const std::vector<Index>& loop : topology.boundary_loops()) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            border.insert(std::minmax({loop[i], loop[(i + 1) % loop.size()]}));
+        }
+    }
+    for (Index e = 0; e < topology.edge_count(); ++e) {
+        const auto [a, b] = topology.edge(e);
+        if (half.on_plane[at(a)] && half.on_plane[at(b)] &&
+            !border.contains({std::min(a, b), std::max(a, b)})) {
+            return true;
+        }
+    }
+    return false;
+}
+
+Half kept_half(const Mesh& mesh, const MirrorPlane& plane, double slide, const Context& context) {
     Half half = with_snapped_borders(mesh, plane);
     double low = 0.0, high = 0.0;
     for (const Vec3& p : half.mesh.positions()) {
@@ -81,7 +102,7 @@ Half kept_half(const Mesh& mesh, const MirrorPlane& plane, const Context& contex
             "nothing of the mesh lies on the side of the plane that is kept; turn its normal");
     if (low >= -rounding) return half;
     const CutPlane by{.point = plane.point, .normal = plane.normal};
-    Cut made = cut(half.mesh, by, {.loops = CutLoops::all}, context);
+    Cut made = cut(half.mesh, by, {.loops = CutLoops::all, .slide = slide}, context);
     half = with_snapped_borders(std::move(made.kept.mesh), plane);
     // Vertices that could not slide onto the line without a fold are beside the plane.
     for (const CutLine& line : made.lines) {
@@ -131,7 +152,11 @@ Symmetrized symmetrize(const Mesh& mesh, const SymmetrizeOptions& options, const
     const MirrorPlane plane = mirror_plane(mesh, options);
     Progress progress(context, "symmetrize");
     progress.step(0.5);
-    const Half half = kept_half(mesh, plane, context);
+    Half half = kept_half(mesh, plane, CutOptions{}.slide, context);
+    if (touches_plane(half)) half = kept_half(mesh, plane, 0.0, context);
+    require(!touches_plane(half),
+            "the surface goes on to both sides of an edge on the plane; move the plane a little",
+            ErrorCode::boundary_conflict);
     progress.step(0.5);
     Mesh both = half.mesh, image = half.mesh;
     transform(image, plane.reflection(), context);

@@ -31,8 +31,8 @@ struct Symmetrized {
 /// the half: texture coordinates are the same on both sides, directions and morph targets are
 /// mirrored, and on the plane morph targets move along it. Errors: mesh_empty; invalid_argument for
 /// a normal without length, a negative tolerance, or a mesh with nothing on the kept side;
-/// not_finite; nonmanifold_edge or nonmanifold_vertex if a part of the surface lies in the plane;
-/// memory_limit; cancelled.
+/// not_finite; boundary_conflict if an inner edge between vertices of the border is on the plane;
+/// nonmanifold_vertex if it touches it at a vertex; memory_limit; cancelled.
 Symmetrized symmetrize(const Mesh& mesh, const SymmetrizeOptions& options,
                        const Context& context = {});
 

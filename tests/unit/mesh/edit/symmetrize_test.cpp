@@ -1,5 +1,7 @@
 #include "kernel/mesh/edit/symmetrize.h"
 
+#include <utility>
+
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/shapes/shapes.h"
@@ -51,6 +53,19 @@ TEST_CASE("a half model is welded where it reaches the plane") {
     CHECK(volume(made.mesh) == Approx(2.0 * volume(half)).epsilon(1e-5));
     for (Index v = 0; v < half.vertex_count(); ++v) {
         CHECK((made.mesh.position(v) - half.position(v)).norm() < 1e-6);
+    }
+}
+
+TEST_CASE("an open surface with an inner edge on the plane is refused") {
+    FaceList faces;
+    faces.add({0, 1, 2});
+    faces.add({1, 0, 3});
+    const Mesh folded({{0, 0, 0}, {0, 1, 0}, {1, 0, 1}, {1, 0, -1}}, std::move(faces));
+    try {
+        symmetrize(folded, {});
+        FAIL("it was mirrored");
+    } catch (const Error& error) {
+        CHECK(error.code() == ErrorCode::boundary_conflict);
     }
 }
 
