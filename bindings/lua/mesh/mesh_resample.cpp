@@ -28,7 +28,8 @@ int decimate_mesh(Call& call) {
     const auto mesh = call.self<MeshObject>();
     const bool whole = !call.has("region");
     const auto region = call.object<RegionObject>("region");
-    DecimateOptions options;
+    // Holds a region: a local one would leak if an error of Lua leaves this function.
+    auto& options = call.hold<DecimateOptions>();
     if (call.has("faces")) options.faces = call.integer("faces");
     options.error = given_number(call, "error");
     options.crease = crease_angle(call);
@@ -49,7 +50,7 @@ int remesh_mesh(Call& call) {
     const auto mesh = call.self<MeshObject>();
     const bool whole = !call.has("region");
     const auto region = call.object<RegionObject>("region");
-    RemeshOptions options;
+    auto& options = call.hold<RemeshOptions>();
     options.edge = given_number(call, "edge");
     options.error = given_number(call, "error");
     options.shortest = given_number(call, "shortest");
