@@ -9,6 +9,7 @@
 #include "kernel/hair/cards/card_slots.h"
 #include "kernel/hair/cards/hair_cards.h"
 #include "kernel/mesh/measure/triangulation.h"
+#include "kernel/mesh/resample/decimate.h"
 
 namespace lissom {
 namespace {
@@ -17,6 +18,8 @@ namespace {
 constexpr int kCloseRounds = 2;
 // Repeats of the slot around the head.
 constexpr double kRepeats = 6.0;
+// Weight of the edge of the hair when the cap is thinned out, so that it stays where it is.
+constexpr double kCoverWeight = 0.02;
 
 // Faces with roots, and those of whose vertices all touch such faces.
 std::vector<char> hairy_faces(const Strands& strands, const Mesh& head) {
@@ -99,12 +102,10 @@ Index densest_slot(const HairCards& cards) {
     return best;
 }
 
-}  // namespace
-
-void add_cap(HairCards& cards, const Strands& strands, const Mesh& head,
-             const CardCapOptions& options) {
-    require(strands.roots().faces.size() == at(strands.size()) && !cards.slots.empty(),
-            "the strands have no roots on the head; use strands:attach, or cap = false");
+// The faces of the head that hair grows on, as a mesh of their own in metres over the skin, with
+// an attribute "cover".
+Mesh hairy_skin(const Strands& strands, const Mesh& head, const CardCapOptions& options,
+                const Context& context) {
     const std::vector<char> hairy = hairy_faces(strands, head);
     const Triangulation all = triangulate_faces(head.topology(), head.positions());
     const std::vector<Vec3> normals = triangle_normals(head, all);
@@ -113,28 +114,58 @@ void add_cap(HairCards& cards, const Strands& strands, const Mesh& head,
         if (hairy[at(all.face[t])]) triangles.push_back(all.triangles[t]);
     }
     drop_pinches(triangles, head.vertex_count());
+    require(!triangles.empty(), "no strand is rooted on a face of this head");
     const std::vector<Index> border = border_edges(triangles, head.vertex_count());
     std::vector<Index> number(at(head.vertex_count()), kNoIndex);
-    CardCap& cap = cards.cap;
+    std::vector<Vec3> positions;
+    FaceList faces;
+    Attribute cover;
+    cover.name = "cover";
     for (const Triangle& t : triangles) {
-        Triangle made{};
-        for (std::size_t c = 0; c < 3; ++c) {
-            const Index v = t[c];
-            if (number[at(v)] == kNoIndex) {
-                number[at(v)] = count_of(cap.positions);
-                cap.positions.push_back(options.unit * head.position(v) +
-                                        options.offset * normals[at(v)]);
-                cap.normals.push_back(normals[at(v)]);
-                cap.cover.push_back(border[at(v)] == 0 ? 1.0 : 0.0);
-            }
-            made[c] = number[at(v)];
+        for (const Index v : t) {
+            if (number[at(v)] != kNoIndex) continue;
+            number[at(v)] = count_of(positions);
+            positions.push_back(options.unit * head.position(v) + options.offset * normals[at(v)]);
+            cover.values.push_back(border[at(v)] == 0 ? 1.0 : 0.0);
         }
-        cap.triangles.push_back(made);
+        faces.add({number[at(t[0])], number[at(t[1])], number[at(t[2])]});
     }
-    require(!cap.triangles.empty(), "no strand is rooted on a face of this head");
+    Mesh skin(std::move(positions), std::move(faces), context);
+    skin.attributes().add(std::move(cover));
+    return skin;
+}
+
+// The cap that `skin` becomes with few triangles.
+CardCap cap_of(const Mesh& skin, const CardCapOptions& options, const Context& context) {
+    const Mesh mesh =
+        decimate(skin,
+                 {.faces = options.triangles, .error = options.error, .attributes = kCoverWeight},
+                 context)
+            .mesh;
+    CardCap cap;
+    cap.positions.assign(mesh.positions().begin(), mesh.positions().end());
+    cap.normals = triangle_normals(mesh, triangulate_faces(mesh.topology(), mesh.positions()));
+    const Attribute& cover = *mesh.attributes().find("cover");
     Box box;
     for (const Vec3& p : cap.positions) box.extend(p);
-    for (const Vec3& p : cap.positions) cap.places.push_back(cap_place(p, box));
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        cap.cover.push_back(cover.at(v)[0]);
+        cap.places.push_back(cap_place(mesh.position(v), box));
+    }
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const auto corners = mesh.topology().face(f);
+        cap.triangles.push_back({corners[0], corners[1], corners[2]});
+    }
+    return cap;
+}
+
+}  // namespace
+
+void add_cap(HairCards& cards, const Strands& strands, const Mesh& head,
+             const CardCapOptions& options, const Context& context) {
+    require(strands.roots().faces.size() == at(strands.size()) && !cards.slots.empty(),
+            "the strands have no roots on the head; use strands:attach, or cap = false");
+    cards.cap = cap_of(hairy_skin(strands, head, options, context), options, context);
     CardSlot slot = cards.slots[at(densest_slot(cards))];
     slot.is_solid = true;
     cards.slots.push_back(slot);

@@ -114,13 +114,17 @@ struct CardCapOptions {
     double offset = 0.0012;
     /// Metres in one unit of the head.
     double unit = 1.0;
+    /// Triangles at most; more if the edge of the hair needs them.
+    Index triangles = 1500;
+    /// Metres that thinning out may move the skin: it stops there, whatever `triangles` says.
+    double error = 0.0005;
 };
 
 /// Adds a cap: the faces of `head` that strands are rooted on, and those within them, a little over
-/// the skin. Its slot is that of the most strands for its width. Errors: invalid_argument if the
-/// strands have no roots on the head.
+/// the skin, decimated. Its slot is that of the most strands for its width. Errors:
+/// invalid_argument if the strands have no roots on the head; memory_limit; cancelled.
 void add_cap(HairCards& cards, const Strands& strands, const Mesh& head,
-             const CardCapOptions& options = {});
+             const CardCapOptions& options = {}, const Context& context = {});
 
 /// Returns the mesh of cards, in metres: triangles, two vertices a section, with "uv", "normal",
 /// "tangent" (towards the tip), "color" (the light from all around that reaches the hair there, 0

@@ -95,7 +95,7 @@ class PreviewMaker {
   private:
     double light(Index vertex) const {
         const Attribute* const colors = surface_.attributes().find("color");
-        return 0.3 + 0.7 * colors->at(vertex)[0];
+        return 0.8 + 0.2 * colors->at(vertex)[0];
     }
 
     void add_color(const Vec3& linear) {
@@ -133,8 +133,28 @@ class PreviewMaker {
             positions_.push_back(point);
             shine += 0.25 * open;
         }
-        faces_.add({first, first + 1, first + 2, first + 3});
+        add_outward(first, 0.5 * (v0 + v1), card);
         add_color(texel.color * shine);
+    }
+
+    // The quad of four new vertices, its front as the normals of the card, which bend from the
+    // head.
+    void add_outward(Index first, double v, const Card& card) {
+        const auto corner = [&](Index i) { return positions_[at(first + i)]; };
+        const Vec3 front = (corner(2) - corner(0)).cross(corner(3) - corner(1));
+        if (front.dot(normal_of(card, v)) >= 0.0) {
+            faces_.add({first, first + 1, first + 2, first + 3});
+        } else {
+            faces_.add({first + 3, first + 2, first + 1, first});
+        }
+    }
+
+    // The normal of the surface at the section nearest to v.
+    Vec3 normal_of(const Card& card, double v) const {
+        const auto last = static_cast<double>(card.sections.size() - 1);
+        const auto n =
+            surface_.attributes().find("normal")->at(first_ + 2 * index_of(std::lround(v * last)));
+        return {n[0], n[1], n[2]};
     }
 
     const HairCards& cards_;

@@ -44,7 +44,7 @@ int make_strand_cards(Call& call) {
         HairCards cards = make_cards(strands, options, call.context());
         if (on_head && (!call.has("cap") || call.boolean("cap"))) {
             add_cap(cards, strands, call.object<HairstyleObject>("style")->head->mesh,
-                    {.unit = unit});
+                    {.unit = unit}, call.context());
         }
         Mesh mesh = card_mesh(cards, strands, options, call.context());
         if (unit != 1.0) transform(mesh, scaling(Vec3::Constant(1.0 / unit), Vec3::Zero()));
