@@ -8,6 +8,7 @@
 
 #include "kernel/hair/strands/strand_guides.h"
 #include "kernel/hair/strands/strand_measures.h"
+#include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/hair/strands/strand_support.h"
 #include "tests/unit/support.h"
 
@@ -116,6 +117,39 @@ TEST_CASE("hair cards: the mesh has texture coordinates in its slots and unit no
             CHECK((high - low).minCoeff() <= 0.0);
         }
     }
+}
+
+TEST_CASE("hair cards: a cap of few triangles lies over the skin that hair grows on") {
+    const Mesh head = make_sphere({.radius = kBall, .segments = 40});
+    std::vector<std::vector<Vec3>> lists;
+    StrandRoots roots;
+    for (Index f = 0; f < head.face_count(); ++f) {
+        Vec3 middle = Vec3::Zero();
+        for (const Index v : head.topology().face(f)) middle += head.position(v);
+        middle /= static_cast<double>(head.topology().face(f).size());
+        if (middle.y() < 0.02) continue;
+        lists.push_back({middle, 1.2 * middle, 1.4 * middle});
+        roots.faces.push_back(f);
+        roots.barycentrics.push_back(Eigen::Vector3f::Constant(1.0f / 3.0f));
+    }
+    Strands hair = strands_of(lists);
+    hair.set_roots(roots);
+    HairCards cards = make_cards(hair, on_ball(20));
+    const CardCapOptions options;
+    add_cap(cards, hair, head, options);
+    CHECK(count_of(cards.cap.triangles) <= options.triangles);
+    CHECK(roots.faces.size() > 2 * cards.cap.triangles.size());
+    double lowest = 1.0;
+    for (std::size_t v = 0; v < cards.cap.positions.size(); ++v) {
+        const Vec3& p = cards.cap.positions[v];
+        CHECK(std::abs(to_ball(p) - options.offset) < options.error + 1e-4);
+        CHECK(cards.cap.normals[v].dot(p.normalized()) > 0.9);
+        lowest = std::min(lowest, p.y());
+        // Full but at the edge of the hair.
+        if (p.y() > 0.05) CHECK(cards.cap.cover[v] == doctest::Approx(1.0).epsilon(1e-9));
+    }
+    CHECK(lowest > 0.01);
+    CHECK(lowest < 0.025);
 }
 
 TEST_CASE("hair cards: a place on a card is that which it was made of") {
