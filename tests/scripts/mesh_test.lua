@@ -266,6 +266,19 @@ do
         expect.equal(e.code, "invalid_argument")
     end)
 
+    test("lengths and counts beyond the mesh are refused in words that help", function()
+        local box, grid = lissom.shapes.box(), lissom.shapes.grid()
+        local before = box:hash()
+        expect.error(function() box:decimate{ faces = 0 } end, "faces")
+        expect.error(function() box:remesh{ edge = 100 } end, "longer than the mesh")
+        expect.error(function() box:remesh{ edge = 1e-5 } end, "use a greater length")
+        expect.error(function() grid:thicken{ thickness = 1e9 } end, "units of the mesh")
+        expect.error(function() box:offset{ distance = -3 } end, "the other side")
+        local beside = { point = { -9, 0, 0 }, normal = { 1, 0, 0 } }
+        expect.error(function() box:symmetrize{ plane = beside } end, "beside the mesh")
+        expect.equal(box:hash(), before)
+    end)
+
     test("remeshing makes even edges", function()
         local even = plant:remesh{ edge = 0.1 * plant:size() }
         expect.equal(even:components(), plant:components())

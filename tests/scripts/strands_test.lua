@@ -178,6 +178,7 @@ do
         expect.near(weights.weights[1] + weights.weights[2] + weights.weights[3], 1, 1e-5)
         expect.error(function() set:weights(#hair + 1) end, "no such strand")
         expect.error(function() hair:guide_set{ of = "groups" } end, "no groups")
+        expect.error(function() hair:guide_set{ count = 2 } end, "count")
         expect.equal(#hair:guides{ count = 25 }:guide_set{ of = "locks" }, 25)
     end)
 

@@ -56,6 +56,13 @@ inline const std::string kTwoStrands =
     "},\n"
     "    counts = { 3, 2 },\n}\n";
 
+/// Start of examples: three strands.
+inline const std::string kThreeStrands =
+    "local hair = lissom.strands{\n"
+    "    points = { { 0, 0, 0 }, { 0, .1, 0 }, { .01, 0, 0 }, { .02, .1, 0 }, { .02, 0, 0 }, "
+    "{ .03, .2, 0 } },\n"
+    "    counts = { 2, 2, 2 },\n}\n";
+
 inline const std::vector<Result> kSelfStrands = {
     {"lissom.Strands", "strands", "The strands themselves."}};
 

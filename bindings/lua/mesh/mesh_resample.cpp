@@ -169,7 +169,7 @@ Function decimate_method() {
             "faces than were wanted, there are more.",
         .options =
             {integer("faces", "Number of faces wanted; give this or `error`, or both.")
-                 .at_least(0)
+                 .at_least(1)
                  .optional("no limit"),
              number("error",
                     "Greatest error of one collapse: the root of the mean squared distance to the "

@@ -24,11 +24,16 @@ constexpr double kLeastHalfWidth = 0.001;
 // next.
 constexpr double kMostTilt = 0.7, kMostTurn = 0.35;
 
+constexpr Index kMaxSections = 64, kMaxCardTriangles = 2 * (kMaxSections - 1);
+
 void require_cards(const CardOptions& options) {
-    require(options.count >= 1 && options.count <= kMaxCards, "there are 1 to 100000 cards");
-    require(options.sections >= 2 && options.sections <= 64, "cards have 2 to 64 sections");
+    require(options.count >= 1 && options.count <= kMaxCards, "ask for 1 to 100000 cards");
+    require(options.sections >= 2 && options.sections <= kMaxSections,
+            "cards have 2 to 64 sections");
     require(options.triangles == 0 || options.triangles >= 2 * options.count,
             "each card needs two triangles: give fewer cards or more triangles");
+    require(options.triangles <= kMaxCardTriangles * options.count,
+            "a card has at most 126 triangles: give more cards or fewer triangles");
     require(options.slots >= 1 && options.slots <= 256, "there are 1 to 256 slots");
     require(options.coverage > 0.0 && options.coverage <= 1.0, "coverage is above 0, at most 1");
     require(options.bend >= 0.0 && options.bend <= 1.0, "bend is 0 to 1");
@@ -38,7 +43,7 @@ void require_cards(const CardOptions& options) {
 
 Index sections_of(const CardOptions& options, Index cards) {
     if (options.triangles == 0) return options.sections;
-    return std::clamp(options.triangles / (2 * cards) + 1, 2, 64);
+    return std::clamp(options.triangles / (2 * cards) + 1, 2, kMaxSections);
 }
 
 StrandClusters clusters_for(const Strands& strands, const CardOptions& options,

@@ -16,7 +16,7 @@ namespace lissom {
 struct CardOptions {
     /// Number of cards, 1 to kMaxCards; fewer for hair of fewer strands.
     Index count = 200;
-    /// Triangles of all cards, from which their sections follow; 0 for `sections`. At least two
+    /// Triangles of all cards, from which their sections follow; 0 for `sections`. Two to 126
     /// for each card.
     Index triangles = 0;
     /// Points along each card, 2 to 64.

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "kernel/core/error.h"
@@ -20,14 +21,26 @@ namespace {
 constexpr Index kSetGrain = 256;
 constexpr int kCandidates = 6;
 constexpr Index kMaxSetPoints = 256;
+constexpr Index kLeastGuides = 3;
 constexpr double kMaxDetail = 32767.0;
 
 // Offsets of a strand's points from its root, one coordinate after the other.
 using Offsets = Eigen::VectorXd;
 
 void require_set(const GuideSetOptions& options) {
-    require(options.count >= 1, "there must be at least one guide");
+    require(options.of != GuideChoice::count || options.count >= kLeastGuides,
+            "strands are sums of three guides: ask for at least 3");
     require(options.points >= 2 && options.points <= kMaxSetPoints, "guides have 2 to 256 points");
+}
+
+void require_strands(const Strands& strands) {
+    Index long_ones = 0;
+    for (Index s = 0; s < strands.size() && long_ones < kLeastGuides; ++s) {
+        long_ones += length(strands.strand(s)) > 0.0 ? 1 : 0;
+    }
+    require(long_ones == kLeastGuides, "strands are sums of three guides, but only " +
+                                           std::to_string(long_ones) +
+                                           " of them have a length: use them as they are");
 }
 
 Index lock_count(const Strands& strands) {
@@ -261,6 +274,7 @@ class GuideFitter {
 GuideSet make_guide_set(const Strands& strands, const GuideSetOptions& options,
                         const Context& context) {
     require_set(options);
+    require_strands(strands);
     const MemoryCharge charge = context.charge(
         at(strands.size()) * at(options.points) * 3 * sizeof(double), "the shapes of strands");
     return GuideFitter(strands, options, context).run();

@@ -22,7 +22,7 @@ enum class GuideChoice {
 
 struct GuideSetOptions {
     GuideChoice of = GuideChoice::count;
-    /// Number of guides, for GuideChoice::count; at least 1.
+    /// Number of guides, for GuideChoice::count; at least 3.
     Index count = 200;
     /// Points of each guide and of each strand that is rebuilt, at equal steps; 2 to 256.
     Index points = 16;
@@ -71,8 +71,8 @@ struct GuideSet {
 
 /// Chooses guides, as cluster_strands has medoids, and finds for each strand the three of its group
 /// and the weights with the least squared error among the six guides that are most alike.
-/// Errors: invalid_argument for options out of range, if no strand has a length, or if there are no
-/// groups or locks; not_finite naming strands; memory_limit; cancelled.
+/// Errors: invalid_argument for options out of range, if fewer than three strands have a length, or
+/// if there are no groups or locks; not_finite naming strands; memory_limit; cancelled.
 GuideSet make_guide_set(const Strands& strands, const GuideSetOptions& options = {},
                         const Context& context = {});
 

@@ -23,6 +23,8 @@ using Mat7 = Eigen::Matrix<double, 7, 7>;
 // not drift along themselves.
 constexpr double kPointWeight = 0.02;
 constexpr double kDamping = 1e-9;
+// Area of a line of size 1, from rounding.
+constexpr double kLeastArea = 1e-12;
 constexpr double kLargestTurn = 0.5, kLargestGrowth = 0.3;
 constexpr double kStillMotion = 1e-6;
 constexpr Index kTrialSamples = 300, kTrialSteps = 12;
@@ -243,6 +245,11 @@ class Alignment {
     std::vector<Vec3> mesh_samples_, target_samples_;
 };
 
+bool has_area(const Mesh& mesh) {
+    const double size = surface_radius(mesh);
+    return size > 0.0 && area(mesh) > kLeastArea * size * size;
+}
+
 }  // namespace
 
 AlignReport align(const Mesh& mesh, const Mesh& target, const AlignOptions& options,
@@ -253,8 +260,8 @@ AlignReport align(const Mesh& mesh, const Mesh& target, const AlignOptions& opti
             "the overlap must be above 0 and at most 1");
     require(options.samples >= 10, "alignment needs at least 10 samples");
     require(options.iterations >= 0, "the number of steps is negative");
-    require(surface_radius(mesh) > 0.0 && surface_radius(target) > 0.0,
-            "a surface to align has no area");
+    require(has_area(mesh) && has_area(target),
+            "a surface to align has no area: all of it is on a point or a line");
     Progress progress(context, "align");
     Alignment alignment(mesh, target, options, context);
     const Fit fit = alignment.run(progress);

@@ -48,7 +48,8 @@ struct AlignReport {
 /// Points of either surface look for the other, so that a scaled mesh does not shrink into a part
 /// of the target; with an overlap below 1 only the best of them count (Chetverikov et al. 2002).
 /// The surfaces should start within a part of their size, or with the axes. Errors: mesh_empty if a
-/// surface has no faces; invalid_argument for options out of range; memory_limit; cancelled.
+/// surface has no faces; invalid_argument for options out of range or a surface without area;
+/// memory_limit; cancelled.
 AlignReport align(const Mesh& mesh, const Mesh& target, const AlignOptions& options = {},
                   const Context& context = {});
 

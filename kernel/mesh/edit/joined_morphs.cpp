@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <span>
 #include <string_view>
 #include <utility>
+
+#include "kernel/mesh/measure/short_number.h"
 
 namespace lissom {
 namespace {
@@ -180,12 +181,6 @@ class Renumbered {
     const std::vector<std::vector<Index>>& places_;
     std::map<Key, Attribute> made_;
 };
-
-std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
 
 std::vector<MorphTarget> united(const Mesh& mesh) {
     std::vector<MorphTarget> all;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "kernel/mesh/edit/append.h"
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/short_number.h"
 
 namespace lissom {
 namespace {
@@ -90,6 +92,20 @@ bool touches_plane(const Half& half) {
     return false;
 }
 
+// The surface is on the kept side only; away from the plane its image would be a second piece.
+void require_plane_at(const Mesh& mesh, const MirrorPlane& plane) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (!mesh.topology().is_isolated(v)) {
+            nearest = std::min(nearest, plane.distance(mesh.position(v)));
+        }
+    }
+    require(nearest <= plane.weld,
+            "the plane is beside the mesh, " + short_number(nearest) +
+                " away, so that the halves would not join; move the plane, or give a 'weld' above "
+                "that");
+}
+
 Half kept_half(const Mesh& mesh, const MirrorPlane& plane, double slide, const Context& context) {
     Half half = with_snapped_borders(mesh, plane);
     double low = 0.0, high = 0.0;
@@ -100,7 +116,10 @@ Half kept_half(const Mesh& mesh, const MirrorPlane& plane, double slide, const C
     const double rounding = kPlaneRounding * (high - low + plane.point.norm());
     require(high > rounding,
             "nothing of the mesh lies on the side of the plane that is kept; turn its normal");
-    if (low >= -rounding) return half;
+    if (low >= -rounding) {
+        require_plane_at(half.mesh, plane);
+        return half;
+    }
     const CutPlane by{.point = plane.point, .normal = plane.normal};
     Cut made = cut(half.mesh, by, {.loops = CutLoops::all, .slide = slide}, context);
     half = with_snapped_borders(std::move(made.kept.mesh), plane);

@@ -30,7 +30,8 @@ struct Symmetrized {
 /// a half model. The vertices of the half come first. Attributes, labels and regions are those of
 /// the half: texture coordinates are the same on both sides, directions and morph targets are
 /// mirrored, and on the plane morph targets move along it. Errors: mesh_empty; invalid_argument for
-/// a normal without length, a negative tolerance, or a mesh with nothing on the kept side;
+/// a normal without length, a negative tolerance, a mesh with nothing on the kept side, or one that
+/// lies on that side farther from the plane than the tolerance;
 /// not_finite; boundary_conflict if an inner edge between vertices of the border is on the plane;
 /// nonmanifold_vertex if it touches it at a vertex; memory_limit; cancelled.
 Symmetrized symmetrize(const Mesh& mesh, const SymmetrizeOptions& options,

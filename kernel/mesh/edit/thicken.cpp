@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "kernel/mesh/derive.h"
@@ -12,6 +13,7 @@
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/measure/directions.h"
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/short_number.h"
 
 namespace lissom {
 namespace {
@@ -20,6 +22,8 @@ namespace {
 constexpr double kLongestOffset = 3.0;
 // Draws displacements to the mean normal where the planes leave them open.
 constexpr double kNormalPart = 1e-3;
+// Lengths beyond so many diagonals of a mesh were meant in other units.
+constexpr double kFarthestOffset = 10.0;
 
 double angle_at(const Mesh& mesh, std::span<const Index> face, std::size_t k) {
     const std::size_t n = face.size();
@@ -39,6 +43,31 @@ Vec3 offset_direction(const Mat3& planes, const Vec3& sum) {
     const Vec3 d = (planes + pull * Mat3::Identity()).ldlt().solve(Vec3(sum + pull * mean));
     if (!d.allFinite()) return mean;
     return d.norm() > kLongestOffset ? Vec3(kLongestOffset * d.normalized()) : d;
+}
+
+Box surface_bounds(const Mesh& mesh) {
+    Box box;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (!mesh.topology().is_isolated(v)) box.extend(mesh.position(v));
+    }
+    return box;
+}
+
+// Beyond the shortest side of its box, the inner side of a body comes out on the other side.
+void require_room_for_offset(const Mesh& mesh, double inside, double outside) {
+    if (mesh.face_count() == 0) return;
+    const Box box = surface_bounds(mesh);
+    const double most = kFarthestOffset * box.diagonal();
+    const double farthest = std::max(inside, outside);
+    require(farthest <= most, "a length of " + short_number(farthest) + " is more than " +
+                                  short_number(kFarthestOffset) + " times the mesh's size (" +
+                                  short_number(box.diagonal()) +
+                                  "); lengths are in the units of the mesh");
+    const double depth = (box.max - box.min).minCoeff();
+    require(!mesh.topology().is_closed() || inside <= depth,
+            "the closed surface is " + short_number(depth) + " thick; moved inwards by " +
+                short_number(inside) +
+                " it would come out on the other side: use less than half of its thickness");
 }
 
 std::vector<Vec3> moved(const Mesh& mesh, const std::vector<Vec3>& directions, double distance) {
@@ -183,6 +212,7 @@ std::vector<Vec3> offset_directions(const Mesh& mesh) {
 
 std::vector<FacePair> offset(Mesh& mesh, double distance, bool check, const Context& context) {
     require(std::isfinite(distance), "the distance of the offset must be a finite number");
+    require_room_for_offset(mesh, -distance, distance);
     Mesh result = mesh;
     result.set_positions(moved(mesh, offset_directions(mesh), distance));
     std::vector<FacePair> crossings;
@@ -204,6 +234,8 @@ Shell thicken(const Mesh& mesh, const ThickenOptions& options, const Context& co
             "the part of the thickness outside must be from 0 to 1");
     require(mesh.topology().corner_count() < std::numeric_limits<Index>::max() / 6,
             "the shell would have more elements than can be numbered", ErrorCode::out_of_range);
+    require_room_for_offset(mesh, (1.0 - options.outside) * options.thickness,
+                            options.outside * options.thickness);
     Progress progress(context, "thicken");
     progress.step(0.3);
     Shell shell{ShellBuilder(mesh).build(options, context), {}};

@@ -32,7 +32,9 @@ std::vector<Vec3> offset_directions(const Mesh& mesh);
 
 /// Moves the surface by `distance` along its normals, in place; inwards if it is negative. Returns
 /// the pairs of faces that run through one another and did not before, if `check`; else none.
-/// Errors: invalid_argument if the distance is not finite; cancelled: the mesh is then as it was.
+/// Errors: invalid_argument if the distance is not finite or more than ten times the diagonal of
+/// the mesh's box, or if a closed surface is moved inwards by more than the shortest side of its
+/// box; cancelled. The mesh is then as it was.
 std::vector<FacePair> offset(Mesh& mesh, double distance, bool check = true,
                              const Context& context = {});
 
@@ -40,9 +42,9 @@ std::vector<FacePair> offset(Mesh& mesh, double distance, bool check = true,
 /// of quads along open borders. The vertices and faces of the outer side come first, then those of
 /// the inner side in the same order, then the rims. A closed surface becomes a hollow one. Both
 /// sides have all attributes, labels and regions of the surface; rims take those of the faces
-/// beside them. Errors: mesh_empty; invalid_argument for a thickness not above 0 or a part outside
-/// 0 to 1; out_of_range if the result would have more elements than can be numbered; memory_limit;
-/// cancelled.
+/// beside them. Errors: mesh_empty; invalid_argument for a thickness not above 0, a part outside 0
+/// to 1, or sides farther from the surface than offset() allows; out_of_range if the result would
+/// have more elements than can be numbered; memory_limit; cancelled.
 Shell thicken(const Mesh& mesh, const ThickenOptions& options, const Context& context = {});
 
 }  // namespace lissom

@@ -260,7 +260,8 @@ class Decimation {
 void require_decimation(const Mesh& mesh, const DecimateOptions& options) {
     require(options.faces || options.error,
             "decimation has no limit; give a number of faces or an error");
-    require(options.faces.value_or(0) >= 0, "the number of faces is negative");
+    require(options.faces.value_or(1) >= 1,
+            "a surface has at least one face; ask for 1 for as few as its lines allow");
     const double error = options.error.value_or(0.0);
     require(error >= 0.0, "the error of decimation must be a length of at least 0");
     require(options.crease >= 0.0, "the angle of creases must be at least 0");

@@ -13,7 +13,7 @@
 namespace lissom {
 
 struct DecimateOptions {
-    /// Number of faces wanted; as many as there are if absent.
+    /// Number of faces wanted, at least 1; as many as there are if absent.
     std::optional<Index> faces = std::nullopt;
     /// Greatest error of one collapse, a length: the root of the mean squared distance to the
     /// planes of the triangles that it replaces. No limit if absent.
@@ -46,7 +46,7 @@ struct DecimateResult {
 /// topology stays. Vertices on lines keep their attributes; others take those of the nearest point
 /// of the mesh in the same part between lines, morph targets and skins too. If those lines
 /// need more faces than were wanted, there are more. Errors: invalid_argument without a limit,
-/// for a negative number of faces, error or weight; topology_mismatch for a region of another mesh;
+/// for no faces or a negative error or weight; topology_mismatch for a region of another mesh;
 /// memory_limit; cancelled.
 DecimateResult decimate(const Mesh& mesh, const DecimateOptions& options,
                         const Context& context = {});

@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <queue>
 #include <set>
+#include <span>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/short_number.h"
 #include "kernel/mesh/resample/edge_lengths.h"
 #include "kernel/mesh/resample/feature_lines.h"
 #include "kernel/mesh/resample/surface_samples.h"
@@ -22,6 +24,10 @@ namespace lissom {
 namespace {
 
 constexpr std::size_t kBytesPerRemeshedFace = 700;
+// About 14 GB.
+constexpr double kMostFaces = 2e7;
+// Area of an even triangle with edges of length 1.
+constexpr double kFaceArea = 0.433;
 // Edges beyond these parts of their length are split and collapsed.
 constexpr double kTooLong = 4.0 / 3.0, kTooShort = 4.0 / 5.0;
 // A line is thinned out if it leaves its place by less than this part of an edge.
@@ -33,11 +39,11 @@ constexpr double kShortestPart = 0.125;
 
 class Remeshing {
   public:
-    Remeshing(const Mesh& mesh, const RemeshOptions& options, const EdgeLengths& lengths,
+    Remeshing(const Mesh& mesh, const RemeshOptions& options, std::vector<double> lengths,
               const Context& context)
         : mesh_(mesh),
           context_(context),
-          old_lengths_(edge_lengths(mesh, lengths)),
+          old_lengths_(std::move(lengths)),
           lengths_(old_lengths_),
           editor_(mesh, feature_lines(mesh, options.crease)),
           samples_(mesh, editor_.charts(), context),
@@ -310,10 +316,51 @@ EdgeLengths wanted_lengths(const Mesh& mesh, const RemeshOptions& options) {
     return wanted;
 }
 
-// Faces of the wanted size on the whole surface, roughly.
-double expected_faces(const Mesh& mesh, const EdgeLengths& wanted) {
+void require_edges_within(const Mesh& mesh, const EdgeLengths& wanted) {
+    if (mesh.face_count() == 0) return;
+    const double size = bounds(mesh).diagonal();
     const double length = wanted.error > 0.0 ? wanted.shortest : wanted.longest;
-    return mesh.face_count() + area(mesh) / (0.433 * length * length);
+    require(length <= size, "edges of " + short_number(length) + " are longer than the mesh (" +
+                                short_number(size) + "); lengths are in the units of the mesh");
+}
+
+// Faces of the wanted size instead of a triangle, roughly; as many as edges for a thin one.
+double expected_in(const Mesh& mesh, Index f, const std::vector<double>& lengths) {
+    const std::span<const Index> v = mesh.topology().face(f);
+    double length = 0.0, side = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        length += lengths[at(v[k])] / 3.0;
+        side = std::max(side, (mesh.position(v[(k + 1) % 3]) - mesh.position(v[k])).norm());
+    }
+    const Vec3 across = (mesh.position(v[1]) - mesh.position(v[0]))
+                            .cross(mesh.position(v[2]) - mesh.position(v[0]));
+    const double area = 0.5 * across.norm();
+    return std::max({1.0, area / kFaceArea / length / length, side / length});
+}
+
+double expected_faces(const Mesh& mesh, const std::optional<Region>& region,
+                      const std::vector<double>& lengths) {
+    std::vector<char> changes(at(mesh.face_count()), region ? 0 : 1);
+    if (region) {
+        for (const Index f : region->faces()) changes[at(f)] = 1;
+    }
+    double sum = 0.0;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        sum += changes[at(f)] ? expected_in(mesh, f, lengths) : 1.0;
+    }
+    return sum;
+}
+
+void require_few_faces(double expected, const Mesh& mesh, const EdgeLengths& wanted) {
+    const double most = std::max<double>(kMostFaces, 2.0 * mesh.face_count());
+    if (expected <= most) return;
+    const bool adapts = wanted.error > 0.0;
+    std::string text = "edges so short would make about " + short_number(expected) +
+                       " faces, and at most " + short_number(most) + " are made: use a greater " +
+                       (adapts ? "error or a longer shortest edge" : "length");
+    const double longer = (adapts ? wanted.shortest : wanted.longest) * std::sqrt(expected / most);
+    if (std::isfinite(longer)) text += ", as " + short_number(1.05 * longer);
+    throw Error(ErrorCode::out_of_range, text);
 }
 
 }  // namespace
@@ -321,12 +368,7 @@ double expected_faces(const Mesh& mesh, const EdgeLengths& wanted) {
 RemeshResult remesh(const Mesh& mesh, const RemeshOptions& options, const Context& context) {
     const EdgeLengths wanted = wanted_lengths(mesh, options);
     require_complete_attributes(mesh);
-    const double expected = expected_faces(mesh, wanted);
-    require(expected < std::numeric_limits<Index>::max() / 4,
-            "edges so short make more faces than can be numbered; use a greater length",
-            ErrorCode::out_of_range);
-    const auto charge =
-        context.charge(static_cast<std::size_t>(expected) * kBytesPerRemeshedFace, "remeshing");
+    require_edges_within(mesh, wanted);
     Progress progress(context, "remesh");
     Mesh triangles = mesh;
     triangulate(triangles, context);
@@ -335,7 +377,12 @@ RemeshResult remesh(const Mesh& mesh, const RemeshOptions& options, const Contex
         of_triangles.region =
             Region(triangles.shared_topology(), std::vector(options.region->vertices()));
     }
-    Remeshing remeshing(triangles, of_triangles, wanted, context);
+    std::vector<double> lengths = edge_lengths(triangles, wanted);
+    const double expected = expected_faces(triangles, of_triangles.region, lengths);
+    require_few_faces(expected, triangles, wanted);
+    const auto charge =
+        context.charge(static_cast<std::size_t>(expected) * kBytesPerRemeshedFace, "remeshing");
+    Remeshing remeshing(triangles, of_triangles, std::move(lengths), context);
     for (Index i = 0; i < options.iterations; ++i) {
         progress.update(i, options.iterations);
         remeshing.round();

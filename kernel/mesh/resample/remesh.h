@@ -41,9 +41,10 @@ struct RemeshResult {
 /// vertices along the surface to the middle of their neighbours. Open borders, seams of corner
 /// attributes, outlines of labels and of named regions and creases stay lines: their vertices are
 /// on the old ones. Attributes are those of the nearest point of the old surface in the same part
-/// between lines. Errors: invalid_argument for lengths that are not above 0 or a negative count;
-/// out_of_range if the edge length asks for more faces than can be numbered; topology_mismatch for
-/// a region of another mesh; memory_limit; cancelled.
+/// between lines. Errors: invalid_argument for lengths that are not above 0, edges longer than the
+/// diagonal of the mesh's box, or a negative count; out_of_range, before anything is made, if the
+/// lengths ask for more than about 20 million faces and twice those of the mesh; topology_mismatch
+/// for a region of another mesh; memory_limit; cancelled.
 RemeshResult remesh(const Mesh& mesh, const RemeshOptions& options = {},
                     const Context& context = {});
 

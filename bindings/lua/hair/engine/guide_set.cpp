@@ -135,7 +135,7 @@ int save_set(Call& call) {
     return done ? call.push_argument() : call.fail();
 }
 
-const std::string kSet = kTwoStrands + "local set = hair:guide_set{ count = 1, points = 3 }\n";
+const std::string kSet = kThreeStrands + "local set = hair:guide_set{ count = 3, points = 3 }\n";
 
 std::vector<Function> set_methods() {
     return {
@@ -145,7 +145,7 @@ std::vector<Function> set_methods() {
                     "that they are.",
          .results = {{"lissom.Strands", "guides", "In the order that weights count them."}},
          .errors = {ErrorCode::memory_limit, ErrorCode::cancelled},
-         .example = kSet + "assert(#set:guides() == 1)"},
+         .example = kSet + "assert(#set:guides() == 3)"},
         {.name = "weights",
          .body = strand_weights,
          .summary = "A strand as a sum of guides: its points are root + length * (the weighted sum "
@@ -170,7 +170,7 @@ std::vector<Function> set_methods() {
                          .defaults(true)},
          .results = {{"lissom.Strands", "strands", "In the order of the strands."}},
          .errors = {ErrorCode::invalid_argument, ErrorCode::memory_limit, ErrorCode::cancelled},
-         .example = kSet + "assert(#set:rebuild() == 2)"},
+         .example = kSet + "assert(#set:rebuild() == 3)"},
         {.name = "save",
          .body = save_set,
          .summary = "Writes a guide file, which bindings/engine/lissom_hair.h reads, whole or not "
@@ -195,7 +195,7 @@ Function guide_set_method() {
             "and finds three of them with weights for each strand.",
         .options = {integer("count", "Number of guides, for of = \"count\".")
                         .defaults(d.count)
-                        .at_least(1),
+                        .at_least(3),
                     choice("of", {"count", "groups", "locks"},
                            "Guides: as many as `count`, one for each group, or one for each guide "
                            "that strands follow, as one a curl.")
@@ -211,7 +211,7 @@ Function guide_set_method() {
         .results = {{"lissom.GuideSet", "set", "The guides and weights."}},
         .errors = {ErrorCode::invalid_argument, ErrorCode::not_finite, ErrorCode::memory_limit,
                    ErrorCode::cancelled},
-        .example = kTwoStrands + "assert(#hair:guide_set{ count = 1 } == 1)"};
+        .example = kThreeStrands + "assert(#hair:guide_set{ count = 3 } == 3)"};
 }
 
 Type guide_set_type() {

@@ -187,6 +187,10 @@ TEST_CASE("hair cards: budgets, one strand, bad input, threads") {
     CHECK(card_mesh(make_cards(hair, options), hair, options).face_count() <= 100);
     options.triangles = 19;
     CHECK_THROWS_AS(make_cards(hair, options), Error);
+    options.triangles = 10'000'000;
+    CHECK_THROWS_AS(make_cards(hair, options), Error);
+    options.triangles = 1260;
+    CHECK(card_mesh(make_cards(hair, options), hair, options).face_count() == 1260);
     CHECK_THROWS_AS(make_cards(hair, {.count = 0}), Error);
     CHECK_THROWS_AS(make_cards(hair, {.count = 10'000'000}), Error);
     CHECK_THROWS_AS(make_cards({}, {}), Error);

@@ -128,6 +128,9 @@ TEST_CASE("guide set: threads do not matter, bad input is refused") {
     CHECK_THROWS_AS(make_guide_set(hair, {.count = 0}), Error);
     CHECK_THROWS_AS(make_guide_set(hair, {.points = 1}), Error);
     CHECK_THROWS_AS(make_guide_set({}, {}), Error);
+    CHECK_THROWS_AS(make_guide_set(parted(1), {.count = 3}), Error);
+    CHECK_THROWS_AS(make_guide_set(parted(2)), Error);
+    for (const Index few : {1, 2}) CHECK_THROWS_AS(make_guide_set(hair, {.count = few}), Error);
     CHECK(make_guide_set(parted(3), {.count = 1000}).guide_count() == 3);
     Strands bad = parted(5);
     bad.edit_points()[7] = std::numeric_limits<float>::quiet_NaN();
@@ -138,7 +141,8 @@ TEST_CASE("guide set: threads do not matter, bad input is refused") {
         CHECK(error.code() == ErrorCode::not_finite);
     }
     // A strand without length is its root.
-    Strands bald({0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 1}, {0, 2, 4});
+    Strands bald({0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 1, 2, 1, 1, 2, 2, 1, 3, 1, 1, 3, 2, 1},
+                 {0, 2, 4, 6, 8});
     const GuideSet one = make_guide_set(bald, {.points = 4});
     CHECK(one.guided[0].length == 0.0f);
     CHECK(rebuild_strands(one)[3].norm() == 0.0f);

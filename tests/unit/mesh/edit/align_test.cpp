@@ -69,6 +69,11 @@ TEST_CASE("a part is put onto the whole if it says how much they share") {
 TEST_CASE("alignment refuses surfaces without faces and options out of range") {
     const Mesh box = make_box();
     CHECK_THROWS_AS(align(box, Mesh()), Error);
+    const std::vector<Vec3> line{{0, 0, 0}, {0.1, 0.2, 0.3}, {0.7, 1.4, 2.1}};
+    FaceList faces;
+    faces.add({0, 1, 2});
+    CHECK_THROWS_AS(align(box, Mesh(std::vector<Vec3>(line), FaceList(faces))), Error);
+    CHECK_THROWS_AS(align(Mesh(std::vector<Vec3>(3, Vec3(1, 1, 1)), FaceList(faces)), box), Error);
     CHECK_THROWS_AS(align(box, box, {.overlap = 0.0}), Error);
     CHECK_THROWS_AS(align(box, box, {.samples = 1}), Error);
     CHECK_THROWS_AS(align(box, box, {.iterations = -1}), Error);

@@ -90,8 +90,17 @@ TEST_CASE("attributes of the half are on both sides, and directions are mirrored
 TEST_CASE("symmetry refuses planes that leave nothing") {
     const Mesh box = make_box();
     CHECK_THROWS_AS(symmetrize(box, {.point = Vec3(9, 0, 0)}), Error);
+    CHECK_THROWS_AS(symmetrize(box, {.point = Vec3(-9, 0, 0)}), Error);
     CHECK_THROWS_AS(symmetrize(box, {.normal = Vec3::Zero()}), Error);
     CHECK_THROWS_AS(symmetrize(box, {.point = Vec3(test::kNaN, 0, 0)}), Error);
     CHECK_THROWS_AS(symmetrize(box, {.weld = -1.0}), Error);
     CHECK_THROWS_AS(symmetrize(Mesh(), {}), Error);
+}
+
+TEST_CASE("a half model beside the plane is refused, and welded if the tolerance reaches it") {
+    const Mesh torus = make_torus({.segments = 24, .tube_segments = 12});
+    const CutPlane plane{.point = Vec3(0.1, 0, 0), .normal = Vec3(1, 0, 0)};
+    const Mesh half = cut(torus, plane, {.loops = CutLoops::all}).kept.mesh;
+    CHECK_THROWS_AS(symmetrize(half, {}), Error);
+    CHECK(symmetrize(half, {.weld = 0.11}).mesh.topology().is_closed());
 }

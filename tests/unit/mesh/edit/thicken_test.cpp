@@ -79,3 +79,24 @@ TEST_CASE("shells refuse thicknesses that are none") {
     Mesh box = make_box();
     CHECK_THROWS_AS(offset(box, test::kInfinity), Error);
 }
+
+TEST_CASE("shells and offsets refuse lengths beyond the mesh") {
+    const Mesh grid = make_grid();
+    const double size = bounds(grid).diagonal();
+    CHECK_THROWS_AS(thicken(grid, {.thickness = 1e9}), Error);
+    CHECK_THROWS_AS(thicken(grid, {.thickness = 1e9, .outside = 0.5}), Error);
+    CHECK(thicken(grid, {.thickness = 3.0 * size}).crossings.empty());
+    const Mesh before = make_sphere();
+    const Vec3 extent = bounds(before).max - bounds(before).min;
+    const double depth = extent.minCoeff();
+    for (const double distance : {-1.01 * depth, -1e9, 1e9}) {
+        Mesh sphere = before;
+        CHECK_THROWS_AS(offset(sphere, distance), Error);
+        CHECK(hash(sphere) == hash(before));
+    }
+    Mesh sphere = before;
+    offset(sphere, 3.0 * depth);
+    CHECK(volume(sphere) > volume(before));
+    CHECK_THROWS_AS(thicken(before, {.thickness = 1.01 * depth}), Error);
+    CHECK(thicken(before, {.thickness = 1.01 * depth, .outside = 1.0}).mesh.face_count() > 0);
+}

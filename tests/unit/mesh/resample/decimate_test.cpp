@@ -161,7 +161,7 @@ TEST_CASE("nothing outside a region changes") {
         if (mesh.position(v).x() > 0.0) half.push_back(v);
     }
     const Region region(mesh.shared_topology(), half);
-    const DecimateResult coarse = decimate(mesh, {.faces = 0, .region = region});
+    const DecimateResult coarse = decimate(mesh, {.faces = 1, .region = region});
     CHECK(coarse.mesh.face_count() < mesh.face_count());
     const SpatialTree tree(coarse.mesh);
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -171,7 +171,7 @@ TEST_CASE("nothing outside a region changes") {
 
 TEST_CASE("decimation keeps borders if asked, and carries everything") {
     const Mesh grid = test::decorated(make_grid({.segments = {12, 12}}));
-    const DecimateResult coarse = decimate(grid, {.faces = 0, .keep_borders = true});
+    const DecimateResult coarse = decimate(grid, {.faces = 1, .keep_borders = true});
     CHECK(test::is_decorated(coarse.mesh));
     Index border = 0, kept = 0;
     for (Index v = 0; v < grid.vertex_count(); ++v) border += grid.topology().is_boundary(v);
@@ -190,11 +190,12 @@ TEST_CASE("decimation refuses what has no limit, and takes meshes without faces"
     CHECK_THROWS_AS(decimate(sphere, {}), Error);
     CHECK_THROWS_AS(decimate(sphere, {.faces = -1}), Error);
     CHECK_THROWS_AS(decimate(sphere, {.error = -1.0}), Error);
+    CHECK_THROWS_AS(decimate(sphere, {.faces = 0}), Error);
     CHECK_THROWS_AS(decimate(sphere, {.error = test::kNaN}), Error);
     const Region foreign = Region::all(make_box().shared_topology());
     CHECK_THROWS_AS(decimate(sphere, {.faces = 10, .region = foreign}), Error);
     CHECK(decimate(Mesh(), {.faces = 10}).mesh.vertex_count() == 0);
     const Mesh all = decimate(sphere, {.faces = 1000000}).mesh;
     CHECK(all.vertex_count() == sphere.vertex_count());
-    CHECK(decimate(test::tetrahedron(), {.faces = 0}).mesh.face_count() == 4);
+    CHECK(decimate(test::tetrahedron(), {.faces = 1}).mesh.face_count() == 4);
 }

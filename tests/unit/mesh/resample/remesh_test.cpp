@@ -104,3 +104,27 @@ TEST_CASE("remeshing refuses lengths that are none") {
     CHECK_THROWS_AS(remesh(box, {.edge = 1e-6}), Error);
     CHECK(remesh(Mesh()).mesh.vertex_count() == 0);
 }
+
+TEST_CASE("remeshing refuses lengths beyond the mesh, and more faces than it can hold at once") {
+    const Mesh box = make_box();
+    const double size = bounds(box).diagonal();
+    CHECK_THROWS_AS(remesh(box, {.edge = 1.01 * size}), Error);
+    CHECK(remesh(box, {.edge = 0.9 * size}).mesh.topology().is_closed());
+    CHECK_THROWS_AS(remesh(box, {.error = 0.1, .shortest = 1.01 * size}), Error);
+    for (const double edge : {1e-4, 1e-30}) {
+        try {
+            remesh(box, {.edge = edge});
+            FAIL("it was remeshed");
+        } catch (const Error& error) {
+            CHECK(error.code() == ErrorCode::out_of_range);
+        }
+    }
+    // A thin triangle asks for as many faces as its length has edges.
+    FaceList faces;
+    faces.add({0, 1, 2});
+    const Mesh thin({{0, 0, 0}, {1, 0, 0}, {1, 1e-12, 0}}, std::move(faces));
+    CHECK_THROWS_AS(remesh(thin, {.edge = 1e-8}), Error);
+    // Edges that are short where they adapt only do not count everywhere.
+    const Mesh sphere = make_sphere();
+    CHECK(remesh(sphere, {.error = 0.05 * size, .shortest = 1e-5 * size}).mesh.face_count() > 0);
+}
