@@ -144,12 +144,16 @@ local function loose_ends(scalp, tie)
     return { point = tip, normal = along, ragged = 0.03 }
 end
 
--- The style, its hair and its tail; `growth` are options of style:grow.
+-- The style, its hair and its tail. `options` are those of lissom.hairstyle, and the `count` of strands as in
+-- other presets; `growth` are options of style:grow.
 function ponytail.grow(head, values, options, growth)
     values = complete(values)
-    local style, tie = ponytail.style(head, values, options)
-    local all = { length = 0.6, layer = 0.003 + 0.014 * (1 - values.tightness), seed = values.seed,
-        cut = loose_ends(style:scalp(), tie) }
+    local of_style = {}
+    for key, value in pairs(options or {}) do of_style[key] = value end
+    of_style.count = nil
+    local style, tie = ponytail.style(head, values, of_style)
+    local all = { count = options and options.count, length = 0.6, seed = values.seed,
+        layer = 0.003 + 0.014 * (1 - values.tightness), cut = loose_ends(style:scalp(), tie) }
     for key, value in pairs(growth or {}) do all[key] = value end
     return style, style:grow(all), tie
 end

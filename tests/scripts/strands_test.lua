@@ -224,6 +224,23 @@ do
         expect.truthy(inside <= 0.01 * #positions / 3, inside)
     end)
 
+    test("hair is checked for engines, and what is told mends it", function()
+        local _, style, hair = bob()
+        expect.equal(#hair:check{ target = "unreal", head = style }.findings, 0)
+        local long = hair:select{ first = 50 }:resample{ count = 300 }:set_widths{ width = 0 }
+        local found = long:check{ target = "unreal", head = style }
+        expect.equal(found.ok, false)
+        local codes = {}
+        for _, finding in ipairs(found.findings) do codes[finding.code] = finding end
+        expect.equal(codes.many_points.count, 50)
+        expect.equal(#codes.no_widths.strands, 50)
+        expect.truthy(codes.many_points.remedy:find("resample", 1, true))
+        long:resample{ count = 64 }:set_widths{ width = 75e-6 }
+        expect.equal(long:check{ target = "unreal", head = style }.ok, true)
+        local cards = hair:cards{ count = 60, style = style }
+        expect.equal(#hair:check{ target = "godot", cards = cards }.findings, 0)
+    end)
+
     test("cards have pictures", function()
         if not pcall(function() return lissom.bake_cards end) then test.skip("a renderer") end
         local _, style, hair = bob()

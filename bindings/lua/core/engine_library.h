@@ -1,4 +1,4 @@
-/// Types of scripts for hair in engines: guide sets and cards.
+/// Types of scripts for hair in engines: guide sets, cards and checks.
 #pragma once
 
 #include <vector>
@@ -12,5 +12,7 @@ std::vector<Record> guide_set_records();
 
 Type cards_type();
 std::vector<Record> cards_records();
+
+std::vector<Record> strand_check_records();
 
 }  // namespace lissom::lua

@@ -5,6 +5,7 @@
 
 #include "bindings/lua/hair/engine/cards_object.h"
 #include "bindings/lua/hair/engine/guide_set_object.h"
+#include "bindings/lua/hair/engine/strand_check.h"
 #include "bindings/lua/hair/strands_methods.h"
 
 namespace lissom::lua {
@@ -93,6 +94,7 @@ Type strands_type() {
     for (Function& method : strand_braid_methods()) type.methods.push_back(std::move(method));
     type.methods.push_back(guide_set_method());
     type.methods.push_back(cards_method());
+    type.methods.push_back(strand_check_method());
     return type;
 }
 

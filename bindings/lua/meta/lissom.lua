@@ -586,6 +586,20 @@
 ---@field covered number Part of the strands' points that lie on their cards.
 ---@field rms number Distance of strands from the plane of their card, in metres.
 
+---Faults of hair.
+---@class lissom.StrandCheck
+---@field ok boolean Whether there are no errors; warnings may remain.
+---@field findings lissom.StrandFinding[] Each kind of fault once.
+
+---One kind of fault.
+---@class lissom.StrandFinding
+---@field code string not_finite, no_length, few_points, many_points, large_group, no_widths, no_root_uvs, off_head, inside_head, duplicate_roots, wrong_unit, wrong_axis, lost_guide, short_guide or many_triangles.
+---@field severity string "error", or "warning" if the target takes it.
+---@field count integer Number of strands, or of triangles for many_triangles.
+---@field strands integer[] The strands; empty if it is a fault of all hair.
+---@field message string The fault with its limit.
+---@field remedy string A call that mends it.
+
 ---Layers of hair and their operators.
 ---@class lissom.Groom
 ---@field evaluated integer Number of growths and operators that ran so far.
@@ -3082,6 +3096,18 @@ function Strands:guide_set(options) end
 ---@param options? lissom.Strands.CardsOptions
 ---@return lissom.Cards cards # The cards, with a copy of the strands.
 function Strands:cards(options) end
+
+---@class lissom.Strands.CheckOptions
+---@field target? "unreal"|"unity"|"godot"|"film" Receiver of the hair, whose limits count. Default: "unreal".
+---@field head? lissom.Hairstyle A style on the head of the strands. Default: none: roots and depth are not checked.
+---@field cards? lissom.Cards Cards that stand for the hair. Default: none.
+---@field root_distance? number Distance from the head that a root may have. In metres. Default: 0.005.
+---@field depth? number Depth that a point may have in the head. In metres. Default: 0.002.
+
+---Searches for faults that an engine stumbles over: broken, short or doubled strands, widths, root UVs, roots off the head, unit and up axis, guides that do not reach, limits of points, groups and cards. Each has a remedy.
+---@param options? lissom.Strands.CheckOptions
+---@return lissom.StrandCheck check # The faults found.
+function Strands:check(options) end
 
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Strands:close() end
