@@ -181,4 +181,3 @@ function lissom.render(options)
 end
 
 _G.playground = playground
-return playground
