@@ -142,7 +142,7 @@ function finished(data) {
         $('state').textContent = '';
     }
     window.lissomRuns = (window.lissomRuns || 0) + 1;
-    window.lissomLast = { ok: data.ok, ms: data.ms, whole: performance.now() - started, memory: data.memory, error: data.error };
+    window.lissomLast = { ok: data.ok, ms: data.ms, at: performance.now(), whole: performance.now() - started, memory: data.memory, error: data.error };
     if (again) { again = false; run({ quiet: true }); }
 }
 
@@ -428,6 +428,8 @@ async function begin() {
     } catch (error) {
         print(`There is no picture: ${error.message}. Scripts run all the same, and their files can be downloaded.`, 'error');
     }
+    // Beside the values, where they lie on the picture and leave it the better half.
+    if (view) view.covered = () => { const panel = $('parameters').offsetWidth + 24; return matchMedia('(max-width: 760px)').matches || $('parameters').hidden || 2 * panel > $('canvas').clientWidth ? 0 : panel; };
     window.lissomView = view;
     window.lissomEditor = editor;
     examples = await (await fetch('examples.json')).json();

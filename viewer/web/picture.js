@@ -43,6 +43,8 @@ export class View {
         this.gl = canvas.getContext('webgl2', { antialias: true, alpha: true, powerPreference: 'high-performance' });
         if (!this.gl) throw new Error('this browser has no WebGL 2');
         this.settings = { wire: false, flat: false, colors: true };
+        // Pixels on the right that something else covers: what is fitted leaves them free.
+        this.covered = () => 0;
         this.drawn = { meshes: [], strands: [], lines: null };
         this.resetCamera({});
         this.open();
@@ -203,7 +205,8 @@ export class View {
     fit(box) {
         const cells = this.cells(), cell = cells[0];
         const boxes = cells.length > 1 ? this.picture.meshes.map(mesh => mesh.box) : [box];
-        const aspect = this.canvas.clientWidth * cell.w / Math.max(this.canvas.clientHeight * cell.h, 1);
+        const covered = cells.length > 1 ? 0 : this.covered();
+        const aspect = (this.canvas.clientWidth * cell.w - covered) / Math.max(this.canvas.clientHeight * cell.h, 1);
         const forward = this.toward, right = unit(cross(this.up, forward)), over = cross(forward, right);
         const half = Math.tan(this.fov / 2);
         this.target = box.low.map((x, k) => 0.5 * (x + box.high[k]));
@@ -313,6 +316,8 @@ export class View {
         const reach = cell.box ? length(minus(cell.box.high, cell.box.low)) + length(minus(target, cell.box.low)) : 1;
         const near = Math.max(this.distance - reach, 0.002 * this.distance);
         const projection = perspective(this.fov, w / h, near, this.distance + reach);
+        // The middle of the picture is that of what nothing covers.
+        if (!centred && !this.picture?.camera) projection[8] += this.covered() / Math.max(this.canvas.clientWidth, 1);
         const light = cell.hair ? this.drawn.strands.find(one => one.light)?.light : null;
         const shared = { view, projection, light, h };
         this.drawMeshes(cell.meshes, shared, scale);
