@@ -125,7 +125,7 @@ struct SearchScene {
 
     explicit SearchScene(Index segments)
         : source(test::horned_ball(segments)),
-          regions(paste_regions(source, test::around_horn(source), std::nullopt, 0.5, {})) {}
+          regions(paste_regions(source, {test::around_horn(source)}, {})) {}
 
     Index ring_vertices() const {
         std::vector<Index> vertices;

@@ -303,9 +303,11 @@ std::vector<Parameter> paste_parameters() {
     return {
         object("source", "lissom.Mesh", "The mesh that has the feature; it stays as it is."),
         object("target", "lissom.Mesh", "The mesh that it is pasted onto; it stays as it is."),
-        object("region", "lissom.Region",
-               "Part of the source around the feature, marked casually: the boundary is sought "
-               "between its outline and the feature."),
+        object(
+            "region", "lissom.Region",
+            "Part of the source around the feature, marked casually: the boundary is sought "
+            "between its outline and the feature. If it has several outlines, such as those around "
+            "the feet of a handle, the surface along the shortest way between them joins it."),
         either("feature",
                {object("region", "lissom.Region", ""),
                 choice("auto", {"auto"}, "The core of the region.")},

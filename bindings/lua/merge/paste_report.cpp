@@ -94,6 +94,7 @@ int push_paste_report(const Call& call, const PasteReport& report) {
     call.set_field("kept_outline", call.push(report.kept_outline));
     call.set_field("tight", call.push(report.tight));
     call.set_field("draped", call.push(report.draped));
+    call.set_field("joined", call.push(report.joined));
     call.set_field("smooth", call.push(report.smooth));
     call.set_field("draft", call.push(report.draft));
     call.set_field("euler_characteristic", call.push(report.euler_characteristic));
@@ -156,6 +157,9 @@ std::vector<Record> paste_records() {
         {"lissom.PasteDraft",
          "Report of a draft of a paste.",
          {{"number", "scale", "Growth of the part, as a factor."},
+          {"boolean", "joined",
+           "The region had several outlines, such as those around a handle's feet: the surface "
+           "between them came along with the feature, inside one outline."},
           {"boolean", "smooth", "The boundary runs through faces."},
           {"boolean", "kept_outline", "It is the outline, if the surface is distorted less there."},
           {"lissom.PasteDistortion", "near", "Within three rings of the boundary."},

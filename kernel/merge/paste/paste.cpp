@@ -354,7 +354,7 @@ void Paste::State::prepare(const Mesh& new_source, const Region& region,
     require_faces(new_source);
     source = new_source;
     options = wanted;
-    regions = paste_regions(source, region, feature, options.share, context);
+    regions = paste_regions(source, {region, feature, options.share, true}, context);
     ring = std::make_shared<LoopSearch>(source, regions, context);
     source_map = source_chart(source, regions, method_for(options), context);
     triangles = std::make_shared<RingTriangles>(source_map, regions);

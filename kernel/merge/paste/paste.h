@@ -127,6 +127,8 @@ struct PasteReport {
     /// The feature stands on sharp edges of the target: it kept its shape, and its foot was drawn
     /// down to the surface along the feature's own outline.
     bool draped = false;
+    /// The region had several outlines, which strips of the surface between them join.
+    bool joined = false;
     /// The boundary runs through faces.
     bool smooth = false;
     /// Removed features of the target, if any.
@@ -145,10 +147,11 @@ struct PasteResult {
 /// A paste that can be placed and optimised again.
 class Paste {
   public:
-    /// Checks the regions, lays both surfaces out in the plane and places the part. Meshes may
-    /// change or die afterwards. If the target's edges under the part are long, they are halved
-    /// until there is room for it (finer_near). `onto` absent: a disk of the target around the
-    /// placement, large enough for the ring.
+    /// Checks the regions, lays both surfaces out in the plane and places the part. A region with
+    /// several outlines, such as those around the feet of a handle, takes the surface between them
+    /// along. Meshes may change or die afterwards. If the target's edges under the part are long,
+    /// they are halved until there is room for it (finer_near). `onto` absent: a disk of the target
+    /// around the placement, large enough for the ring.
     /// Errors: topology_mismatch, region_empty, boundary_conflict, not_a_disk for regions (see
     /// paste_regions and target_faces); boundary_conflict for a point outside the target's region,
     /// and if the feature's outline does not fit into it, naming vertices; invalid_argument for

@@ -476,6 +476,7 @@ PasteResult Paste::merge(const PasteMergeOptions& options, const Context& contex
     report.kept_outline = trial.outline;
     report.tight = trial.tight;
     report.draped = trial.draped;
+    report.joined = state.regions.joined;
     report.near = pasted.laid.near;
     report.laid = trial.near;
     report.feature =

@@ -185,7 +185,7 @@ Surrounded surrounded(const Mesh& mesh, const Region& region, const ErasureReach
                                   ? fewest
                                   : Region(mesh.shared_topology(), std::move(near)).united(fewest);
         try {
-            Surrounded found{paste_regions(mesh, around, region, 0.5, context), width};
+            Surrounded found{paste_regions(mesh, {around, region}, context), width};
             require_one_outline(mesh, found.regions.region);
             return found;
         } catch (const Error& error) {

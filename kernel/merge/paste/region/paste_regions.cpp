@@ -7,6 +7,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/merge/loop/face_angles.h"
+#include "kernel/merge/paste/region/joined_outlines.h"
 #include "kernel/merge/piece/face_set.h"
 #include "kernel/mesh/query/distances.h"
 
@@ -30,27 +31,6 @@ Elements faces_named(std::span<const Index> faces) {
     Elements elements{ElementKind::face, 0, {}};
     for (const Index f : faces) elements.add(f);
     return elements;
-}
-
-// Whether one of the faces meets the set.
-bool lies_beside(const FaceSet& set, std::span<const Index> faces) {
-    return std::any_of(faces.begin(), faces.end(), [&](Index f) {
-        const std::span<const Index> face = set.topology().face(f);
-        return std::any_of(face.begin(), face.end(), [&](Index v) {
-            const auto around = set.topology().faces_around(v);
-            return std::any_of(around.begin(), around.end(),
-                               [&](Index g) { return set.contains(g); });
-        });
-    });
-}
-
-// The largest part around the set is the rest of the surface.
-void fill_islands(FaceSet& set, const FaceSet* bounds) {
-    std::vector<std::vector<Index>> outside = set.outside_parts(bounds);
-    std::erase_if(outside, [&](const auto& part) { return !lies_beside(set, part); });
-    for (std::size_t k = 1; k < outside.size(); ++k) {
-        for (const Index f : outside[k]) set.add(f);
-    }
 }
 
 // Keeps, of several parts, the one with most faces of `wanted`; of equals the largest.
@@ -118,19 +98,19 @@ FaceSet clean_region(const Mesh& source, const Region& region, std::span<const I
     return set;
 }
 
-// Vertices of the set's outline that do not lie on an open boundary alone.
+// Vertices of the set's longest outline.
 std::vector<Index> outline_of(const FaceSet& set) {
-    const Topology& topology = set.topology();
-    std::vector<std::vector<Index>> loops = set.loops();
-    std::erase_if(loops, [&](const std::vector<Index>& loop) {
-        for (std::size_t k = 0; k < loop.size(); ++k) {
-            const Index a = loop[k], b = loop[(k + 1) % loop.size()];
-            if (face_left_of(topology, b, a) != kNoIndex) return false;
-        }
-        return true;
-    });
-    return loops.empty() ? std::vector<Index>() : loops.front();
+    const std::vector<std::vector<Index>> outlines = inner_outlines(set);
+    return outlines.empty() ? std::vector<Index>() : outlines.front();
 }
+
+// The faces of a region, and those along the middle of the strips that join its outlines.
+struct MarkedRegion {
+    FaceSet faces;
+    std::vector<Index> middles;
+
+    bool joined() const { return !middles.empty(); }
+};
 
 FaceSet deep_faces(const Mesh& source, const FaceSet& region, double share,
                    const Context& context) {
@@ -193,11 +173,22 @@ void add_open_boundaries(const FaceSet& region, FaceSet& feature) {
     }
 }
 
-FaceSet clean_feature(const Mesh& source, const FaceSet& region,
-                      const std::optional<Region>& feature, double share, const Context& context) {
-    FaceSet set = feature ? FaceSet(source.topology(), feature->faces())
-                          : deep_faces(source, region, share, context);
-    if (!feature) add_open_boundaries(region, set);
+// The faces of the feature as marked, or those that are deep in the region; with the middle of the
+// strips that join its outlines.
+FaceSet marked_feature(const Mesh& source, const MarkedRegion& region, const PasteMarks& marks,
+                       double share, const Context& context) {
+    FaceSet set(source.topology(), {});
+    if (!marks.feature || region.joined()) set = deep_faces(source, region.faces, share, context);
+    for (const Index f : region.middles) set.add(f);
+    if (!marks.feature) {
+        add_open_boundaries(region.faces, set);
+        return set;
+    }
+    for (const Index f : marks.feature->faces()) set.add(f);
+    return set;
+}
+
+FaceSet clean_feature(const FaceSet& region, FaceSet set, const Context& context) {
     for (const Index f : set.faces()) {
         if (!region.contains(f)) set.remove(f);
     }
@@ -282,16 +273,18 @@ void require_disk(const FaceSet& set) {
                 elements);
 }
 
-}  // namespace
+MarkedRegion marked_region(const Mesh& source, const PasteMarks& marks, const Context& context) {
+    const std::vector<Index> seed = marks.feature ? marks.feature->faces() : std::vector<Index>();
+    MarkedRegion region{clean_region(source, marks.region, seed, "region"), {}};
+    if (marks.join_outlines) region.middles = join_outlines(source, region.faces, context);
+    return region;
+}
 
-namespace {
-
-PasteRegions regions_with(const Mesh& source, const Region& region,
-                          const std::optional<Region>& feature, double share,
-                          const Context& context) {
-    const std::vector<Index> seed = feature ? feature->faces() : std::vector<Index>();
-    const FaceSet whole = clean_region(source, region, seed, "region");
-    const FaceSet core = clean_feature(source, whole, feature, share, context);
+PasteRegions regions_with(const Mesh& source, const MarkedRegion& region, const PasteMarks& marks,
+                          double share, const Context& context) {
+    const FaceSet& whole = region.faces;
+    const FaceSet core =
+        clean_feature(whole, marked_feature(source, region, marks, share, context), context);
     PasteRegions result;
     result.outer = outline_of(whole);
     require_apart(result.outer, core);
@@ -306,23 +299,24 @@ PasteRegions regions_with(const Mesh& source, const Region& region,
     result.feature = core.faces();
     result.ring = ring.faces();
     result.inner = outline_of(core);
+    result.joined = region.joined();
     return result;
 }
 
 }  // namespace
 
-PasteRegions paste_regions(const Mesh& source, const Region& region,
-                           const std::optional<Region>& feature, double share,
-                           const Context& context) {
-    require_same_topology(source, region.topology(), "the region");
-    if (feature) require_same_topology(source, feature->topology(), "the feature");
+PasteRegions paste_regions(const Mesh& source, const PasteMarks& marks, const Context& context) {
+    require_same_topology(source, marks.region.topology(), "the region");
+    if (marks.feature) require_same_topology(source, marks.feature->topology(), "the feature");
+    const MarkedRegion region = marked_region(source, marks, context);
+    const bool sought = !marks.feature || region.joined();
     std::optional<Error> first;
-    for (double width = share; width >= kMinShare || !first; width *= kNarrowerShare) {
+    for (double width = marks.share; width >= kMinShare || !first; width *= kNarrowerShare) {
         try {
-            return regions_with(source, region, feature, width, context);
+            return regions_with(source, region, marks, width, context);
         } catch (const Error& error) {
             // A narrower ring leaves more of the handles of the surface to the feature.
-            if (feature || error.code() != ErrorCode::not_a_disk) throw;
+            if (!sought || error.code() != ErrorCode::not_a_disk) throw;
             if (!first) first = error;
         }
     }

@@ -118,6 +118,21 @@ TEST_CASE("paste: a feature may have a handle") {
     CHECK(genus(result.merged.mesh.topology()) == 1);
 }
 
+TEST_CASE(
+    "paste: an arch that was marked by its two feet comes along with the surface between them") {
+    const Mesh torus = make_torus({.segments = 64, .tube_segments = 32});
+    const Region arch = select_plane(torus, {0.1, 0, 0}, {1, 0, 0});
+    for (const Mesh& target : {egg(), egg(30)}) {
+        Paste paste(torus, target, arch, std::nullopt, std::nullopt,
+                    {.at = {0, 2, 0}, .scale = 0.5});
+        paste.optimize();
+        const PasteResult result = paste.merge();
+        check_sound(result);
+        CHECK(result.report.joined);
+        CHECK(genus(result.merged.mesh.topology()) == 1);
+    }
+}
+
 TEST_CASE("paste: a crease is at most what is allowed, and takes distortion away") {
     // A tube on a ball: it would have to turn by a right angle to go on in its surface.
     Mesh tube = make_sphere({1.0, 24, SphereKind::triangles});

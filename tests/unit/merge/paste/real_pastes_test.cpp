@@ -108,7 +108,7 @@ TEST_CASE("real pastes: the loop is the cheapest, by brute force") {
         if (!models) continue;
         const Mesh &source = models->source, &target = models->target;
         const PasteRegions regions =
-            paste_regions(source, real.region(source), real.feature(source), 0.5, {});
+            paste_regions(source, {real.region(source), real.feature(source)}, {});
         const PasteSurfaces surfaces(source, target);
         const PasteChart chart = source_chart(source, regions, ParameterizeMethod::arap, {});
         const SurfacePoint point = surfaces.target_tree.nearest(real.placement.at);

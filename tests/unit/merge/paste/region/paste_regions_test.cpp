@@ -18,7 +18,7 @@ namespace {
 
 PasteRegions regions_of(const Mesh& mesh, const Region& region,
                         const std::optional<Region>& feature = std::nullopt) {
-    return paste_regions(mesh, region, feature, 0.5, {});
+    return paste_regions(mesh, {region, feature, 0.5, true}, {});
 }
 
 void check_annulus(const Mesh& mesh, const PasteRegions& regions) {
@@ -34,6 +34,31 @@ TEST_CASE("paste regions: a feature is found, and the ring around it is an annul
     const Mesh mesh = horned_ball();
     check_annulus(mesh, regions_of(mesh, around_horn(mesh)));
     check_annulus(mesh, regions_of(mesh, around_horn(mesh), around_horn(mesh, 0.6)));
+}
+
+TEST_CASE(
+    "paste regions: the outlines around both feet of an arch become one, with what they hold") {
+    const Mesh torus = make_torus();
+    const Region arch = select_plane(torus, {0, 0, 0}, {1, 0, 0});
+    for (const std::optional<Region>& feature :
+         {std::optional<Region>(), std::optional(select_plane(torus, {0.5, 0, 0}, {1, 0, 0}))}) {
+        const PasteRegions joined = regions_of(torus, arch, feature);
+        check_annulus(torus, joined);
+        CHECK(joined.joined);
+        const FaceSet region(torus.topology(), joined.region),
+            inner(torus.topology(), joined.feature);
+        for (const Index f : arch.faces()) CHECK(region.contains(f));
+        // A handle on a disk, and surface left around it.
+        for (const FaceSet* set : {&region, &inner}) {
+            CHECK(set->loops().size() == 1);
+            CHECK(set->euler_characteristic() == -1);
+        }
+        CHECK(region.size() < 3 * torus.face_count() / 4);
+        if (!feature) continue;
+        for (const Index f : feature->faces()) CHECK(inner.contains(f));
+    }
+    const Mesh horn = horned_ball();
+    CHECK_FALSE(regions_of(horn, around_horn(horn)).joined);
 }
 
 TEST_CASE("paste regions: specks go, islands are filled, parts of a feature are joined") {

@@ -45,7 +45,7 @@ double turns_of(const Mesh& mesh, std::span<const Index> loop) {
 
 TEST_CASE("loop search: simple, once around, and no dearer than both boundaries, at random costs") {
     const Mesh mesh = horned_ball(16);
-    const PasteRegions regions = paste_regions(mesh, around_horn(mesh), std::nullopt, 0.6, {});
+    const PasteRegions regions = paste_regions(mesh, {around_horn(mesh), std::nullopt, 0.6}, {});
     const LoopSearch search(mesh, regions, {});
     std::uint32_t state = 7;
     for (int round = 0; round < 200; ++round) {
@@ -281,7 +281,7 @@ TEST_CASE("winding search: bounds leave nothing out, whether edges cross one ano
 
 TEST_CASE("paste search: what normals weigh more, the best loop has less of") {
     const Mesh horn = horned_ball(), target = egg();
-    const PasteRegions regions = paste_regions(horn, around_horn(horn), std::nullopt, 0.5, {});
+    const PasteRegions regions = paste_regions(horn, {around_horn(horn)}, {});
     const PasteSurfaces surfaces(horn, target);
     const Vec3 at(1, 1.2, 0.8);
     const PasteMap map(
