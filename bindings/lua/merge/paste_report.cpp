@@ -66,7 +66,7 @@ int push_clearing(const Call& call, const PasteClearing& clearing) {
 }
 
 int push_paste_report(const Call& call, const PasteReport& report) {
-    lua_createtable(call.lua(), 0, 19);
+    lua_createtable(call.lua(), 0, 20);
     push_paste_search(call, report.search);
     call.set_field("search");
     push_map_quality(call, report.source_map);
@@ -157,9 +157,6 @@ std::vector<Record> paste_records() {
         {"lissom.PasteDraft",
          "Report of a draft of a paste.",
          {{"number", "scale", "Growth of the part, as a factor."},
-          {"boolean", "joined",
-           "The region had several outlines, such as those around a handle's feet: the surface "
-           "between them came along with the feature, inside one outline."},
           {"boolean", "smooth", "The boundary runs through faces."},
           {"boolean", "kept_outline", "It is the outline, if the surface is distorted less there."},
           {"lissom.PasteDistortion", "near", "Within three rings of the boundary."},
@@ -192,6 +189,9 @@ std::vector<Record> paste_records() {
           {"boolean", "draped",
            "The feature stands on sharp edges of the target: it kept its shape, and its foot was "
            "drawn down to the surface."},
+          {"boolean", "joined",
+           "The region had several outlines, such as those around a handle's feet: the surface "
+           "between them came along with the feature, inside one outline."},
           {"boolean", "smooth", "The boundary runs through faces."},
           {"boolean", "draft", "It is a draft: merged without that option its seam is better."},
           {"integer", "euler_characteristic", "Euler characteristic of the result."},

@@ -188,6 +188,17 @@ FaceSet marked_feature(const Mesh& source, const MarkedRegion& region, const Pas
     return set;
 }
 
+// The faces of a region that do not touch its outline.
+FaceSet without_rim(const FaceSet& region) {
+    FaceSet inside = region;
+    for (const Index v : outline_of(region)) {
+        for (const Index f : region.topology().faces_around(v)) {
+            if (inside.contains(f)) inside.remove(f);
+        }
+    }
+    return inside;
+}
+
 FaceSet clean_feature(const FaceSet& region, FaceSet set, const Context& context) {
     for (const Index f : set.faces()) {
         if (!region.contains(f)) set.remove(f);
@@ -196,6 +207,7 @@ FaceSet clean_feature(const FaceSet& region, FaceSet set, const Context& context
         throw Error(ErrorCode::region_empty,
                     "the feature holds no face of the region; mark a feature inside the region");
     }
+    join_parts(set, without_rim(region), context);
     join_parts(set, region, context);
     set.grow_at_bow_ties(&region);
     fill_islands(set, &region);

@@ -120,16 +120,16 @@ TEST_CASE("paste: a feature may have a handle") {
 
 TEST_CASE(
     "paste: an arch that was marked by its two feet comes along with the surface between them") {
-    const Mesh torus = make_torus({.segments = 64, .tube_segments = 32});
-    const Region arch = select_plane(torus, {0.1, 0, 0}, {1, 0, 0});
+    const Mesh plate = test::arched_plate();
     for (const Mesh& target : {egg(), egg(30)}) {
-        Paste paste(torus, target, arch, std::nullopt, std::nullopt,
+        Paste paste(plate, target, test::around_arch(plate), std::nullopt, std::nullopt,
                     {.at = {0, 2, 0}, .scale = 0.5});
         paste.optimize();
         const PasteResult result = paste.merge();
         check_sound(result);
         CHECK(result.report.joined);
         CHECK(genus(result.merged.mesh.topology()) == 1);
+        CHECK(bounds(result.merged.mesh).max.y() > 2.3);
     }
 }
 

@@ -57,6 +57,14 @@ TEST_CASE(
         if (!feature) continue;
         for (const Index f : feature->faces()) CHECK(inner.contains(f));
     }
+    const Mesh plate = arched_plate();
+    const PasteRegions between = regions_of(plate, around_arch(plate));
+    check_annulus(plate, between);
+    CHECK(between.joined);
+    // The plate far beside the feet stays out of it.
+    for (const Index f : between.region) {
+        CHECK(std::abs(plate.position(plate.topology().face(f)[0]).y()) < 0.8);
+    }
     const Mesh horn = horned_ball();
     CHECK_FALSE(regions_of(horn, around_horn(horn)).joined);
 }
