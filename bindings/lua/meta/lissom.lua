@@ -412,6 +412,7 @@
 ---@field kept_outline boolean The outline was pasted along, since the surface there is distorted less.
 ---@field tight boolean The feature's own outline was pasted along, since more of the target's sharp edges stays there.
 ---@field draped boolean The feature stands on sharp edges of the target: it kept its shape, and its foot was drawn down to the surface.
+---@field joined boolean The region had several outlines, such as those around a handle's feet: the surface between them came along with the feature, inside one outline.
 ---@field smooth boolean The boundary runs through faces.
 ---@field draft boolean It is a draft: merged without that option its seam is better.
 ---@field euler_characteristic integer Euler characteristic of the result.
@@ -4089,7 +4090,7 @@ function lissom.merger(source, target, options) end
 ---@class lissom.PasteOptions
 ---@field source lissom.Mesh The mesh that has the feature; it stays as it is.
 ---@field target lissom.Mesh The mesh that it is pasted onto; it stays as it is.
----@field region lissom.Region Part of the source around the feature, marked casually: the boundary is sought between its outline and the feature.
+---@field region lissom.Region Part of the source around the feature, marked casually: the boundary is sought between its outline and the feature. If it has several outlines, such as those around the feet of a handle, the surface along the shortest way between them joins it.
 ---@field feature? lissom.Region|"auto" Part of the source that keeps out of the search; of any genus, and of several parts. auto: the part farther from the region's outline than the share `ring` of the way to its middle, or of the outline's radius if that is less; with the open boundaries and the handles inside the region. Default: auto.
 ---@field onto? lissom.Region Part of the target that the feature may go to: without holes and handles, and larger than the region of the source will be. Default: a disk around the placement.
 ---@field placement lissom.PasteOptions.Placement Place of the feature.
