@@ -46,8 +46,9 @@ function hairdo.scalp(head, params)
 end
 
 -- A style with the unit and resolution of the parameters; `options` are further ones of lissom.hairstyle.
+-- Its curves determine all hair, without gravity.
 function hairdo.style(head, params, options)
-    local all = { scalp = hairdo.scalp(head, params), resolution = params.resolution }
+    local all = { scalp = hairdo.scalp(head, params), resolution = params.resolution, gravity = 0 }
     for key, value in pairs(options or {}) do all[key] = value end
     return lissom.hairstyle(head, all)
 end

@@ -182,7 +182,8 @@ styling.over_shoulders = {
 
 --- A style of long hair: `routes` of its streams, and the places of its `parting` or none.
 function styling.long(head, o, routes, parting)
-    local style = lissom.hairstyle(head, { scalp = o.scalp, resolution = math.floor(1.2 * o.resolution),
+    local style = lissom.hairstyle(head, { scalp = o.scalp,
+        gravity = 0, resolution = math.floor(1.2 * o.resolution),
         volume = { min = { -0.15, -0.42, -0.19 }, max = { 0.15, 0.16, 0.16 } } })
     if parting then
         style:add_dividing{ points = styling.route(o.scalp, parting), tilt = { 15, 0 } }
@@ -224,7 +225,7 @@ styling.crown_to_hairline = {
 --- Hair of a few millimetres, and its style: shaved sides, or all of a short cut. `options` has its `length`
 -- and `density` as style:grow takes them, the `part` of all strands that it holds, and the `seed`.
 function styling.stubble(head, o, options)
-    local style = lissom.hairstyle(head, { scalp = o.scalp, resolution = o.resolution })
+    local style = lissom.hairstyle(head, { scalp = o.scalp, gravity = 0, resolution = o.resolution })
     styling.comb(style, styling.crown_to_hairline)
     local hair = style:grow{ count = math.floor((options.part or 1) * o.count), seed = options.seed,
         length = options.length, density = options.density, layer = 0.001, clearance = 0.0012, lift = 1,

@@ -65,7 +65,8 @@ end
 --- A style of two tails from a parting down the middle to the nape, and the two ties. `tie` has the azimuth,
 -- elevation, lift, radius, droop and length of the left one, as hairdo.tail_spine takes them.
 function tails.both_sides(head, o, tie)
-    local style = lissom.hairstyle(head, { scalp = o.scalp, resolution = math.floor(1.2 * o.resolution) })
+    local style = lissom.hairstyle(head, { scalp = o.scalp,
+        gravity = 0, resolution = math.floor(1.2 * o.resolution) })
     style:add_dividing{ points = styling.route(o.scalp, { { 0, 37 }, { 0, 60 }, { 0, 86 }, { 180, 60 },
         { 180, 20 }, { 180, -20 } }), tilt = { 20, 20 }, height = 0 }
     local ties = {}

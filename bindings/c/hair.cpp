@@ -90,6 +90,7 @@ lissom_hairstyle_options lissom_default_hairstyle_options(void) {
     lissom_hairstyle_options options{};
     options.struct_size = sizeof options;
     options.resolution = HairstyleOptions().resolution;
+    options.gravity = HairstyleOptions().gravity;
     return options;
 }
 
@@ -113,6 +114,7 @@ lissom_status lissom_hairstyle_create(lissom_context* context, lissom_mesh head,
         const Mesh& own = mesh_of(*context, head);
         HairstyleOptions kernel;
         kernel.resolution = taken.resolution;
+        kernel.gravity = taken.gravity;
         add_style(*context, own,
                   Hairstyle(own, scalp_of(*context, own, taken), kernel, context->kernel), style);
     });

@@ -1170,6 +1170,9 @@ typedef struct lissom_hairstyle_options {
     /// Directions of the head in the mesh; all zero: estimated.
     double up[3];
     double front[3];
+    /// Hair that no curve is near falls, and goes to the ties of ponytails; 0: the curves alone
+    /// determine all hair; at most 1.
+    double gravity;
 } lissom_hairstyle_options;
 
 typedef struct lissom_grow_options {
@@ -1188,7 +1191,8 @@ LISSOM_API lissom_grow_options lissom_default_grow_options(void);
 LISSOM_API lissom_status lissom_hairstyle_create(lissom_context* context, lissom_mesh head,
                                                  const lissom_hairstyle_options* options,
                                                  lissom_hairstyle* style);
-/// Reads a style from a file's text (JSON), onto any head.
+/// Reads a style from a file's text (JSON), onto any head; resolution and gravity are those of the
+/// file.
 LISSOM_API lissom_status lissom_hairstyle_decode(lissom_context* context, const void* text,
                                                  size_t size, lissom_mesh head,
                                                  const lissom_hairstyle_options* options,

@@ -38,7 +38,7 @@ return styling.preset(..., {
         end)
         local _, hair = styling.stubble(head, o, { part = 1, seed = v.seed, density = beside,
             length = v.sides })
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         ridge(style, v.height)
         local lengths = styling.by_angles(scalp, function(azimuth, elevation)
             local behind = math.abs(azimuth) > 90 and styling.smooth(0, 75, elevation) or 1

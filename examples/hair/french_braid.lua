@@ -35,7 +35,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp, places = o.scalp, {}
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         streams(style)
         for i = 0, 24 do
             local azimuth, elevation = middle(i / 24)

@@ -114,6 +114,7 @@ HairstyleOptions style_options_with(HairFidelity fidelity) {
     if (fidelity == HairFidelity::thesis) {
         options.field.boundary = GridBoundary::thesis;
         options.field.tension = 0.0;
+        options.gravity = 0.0;
     }
     return options;
 }

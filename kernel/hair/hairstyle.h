@@ -45,15 +45,16 @@ struct HairstyleOptions {
     GridFieldOptions field = HairField::default_options();
     /// Hair that no curve is near falls along the head, goes to the sides over the face, and to the
     /// nearest tie if there are ponytails; a stream that ends close to a tie leads into it, and
-    /// from the end of any other hair falls on. 0 to 1; 0 for the field of the curves alone.
-    double gravity = 0.0;
+    /// from the end of any other hair falls on. 0 to 1; 0 for the field of the curves alone,
+    /// as in the thesis.
+    double gravity = 1.0;
     /// Defaults of curves, for scripts and style files, and of hair
     /// (Hairstyle::default_hair).
     HairFidelity fidelity = HairFidelity::lissom;
 };
 
 /// Returns the default options of a fidelity. The thesis has the Laplacian's weights of section
-/// 4.4.1 at the faces of the grid, and no tension.
+/// 4.4.1 at the faces of the grid, no tension and no gravity.
 HairstyleOptions style_options_with(HairFidelity fidelity);
 
 /// Returns the default options of growth of a fidelity. In section 4.6 of the thesis strands follow

@@ -122,6 +122,8 @@ class Reader {
         HairFidelity fidelity = HairFidelity::lissom;
         choice("fidelity", fidelity, {kDefaultName, kThesisName});
         options = style_options_with(fidelity);
+        // Files that do not name it have none: they may be older than it.
+        options.gravity = 0.0;
     }
     template <typename Enum>
     void choice(const char* key, Enum& value, std::initializer_list<const char*> names) {

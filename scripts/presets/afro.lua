@@ -19,7 +19,8 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp, h = o.scalp, v.height
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = math.floor(0.8 * o.resolution),
+        local style = lissom.hairstyle(head, { scalp = scalp,
+            gravity = 0, resolution = math.floor(0.8 * o.resolution),
             volume = { min = { -0.1 - h, -0.2, -0.12 - h }, max = { 0.1 + h, 0.14 + h, 0.1 + h } } })
         styling.radial(style, 1000 * h)
         local hair = style:grow{ count = o.count, seed = v.seed, length = h, clearance = 0.001, layer = 0,

@@ -30,7 +30,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         styling.streams(style, routes)
         local full = styling.by_angles(scalp, function(azimuth, elevation)
             return math.abs(azimuth) < 42 and elevation < 72 and 1 or 0.7

@@ -41,7 +41,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         styling.radial(style, 60)
         local hair = style:grow{ count = math.floor(1.3 * o.count), seed = v.seed, length = 0.004, layer = 0,
             clearance = 0.001, segment = 0.2, lift = 0.5 }

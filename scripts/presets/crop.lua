@@ -17,7 +17,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         styling.comb(style, styling.crown_to_hairline)
         local lengths = styling.by_angles(scalp, function(azimuth, elevation)
             local front = math.abs(azimuth) < 40

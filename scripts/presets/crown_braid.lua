@@ -40,7 +40,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp, spine = o.scalp, {}
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         streams(style, v.height)
         for azimuth = -180, 330, 10 do
             local a = (azimuth + 180) % 360 - 180

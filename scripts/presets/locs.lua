@@ -29,7 +29,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution,
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution,
             volume = { min = { -0.17, -0.32, -0.19 }, max = { 0.17, 0.17, 0.17 } } })
         styling.streams(style, routes)
         local hair = style:grow{ count = o.count, seed = v.seed, length = v.length, layer = 0.02,

@@ -24,7 +24,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         styling.comb(style, combed)
         local lengths = styling.by_angles(scalp, function(_, elevation)
             return v.length * (0.5 + 0.5 * styling.smooth(-20, 50, elevation))

@@ -38,7 +38,7 @@ return styling.preset(..., {
                 return styling.smooth(low, high, math.abs(p[1]))
             end)
         end
-        local sides = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        local sides = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         styling.comb(sides, { { 0, 75, 0, 52, 11 }, { 25, 62, 20, 40, 10 }, { 45, 50, 46, 30, 6 },
             { 80, 36, 84, 12, 4 }, { 82, 12, 86, -8, 3 }, { 180, 48, 180, 18, 5 }, { 140, 45, 140, 12, 5 },
             { 180, 4, 180, -28, 3 }, { 130, 0, 132, -28, 3 } })
@@ -47,7 +47,7 @@ return styling.preset(..., {
             density = beside(half - 0.003, half) }
         styling.set_width(hair:resample{ count = 5 }, 0.00024, o.count)
         hair:set_colors{ color = { 0.04, 0.028, 0.02 } }
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution,
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution,
             volume = { min = { -0.12, -0.2, -0.24 }, max = { 0.12, 0.28, 0.22 } } })
         fin(style, v.width)
         local lengths = styling.by_angles(scalp, function(azimuth, elevation)

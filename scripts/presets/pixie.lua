@@ -29,7 +29,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         styling.comb(style, combed)
         local lengths = styling.by_angles(scalp, function(azimuth, elevation)
             local back = styling.smooth(95, 150, math.abs(azimuth))

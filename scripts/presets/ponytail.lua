@@ -106,6 +106,7 @@ function ponytail.style(head, values, options)
     -- Hair that leaves the volume is cut off flat at its faces.
     local room = 0.02 + 1.2 * tie.radius * (1 + values.fullness)
     all.volume = all.volume or hairdo.volume(all.scalp, room, spine)
+    all.gravity = all.gravity or 0
     local style = lissom.hairstyle(head, all)
     hairdo.gather(style, tie,
         { count = values.gather, reach = 0.08, low = 0.002 + 0.012 * (1 - values.tightness) })

@@ -31,7 +31,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution,
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution,
             volume = { min = { -0.17, -0.32, -0.19 }, max = { 0.17, 0.17, 0.17 } } })
         style:add_dividing{ points = styling.route(scalp, parting), tilt = { 15, 0 } }
         styling.streams(style, routes)

@@ -32,7 +32,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution })
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         styling.streams(style, routes)
         local hair = style:grow{ count = o.count, seed = v.seed, length = 0.11, layer = v.volume,
             clearance = 0.0015, lift = 0.3, variation = 0.2 }

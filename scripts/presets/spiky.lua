@@ -17,7 +17,7 @@ return styling.preset(..., {
     },
     make = function(head, v, o)
         local scalp = o.scalp
-        local style = lissom.hairstyle(head, { scalp = scalp, resolution = o.resolution,
+        local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution,
             volume = { min = { -0.18, -0.2, -0.2 }, max = { 0.18, 0.24, 0.2 } } })
         styling.radial(style, 80, 14)
         local lengths = styling.by_angles(scalp, function(_, elevation)

@@ -140,6 +140,7 @@ std::vector<Parameter> style_fields() {
                "leads into it, and from the end of any other hair falls on. 0: the curves alone "
                "determine all hair.")
             .optional(plain_number(HairstyleOptions{}.gravity))
+            .thesis("4.4", "0")
             .between(0, 1),
         choice("fidelity", {"default", "thesis"},
                "thesis: chapter 4 to the letter, for comparison. It changes the defaults, also "

@@ -89,7 +89,7 @@ Names of_style() {
     note(names, "boundary", boundary != t.field.boundary);
     note(names, "solver", solver != t.field.solver);
     note(names, "tension", tension != t.field.tension);
-    CHECK(gravity == t.gravity);
+    note(names, "gravity", gravity != t.gravity);
     CHECK(dense_limit == t.field.dense_limit);
     CHECK(tolerance == t.field.tolerance);
     CHECK(refinements == t.field.refinements);

@@ -51,9 +51,9 @@ lissom_placement bad_placement(int i, double bad) {
 lissom_hairstyle_options bad_style(int i, double bad) {
     auto options = lissom_default_hairstyle_options();
     options.resolution = 1000;
-    double* const numbers[] = {&options.unit,    &options.up[0],    &options.up[1],
-                               &options.up[2],   &options.front[0], &options.front[1],
-                               &options.front[2]};
+    double* const numbers[] = {&options.unit,     &options.up[0],    &options.up[1],
+                               &options.up[2],    &options.front[0], &options.front[1],
+                               &options.front[2], &options.gravity};
     *numbers[i] = bad;
     return options;
 }
@@ -338,7 +338,7 @@ std::vector<Given> merge_cases() {
 
 std::vector<Given> hair_cases() {
     return {
-        {"lissom_hairstyle_create", 7,
+        {"lissom_hairstyle_create", 8,
          [](World& world, int i, double bad) {
              const auto options = bad_style(i, bad);
              return lissom_hairstyle_create(world, world.head, &options, &world.made_style);

@@ -7,8 +7,9 @@ namespace lissom::test {
 namespace {
 
 struct Style {
-    explicit Style(const Host& host) : head(host.add(make_head({}))) {
-        auto options = lissom_default_hairstyle_options();
+    explicit Style(const Host& host,
+                   lissom_hairstyle_options options = lissom_default_hairstyle_options())
+        : head(host.add(make_head({}))) {
         options.resolution = 12000;
         REQUIRE(lissom_hairstyle_create(host, head, &options, &style) == LISSOM_OK);
         double points[3][3];
@@ -65,6 +66,29 @@ TEST_CASE("hair grows, again into the same strands, and as a job") {
     lissom_strands again{};
     REQUIRE(lissom_job_finish(host, job, &again.id) == LISSOM_OK);
     CHECK(points_of(host, again) == first);
+}
+
+TEST_CASE("hair that no curve is near falls by default, and gravity is from 0 to 1") {
+    const Host host;
+    auto options = lissom_default_hairstyle_options();
+    CHECK(options.gravity == 1.0);
+    double down[2] = {};
+    for (const double gravity : {0.0, 1.0}) {
+        options.gravity = gravity;
+        const Style made(host, options);
+        double far[3], direction[3];
+        REQUIRE(lissom_hairstyle_at(host, made.style, -1.5, -0.3, 0.03, far) == LISSOM_OK);
+        REQUIRE(lissom_hairstyle_solve(host, made.style) == LISSOM_OK);
+        REQUIRE(lissom_hairstyle_field(host, made.style, far, direction) == LISSOM_OK);
+        down[gravity > 0.0] = direction[1];
+    }
+    CHECK(down[1] < -0.9);
+    CHECK(down[1] != down[0]);
+    options.gravity = 1.5;
+    const lissom_mesh head = host.add(make_head({}));
+    lissom_hairstyle style{};
+    CHECK(lissom_hairstyle_create(host, head, &options, &style) == LISSOM_INVALID_ARGUMENT);
+    CHECK(style.id == 0);
 }
 
 TEST_CASE("curves are listed, moved, switched off and removed") {

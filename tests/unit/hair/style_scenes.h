@@ -19,10 +19,12 @@ inline std::shared_ptr<const Scalp> small_scalp() {
     return scalp;
 }
 
+/// A style of its curves alone, without gravity.
 inline Hairstyle small_style(const GridFieldOptions& field = HairField::default_options()) {
     HairstyleOptions options;
     options.resolution = 6000;
     options.field = field;
+    options.gravity = 0.0;
     return Hairstyle(small_head(), small_scalp(), options);
 }
 

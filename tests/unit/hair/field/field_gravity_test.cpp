@@ -61,6 +61,12 @@ GridLayout small_layout() {
 
 }  // namespace
 
+TEST_CASE("gravity: all of it by default, none to the letter of the thesis") {
+    CHECK(HairstyleOptions{}.gravity == 1.0);
+    CHECK(style_options_with(HairFidelity::lissom).gravity == 1.0);
+    CHECK(style_options_with(HairFidelity::thesis).gravity == 0.0);
+}
+
 TEST_CASE("gravity: with 0 the field is that of the curves, to the bit") {
     Hairstyle with = style_with(0.0);
     with.add(stream(side(with, 1)));
