@@ -74,8 +74,9 @@ end)
 
 local head = lissom.shapes.head{ vertices = 4000 }
 
+-- A style of its curves alone.
 local function style_of(elevation)
-    local style = lissom.hairstyle(head, { resolution = 5000 })
+    local style = lissom.hairstyle(head, { resolution = 5000, gravity = 0 })
     for _, azimuth in ipairs{ -90, 90, 180 } do
         style:add_stream{ points = { style:at{ azimuth = azimuth, elevation = 70, lift = 0.01 },
             style:at{ azimuth = azimuth, elevation = elevation, lift = 0.02 },

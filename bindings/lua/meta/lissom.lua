@@ -4190,7 +4190,7 @@ function lissom.load_style(path, head, options) end
 ---@field solver? "dual"|"cholesky" dual is fast; cholesky is the thesis's way, a reference: it updates its factor, or makes it again in a build without CHOLMOD. Default: "dual".
 ---@field boundary? "zero_flux"|"thesis" Condition of the field at the box. Default: "zero_flux"; as in the thesis "thesis".
 ---@field tension? number Keeps the field from growing far from the curves. Default: 0.03; as in the thesis 0.
----@field gravity? number Hair that no curve is near falls along the head, goes to the sides over the face, and to the nearest tie if there are ponytails; a stream that ends close to a tie leads into it, and from the end of any other hair falls on. 0: the curves alone determine all hair. Default: 0.
+---@field gravity? number Hair that no curve is near falls along the head, goes to the sides over the face, and to the nearest tie if there are ponytails; a stream that ends close to a tie leads into it, and from the end of any other hair falls on. 0: the curves alone determine all hair. Default: 1; as in the thesis 0.
 ---@field fidelity? "default"|"thesis" thesis: chapter 4 to the letter, for comparison. It changes the defaults, also for the curves and for `grow`; the page thesis.md of the reference names all of it. Default: "default".
 
 ---Starts a hairstyle without curves on a head.
