@@ -590,10 +590,10 @@
 ---Faults of hair.
 ---@class lissom.StrandCheck
 ---@field ok boolean Whether there are no errors; warnings may remain.
----@field findings lissom.StrandFinding[] Each kind of fault once.
+---@field findings lissom.StrandFault[] Each kind of fault once.
 
 ---One kind of fault.
----@class lissom.StrandFinding
+---@class lissom.StrandFault
 ---@field code string not_finite, no_length, few_points, many_points, large_group, no_widths, no_root_uvs, off_head, inside_head, duplicate_roots, wrong_unit, wrong_axis, lost_guide, short_guide or many_triangles.
 ---@field severity string "error", or "warning" if the target takes it.
 ---@field count integer Number of strands, or of triangles for many_triangles.

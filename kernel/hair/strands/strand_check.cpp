@@ -46,7 +46,7 @@ class StrandChecker {
         }
     }
 
-    std::vector<StrandFinding> run() {
+    std::vector<StrandCheckFinding> run() {
         check_shapes();
         check_points();
         check_groups();
@@ -261,7 +261,7 @@ class StrandChecker {
     StrandLimits limits_;
     // 1 for strands without NaN and infinity: only these are looked at further.
     std::vector<char> finite_;
-    std::vector<StrandFinding> findings_;
+    std::vector<StrandCheckFinding> findings_;
 };
 
 }  // namespace
@@ -281,8 +281,9 @@ StrandLimits limits_of(StrandTarget target) {
     return {2, kUnlimited, kUnlimited, kUnlimited, kUnlimited};
 }
 
-std::vector<StrandFinding> check_strands(const Strands& strands, const StrandCheckOptions& options,
-                                         const Context& context) {
+std::vector<StrandCheckFinding> check_strands(const Strands& strands,
+                                              const StrandCheckOptions& options,
+                                              const Context& context) {
     const auto is_distance = [](double x) { return std::isfinite(x) && x >= 0.0; };
     require(is_distance(options.root_distance) && is_distance(options.depth),
             "distances must be finite and not negative");

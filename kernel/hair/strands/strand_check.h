@@ -54,7 +54,7 @@ enum class StrandFault {
     many_triangles,   ///< cards have more triangles than the target takes
 };
 
-struct StrandFinding {
+struct StrandCheckFinding {
     StrandFault fault = StrandFault::not_finite;
     /// The target takes the hair nevertheless.
     bool is_warning = false;
@@ -79,8 +79,8 @@ struct StrandCheckOptions {
 
 /// Checks strands for a target. Faults come in the order of StrandFault. Errors: invalid_argument
 /// for distances that are negative or not finite; cancelled.
-std::vector<StrandFinding> check_strands(const Strands& strands,
-                                         const StrandCheckOptions& options = {},
-                                         const Context& context = {});
+std::vector<StrandCheckFinding> check_strands(const Strands& strands,
+                                              const StrandCheckOptions& options = {},
+                                              const Context& context = {});
 
 }  // namespace lissom

@@ -41,7 +41,7 @@ const FaultText& text_of(StrandFault fault) {
     return kFaults[at(static_cast<Index>(fault))];
 }
 
-void push_finding(Call& call, const StrandFinding& finding) {
+void push_finding(Call& call, const StrandCheckFinding& finding) {
     const FaultText& text = text_of(finding.fault);
     lua_createtable(call.lua(), 0, 6);
     call.set_field("code", call.push(std::string_view(text.code)));
@@ -55,7 +55,7 @@ void push_finding(Call& call, const StrandFinding& finding) {
 
 int check(Call& call) {
     const bool on_head = call.has("head"), has_cards = call.has("cards");
-    auto& findings = call.hold<std::vector<StrandFinding>>();
+    auto& findings = call.hold<std::vector<StrandCheckFinding>>();
     const bool done = call.attempt([&] {
         StrandCheckOptions options;
         options.target = call.choice<StrandTarget>("target");
@@ -118,8 +118,8 @@ std::vector<Record> strand_check_records() {
     return {{"lissom.StrandCheck",
              "Faults of hair.",
              {{"boolean", "ok", "Whether there are no errors; warnings may remain."},
-              {"lissom.StrandFinding[]", "findings", "Each kind of fault once."}}},
-            {"lissom.StrandFinding",
+              {"lissom.StrandFault[]", "findings", "Each kind of fault once."}}},
+            {"lissom.StrandFault",
              "One kind of fault.",
              {{"string", "code",
                "not_finite, no_length, few_points, many_points, large_group, no_widths, "

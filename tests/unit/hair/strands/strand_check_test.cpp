@@ -141,7 +141,7 @@ TEST_CASE("hair checks: each planted fault is found in its strands, alone where 
         Strands hair = good_hair();
         planted.plant(hair);
         const auto found = check_strands(hair, for_target(StrandTarget::unreal));
-        const auto it = std::find_if(found.begin(), found.end(), [&](const StrandFinding& f) {
+        const auto it = std::find_if(found.begin(), found.end(), [&](const StrandCheckFinding& f) {
             return f.fault == planted.fault;
         });
         REQUIRE(it != found.end());
