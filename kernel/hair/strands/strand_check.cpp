@@ -23,7 +23,7 @@ constexpr Index kManyRoots = 100;
 // may lie off a sphere that shows it.
 constexpr double kAxisCosine = 0.8, kRoundness = 0.2;
 // A guide reaches a strand that is longer by this part and by this many metres.
-constexpr double kReachPart = 0.1, kReach = 0.005;
+constexpr double kGuideReachPart = 0.1, kGuideReach = 0.005;
 
 // A text with numbers.
 template <typename... Numbers>
@@ -241,7 +241,7 @@ class StrandChecker {
             const auto guide = strand_of.find(guides.ids[at(s)]);
             if (!follows(s) || guide == strand_of.end() || guide->second == s) return false;
             const double reach = length(strands_.strand(guide->second));
-            return guides.arcs[at(s)] > (1.0 + kReachPart) * reach + kReach;
+            return guides.arcs[at(s)] > (1.0 + kGuideReachPart) * reach + kGuideReach;
         };
         tell(StrandFault::short_guide, strands_where(is_beyond),
              "strands reach beyond the end of their guide", true);
