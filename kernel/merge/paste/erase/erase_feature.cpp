@@ -11,6 +11,7 @@
 #include "kernel/merge/paste/erase/domed_patch.h"
 #include "kernel/merge/paste/erase/patch_values.h"
 #include "kernel/merge/paste/part/paste_part.h"
+#include "kernel/merge/paste/region/joined_outlines.h"
 #include "kernel/merge/paste/region/paste_regions.h"
 #include "kernel/merge/paste/search/loop_search.h"
 #include "kernel/merge/piece/face_set.h"
@@ -49,18 +50,10 @@ void check_options(const EraseOptions& options) {
     require(options.maximum_vertices >= 0, "maximum_vertices must be 0 or more");
 }
 
-double length_of(const Mesh& mesh, std::span<const Index> loop) {
-    double length = 0.0;
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-        length += (mesh.position(loop[(k + 1) % loop.size()]) - mesh.position(loop[k])).norm();
-    }
-    return length;
-}
-
 double outline_radius(const Mesh& mesh, const Region& region) {
     double longest = 0.0;
     for (const std::vector<Index>& loop : region.boundaries()) {
-        longest = std::max(longest, length_of(mesh, loop));
+        longest = std::max(longest, outline_length(mesh, loop));
     }
     return longest / (2.0 * kPi);
 }
@@ -488,7 +481,7 @@ Excision cut_along_outline(const Mesh& mesh, const Region& region, const Context
     cut.faces = outlined_faces(mesh, region, context);
     require_one_outline(mesh, cut.faces);
     cut.loop = FaceSet(mesh.topology(), cut.faces).loops().front();
-    cut.cost = length_of(mesh, cut.loop);
+    cut.cost = outline_length(mesh, cut.loop);
     const bool open = std::any_of(cut.loop.begin(), cut.loop.end(),
                                   [&](Index v) { return mesh.topology().is_boundary(v); });
     if (open) refuse_open_boundary();

@@ -33,14 +33,6 @@ bool lies_beside(const FaceSet& set, std::span<const Index> faces) {
     });
 }
 
-double length_of(const Mesh& mesh, std::span<const Index> loop) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-        sum += (mesh.position(loop[(k + 1) % loop.size()]) - mesh.position(loop[k])).norm();
-    }
-    return sum;
-}
-
 // The surface outside the set around one of its outlines, and the way from that to the next one.
 class Between {
   public:
@@ -167,7 +159,7 @@ std::vector<Index> join_two(const Mesh& mesh, FaceSet& set,
     if (!next) return {};
     const std::vector<Index>& other = outlines[next->number];
     const double radius =
-        std::min(length_of(mesh, outlines.front()), length_of(mesh, other)) / (2.0 * kPi);
+        std::min(outline_length(mesh, outlines.front()), outline_length(mesh, other)) / (2.0 * kPi);
     for (const Index f : between.strip(other, next->end, radius)) set.add(f);
     for (const Index f : between.along_way(next->end, kStripRings)) set.add(f);
     set.grow_at_bow_ties(nullptr);
@@ -176,6 +168,14 @@ std::vector<Index> join_two(const Mesh& mesh, FaceSet& set,
 }
 
 }  // namespace
+
+double outline_length(const Mesh& mesh, std::span<const Index> loop) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        sum += (mesh.position(loop[(k + 1) % loop.size()]) - mesh.position(loop[k])).norm();
+    }
+    return sum;
+}
 
 std::vector<std::vector<Index>> inner_outlines(const FaceSet& set) {
     const Topology& topology = set.topology();

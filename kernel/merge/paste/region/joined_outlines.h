@@ -1,6 +1,7 @@
 /// Regions around features that stand on their surface in several places; private to kernel/merge.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "kernel/core/context.h"
@@ -9,6 +10,9 @@
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {
+
+/// Length of a closed loop of vertices.
+double outline_length(const Mesh& mesh, std::span<const Index> loop);
 
 /// Loops around the faces that do not run along open boundaries alone, the longest by count first.
 /// The set must have no bow-ties.
