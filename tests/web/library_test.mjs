@@ -114,7 +114,7 @@ test('errors have the line and the code', () => {
     assert.match(refused('local x = = 2').message, /script\.lua:1:/);
     assert.equal(refused('require("lissom").load("absent.obj")').code, 'script_error');
     assert.match(refused('local function f() return f() + 1 end\nreturn f()').message, /stack overflow/);
-    assert.match(refused('error(setmetatable({}, { __tostring = function() return "own" end }))').message, /own/);
+    assert.match(refused('error(setmetatable({}, { __tostring = function() return "own" end }))').message, /no text/);
 });
 
 test('what is caught stays caught: pcall, coroutines, lissom.try', () => {
