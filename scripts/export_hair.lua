@@ -71,8 +71,8 @@ local function save_strands(level, widen, number)
         width_factor = widen }
 end
 
-local function save_cards(hair, style, count, sections, number, color)
-    local cards = hair:cards{ count = count, style = style, sections = sections, slots = params.slots }
+local function save_cards(strands, style, count, sections, number, color)
+    local cards = strands:cards{ count = count, style = style, sections = sections, slots = params.slots }
     local names = {}
     for _, kind in ipairs{ "color", "flow", "data" } do
         names[kind] = string.format("cards_%d_%s.png", number, kind)
@@ -88,7 +88,12 @@ local function save_cards(hair, style, count, sections, number, color)
 end
 
 local head = hairdo.head(params)
-local preset = require("presets." .. params.preset)
+local found, preset = pcall(require, "presets." .. params.preset)
+if not found then
+    local is_unknown = tostring(preset):find("presets." .. params.preset .. "' not found", 1, true)
+    local message = "there is no preset '" .. params.preset .. "'; scripts/presets has the names"
+    error(is_unknown and message or preset, 0)
+end
 local style, hair, look = preset.grow(head, {},
     { scalp = hairdo.scalp(head, params), resolution = params.resolution, count = params.count })
 local color = params.color ~= "" and params.color or look.color or "#8a6a4a"
@@ -114,10 +119,11 @@ local off = set:error()
 manifest.guides = { file = "hair.guides", guides = #set, strands = #hair, points = params.points,
     error_rms = off.rms, error_max = off.max }
 
--- Cards.
+-- Cards stand for full hair: strands of a natural width would leave holes in their pictures.
+local full = styling.set_width(hair:copy(), 0.00026)
 for number, level in ipairs{ { 1, 12 }, { 0.5, 8 }, { 0.25, 6 } } do
     local count = math.max(1, math.floor(params.cards * level[1] + 0.5))
-    local entry, preview = save_cards(hair, style, count, level[2], number, color)
+    local entry, preview = save_cards(full, style, count, level[2], number, color)
     manifest.levels[#manifest.levels + 1] = entry
     shown[#shown + 1] = { mesh = preview,
         caption = entry.cards .. " cards, " .. entry.triangles .. " triangles" }

@@ -241,6 +241,17 @@ do
         expect.equal(#hair:check{ target = "godot", cards = cards }.findings, 0)
     end)
 
+    test("sparse hair has cards with pictures, however ragged the edge of its cap is", function()
+        if not pcall(function() return lissom.bake_cards end) then test.skip("a renderer") end
+        local _, style, hair = bob()
+        for _, first in ipairs{ 60, 150, 400, 900 } do
+            local cards = hair:select{ first = first }:cards{ count = 20, style = style, slots = 4 }
+            local preview = lissom.bake_cards{ cards = cards, color = "#8a6a4a", size = 128,
+                file = test.file("sparse.png") }
+            expect.truthy(preview:face_count() > 0)
+        end
+    end)
+
     test("cards have pictures", function()
         if not pcall(function() return lissom.bake_cards end) then test.skip("a renderer") end
         local _, style, hair = bob()

@@ -18,7 +18,7 @@ namespace {
 constexpr int kCloseRounds = 2;
 // Repeats of the slot around the head.
 constexpr double kRepeats = 6.0;
-// Weight of the edge of the hair when the cap is thinned out, so that it stays where it is.
+// Weight of `cover` in decimation, so that the edge of the hair stays where it is.
 constexpr double kCoverWeight = 0.02;
 
 // Faces with roots, and those of whose vertices all touch such faces.
@@ -135,7 +135,7 @@ Mesh hairy_skin(const Strands& strands, const Mesh& head, const CardCapOptions& 
     return skin;
 }
 
-// The cap that `skin` becomes with few triangles.
+// The cap of few triangles that `skin` is decimated to.
 CardCap cap_of(const Mesh& skin, const CardCapOptions& options, const Context& context) {
     const Mesh mesh =
         decimate(skin,

@@ -114,9 +114,9 @@ struct CardCapOptions {
     double offset = 0.0012;
     /// Metres in one unit of the head.
     double unit = 1.0;
-    /// Triangles at most; more if the edge of the hair needs them.
+    /// Triangles wanted; there are more if the edge of the hair or `error` needs them.
     Index triangles = 1500;
-    /// Metres that thinning out may move the skin: it stops there, whatever `triangles` says.
+    /// Metres by which decimation may move the skin (DecimateOptions::error).
     double error = 0.0005;
 };
 

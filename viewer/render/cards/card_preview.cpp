@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/mesh/repair/repair.h"
 #include "viewer/render/draw/image/color.h"
 
 namespace lissom {
@@ -82,14 +83,19 @@ class PreviewMaker {
     }
 
     Mesh finish(const Context& context) {
-        Mesh mesh(std::move(positions_), std::move(faces_), context);
         Attribute attribute;
         attribute.name = "color";
         attribute.domain = Domain::face;
         attribute.width = 3;
         attribute.values = std::move(colors_);
-        mesh.attributes().add(std::move(attribute));
-        return mesh;
+        Soup soup;
+        soup.positions = std::move(positions_);
+        soup.faces = std::move(faces_);
+        soup.attributes.add(std::move(attribute));
+        // Where the edge of a cap is cut off, faces may touch at vertices alone.
+        RepairOptions options;
+        options.weld = Weld::none;
+        return repair(std::move(soup), options, context);
     }
 
   private:

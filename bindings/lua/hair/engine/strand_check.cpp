@@ -1,6 +1,9 @@
 // strands:check: faults of hair that engines do not take, with the calls that mend them.
 #include "kernel/hair/strands/strand_check.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "bindings/lua/core/engine_library.h"
 #include "bindings/lua/hair/engine/cards_object.h"
 #include "bindings/lua/hair/engine/strand_check.h"
@@ -31,14 +34,15 @@ constexpr FaultText kFaults[] = {
     {StrandFault::duplicate_roots, "duplicate_roots", "hair:select{ strands = } with the others"},
     {StrandFault::wrong_unit, "wrong_unit", "hair:transform{ scale = }"},
     {StrandFault::wrong_axis, "wrong_axis",
-     "hair:transform{ rotate = { axis = \"x\", angle = -90 } }"},
+     "hair:transform{ rotate = }; { axis = \"x\", angle = -90 } turns z up"},
     {StrandFault::lost_guide, "lost_guide", "hair:guides{ count = }"},
     {StrandFault::short_guide, "short_guide", "hair:guides{ count = }"},
     {StrandFault::many_triangles, "many_triangles", "hair:cards{ triangles = }"},
 };
 
 const FaultText& text_of(StrandFault fault) {
-    return kFaults[at(static_cast<Index>(fault))];
+    return *std::find_if(std::begin(kFaults), std::end(kFaults),
+                         [&](const FaultText& text) { return text.fault == fault; });
 }
 
 void push_finding(Call& call, const StrandCheckFinding& finding) {
