@@ -43,9 +43,9 @@ void require_clusters(const Strands& strands, const ClusterOptions& options) {
         if (!strands.strand(s).allFinite()) bad.add(s);
     }
     if (bad.count == 0) return;
-    throw Error(ErrorCode::not_finite,
-                describe(bad) + " have coordinates that are not finite; select the others first",
-                std::move(bad));
+    std::string message =
+        describe(bad) + " have coordinates that are not finite; select the others first";
+    throw Error(ErrorCode::not_finite, std::move(message), std::move(bad));
 }
 
 // Strands that go into one cluster together: their mean and number.
