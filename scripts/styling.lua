@@ -249,10 +249,13 @@ function styling.over_face(scalp, hair)
     return mask
 end
 
---- Gives strands a width in metres that holds for 20,000 and more of a preset; fewer are up to three times as
--- wide, so that they cover as much of the head. `all` is the number of strands of the preset, else of `hair`.
+--- Gives strands a width in metres that holds for 20,000 to 30,000 of a preset; fewer are up to three times
+-- as wide, more down to a third, so that they cover as much of the head. `all` is the number of strands of
+-- the preset, else of `hair`.
 function styling.set_width(hair, width, all)
-    return hair:set_widths{ width = width * math.min(math.max(20000 / math.max(all or #hair, 1), 1), 3) }
+    local count = math.max(all or #hair, 1)
+    local few, many = math.min(20000 / count, 3), math.max(30000 / count, 1 / 3)
+    return hair:set_widths{ width = width * math.max(few, math.min(many, 1)) }
 end
 
 --- Thin tips, and the waves of single hairs; `width` in metres, and `all` as in styling.set_width.

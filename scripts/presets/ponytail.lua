@@ -9,6 +9,7 @@
 -- only.
 local hairdo = require "hairdo"
 local lissom = require "lissom"
+local styling = require "styling"
 
 local ponytail = {}
 
@@ -156,7 +157,7 @@ function ponytail.grow(head, values, options, growth)
     local all = { count = options and options.count, length = 0.6, seed = values.seed,
         layer = 0.003 + 0.014 * (1 - values.tightness), cut = loose_ends(style:scalp(), tie) }
     for key, value in pairs(growth or {}) do all[key] = value end
-    return style, style:grow(all), tie
+    return style, styling.set_width(style:grow(all), 0.00022), tie
 end
 
 -- Run as a script, it makes one and its pictures.
