@@ -38,7 +38,7 @@ function depths(grid, points, offsets, widths) {
 
 // What lies below a surface lets nothing through. `head` are corners of triangles in the points' unit.
 function addHead(grid, depth, head) {
-    const { size, origin, step } = grid, fill = 1.5;
+    const { size, origin, step } = grid, fill = 6;
     for (let t = 0; t + 8 < head.length; t += 9) {
         const a = [0, 1, 2].map(k => head[t + 3 + k] - head[t + k]), b = [0, 1, 2].map(k => head[t + 6 + k] - head[t + k]);
         const n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -58,7 +58,7 @@ function arrives(grid, depth, x, y, z, d) {
         x += d[0]; y += d[1]; z += d[2];
         if (x < 0 || y < 0 || z < 0 || x >= size[0] || y >= size[1] || z >= size[2]) return Math.exp(-sum * long);
         sum += depth[x + size[0] * (y + size[1] * z)];
-        if (sum > 5) return 0;
+        if (sum > 12) return 0;
     }
 }
 

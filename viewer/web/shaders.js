@@ -103,24 +103,32 @@ ${light}
 const float kDiffuse = 0.62, kScattered = 0.06;
 const vec3 kAround = 0.62 * kSkyLight + 0.38 * kGroundLight;
 float cosine_of(float sine) { return sqrt(max(1.0 - sine * sine, 0.0)); }
+// Square of the cosine of half the angle around the strand between light and viewer.
 float facing(vec3 tangent, vec3 to_light, vec3 to_viewer) {
     vec3 l = to_light - dot(tangent, to_light) * tangent, v = to_viewer - dot(tangent, to_viewer) * tangent;
     float lengths = sqrt(dot(l, l) * dot(v, v));
-    return lengths > 1e-6 ? sqrt(0.5 + 0.5 * clamp(dot(l, v) / lengths, -1.0, 1.0)) : 0.0;
+    return lengths > 1e-6 ? 0.5 + 0.5 * clamp(dot(l, v) / lengths, -1.0, 1.0) : 0.0;
 }
 float lobe(vec2 mirror, float shift, float exponent) {
     return pow(max(mirror.x * cos(shift) + mirror.y * sin(shift), 1e-6), exponent);
 }
-vec3 lit(vec3 color, vec3 tangent, vec3 to_viewer, vec3 to_light, vec3 brightness, float lean) {
-    float ls = dot(tangent, to_light), vs = dot(tangent, to_viewer), lc = cosine_of(ls), vc = cosine_of(vs);
-    vec2 mirror = vec2(lc * vc - ls * vs, ls * vc + lc * vs);
-    float primary = u_lobes.x * facing(tangent, to_light, to_viewer) * lobe(mirror, 0.10 + lean, u_lobes.z);
-    float secondary = u_lobes.y * lobe(mirror, -0.15 + lean, u_lobes.w);
-    return brightness * (color * (kDiffuse * lc + secondary) + primary);
+// A strand that light meets, and the loss of light in it: dual scattering, as in strand_shading.h.
+struct Strand { vec3 color, tangent, to_viewer; float lean; vec3 loss; };
+vec3 loss_of(vec3 color) {
+    vec3 logs = log(clamp(color, 1e-3, 1.0));
+    return 0.0462 * logs * logs - log(0.80);
 }
-vec3 passed(float arriving, vec3 color) {
-    float mean = max((color.r + color.g + color.b) / 3.0, 1e-4);
-    return pow(vec3(max(arriving, 1e-6)), max(1.0 + 0.5 * (mean - color) / mean, 0.3));
+vec3 through_hair(Strand s, float left) { return exp(s.loss * log(max(left, 1e-6)) / 0.378); }
+// By what is left of the light; through: the part that goes through strands, of a light behind them.
+vec3 lit(Strand s, vec3 to_light, float left, float through) {
+    float ls = dot(s.tangent, to_light), vs = dot(s.tangent, s.to_viewer), lc = cosine_of(ls), vc = cosine_of(vs);
+    vec2 mirror = vec2(lc * vc - ls * vs, ls * vc + lc * vs);
+    float front = facing(s.tangent, to_light, s.to_viewer);
+    float primary = u_lobes.x * sqrt(front) * lobe(mirror, 0.10 + s.lean, u_lobes.z);
+    float secondary = u_lobes.y * lobe(mirror, -0.15 + s.lean, u_lobes.w);
+    vec3 arriving = through_hair(s, left);
+    through *= exp(-7.3 * front) * lobe(mirror, -0.05 + s.lean, 20.0);
+    return arriving * (s.color * (kDiffuse * lc + secondary) + through * exp(-3.0 * s.loss)) + left * primary;
 }
 void main() {
     bool second = gl_VertexID > 1;
@@ -135,15 +143,19 @@ void main() {
     vec3 color = mixed.rgb * mixed.rgb;
     vec3 arriving = hair_light(world);
     float lean = 0.05 * (2.0 * mixed.a - 1.0) * 1.0;
-    vec3 around = kScattered + (1.0 - kScattered) * passed(arriving.z, color);
-    v_color = around * kAround * color
-            + passed(arriving.x, color) * lit(color, tangent, to_viewer, kKeyDirection, kKeyLight, lean)
-            + arriving.z * lit(color, tangent, to_viewer, kFillDirection, kFillLight, lean)
-            + passed(arriving.y, color) * lit(color, tangent, to_viewer, kRimDirection, kRimLight, lean);
+    Strand strand = Strand(color, tangent, to_viewer, lean, loss_of(color));
+    vec3 around = kScattered + (1.0 - kScattered) * through_hair(strand, arriving.z);
+    v_color = around * kAround * color + kKeyLight * lit(strand, kKeyDirection, arriving.x, 0.0)
+            + kFillLight * lit(strand, kFillDirection, arriving.z, 0.0)
+            + kRimLight * lit(strand, kRimDirection, arriving.y, 1.0);
     v_color = shown(v_color);
-    vec3 across = normalize(cross(tangent, to_viewer) + vec3(1e-9));
+    vec3 across = cross(tangent, to_viewer);
+    across = length(across) > 1e-3 ? normalize(across) : normalize(vec3(to_viewer.z, 0.0, -to_viewer.x));
     float reach = max(abs(point.w) * u_wide, -position.z * u_thinnest);
     position += ((gl_VertexID & 1) == 0 ? reach : -reach) * across;
+    // Ends reach out by the area of round ones: seen end-on, a strand is a disc.
+    float end = second ? (last ? 1.0 : 0.0) : (first ? -1.0 : 0.0);
+    position += end * 0.7854 * reach * cross(to_viewer, across);
     gl_Position = a_from.w < 0.0 ? vec4(2.0, 2.0, 2.0, 1.0) : u_projection * vec4(position, 1.0);
 }`;
 

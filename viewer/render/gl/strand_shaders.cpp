@@ -35,37 +35,81 @@ const vec3 kKeyLight = vec3(1.10, 1.08, 1.04);
 const vec3 kFillLight = vec3(0.13, 0.14, 0.16);
 const vec3 kRimLight = vec3(0.22, 0.235, 0.25);
 const vec3 kAround = 0.62 * vec3(0.32, 0.33, 0.35) + 0.38 * vec3(0.105, 0.095, 0.09);
-const float kDiffuse = 0.62, kScattered = 0.06, kColoring = 0.5;
+const float kDiffuse = 0.62, kScattered = 0.06;
+const float kForward = 0.80, kAbsorbed = 0.0462, kUsualLoss = 0.378, kHairs = 3.0;
+const float kThroughExponent = 20.0, kFading = 7.3;
+const vec2 kThroughTurn = vec2(cos(-0.05), sin(-0.05));
+const float kRoundEnd = 0.3927;    // pi / 8
 
 float cosine_of(float sine) {
     return sqrt(max(1.0 - sine * sine, 0.0));
 }
 
+// Square of the cosine of half the angle around the strand between light and viewer.
 float facing(vec3 tangent, vec3 to_light, vec3 to_viewer) {
     vec3 light = to_light - dot(tangent, to_light) * tangent;
     vec3 viewer = to_viewer - dot(tangent, to_viewer) * tangent;
     float lengths = sqrt(dot(light, light) * dot(viewer, viewer));
-    return lengths > 1e-6 ? sqrt(0.5 + 0.5 * clamp(dot(light, viewer) / lengths, -1.0, 1.0)) : 0.0;
+    return lengths > 1e-6 ? 0.5 + 0.5 * clamp(dot(light, viewer) / lengths, -1.0, 1.0) : 0.0;
 }
 
-vec3 lit(vec3 color, vec3 tangent, vec3 to_viewer, vec3 to_light, vec3 light, vec2 lean) {
-    float light_sine = dot(tangent, to_light), viewer_sine = dot(tangent, to_viewer);
+// A strand at the point, and light on it.
+struct Strand {
+    vec3 color, tangent, to_viewer;
+    vec2 lean;
+    vec3 loss;                     // of light: -ln a_f
+    vec4 lobes;                    // strengths, exponents
+};
+
+vec3 loss_of(vec3 color) {
+    vec3 logs = log(clamp(color, 1e-3, 1.0));
+    return kAbsorbed * logs * logs - log(kForward);
+}
+
+// Colours are interpolated between points: where a strand bends by much from point to point, a
+// sharp reflection would be seen at some points and not between others, as blocks. As wide as the
+// bend it is seen evenly, and as much of it. A cosine to the power n is a Gaussian of variance 1 / n.
+vec4 lobes_of(vec3 before, vec3 after) {
+    float lengths = sqrt(dot(before, before) * dot(after, after));
+    float bend = lengths > 0.0 ? 2.0 - 2.0 * dot(before, after) / lengths : 0.0;
+    vec2 wider = 1.0 + 0.25 * max(bend, 0.0) * u_lobes.zw;
+    return vec4(u_lobes.xy * inversesqrt(wider), u_lobes.zw / wider);
+}
+
+// Sum of both angles from the plane across the strand, turned by the strand's lean.
+vec2 mirror_of(Strand strand, vec3 to_light) {
+    float light_sine = dot(strand.tangent, to_light);
+    float viewer_sine = dot(strand.tangent, strand.to_viewer);
     float light_cosine = cosine_of(light_sine), viewer_cosine = cosine_of(viewer_sine);
-    // Sum of both angles from the plane across the strand, turned by the strand's lean.
     vec2 mirror = vec2(light_cosine * viewer_cosine - light_sine * viewer_sine,
                        light_sine * viewer_cosine + light_cosine * viewer_sine);
-    mirror = vec2(dot(mirror, lean), mirror.y * lean.x - mirror.x * lean.y);
-    float primary = max(dot(mirror, u_primary_turn), 1e-6);
-    float secondary = max(dot(mirror, u_secondary_turn), 1e-6);
-    primary = u_lobes.x * facing(tangent, to_light, to_viewer) * pow(primary, u_lobes.z);
-    secondary = u_lobes.y * pow(secondary, u_lobes.w);
-    return light * (color * (kDiffuse * light_cosine + secondary) + primary);
+    return vec2(dot(mirror, strand.lean), mirror.y * strand.lean.x - mirror.x * strand.lean.y);
 }
 
-// Light that passed through strands has their colour: the most absorbed parts are lost first.
-vec3 passed(float light, vec3 color) {
-    float mean = max((color.r + color.g + color.b) / 3.0, 1e-4);
-    return pow(vec3(max(light, 1e-6)), max(1.0 + kColoring * (mean - color) / mean, 0.3));
+float lobe(vec2 mirror, vec2 turn, float exponent) {
+    return pow(max(dot(mirror, turn), 1e-6), exponent);
+}
+
+// By `left` of the light, and `arriving`, all that arrives with what is scattered.
+vec3 lit(Strand strand, vec3 to_light, float left, vec3 arriving, float front, vec2 mirror) {
+    float primary = strand.lobes.x * sqrt(front) * lobe(mirror, u_primary_turn, strand.lobes.z);
+    float secondary = strand.lobes.y * lobe(mirror, u_secondary_turn, strand.lobes.w);
+    float cosine = cosine_of(dot(strand.tangent, to_light));
+    return arriving * strand.color * (kDiffuse * cosine + secondary) + left * primary;
+}
+
+vec3 lit(Strand strand, vec3 to_light, float left, vec3 arriving) {
+    float front = facing(strand.tangent, to_light, strand.to_viewer);
+    return lit(strand, to_light, left, arriving, front, mirror_of(strand, to_light));
+}
+
+// The same of a light behind the hair, which goes through strands too.
+vec3 lit_through(Strand strand, vec3 to_light, float left, vec3 arriving) {
+    float front = facing(strand.tangent, to_light, strand.to_viewer);
+    vec2 mirror = mirror_of(strand, to_light);
+    vec3 through = arriving * exp(-kFading * front - kHairs * strand.loss);
+    return lit(strand, to_light, left, arriving, front, mirror) +
+           through * lobe(mirror, kThroughTurn, kThroughExponent);
 }
 
 float by_moments(vec3 at, vec3 direction) {
@@ -82,45 +126,57 @@ vec3 light_at(vec3 position) {
         return vec3(by_moments(at + u_key_grid, u_key_world),
                     by_moments(at + u_rim_grid, u_rim_world), ambient);
     }
-    return vec3(textureLod(u_light, at + u_key_grid, 0.0).r,
-                textureLod(u_light, at + u_rim_grid, 0.0).g, ambient);
+    vec2 roots = vec2(textureLod(u_light, at + u_key_grid, 0.0).r,
+                      textureLod(u_light, at + u_rim_grid, 0.0).g);
+    return vec3(roots * roots, ambient);
 }
 
-vec3 shade(vec3 position, vec3 tangent, vec3 to_viewer, vec3 color, vec2 lean) {
-    vec3 light = light_at(position);
-    vec3 around = kScattered + (1.0 - kScattered) * passed(light.z, color);
-    return around * kAround * color +
-           passed(light.x, color) * lit(color, tangent, to_viewer, kKeyDirection, kKeyLight, lean) +
-           light.z * lit(color, tangent, to_viewer, kFillDirection, kFillLight, lean) +
-           passed(light.y, color) * lit(color, tangent, to_viewer, kRimDirection, kRimLight, lean);
+vec3 through_hair(Strand strand, float log_light) {
+    return exp(log_light / kUsualLoss * strand.loss);
 }
 
-vec3 point(int number) {
-    return uintBitsToFloat(texelFetch(u_points, number).xyz);
+vec3 shade(vec3 position, Strand strand) {
+    vec3 light = light_at(position), logs = log(max(light, 1e-6));
+    vec3 arriving = through_hair(strand, logs.z);
+    return (kScattered + (1.0 - kScattered) * arriving) * kAround * strand.color +
+           kKeyLight * lit(strand, kKeyDirection, light.x, through_hair(strand, logs.x)) +
+           kFillLight * lit(strand, kFillDirection, light.z, arriving) +
+           kRimLight * lit_through(strand, kRimDirection, light.y, through_hair(strand, logs.y));
+}
+
+// 1 at a point of no width, which lies beyond an end of a strand.
+float is_beyond(uvec4 entry) {
+    return (entry.w >> 24) == 0u ? 1.0 : 0.0;
 }
 
 void main() {
     int number = gl_VertexID >> 1;
     uvec4 entry = texelFetch(u_points, number);
+    uvec4 before = texelFetch(u_points, max(number - 1, 0)), after = texelFetch(u_points, number + 1);
     vec4 look = vec4(entry.w & 255u, entry.w >> 8 & 255u, entry.w >> 16 & 255u, entry.w >> 24) / 255.0;
-    vec3 position = (u_to_view * vec4(uintBitsToFloat(entry.xyz), 1.0)).xyz;
-    vec3 along = mat3(u_to_view) * (point(number + 1) - point(max(number - 1, 0)));
+    vec3 here = uintBitsToFloat(entry.xyz), position = (u_to_view * vec4(here, 1.0)).xyz;
+    vec3 to_here = here - uintBitsToFloat(before.xyz), from_here = uintBitsToFloat(after.xyz) - here;
+    vec3 along = mat3(u_to_view) * (to_here + from_here);
     float length_along = length(along);
     vec3 tangent = length_along > 0.0 ? along / length_along : vec3(0.0);
     vec3 to_viewer = u_perspective > 0.5 ? normalize(-position) : vec3(0.0, 0.0, 1.0);
     float shift = u_jitter * (2.0 * texelFetch(u_shifts, number).r - 1.0);
     vec3 color = u_brightest * look.rgb * look.rgb;
-    v_color = length_along > 0.0
-                  ? shade(position, tangent, to_viewer, color, vec2(cos(shift), sin(shift)))
-                  : vec3(0.0);
+    Strand strand = Strand(color, tangent, to_viewer, vec2(cos(shift), sin(shift)), loss_of(color),
+                           lobes_of(to_here, from_here));
+    v_color = length_along > 0.0 ? shade(position, strand) : vec3(0.0);
 
-    // A ribbon that faces the viewer.
+    // A ribbon that faces the viewer; one that points there is as wide as others.
     vec3 across = cross(tangent, to_viewer);
     float length_across = length(across);
+    across = length_across > 1e-3 ? across / length_across
+                                  : normalize(vec3(to_viewer.z, 0.0, -to_viewer.x));
     float thinnest = u_thinnest * mix(1.0, -position.z, u_perspective);
     float width = look.a > 0.0 ? max(u_width * look.a * look.a, thinnest) : 0.0;
-    float reach = 0.5 * width / max(length_across, 1e-6);
-    position += ((gl_VertexID & 1) == 0 ? reach : -reach) * across;
+    position += ((gl_VertexID & 1) == 0 ? 0.5 : -0.5) * width * across;
+    // The ends of a ribbon reach out by the area of round ones: seen end-on, a strand is a disc.
+    float end = is_beyond(after) - is_beyond(before);
+    position += end * kRoundEnd * width * cross(to_viewer, across);
     gl_Position = u_projection * vec4(position, 1.0);
 }
 )";

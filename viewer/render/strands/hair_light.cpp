@@ -84,9 +84,9 @@ std::vector<std::uint8_t> HairLight::directed(const Mat3& to_view, const Context
     });
     std::vector<std::uint8_t> result(4 * grid_.size());
     for (std::size_t i = 0; i < grid_.size(); ++i) {
-        for (std::size_t which = 0; which < 3; ++which) {
-            result[4 * i + which] = share_byte(lights[which][i]);
-        }
+        result[4 * i] = share_byte(std::sqrt(lights[0][i]));
+        result[4 * i + 1] = share_byte(std::sqrt(lights[1][i]));
+        result[4 * i + 2] = share_byte(lights[2][i]);
         result[4 * i + 3] = tint_[i];
     }
     return result;

@@ -33,8 +33,9 @@ class HairLight {
     /// Returns the linear colour of scalps with hair.
     const Eigen::Array3f& scalp_color() const { return scalp_color_; }
 
-    /// Returns four bytes a grid point for a camera that turns the world by `to_view`: key and rim
-    /// light for strands, key light for meshes, and the density of hair, as in StrandShadow.
+    /// Returns four bytes a grid point for a camera that turns the world by `to_view`: the roots of
+    /// key and rim light for strands, which light hair still sees where hardly any is left; key
+    /// light for meshes; and the density of hair, as in StrandShadow.
     std::vector<std::uint8_t> directed(const Mat3& to_view, const Context& context = {}) const;
     /// Returns the last of these four bytes, the others 0.
     std::vector<std::uint8_t> undirected() const;

@@ -24,9 +24,9 @@ constexpr float kLostShare = 0.40f;
 // In hair of any density light fades by no more than exp(-kMaxDepth) a step of the grid: stronger
 // fading shows the grid as bands, as on tied tails.
 constexpr float kMaxDepth = 0.8f;
-// A mesh lets this little through: exp(-kMeshDepth). It counts so many steps below its surface,
-// which so does not shade itself.
-constexpr float kMeshDepth = 5.0f;
+// A mesh lets this little through: exp(-kMeshDepth), next to nothing also for light hair, which
+// sees low powers of it. It counts so many steps below its surface, which so does not shade itself.
+constexpr float kMeshDepth = 12.0f;
 constexpr float kMeshSunk = 1.3f;
 // Metres of width that roots have on a square metre from which hair hides the scalp: few wide
 // strands stand for many thin ones. Then the fractions of the usual density at which the scalp is

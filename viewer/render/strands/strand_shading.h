@@ -1,5 +1,10 @@
-/// Light on a point of a strand: Kajiya and Kay's model with two shifted reflections, as
-/// Marschner et al. (2003) found in real hair. View space: x right, y up, z towards the viewer.
+/// Light on a point of a strand: Kajiya and Kay's model with two shifted reflections and the light
+/// that goes through a strand, as Marschner et al. (2003) found in real hair; and multiple
+/// scattering by the dual scattering approximation (Zinke, Yuksel, Weber and Keyser, Dual
+/// Scattering Approximation for Fast Multiple Scattering in Hair, 2008). Its global part is the
+/// light that is scattered forward through the hair in front of a strand, more by light hair. Its
+/// local part, back from the hair around a strand, is in the diffuse light: a colour is that of
+/// hair seen as a whole. View space: x right, y up, z towards the viewer.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,6 +41,21 @@ float strand_diffuse(const Eigen::Vector3f& tangent, const Eigen::Vector3f& to_l
 /// that cone, less beside it.
 float strand_reflection(const HairLobe& lobe, float shift, const Eigen::Vector3f& tangent,
                         const Eigen::Vector3f& to_light, const Eigen::Vector3f& to_viewer);
+
+/// Returns the light that leaves a strand on the side away from the light (TT of Marschner et al.),
+/// 1 on the mirror cone straight behind the strand, less beside it; `shift` as above.
+float strand_transmission(float shift, const Eigen::Vector3f& tangent,
+                          const Eigen::Vector3f& to_light, const Eigen::Vector3f& to_viewer);
+
+/// Returns the part of light that a strand scatters forward, a_f of Zinke et al. `color` is linear,
+/// that of hair seen as a whole: a strand absorbs as much as gives it that colour (Chiang et al., A
+/// Practical and Controllable Hair and Fur Model for Production Path Tracing, 2016). Below 1 for
+/// every colour.
+Eigen::Array3f forward_scattering(const Eigen::Array3f& color);
+
+/// Returns the transmittance of hair of this colour in front of a strand, a_f to the number of
+/// strands there; `light` is that of hair of the usual brown.
+Eigen::Array3f light_through_hair(float light, const Eigen::Array3f& color);
 
 /// Returns the colour that is seen at `point`, linear, of all lights of the studio.
 Eigen::Array3f shade_strand(const StrandStyle& style, const StrandPoint& point);

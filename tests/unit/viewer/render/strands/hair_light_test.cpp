@@ -50,7 +50,8 @@ TEST_CASE("hair light: for one camera it is that of a picture") {
         float key = 0.0f, ambient = 0.0f, rough = 0.0f;
         const Vector3f to_key = turn.transpose() * kKeyLight.direction.normalized();
         for_each_corner(light.grid(), p + nearer * to_key, [&](std::size_t i, float weight) {
-            key += weight * static_cast<float>(texels[4 * i]) / 255.0f;
+            const float root = static_cast<float>(texels[4 * i]) / 255.0f;
+            key += weight * root * root;
             rough += weight * light_from(light.for_strands().data() + 4 * i, to_key);
         });
         for_each_corner(light.grid(), p, [&](std::size_t i, float weight) {

@@ -65,6 +65,15 @@ TEST_CASE("strand layer: a strand covers its length times its width") {
     }
 }
 
+TEST_CASE("strand layer: a strand that points to the viewer covers a disc of its width") {
+    for (const double width : {2.0, 4.0, 9.0}) {
+        const Strands strands =
+            test::strands_of({{Vec3(0.013, 0.02, -0.4), Vec3(0.013, 0.02, 0.4)}}, width / 48.0);
+        CHECK(covered_by_strands(layer_of(drawing_of(strands), front_view())) ==
+              Approx(0.25 * kPi * width * width).epsilon(0.08));
+    }
+}
+
 TEST_CASE("strand layer: a few strands are as wide as can be seen, but for transparent ones") {
     CHECK(min_visible_width(1) == Approx(1.5));
     CHECK(min_visible_width(50) == Approx(1.5));

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <vector>
 
 #include "viewer/render/draw/studio_light.h"
 
@@ -142,4 +143,101 @@ TEST_CASE("strand shading: degenerate strands are not lit and not NaN") {
     CHECK(shade_strand(style, brown(Vector3f::UnitZ())).allFinite());
     CHECK(shade_strand(style, brown(kKeyLight.direction.normalized())).allFinite());
     CHECK((shade_strand(style, brown(Vector3f::Constant(std::nanf("")))) == 0.0f).all());
+}
+
+TEST_CASE("strand shading: light hair lets more light through") {
+    const Array3f dark = Array3f::Constant(0.02f), brown = Array3f::Constant(0.16f),
+                  blond = Array3f::Constant(0.6f);
+    for (const float light : {0.1f, 0.5f, 0.9f}) {
+        CHECK(light_through_hair(light, brown)[0] == Approx(light).epsilon(0.03));
+        CHECK(light_through_hair(light, dark)[0] < light);
+        CHECK(light_through_hair(light, blond)[0] > light);
+        CHECK(light_through_hair(light, Array3f::Ones())[0] < 1.0f);
+    }
+    CHECK((light_through_hair(1.0f, brown) == 1.0f).all());
+    CHECK((light_through_hair(0.0f, brown) == 0.0f).all());
+    // More strands behind each other: as many factors.
+    const float once = light_through_hair(0.5f, blond)[0];
+    CHECK(light_through_hair(0.25f, blond)[0] == Approx(once * once));
+    CHECK((forward_scattering(Array3f::Ones()) < 1.0f).all());
+    CHECK((forward_scattering(Array3f::Zero()) > 0.0f).all());
+}
+
+TEST_CASE("strand shading: light goes through a strand on the side away from it") {
+    const Vector3f strand = Vector3f::UnitY();
+    const auto through = [&](const Vector3f& to_light, const Vector3f& to_viewer) {
+        return strand_transmission(0.05f, strand, to_light, to_viewer);
+    };
+    CHECK(through(-Vector3f::UnitZ(), Vector3f::UnitZ()) == Approx(1.0).epsilon(1e-4));
+    CHECK(through(Vector3f::UnitZ(), Vector3f::UnitZ()) < 0.002f);
+    CHECK(through(Vector3f::UnitX(), Vector3f::UnitZ()) < 0.1f);
+    for (const Vector3f& to_light : directions(50)) {
+        for (const Vector3f& to_viewer : directions(60)) {
+            const float part = through(to_light, to_viewer);
+            CHECK(part >= 0.0f);
+            CHECK(part <= 1.0f);
+            // Its angle around the strand counts alone.
+            const Eigen::AngleAxisf turn(1.1f, strand);
+            CHECK(through(turn * to_light, turn * to_viewer) == Approx(part).epsilon(1e-3));
+        }
+    }
+}
+
+TEST_CASE("strand shading: the darker the hair, the less light it gives") {
+    const StrandStyle style;
+    for (const Vector3f& tangent : directions(40)) {
+        for (const float left : {0.02f, 0.3f, 1.0f}) {
+            Array3f before = Array3f::Zero();
+            for (const float color : {0.005f, 0.02f, 0.1f, 0.3f, 0.6f, 0.9f}) {
+                StrandPoint point = brown(tangent);
+                point.color = Array3f::Constant(color);
+                point.light = {left, left, left};
+                const Array3f seen = shade_strand(style, point);
+                CHECK((seen >= before).all());
+                before = seen;
+            }
+        }
+    }
+}
+
+TEST_CASE("strand shading: with the light behind, blond hair glows and brown hair does not") {
+    const StrandStyle style;
+    const auto behind = [&](const Array3f& color, float left) {
+        double sum = 0.0;
+        for (const Vector3f& tangent : directions(200)) {
+            StrandPoint point = brown(tangent);
+            point.color = color;
+            point.light = {0.0f, left, 0.0f};
+            const Array3f lit = shade_strand(style, point);
+            point.light = {0.0f, 0.0f, 0.0f};
+            sum += (lit - shade_strand(style, point)).mean();
+        }
+        return sum / 200;
+    };
+    const Array3f brown_color(0.26f, 0.15f, 0.075f), blond(0.69f, 0.48f, 0.19f);
+    const double ratio = blond.mean() / brown_color.mean();
+    CHECK(behind(blond, 1.0f) > behind(brown_color, 1.0f));
+    // Through much hair, by far more than their colours are apart.
+    CHECK(behind(blond, 0.1f) > 1.5 * ratio * behind(brown_color, 0.1f));
+}
+
+TEST_CASE("strand shading: hair of any colour is no brighter than the light on it") {
+    const StrandStyle style;
+    const Array3f lights = kKeyLight.color + kFillLight.color + kRimLight.color + kSkyLight;
+    for (const float color : {0.1f, 0.5f, 1.0f}) {
+        Array3f sum = Array3f::Zero();
+        int count = 0;
+        for (const Vector3f& tangent : directions(100)) {
+            for (const Vector3f& to_viewer : directions(40)) {
+                StrandPoint point = brown(tangent);
+                point.color = Array3f::Constant(color);
+                point.to_viewer = to_viewer;
+                sum += shade_strand(style, point);
+                ++count;
+            }
+        }
+        CHECK((sum / count < lights).all());
+    }
+    // Nor is that through colours beyond white.
+    CHECK((light_through_hair(0.3f, Array3f::Constant(4.0f)) < 1.0f).all());
 }

@@ -206,6 +206,61 @@ TEST_CASE("hair screen: filled, the picture is nearly that of lissom.render") {
     }
 }
 
+TEST_CASE("hair screen: black and blond hair are as bright as in lissom.render") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    Screen screen;
+    Renderer renderer(make_egl_platform());
+    RenderOptions options = test::small_options(kCanvas.width, kCanvas.height);
+    options.background = kGround;
+    for (const double azimuth : {0.4, 3.5}) {
+        const Camera camera = camera_at(azimuth);
+        for (const Color& color : {Color{0.05, 0.04, 0.04}, Color{0.9, 0.78, 0.55}}) {
+            Snapshot snapshot = hairy_ball(4000), without = snapshot;
+            without.strands.clear();
+            snapshot.strands[0].style.color = color;
+            show(screen, snapshot);
+            const Image bald = renderer.render(without, camera, options);
+            const Image wanted = renderer.render(snapshot, camera, options);
+            const HairPixels right = hair_pixels(wanted, bald);
+            const Image image = filled(screen, camera);
+            const HairPixels got = hair_pixels(image, bald);
+            CAPTURE(color.r);
+            CHECK(mean_difference(image, wanted) < 3.0);
+            CHECK(std::abs(got.count - right.count) < 0.06 * right.count);
+            CHECK(std::abs(got.brightness - right.brightness) < 4.0);
+        }
+    }
+}
+
+TEST_CASE("hair screen: strands that point to the eye cover as much as in lissom.render") {
+    const auto platform = test::make_platform();
+    if (!platform) return;
+    const PlatformScope scope(*platform);
+    Screen screen;
+    Renderer renderer(make_egl_platform());
+    RenderOptions options = test::small_options(kCanvas.width, kCanvas.height);
+    options.background = kGround;
+    const Camera camera = camera_at(0.0);
+    const Vec3 eye = camera.eye();
+    std::vector<std::vector<Vec3>> lines;
+    for (int i = -3; i <= 3; ++i) {
+        for (int j = -3; j <= 3; ++j) {
+            const Vec3 tip(0.02 * i, -0.03 + 0.02 * j, 0.0);
+            lines.push_back({tip + 0.05 * (tip - eye), tip});
+        }
+    }
+    const Snapshot snapshot = test::drawing_of(test::strands_of(lines, 0.006));
+    show(screen, {});
+    const Image nothing = filled(screen, camera);
+    show(screen, snapshot);
+    const HairPixels got = hair_pixels(filled(screen, camera), nothing);
+    const HairPixels right = hair_pixels(renderer.render(snapshot, camera, options), nothing);
+    CHECK(right.count > 300);
+    CHECK(got.count == doctest::Approx(right.count).epsilon(0.2));
+}
+
 TEST_CASE("hair screen: whatever is drawn ends a fill, and the next one begins anew") {
     const auto platform = test::make_platform();
     if (!platform) return;
