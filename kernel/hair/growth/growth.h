@@ -28,10 +28,10 @@ struct HairTie {
     /// length but 0.
     Vec3 direction = Vec3::UnitY();
     double radius = 0.0;
-    /// Length grown past the tie, shortened at random by up to the fraction `ragged`, by more of it
-    /// more often (as the root of an even chance): so a tail thins out to a point, and few strands
-    /// are as long as it. Absent: strands become as long as they would without the
-    /// tie.
+    /// Length grown past the tie, shortened by up to the fraction `ragged`: half of it at random,
+    /// more of it more often (as the root of an even chance), half by the square of the strand's
+    /// distance from the spine, as a share of the radius. So a tail thins out like a brush, and few
+    /// strands are as long as it. Absent: strands become as long as they would without the tie.
     std::optional<double> tail_length = 0.25;
     double ragged = 0.45;
     /// The way of the tail from the center on. As far as it goes the length is measured along it,

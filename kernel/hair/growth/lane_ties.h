@@ -21,6 +21,14 @@ namespace lissom::LISSOM_LANES {
 // first, up to so many steps behind the tie; so many steps over the head it does not go down to it.
 inline constexpr float kSettling = 0.3f, kSettlingBegin = 3.0f, kSettlingRoom = 0.5f;
 
+// The share of `ragged` that is missing at the tip of a strand, by its chance: half of it at
+// random, half by the square of its distance from the spine, so that a tail ends as a brush does,
+// not as a cone.
+inline float missing_share(float chance) {
+    const float other = 64.0f * chance - std::floor(64.0f * chance);
+    return 0.5f * (std::sqrt(other) + chance);
+}
+
 // Catches strands that pass the plane of a tie or of a gate behind it, that share of the segment
 // on, within its radius.
 inline void pass_gate(const TieRule& tie, const TailGate& gate, std::size_t number,
@@ -38,7 +46,7 @@ inline void pass_gate(const TieRule& tie, const TailGate& gate, std::size_t numb
         tails.right[k] = far * std::cos(angle);
         tails.above[k] = far * std::sin(angle);
         if (!tie.measures) continue;
-        tails.length[k] = tie.tail_length * (1.0f - tie.ragged * std::sqrt(strands.tail[k]));
+        tails.length[k] = tie.tail_length * (1.0f - tie.ragged * missing_share(strands.tail[k]));
         strands.length[k] = strands.grown[k] + share[k] * next.length[k] +
                             std::max(tails.length[k] - gate.behind, 0.0f);
     }

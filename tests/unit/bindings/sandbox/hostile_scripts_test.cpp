@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <thread>
@@ -102,9 +103,24 @@ void on_threads(const std::function<bool(std::uint32_t)>& work) {
     }
 }
 
-TEST_CASE("sandbox: hostile scripts end, leave a state that is of use, and give all back") {
-    const auto scripts = test::hostile_scripts();
+// LISSOM_HOSTILE_PART, such as 3/12: that part of the scripts, all if absent. The thread sanitizer
+// keeps memory for all that was ever allocated, so that one process cannot run all of them.
+std::vector<HostileScript> chosen_scripts() {
+    std::vector<HostileScript> scripts = test::hostile_scripts();
     CHECK(scripts.size() >= 200);
+    std::size_t part = 1, parts = 1;
+    if (const char* text = std::getenv("LISSOM_HOSTILE_PART")) {
+        REQUIRE(std::sscanf(text, "%zu/%zu", &part, &parts) == 2);
+        REQUIRE(part >= 1);
+        REQUIRE(part <= parts);
+    }
+    std::vector<HostileScript> chosen;
+    for (std::size_t i = part - 1; i < scripts.size(); i += parts) chosen.push_back(scripts[i]);
+    return chosen;
+}
+
+TEST_CASE("sandbox: hostile scripts end, leave a state that is of use, and give all back") {
+    const auto scripts = chosen_scripts();
     on_threads([&](std::uint32_t i) {
         if (i < scripts.size()) check_script(scripts[i]);
         return i + 1 < scripts.size();

@@ -84,7 +84,7 @@ TEST_CASE("growth: a tie catches what passes it in its direction, and nothing el
     CHECK(shortest > 0.0099);
     CHECK(shortest < 0.015);
     CHECK(longest < 0.0201);
-    CHECK(longest > 0.019);
+    CHECK(longest > 0.018);
 }
 
 TEST_CASE("growth: the length of a tail is measured along its spine, so that it has one end") {
@@ -120,9 +120,10 @@ namespace {
 struct OneSided {
     Meadow meadow;
     Strands strands;
-    std::vector<Vec3> tips;  // from the tail's spine, in its radius
+    std::vector<Vec3> tips;       // from the tail's spine, in its radius
+    std::vector<double> missing;  // of the tail's length at each tip, as a share
 
-    OneSided(double radius, double beside) {
+    OneSided(double radius, double beside, double ragged = 0.0) {
         GrowthOptions options = meadow.options();
         options.length = 0.01 + 4.0 * meadow.field.layout().step;
         HairTie tie{meadow.above(0.01) + Vec3(beside, 0, 0), {0, 1, 0}, 0.008, 0.3, 0.0};
@@ -130,12 +131,14 @@ struct OneSided {
             tie.spine.push_back(tie.center + Vec3(0, meadow.field.layout().step * k, 0));
         }
         if (radius > 0.0) tie.radii.assign(tie.spine.size(), radius);
-        tie.tail_length = 25 * meadow.field.layout().step;
+        tie.tail_length = 13 * meadow.field.layout().step;
+        tie.ragged = ragged;
         options.ties = {tie};
         grow(meadow.head, meadow.field, meadow.roots, options, strands);
         for (Index s = 0; s < strands.size(); ++s) {
             const Vec3 tip = strands.strand(s).col(strands.point_count(s) - 1).cast<double>();
             tips.push_back((tip - tie.center).cwiseProduct(Vec3(1, 0, 1)) / std::max(radius, 1e-3));
+            missing.push_back(1.0 - (tip - tie.center).y() / *tie.tail_length);
         }
     }
 };
@@ -159,6 +162,26 @@ TEST_CASE("growth: hair fills a tail all round, also where it came in from one s
         CHECK(farthest < 1.05);
     }
     for (const Vec3& tip : OneSided(0.0, 0.003).tips) CHECK(std::abs(tip.z()) < 4.6);
+}
+
+TEST_CASE("growth: a ragged tail ends like a brush: round, neither as a cone nor flat") {
+    const double step = Meadow().field.layout().step, ragged = 0.4;
+    const OneSided tail(2.0 * step, 0.003, ragged);
+    double widest_of_long = 0.0, inner = 0.0, outer = 0.0;
+    Index inner_count = 0, outer_count = 0;
+    for (std::size_t i = 0; i < tail.tips.size(); ++i) {
+        const double far = tail.tips[i].norm(), share = tail.missing[i] / ragged;
+        CHECK(share > -0.03);
+        CHECK(share < 1.03);
+        if (share < 0.5) widest_of_long = std::max(widest_of_long, far);
+        (far < 0.6 ? inner : outer) += share;
+        ++(far < 0.6 ? inner_count : outer_count);
+    }
+    REQUIRE(inner_count > 10);
+    REQUIRE(outer_count > 10);
+    // A cone is half as wide halfway along its end.
+    CHECK(widest_of_long > 0.65);
+    CHECK(outer / outer_count > inner / inner_count + 0.1);
 }
 
 TEST_CASE("growth: a cut ends strands on its plane, each where chance moves it") {
