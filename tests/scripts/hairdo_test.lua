@@ -38,7 +38,7 @@ for _, name in ipairs(presets) do
     end)
 end
 
-test("few strands of a preset are wider, so that they cover as much as many", function()
+test("few strands of a preset are wider and many thinner, so that all cover as much", function()
     local styling = require "styling"
     local function width(count, all)
         local counts, points = {}, {}
@@ -56,7 +56,9 @@ test("few strands of a preset are wider, so that they cover as much as many", fu
     expect.near(width(2), 0.0006, 1e-6)
     expect.near(width(2, 10000), 0.0004, 1e-6)
     expect.near(width(2, 20000), 0.0002, 1e-6)
-    expect.near(width(2, 90000), 0.0002, 1e-6)
+    expect.near(width(2, 30000), 0.0002, 1e-6)
+    expect.near(width(2, 60000), 0.0001, 1e-6)
+    expect.near(width(2, 900000), 0.0002 / 3, 1e-6)
 end)
 
 test("another seed gives another head of hair, the same seed the same", function()
