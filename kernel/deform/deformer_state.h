@@ -21,6 +21,8 @@
 
 namespace lissom {
 
+struct KeptContacts;
+
 struct Deformer::State {
     /// Context of operations called without one.
     Context context;
@@ -37,6 +39,8 @@ struct Deformer::State {
     DeformStats costs;
     /// Made at the first call; it follows from the region and its surroundings, which never change.
     std::unique_ptr<RegionNormals> normals;
+    /// Made when contacts are first searched.
+    std::shared_ptr<KeptContacts> contacts;
 
     State(const Mesh& mesh, const Region& region, const DeformOptions& options,
           const Context& given)

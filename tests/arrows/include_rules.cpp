@@ -113,7 +113,7 @@ const std::vector<Names>& room_orders() {
          "kernel/deform/volume", "kernel/deform/comparison_method", "kernel/deform/stats",
          "kernel/deform/pipeline", "kernel/deform/rest_shape", "kernel/deform/preparation",
          "kernel/deform/deform_report", "kernel/deform/frame", "kernel/deform",
-         "kernel/deform/attach", "kernel/deform/boundary"},
+         "kernel/deform/attach", "kernel/deform/boundary", "kernel/deform/contact"},
         {"kernel/merge/provenance", "kernel/merge/loop", "kernel/merge/piece", "kernel/merge/sheet",
          "kernel/merge/sew", "kernel/merge/blend", "kernel/merge",
          "kernel/merge/paste/paste_options", "kernel/merge/paste/region",

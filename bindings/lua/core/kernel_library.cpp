@@ -239,6 +239,16 @@ std::vector<Record> kernel_records() {
            "`vertices`, a pair that different handles hold, and `slip`, how far they part in "
            "lengths of the edges between."},
           {"lissom.DeformWarning[]", "warnings", "The harms that a user would see."}}},
+        {"lissom.Contacts",
+         "Pairs of faces that intersect, as a list of {face, face}, the lower first, in ascending "
+         "order.",
+         {{"integer[]", "faces", "Their faces, ascending."},
+          {"lissom.Region", "region", "The vertices of these faces, for pictures."}}},
+        {"lissom.ContactStop",
+         "The end of a drag that stops at contacts.",
+         {{"number", "share", "The share of the way that the handles went, 0 to 1."},
+          {"lissom.Contacts", "contacts",
+           "The pairs of faces that meet a thousandth of the way further; none if share is 1."}}},
         {"lissom.DeformWarning",
          "A harm that a deformation did to the surface.",
          {{"string", "kind",

@@ -8,6 +8,7 @@
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "bindings/lua/mesh/transform_options.h"
+#include "kernel/deform/contact/contact_stop.h"
 #include "kernel/deform/deform_report.h"
 #include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/handle_basis.h"
@@ -180,7 +181,29 @@ int preview(Call& call) {
         call, [&](Deformer& deformer) { deformer.solve(FrameQuality::preview, call.context()); });
 }
 
+// The mesh, and how far the handles came.
+int solve_with_stop(Call& call) {
+    if (call.boolean("draft")) call.reject("draft", "a drag that stops is solved in full");
+    const auto edit = call.self<DeformObject>();
+    auto& stop = call.hold<ContactStop>();
+    const int results = write_result(call, [&](Deformer& deformer) {
+        stop = solve_until_contact(deformer, edit->mesh->mesh, call.context());
+    });
+    if (results != 1) return results;
+    lua_State* L = call.lua();
+    const int mesh_place = lua_gettop(L);
+    push_contacts(call, *edit, stop.contacts);
+    const int contacts_place = lua_gettop(L);
+    lua_pushvalue(L, mesh_place);
+    lua_createtable(L, 0, 2);
+    call.set_field("share", call.push(stop.share));
+    lua_pushvalue(L, contacts_place);
+    lua_setfield(L, -2, "contacts");
+    return 2;
+}
+
 int solve(Call& call) {
+    if (call.has("stop")) return solve_with_stop(call);
     const bool draft = call.boolean("draft");
     return write_result(call, [&](Deformer& deformer) {
         draft ? deformer.solve(FrameQuality::draft, call.context())
@@ -427,11 +450,22 @@ std::vector<Function> solving_methods() {
          .options = {boolean("draft",
                              "For the frames of a drag: about five digits in half the time. Solve "
                              "once more when the drag ends.")
-                         .defaults(false)},
-         .results = mesh,
+                         .defaults(false),
+                     choice("stop", {"contact"},
+                            "\"contact\": goes from the poses of the last solve towards the "
+                            "present ones, and stays, with the handles, at the last pose before "
+                            "faces intersect that did not at rest. A drag that begins in contact "
+                            "goes on while no more do. Each sample of the way takes a frame.")
+                         .optional("goes all the way")},
+         .results = {{"lissom.Mesh", "mesh", "The mesh."},
+                     {"lissom.ContactStop|nil", "stop", "How far the handles came, with `stop`."}},
          .effect = Effect::replaces,
          .errors = kSolveErrors,
-         .example = kBar + "top:rotate{ axis = 'z', angle = 60 }\nassert(deformer:solve() == bar)"},
+         .example = kBar + R"(top:rotate{ axis = "z", angle = 60 }
+assert(deformer:solve() == bar)
+top:rotate{ axis = "z", angle = 110 }:translate(0.4, -5, 0)
+local mesh, stop = deformer:solve{ stop = "contact" }
+assert(stop.share < 1 and #deformer:contacts() == 0))"},
         {.name = "reset",
          .body = reset_all,
          .summary =
@@ -630,6 +664,7 @@ deformer:solve())"},
          .example = kBar + "assert(deformer:mesh() == bar)"}};
     for (Function& method : solving_methods()) type.methods.push_back(std::move(method));
     for (Function& method : deform_engine_methods()) type.methods.push_back(std::move(method));
+    for (Function& method : contact_methods()) type.methods.push_back(std::move(method));
     for (Function& method : attachment_methods()) type.methods.push_back(std::move(method));
     return type;
 }

@@ -9,6 +9,7 @@
 #include "bindings/lua/mesh/mesh_object.h"
 #include "kernel/deform/attach/attachment.h"
 #include "kernel/deform/deformer.h"
+#include "kernel/mesh/query/self_intersections.h"
 
 namespace lissom::lua {
 
@@ -51,6 +52,12 @@ struct HandleObject {
     std::shared_ptr<DeformObject> edit;
     HandleId id;
 };
+
+/// Pushes contacts as a lissom.Contacts, on top of values of its own.
+void push_contacts(Call& call, const DeformObject& edit, const std::vector<FacePair>& pairs);
+
+/// Returns the method contacts of a deformer.
+std::vector<Function> contact_methods();
 
 /// Returns the methods attach and detach of a deformer.
 std::vector<Function> attachment_methods();

@@ -120,6 +120,16 @@
 ---@field tears table[] Places at which handles nearly touch and tear the surface, the worst first: `vertices`, a pair that different handles hold, and `slip`, how far they part in lengths of the edges between.
 ---@field warnings lissom.DeformWarning[] The harms that a user would see.
 
+---Pairs of faces that intersect, as a list of {face, face}, the lower first, in ascending order.
+---@class lissom.Contacts
+---@field faces integer[] Their faces, ascending.
+---@field region lissom.Region The vertices of these faces, for pictures.
+
+---The end of a drag that stops at contacts.
+---@class lissom.ContactStop
+---@field share number The share of the way that the handles went, 0 to 1.
+---@field contacts lissom.Contacts The pairs of faces that meet a thousandth of the way further; none if share is 1.
+
 ---A harm that a deformation did to the surface.
 ---@class lissom.DeformWarning
 ---@field kind string torn: handles that nearly touch go different ways; stretched: edges become more than 3 times as long or short as the handles ask for; folded: faces look against their neighbours; crossing: the surface runs through itself, if that was asked for; volume: it is a quarter smaller than the handles ask for, or three quarters larger.
@@ -1597,10 +1607,12 @@ function Deformer:preview() end
 
 ---@class lissom.Deformer.SolveOptions
 ---@field draft? boolean For the frames of a drag: about five digits in half the time. Solve once more when the drag ends. Default: false.
+---@field stop? "contact" "contact": goes from the poses of the last solve towards the present ones, and stays, with the handles, at the last pose before faces intersect that did not at rest. A drag that begins in contact goes on while no more do. Each sample of the way takes a frame. Default: goes all the way.
 
 ---Solves both systems and writes the result into the mesh. Handles in their initial place give the rest shape, to the bit. Other changes of the region's vertices are overwritten; if the mesh around the region was moved, so that the result would tear, it is an error.
 ---@param options? lissom.Deformer.SolveOptions
 ---@return lissom.Mesh mesh # The mesh.
+---@return lissom.ContactStop|nil stop # How far the handles came, with `stop`.
 function Deformer:solve(options) end
 
 ---Handles and mesh go back to the rest shape, to the bit; vertex constraints go.
@@ -1688,6 +1700,10 @@ function Deformer:bake_texture(path, options) end
 ---@return lissom.Mesh mesh # The rest shape with the attributes "joints" and "weights", its skeleton, and the animation if there is a path.
 ---@return table report # `joints`, their number; `max_error` and `rms_error`, distances of the skinned vertices from the deformation's over all poses, in mesh units.
 function Deformer:skin(options) end
+
+---The pairs of faces that intersect in the last result, and did not at rest. Quick enough to follow a drag: boxes around the faces are made once, and fitted to each result.
+---@return lissom.Contacts contacts # The pairs; none if the list is empty.
+function Deformer:contacts() end
 
 ---@class lissom.Deformer.AttachOptions
 ---@field mode? "components"|"vertices" Pieces that keep their shape: connected components, such as buttons and eyes; or none, each vertex follows the surface nearest to it, as clothes do. Default: "components".

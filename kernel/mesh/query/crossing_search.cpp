@@ -21,28 +21,6 @@ void extend(Box& box, const Box& by) {
     box.extend(by.max);
 }
 
-bool same_place(const Vec3& a, const Vec3& b) {
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
-// Numbers the corners of two triangles so that those at one place have one number.
-void number_by_place(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q, Triangle& a,
-                     Triangle& b) {
-    a = {0, 1, 2};
-    b = {3, 4, 5};
-    for (std::size_t k = 1; k < 3; ++k) {
-        for (std::size_t j = k; j-- > 0;) {
-            if (same_place(p[k], p[j])) a[k] = a[j];
-            if (same_place(q[k], q[j])) b[k] = b[j];
-        }
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t j = 3; j-- > 0;) {
-            if (same_place(q[k], p[j])) b[k] = a[j];
-        }
-    }
-}
-
 // Returns the tolerance of the options.
 double tolerance_of(const SelfIntersectionOptions& options) {
     if (options.tolerance >= 0.0 && options.tolerance <= 1.0) return options.tolerance;
@@ -199,15 +177,14 @@ FacePair CrossingSearch::pair_if_they_meet(Index t, Index u) const {
     const bool twice =
         in_faces_[at(f)] && in_faces_[at(g)] && in_against_[at(f)] && in_against_[at(g)];
     if (twice && t > u) return {};
-    Triangle a = triangulation_.triangles[at(t)], b = triangulation_.triangles[at(u)];
+    const Triangle &a = triangulation_.triangles[at(t)], &b = triangulation_.triangles[at(u)];
     std::array<Vec3, 3> p, q;
     for (std::size_t k = 0; k < 3; ++k) {
         p[k] = positions_[at(a[k])];
         q[k] = positions_[at(b[k])];
     }
-    number_by_place(p, q, a, b);
     const double longest = std::max(longest_[at(t)], longest_[at(u)]);
-    if (!triangles_intersect(a, p, b, q, tolerance_ * longest)) return {};
+    if (!triangles_meet(p, q, tolerance_ * longest)) return {};
     return {std::min(f, g), std::max(f, g)};
 }
 

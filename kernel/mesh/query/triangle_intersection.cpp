@@ -77,6 +77,28 @@ bool is_fold(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, int a_a
            plate.inside((a_apex + 1) % 3, apex) > tolerance && Plate(b, tolerance).has_area();
 }
 
+bool is_one_place(const Vec3& a, const Vec3& b) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+// Numbers the corners of two triangles so that those at one place have one number.
+void number_by_place(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q, Triangle& a,
+                     Triangle& b) {
+    a = {0, 1, 2};
+    b = {3, 4, 5};
+    for (std::size_t k = 1; k < 3; ++k) {
+        for (std::size_t j = k; j-- > 0;) {
+            if (is_one_place(p[k], p[j])) a[k] = a[j];
+            if (is_one_place(q[k], q[j])) b[k] = b[j];
+        }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t j = 3; j-- > 0;) {
+            if (is_one_place(q[k], p[j])) b[k] = a[j];
+        }
+    }
+}
+
 }  // namespace
 
 bool triangles_intersect(const Triangle& a, const std::array<Vec3, 3>& a_corners, const Triangle& b,
@@ -102,6 +124,13 @@ bool triangles_intersect(const Triangle& a, const std::array<Vec3, 3>& a_corners
         if (segment_meets(p, b_corners[k], b_corners[(k + 1) % 3], tolerance)) return true;
     }
     return false;
+}
+
+bool triangles_meet(const std::array<Vec3, 3>& a_corners, const std::array<Vec3, 3>& b_corners,
+                    double tolerance) {
+    Triangle a, b;
+    number_by_place(a_corners, b_corners, a, b);
+    return triangles_intersect(a, a_corners, b, b_corners, tolerance);
 }
 
 }  // namespace lissom

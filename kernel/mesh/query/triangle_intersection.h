@@ -1,4 +1,4 @@
-/// Whether two triangles meet elsewhere than at their common vertices; private to kernel/mesh.
+/// Whether two triangles meet elsewhere than at their common vertices; private to the kernel.
 #pragma once
 
 #include <array>
@@ -13,5 +13,9 @@ namespace lissom {
 /// (a length) touch.
 bool triangles_intersect(const Triangle& a, const std::array<Vec3, 3>& a_corners, const Triangle& b,
                          const std::array<Vec3, 3>& b_corners, double tolerance);
+
+/// Returns the same for triangles whose corners are one vertex if they lie at one place.
+bool triangles_meet(const std::array<Vec3, 3>& a_corners, const std::array<Vec3, 3>& b_corners,
+                    double tolerance);
 
 }  // namespace lissom

@@ -1,0 +1,26 @@
+#include "kernel/deform/contact/local_shape.h"
+
+#include <algorithm>
+
+namespace lissom {
+namespace {
+
+constexpr Index kPointGrain = 16384;
+
+}  // namespace
+
+void LocalShape::set(std::span<const Vec3> shape, const Context& context) {
+    Box box;
+    for (const Vec3& p : shape) box.extend(p);
+    const Vec3 middle = box.empty() ? Vec3(Vec3::Zero()) : box.center();
+    extent = box.empty() ? 0.0F : static_cast<float>((box.max - middle).maxCoeff());
+    points.resize(shape.size());
+    context.parallel_for(0, count_of(shape), kPointGrain, [&](Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) {
+            points[at(v)].head<3>() = (shape[at(v)] - middle).cast<float>().array();
+            points[at(v)][3] = 0.0F;
+        }
+    });
+}
+
+}  // namespace lissom
