@@ -9,6 +9,7 @@ namespace {
 // Boxes grow by this share of the extent, more than points are rounded by and than
 // self_intersections takes for touching.
 constexpr float kBoxMargin = 2.5e-7F;
+constexpr float kLeastMargin = 1e-30F;
 // Missing faces lie beyond all others.
 constexpr float kNowhere = 1e30F;
 constexpr Index kLeafGrain = 4096;
@@ -181,7 +182,7 @@ std::vector<std::vector<FaceTree::Place>> FaceTree::upper_levels() const {
 
 void FaceTree::fit(const LocalShape& shape, const Context& context) {
     if (face_.empty()) return;
-    const float margin = kBoxMargin * shape.extent;
+    const float margin = std::max(kBoxMargin * shape.extent, kLeastMargin);
     std::vector<std::vector<Place>> levels = upper_levels();
     const std::vector<Place>& lowest = levels.back();
     context.parallel_for(0, count_of(lowest), 1, [&](Index begin, Index end) {

@@ -2,10 +2,6 @@
 /// after another; private to kernel/deform.
 #pragma once
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -104,12 +100,7 @@ class FaceTree {
     }
     bool overlap(const Place& a, const Place& b) const {
         const Bounds &p = bounds_[at(a.node)], &q = bounds_[at(b.node)];
-        const LocalPoint gap = (p.min - q.max).max(q.min - p.max);
-#if defined(__SSE2__)
-        return _mm_movemask_ps(_mm_cmpgt_ps(_mm_loadu_ps(gap.data()), _mm_setzero_ps())) == 0;
-#else
-        return gap.maxCoeff() <= 0.0F;
-#endif
+        return negative_lanes((p.min - q.max).max(q.min - p.max)) == 0xFU;
     }
     bool may_meet(const Place& a, const Place& b) const {
         return !share_part(a, b) && overlap(a, b);
@@ -169,12 +160,17 @@ class FaceTree {
         gap = gap.max(p.min[0][i] - q.max[0]);
         gap = gap.max(p.min[1][i] - q.max[1]).max(q.min[1] - p.max[1][i]);
         gap = gap.max(p.min[2][i] - q.max[2]).max(q.min[2] - p.max[2][i]);
-#if defined(__SSE2__)
-        return static_cast<std::uint32_t>(
-            _mm_movemask_ps(_mm_cmple_ps(_mm_loadu_ps(gap.data()), _mm_setzero_ps())));
+        return negative_lanes(gap);
+    }
+
+    static std::uint32_t negative_lanes(const Eigen::Array4f& numbers) {
+#if defined(__GNUC__) && defined(__SSE2__)
+        using Four = float __attribute__((vector_size(16)));
+        const Four four = {numbers[0], numbers[1], numbers[2], numbers[3]};
+        return static_cast<std::uint32_t>(__builtin_ia32_movmskps(four));
 #else
         std::uint32_t bits = 0;
-        for (Index j = 0; j < kLeafSize; ++j) bits |= gap[j] <= 0.0F ? 1U << j : 0U;
+        for (Index j = 0; j < 4; ++j) bits |= numbers[j] < 0.0F ? 1U << j : 0U;
         return bits;
 #endif
     }

@@ -11,6 +11,7 @@
 #include "kernel/deform/pipeline.h"
 #include "kernel/deform/rest_shape.h"
 #include "kernel/mesh/mesh.h"
+#include "kernel/mesh/query/self_intersections.h"
 
 namespace lissom {
 
