@@ -90,6 +90,7 @@ end
 -- Solves for the present place of the handle, and reports the result.
 local function finish(self, one)
     one.deformer:solve()
+    self.contacts = nil
     local report = one.deformer:report()
     local words = { string.format("stretch %.2f", report.stretch) }
     if report.volume_change then
@@ -98,6 +99,21 @@ local function finish(self, one)
     local lines = { table.concat(words, "; ") }
     for _, warning in ipairs(report.warnings) do table.insert(lines, warning.message) end
     self.told = table.concat(lines, "\n")
+end
+
+-- The vertices of faces that run through one another, found anew when handles have moved.
+local function contacts_of(self, one)
+    local numbers = {}
+    for _, handle in ipairs(one.deformer:handles()) do
+        for _, row in ipairs(handle:matrix()) do table.insert(numbers, table.concat(row, " ")) end
+    end
+    local poses = table.concat(numbers, " ")
+    local kept = self.contacts
+    if not kept or kept.deformer ~= one.deformer or kept.poses ~= poses then
+        kept = { deformer = one.deformer, poses = poses, region = one.deformer:contacts().region }
+        self.contacts = kept
+    end
+    return kept.region
 end
 
 local gizmo_radius = 115        -- pixels
@@ -134,6 +150,8 @@ return lissom.tool{
             help = "The brush takes all that it covers, also hidden parts." },
         preview = { type = "choice", default = "large meshes", choices = { "large meshes", "always",
             "never" }, help = "Drags are quick, with some shear, and exact when they end." },
+        contacts = { type = "boolean", default = false,
+            help = "Shows the faces that run through one another, in red." },
         reach = { type = "number", default = 0, min = 0, max = 4, unit = "mesh sizes",
             group = "next handle", help = "How far around the first one it may move; 0: everywhere." },
         softness = { type = "number", default = 0, min = 0, max = 10, group = "next handle",
@@ -197,6 +215,10 @@ return lissom.tool{
             view:region{ mesh = one.mesh, region = one.handle:region(), color = color }
             if one ~= at_gizmo then view:handle{ at = one.at, color = color } end
         end
+        local contacts = at_gizmo and self.params.contacts and contacts_of(self, at_gizmo)
+        if contacts and #contacts > 0 then
+            view:region{ mesh = at_gizmo.mesh, region = contacts, color = "#d03a2c" }
+        end
         if at_gizmo then self.grip:draw(view) end
         local busy = at_gizmo and (self.grip.gizmo:part() or self.grip:is_under(view))
         if at_gizmo and self.told then
@@ -204,6 +226,14 @@ return lissom.tool{
         end
         if not busy then self.brush:draw(view, self.params.radius) end
     end,
-    cancel = function(self) self.told = nil; self.grip:cancel(); self.brush:lift() end,
-    deactivate = function(self) self.told = nil; self.grip:cancel(); self.brush:lift() end,
+    cancel = function(self)
+        self.told, self.contacts = nil, nil
+        self.grip:cancel()
+        self.brush:lift()
+    end,
+    deactivate = function(self)
+        self.told, self.contacts = nil, nil
+        self.grip:cancel()
+        self.brush:lift()
+    end,
 }

@@ -495,6 +495,26 @@ test("the brush takes the nearest surface, or with 'through' all that it covers"
     expect.truthy(#handles()[1]:region() >= all_front + all_back)
 end)
 
+test("faces that run through one another are drawn if that is asked for, also after undo", function()
+    hold()
+    local function drawn() return #h.host:draw().regions - 2 end
+    local deformer = h.scene:get("bar deformation")
+    handles()[2]:set{ rotate = { axis = "z", angle = 160 }, translate = { 0.3, -4.2, 0 } }
+    deformer:solve()
+    expect.truthy(#deformer:contacts() > 0)
+    expect.equal(drawn(), 0)
+    h.host:set{ contacts = true }
+    expect.equal(drawn(), 1)
+    expect.equal(#h.tool.contacts.region, #deformer:contacts().region)
+    handles()[2]:reset()
+    deformer:solve()
+    expect.equal(drawn(), 0)
+    drag_right(handles()[2]:center(), 1)
+    expect.equal(drawn(), 0)
+    h.host:undo()
+    expect.equal(drawn(), 0)
+end)
+
 test("pinholes of a handle are closed, larger holes and other parts are not", function()
     local support = require "tools.support.meshes"
     local grid = lissom.shapes.grid{ segments = 20 }

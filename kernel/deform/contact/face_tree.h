@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -56,7 +57,7 @@ class FaceTree {
         if (task.a.node == task.b.node) {
             visit_within(task.a, visit);
         } else {
-            visit_between(task.a, task.b, visit);
+            visit_between(task.a, task.b, visit);  // they may meet
         }
     }
 
@@ -69,6 +70,8 @@ class FaceTree {
 
   private:
     static constexpr Index kLeafSize = 4;
+    // The bits 4 i + j with i < j.
+    static constexpr std::uint32_t kUpperPairs = 0x08CEU;
     struct Bounds {
         LocalPoint min, max;
     };
@@ -107,28 +110,33 @@ class FaceTree {
     }
 
     template <typename Visit>
-    void visit_within(const Place& at_node, const Visit& visit) const {
-        if (share_part(at_node, at_node)) return;
-        if (at_node.is_leaf()) {
-            visit_leaves(at_node.leaf, at_node.leaf, visit);
+    void visit_within(const Place& place, const Visit& visit) const {
+        if (share_part(place, place)) return;
+        if (place.is_leaf()) {
+            visit_leaves(place.leaf, place.leaf, visit);
             return;
         }
-        visit_within(at_node.first(), visit);
-        visit_within(at_node.second(), visit);
-        visit_between(at_node.first(), at_node.second(), visit);
+        visit_within(place.first(), visit);
+        visit_within(place.second(), visit);
+        if (may_meet(place.first(), place.second())) {
+            visit_between(place.first(), place.second(), visit);
+        }
     }
 
+    // Nodes that may meet.
     template <typename Visit>
     void visit_between(const Place& a, const Place& b, const Visit& visit) const {
-        if (!may_meet(a, b)) return;
         if (a.is_leaf() && b.is_leaf()) {
             visit_leaves(a.leaf, b.leaf, visit);
-        } else if (a.count >= b.count) {
-            visit_between(a.first(), b, visit);
-            visit_between(a.second(), b, visit);
-        } else {
-            visit_between(a, b.first(), visit);
-            visit_between(a, b.second(), visit);
+            return;
+        }
+        const bool splits_a = !a.is_leaf(), splits_b = !b.is_leaf();
+        const std::array<Place, 2> of_a = {splits_a ? a.first() : a, splits_a ? a.second() : a};
+        const std::array<Place, 2> of_b = {splits_b ? b.first() : b, splits_b ? b.second() : b};
+        for (std::size_t i = 0; i < (splits_a ? 2U : 1U); ++i) {
+            for (std::size_t j = 0; j < (splits_b ? 2U : 1U); ++j) {
+                if (may_meet(of_a[i], of_b[j])) visit_between(of_a[i], of_b[j], visit);
+            }
         }
     }
 
@@ -143,15 +151,20 @@ class FaceTree {
 
     template <typename Visit>
     void visit_leaves(Index a, Index b, const Visit& visit) const {
-        const LeafBoxes &p = leaf_boxes_[at(a)], &q = leaf_boxes_[at(b)];
-        const std::uint32_t out = left_out(a, b);
-        for (Index i = 0; i < slots_of(a); ++i) {
-            std::uint32_t meeting = lanes_that_meet(p, i, q) & ~(out >> (4 * i));
-            if (a == b) meeting &= 0xEU << i;
-            for (Index j = 0; meeting != 0; ++j, meeting >>= 1U) {
-                if (meeting & 1U) visit(kLeafSize * a + i, kLeafSize * b + j);
-            }
+        std::uint32_t meeting = pairs_that_meet(leaf_boxes_[at(a)], leaf_boxes_[at(b)]);
+        if (a == b) meeting &= kUpperPairs;
+        if (meeting != 0) meeting &= ~left_out(a, b);
+        for (; meeting != 0; meeting &= meeting - 1) {
+            const Index pair = std::countr_zero(meeting);
+            visit(kLeafSize * a + pair / kLeafSize, kLeafSize * b + pair % kLeafSize);
         }
+    }
+
+    // Bit 4 i + j if the box of face i of p overlaps that of face j of q.
+    static std::uint32_t pairs_that_meet(const LeafBoxes& p, const LeafBoxes& q) {
+        std::uint32_t bits = 0;
+        for (Index i = 0; i < kLeafSize; ++i) bits |= lanes_that_meet(p, i, q) << (kLeafSize * i);
+        return bits;
     }
 
     // The faces of q, as bits, whose boxes overlap that of face i of p.

@@ -20,96 +20,97 @@ constexpr float kLeastSine = 0.02F;
 // are short beside others of the fan.
 constexpr float kShortest = 1e-4F, kShortestOfFan = 2e-3F;
 
-// The edges from a vertex to its neighbours, by coordinate, and their squared lengths. Behind the
-// last one stands the first again, as often as there is room.
-template <std::size_t kRoom>
-struct Spokes {
-    std::array<float, kRoom + 1> x, y, z, square;
-};
-
-// The faces around a vertex with at most kRoom neighbours.
-template <std::size_t kRoom>
+// The faces around a vertex with at most kRoom neighbours. Rows have a number for each of its
+// edges, from the vertex to its neighbours; behind the last stands the first again.
+template <int kRoom>
 class Fan {
   public:
     Fan(const Topology& topology, const LocalShape& shape, Index v)
         : topology_(topology),
           shape_(shape),
           v_(v),
-          count_(topology.neighbors(v).size()),
-          face_count_(topology.faces_around(v).size()) {}
+          count_(topology.valence(v)),
+          face_count_(count_of(topology.faces_around(v))) {}
 
     bool is_spread() {
-        if (!take_spokes()) return false;
+        take_edges();
+        if (!edges_are_long()) return false;
         take_areas();
         return faces_look_up() && lies_in_one_turn() && polygons_are_convex();
     }
 
   private:
-    bool take_spokes() {
+    using Row = Eigen::Array<float, kRoom, 1>;
+    using Edges = std::array<float, at(kRoom) + 1>;
+
+    static Eigen::Map<const Row> row(const Edges& edges) {
+        return Eigen::Map<const Row>(edges.data());
+    }
+    // The same of the next edge.
+    static Eigen::Map<const Row> next(const Edges& edges) {
+        return Eigen::Map<const Row>(edges.data() + 1);
+    }
+
+    void take_edges() {
         const std::span<const Index> ring = topology_.neighbors(v_);
         const LocalPoint& center = shape_.points[at(v_)];
-        for (std::size_t i = 0; i <= kRoom; ++i) {
-            const LocalPoint spoke = shape_.points[at(ring[i < count_ ? i : 0])] - center;
-            spokes_.x[i] = spoke[0];
-            spokes_.y[i] = spoke[1];
-            spokes_.z[i] = spoke[2];
+        for (std::size_t i = 0; i <= at(kRoom); ++i) {
+            const LocalPoint edge = shape_.points[at(ring[i < ring.size() ? i : 0])] - center;
+            x_[i] = edge[0];
+            y_[i] = edge[1];
+            z_[i] = edge[2];
         }
-        float shortest = std::numeric_limits<float>::max(), longest = 0.0F;
-        for (std::size_t i = 0; i <= kRoom; ++i) {
-            spokes_.square[i] = spokes_.x[i] * spokes_.x[i] + spokes_.y[i] * spokes_.y[i] +
-                                spokes_.z[i] * spokes_.z[i];
-            shortest = std::min(shortest, spokes_.square[i]);
-            longest = std::max(longest, spokes_.square[i]);
-        }
+        square_ = row(x_).square() + row(y_).square() + row(z_).square();
+    }
+
+    bool edges_are_long() const {
+        const float shortest = square_.minCoeff(), longest = square_.maxCoeff();
         const float least = kShortest * shape_.extent;
         return shortest > least * least && shortest > kShortestOfFan * kShortestOfFan * longest;
     }
 
-    // Twice the areas of the triangles between neighbouring spokes, as vectors, and their sum.
+    // Twice the areas of the triangles between neighbouring edges, as vectors, and their sum.
     void take_areas() {
-        const auto& [x, y, z, square] = spokes_;
-        for (std::size_t i = 0; i < kRoom; ++i) {
-            x_[i] = y[i] * z[i + 1] - z[i] * y[i + 1];
-            y_[i] = z[i] * x[i + 1] - x[i] * z[i + 1];
-            z_[i] = x[i] * y[i + 1] - y[i] * x[i + 1];
-        }
-        normal_.setZero();
-        for (std::size_t i = 0; i < face_count_; ++i) normal_ += Vec3f(x_[i], y_[i], z_[i]);
+        area_x_ = row(y_) * next(z_) - row(z_) * next(y_);
+        area_y_ = row(z_) * next(x_) - row(x_) * next(z_);
+        area_z_ = row(x_) * next(y_) - row(y_) * next(x_);
+        normal_ = Vec3f(area_x_.sum(), area_y_.sum(), area_z_.sum());
+        if (face_count_ == count_) return;
+        // From the last edge to the first there is no face.
+        const Index gap = count_ - 1;
+        normal_ -= Vec3f(area_x_[gap], area_y_[gap], area_z_[gap]);
     }
 
     // Whether all corners at the vertex are seen as turning left, by an angle to spare.
     bool faces_look_up() const {
         const float limit = kLeastSine * kLeastSine * normal_.squaredNorm();
-        std::array<float, kRoom> along, spare;
-        for (std::size_t i = 0; i < kRoom; ++i) {
-            along[i] = x_[i] * normal_.x() + y_[i] * normal_.y() + z_[i] * normal_.z();
-            spare[i] = along[i] * along[i] - limit * spokes_.square[i] * spokes_.square[i + 1];
-        }
-        float least = std::numeric_limits<float>::max();
-        for (std::size_t i = 0; i < face_count_; ++i) {
-            least = std::min(least, std::min(along[i], spare[i]));
-        }
-        return least > 0.0F;
+        const Row along = area_x_ * normal_.x() + area_y_ * normal_.y() + area_z_ * normal_.z();
+        std::array<float, at(kRoom) + 1> squares;
+        for (std::size_t i = 0; i <= at(kRoom); ++i)
+            squares[i] = square_[i < at(count_) ? index_of(i) : 0];
+        const Row spare = along.square() - limit * square_ * next(squares);
+        const Row least = along.min(spare);
+        float of_faces = least[0];
+        for (Index i = 1; i < face_count_; ++i) of_faces = std::min(of_faces, least[i]);
+        return of_faces > 0.0F;
     }
 
-    // Whether the spokes, which turn left from one to the next, go round once at most. An open fan
+    // Whether the edges, which turn left from one to the next, go round once at most. An open fan
     // leaves a quarter of a turn free.
     bool lies_in_one_turn() const {
-        const Vec3f first(spokes_.x[0], spokes_.y[0], spokes_.z[0]);
-        const Vec3f side = normal_.cross(first);
+        const Vec3f side = normal_.cross(Vec3f(x_[0], y_[0], z_[0]));
+        const Row across = row(x_) * side.x() + row(y_) * side.y() + row(z_) * side.z();
         int rounds = 0;
         bool is_below = false;
-        for (std::size_t i = 1; i < count_; ++i) {
-            const bool below = along(side, i) < 0.0F;
-            if (is_below && !below) ++rounds;
+        for (Index i = 1; i < count_; ++i) {
+            const bool below = across[i] < 0.0F;
+            rounds += is_below && !below;
             is_below = below;
         }
         if (face_count_ == count_) return is_below && rounds == 0;
-        return rounds == 0 && !(is_below && along(side.cross(normal_), count_ - 1) > 0.0F);
-    }
-
-    float along(const Vec3f& direction, std::size_t i) const {
-        return direction.dot(Vec3f(spokes_.x[i], spokes_.y[i], spokes_.z[i]));
+        const std::size_t last = at(count_ - 1);
+        const float ahead = side.cross(normal_).dot(Vec3f(x_[last], y_[last], z_[last]));
+        return rounds == 0 && !(is_below && ahead > 0.0F);
     }
 
     bool polygons_are_convex() const {
@@ -138,10 +139,9 @@ class Fan {
 
     const Topology& topology_;
     const LocalShape& shape_;
-    Index v_;
-    std::size_t count_, face_count_;
-    Spokes<kRoom> spokes_;
-    std::array<float, kRoom> x_, y_, z_;
+    Index v_, count_, face_count_;
+    Edges x_, y_, z_;
+    Row square_, area_x_, area_y_, area_z_;
     Vec3f normal_;
 };
 
