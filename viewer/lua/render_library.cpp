@@ -592,7 +592,10 @@ std::vector<Parameter> content_options() {
                         "Several on the only mesh, or one for each of several.")},
                "Hair to draw, in metres. It hides paths and points.")
             .optional(),
-        options("hair", hair_options(), "Appearance of the strands.").optional(),
+        options("hair", hair_options(),
+                "Appearance of the strands. Light goes through them by their colour: dual "
+                "scattering (Zinke et al. 2008).")
+            .optional(),
         object("style", "lissom.Hairstyle",
                "A hairstyle whose curves to draw: streams cyan, dividing curves red, ponytails "
                "purple. Without a mesh or strands on its head.")

@@ -49,7 +49,7 @@ local lissom = {}
 ---@field wire? boolean Draws the edges of the faces. Default: false.
 ---@field wire_width? number Their width. In pixels. Default: 1.
 ---@field strands? lissom.Strands|lissom.Strands[] Hair to draw, in metres. It hides paths and points.
----@field hair? lissom.RenderOptions.Hair Appearance of the strands.
+---@field hair? lissom.RenderOptions.Hair Appearance of the strands. Light goes through them by their colour: dual scattering (Zinke et al. 2008).
 ---@field style? lissom.Hairstyle A hairstyle whose curves to draw: streams cyan, dividing curves red, ponytails purple. Without a mesh or strands on its head.
 ---@field style_marks? lissom.RenderOptions.Style_marks Drawn parts of the style.
 ---@field region? lissom.Region|string The region of interest, drawn in blue.

@@ -226,6 +226,7 @@ void SceneDrawer::use_hair(const gl::Program& program) const {
     program.set("u_hair_offset", hair_.offset);
     program.set("u_hair_step", static_cast<float>(hair_.step));
     program.set("u_scalp_color", hair_.scalp_color);
+    program.set("u_hair_loss", hair_.loss);
 }
 
 // Only a fraction of the samples or pixels of a transparent surface is drawn, always the same: so

@@ -335,6 +335,7 @@ export class View {
         gl.uniform1i(places.u_hair, 0);
         gl.uniform4fv(places.u_hair_grid, light ? [...light.origin, light.step] : [0, 0, 0, 0]);
         gl.uniform3fv(places.u_hair_size, light ? light.size : [1, 1, 1]);
+        gl.uniform3fv(places.u_hair_color, light ? light.color : [0, 0, 0]);
         gl.uniform1f(places.u_shadow, shadow);
     }
 

@@ -9,6 +9,7 @@ const vec3 kSkyLight = vec3(0.32, 0.33, 0.35), kGroundLight = vec3(0.105, 0.095,
 uniform highp sampler3D u_hair;
 uniform vec4 u_hair_grid;  // origin, cell; no cell: no hair
 uniform vec3 u_hair_size;
+uniform vec3 u_hair_color;  // linear, of all the hair
 uniform float u_shadow;
 
 // Key, rim and mean light that strands leave at a place of the world.
@@ -24,6 +25,12 @@ vec3 hair_light(vec3 place) {
     float fade = clamp(1.0 - length(outside) / 8.0, 0.0, 1.0);
     return mix(vec3(1.0), clamp(light, 0.0, 1.0), fade * u_shadow);
 }
+// Loss of light at a strand, and light that goes through hair by its colour: dual scattering, as in strand_shading.h.
+vec3 loss_of(vec3 color) {
+    vec3 logs = log(clamp(color, 1e-3, 1.0));
+    return 0.0462 * logs * logs - log(0.80);
+}
+vec3 through_hair(vec3 loss, float left) { return exp(loss * log(max(left, 1e-6)) / 0.378); }
 vec3 shown(vec3 linear) { return pow(min(linear, vec3(1.0)), vec3(1.0 / 2.2)); }
 `;
 
@@ -78,14 +85,14 @@ void main() {
     vec3 color = gl_FrontFacing ? v_color : v_color * vec3(0.50, 0.36, 0.30);
     vec3 hair = hair_light(v_world + mat3(transpose(u_view)) * normal * u_hair_grid.w);
     float grazing = pow(1.0 - max(dot(normal, to_viewer), 0.0), 3.0);
-    vec3 key = kKeyLight * hair.x;
-    vec3 sum = mix(kGroundLight, kSkyLight, 0.5 + 0.5 * normal.y) * hair.z
-             + key * soft_cosine(normal, kKeyDirection, 0.15)
-             + kFillLight * soft_cosine(normal, kFillDirection, 0.3) * hair.z
-             + kRimLight * max(dot(normal, kRimDirection), 0.0) * hair.z;
+    vec3 loss = loss_of(u_hair_color), arriving = through_hair(loss, hair.z);
+    vec3 sum = mix(kGroundLight, kSkyLight, 0.5 + 0.5 * normal.y) * arriving
+             + kKeyLight * through_hair(loss, hair.x) * soft_cosine(normal, kKeyDirection, 0.15)
+             + kFillLight * soft_cosine(normal, kFillDirection, 0.3) * arriving
+             + kRimLight * max(dot(normal, kRimDirection), 0.0) * arriving;
     vec3 half_way = normalize(kKeyDirection + to_viewer);
     float shine = max(dot(normal, kKeyDirection), 0.0) * 1.28 * pow(max(dot(normal, half_way), 0.0), 24.0);
-    vec3 lit = color * sum * (1.0 - 0.30 * grazing) + key * shine * 0.045;
+    vec3 lit = color * sum * (1.0 - 0.30 * grazing) + kKeyLight * hair.x * shine * 0.045;
     if (u_wire > 0.0) lit = mix(lit, vec3(0.013, 0.016, 0.023), 0.8 * edge_cover());
     o_color = vec4(shown(lit), 1.0);
 }`;
@@ -112,13 +119,8 @@ float facing(vec3 tangent, vec3 to_light, vec3 to_viewer) {
 float lobe(vec2 mirror, float shift, float exponent) {
     return pow(max(mirror.x * cos(shift) + mirror.y * sin(shift), 1e-6), exponent);
 }
-// A strand that light meets, and the loss of light in it: dual scattering, as in strand_shading.h.
+// A strand that light meets, and the loss of light in it.
 struct Strand { vec3 color, tangent, to_viewer; float lean; vec3 loss; };
-vec3 loss_of(vec3 color) {
-    vec3 logs = log(clamp(color, 1e-3, 1.0));
-    return 0.0462 * logs * logs - log(0.80);
-}
-vec3 through_hair(Strand s, float left) { return exp(s.loss * log(max(left, 1e-6)) / 0.378); }
 // By what is left of the light; through: the part that goes through strands, of a light behind them.
 vec3 lit(Strand s, vec3 to_light, float left, float through) {
     float ls = dot(s.tangent, to_light), vs = dot(s.tangent, s.to_viewer), lc = cosine_of(ls), vc = cosine_of(vs);
@@ -126,7 +128,7 @@ vec3 lit(Strand s, vec3 to_light, float left, float through) {
     float front = facing(s.tangent, to_light, s.to_viewer);
     float primary = u_lobes.x * sqrt(front) * lobe(mirror, 0.10 + s.lean, u_lobes.z);
     float secondary = u_lobes.y * lobe(mirror, -0.15 + s.lean, u_lobes.w);
-    vec3 arriving = through_hair(s, left);
+    vec3 arriving = through_hair(s.loss, left);
     through *= exp(-7.3 * front) * lobe(mirror, -0.05 + s.lean, 20.0);
     return arriving * (s.color * (kDiffuse * lc + secondary) + through * exp(-3.0 * s.loss)) + left * primary;
 }
@@ -144,7 +146,7 @@ void main() {
     vec3 arriving = hair_light(world);
     float lean = 0.05 * (2.0 * mixed.a - 1.0) * 1.0;
     Strand strand = Strand(color, tangent, to_viewer, lean, loss_of(color));
-    vec3 around = kScattered + (1.0 - kScattered) * through_hair(strand, arriving.z);
+    vec3 around = kScattered + (1.0 - kScattered) * through_hair(strand.loss, arriving.z);
     v_color = around * kAround * color + kKeyLight * lit(strand, kKeyDirection, arriving.x, 0.0)
             + kFillLight * lit(strand, kFillDirection, arriving.z, 0.0)
             + kRimLight * lit(strand, kRimDirection, arriving.y, 1.0);

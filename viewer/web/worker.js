@@ -169,7 +169,7 @@ function strandsOf(strands, picture, head) {
     const scale = 1 / (look.unit || (head ? lissom._page_root_unit(id, head.object) : 0) || 1);
     const count = places.length / 3, points = new Float32Array(4 * (count + 3)), colors = new kByte(4 * (count + 3));
     const base = rgb(look.color || '#5a3c25').map(x => Math.pow(x / 255, 2.2));
-    const [atRoot, atTip] = [look.root_tone ?? 0.72, look.tip_tone ?? 1.18];
+    const [atRoot, atTip] = [look.root_tone ?? 0.72, look.tip_tone ?? 1.18], roots = [0, 0, 0];
     for (let i = 0; i < places.length; ++i) places[i] *= scale;
     for (let p = 0; p < count; ++p) widths[p] *= scale;
     points.fill(-1, 0, 4);
@@ -184,6 +184,7 @@ function strandsOf(strands, picture, head) {
             for (let k = 0; k < 3; ++k) {
                 const linear = own.length && !look.color ? own[3 * p + k] : base[k];
                 colors[to + k] = 255 * Math.sqrt(Math.min(linear * shade, 1));
+                if (p === offsets[s]) roots[k] += linear * atRoot / (offsets.length - 1);
             }
             colors[to + 3] = lean;
         }
@@ -191,6 +192,7 @@ function strandsOf(strands, picture, head) {
     points.fill(-1, 4 * (count + 1));
     const starts = Array.from({ length: 65 }, (_, i) => offsets[Math.floor((offsets.length - 1) * i / 64)]);
     const light = hairLight(places, offsets, widths, head?.positions);
+    if (light) light.color = roots;
     return { object: id, points, colors, starts, light, box: boxOf(places), count: offsets.length - 1,
         look: { shadow: Math.min(look.shadow ?? 1, 1), lobes: [look.primary ?? 0.24, look.secondary ?? 0.5, 70, 14] } };
 }

@@ -180,7 +180,7 @@ GpuHairShade GpuHair::shade(const HairView& view) const {
     const Vec3 eye = view.parameters.view.topRightCorner<3, 1>();
     const Vec3 moved = view.origin - light_->origin() - turn.transpose() * eye;
     shade.offset += moved.cwiseProduct(shade.scale);
-    shade.scalp_color = light_->scalp_color().cast<double>();
+    color_shade(shade, light_->scalp_color());
     return shade;
 }
 

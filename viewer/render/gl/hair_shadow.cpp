@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "viewer/render/strands/strand_shading.h"
+
 namespace lissom {
 
 void place_shade(GpuHairShade& shade, const ViewGrid& grid) {
@@ -12,6 +14,11 @@ void place_shade(GpuHairShade& shade, const ViewGrid& grid) {
         shade.scale[axis] = 1.0 / (count * shade.step);
         shade.offset[axis] = 0.5 / count - grid.origin[axis] * shade.scale[axis];
     }
+}
+
+void color_shade(GpuHairShade& shade, const Eigen::Array3f& scalp_color) {
+    shade.scalp_color = scalp_color.cast<double>();
+    shade.loss = relative_loss(scalp_color).cast<double>();
 }
 
 GpuHairShade upload_shade(const StrandShadow* shadow) {
@@ -25,7 +32,7 @@ GpuHairShade upload_shade(const StrandShadow* shadow) {
     shade.volume =
         std::make_shared<const gl::Texture>(gl::make_volume(grid.counts, shadow->on_meshes()));
     place_shade(shade, grid);
-    shade.scalp_color = shadow->scalp_color().cast<double>();
+    color_shade(shade, shadow->scalp_color());
     return shade;
 }
 

@@ -33,9 +33,12 @@ struct GpuHairShade {
     Vec3 offset = Vec3::Zero();
     /// Distance between grid points in view units; 0 if there are no strands.
     double step = 0.0;
-    /// Linear colour of the scalp.
-    Vec3 scalp_color = Vec3::Zero();
+    /// Linear colour of the scalp, and the relative_loss of light in hair of that colour.
+    Vec3 scalp_color = Vec3::Zero(), loss = Vec3::Ones();
 };
+
+/// Sets the colour and the loss.
+void color_shade(GpuHairShade& shade, const Eigen::Array3f& scalp_color);
 
 /// Sets scale, offset and step: texels are the points of `grid`.
 void place_shade(GpuHairShade& shade, const ViewGrid& grid);

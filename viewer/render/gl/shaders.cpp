@@ -205,6 +205,7 @@ uniform vec3 u_hair_key;               // along its axes: towards the main light
 uniform vec3 u_hair_up;
 uniform float u_hair_slope;            // of light from all around
 uniform vec3 u_scalp_color;
+uniform vec3 u_hair_loss;              // of light, by that in the usual brown
 uniform float u_opacity;               // with several samples: the share of them that is covered
 uniform int u_dithered;                // with one sample, of the pixels
 out vec4 o_color;
@@ -278,18 +279,26 @@ vec3 hair_at(vec3 position, vec3 normal) {
     return mix(vec3(1.0, 1.0, 0.0), vec3(hair_light(above), grows), fade);
 }
 
+// Light that strands leave goes through them by their colour; see strand_shading.h.
+vec3 through_hair(float light) {
+#ifndef HAS_HAIR
+    return vec3(1.0);
+#endif
+    return pow(vec3(max(light, 1e-6)), u_hair_loss);
+}
+
 // `plain`: how far the light is evened out, so that colours that stand for numbers can be read.
 vec3 lit(vec3 color, vec3 normal, vec3 to_viewer, float open, float plain, vec3 hair) {
     float facing = max(dot(normal, to_viewer), 0.0);
     float grazing = pow(1.0 - facing, 3.0);
-    vec3 key = kKeyLight * hair.x;
+    vec3 key = kKeyLight * through_hair(hair.x), arriving = open * through_hair(hair.y);
     float key_open = mix(0.45, 1.0, open);
-    open *= hair.y;
-    vec3 around = mix(kGroundLight, kSkyLight, 0.5 + 0.5 * normal.y) * open;
+    vec3 around = mix(kGroundLight, kSkyLight, 0.5 + 0.5 * normal.y) * arriving;
     vec3 direct = key * soft_cosine(normal, kKeyDirection, 0.15) * key_open +
-                  kFillLight * soft_cosine(normal, kFillDirection, 0.3) * open;
-    vec3 rim = kRimLight * max(dot(normal, kRimDirection), 0.0) * open;
-    vec3 shine = key * highlight(normal, to_viewer, kKeyDirection, 24.0) * 0.045 * open * (1.0 - hair.z);
+                  kFillLight * soft_cosine(normal, kFillDirection, 0.3) * arriving;
+    vec3 rim = kRimLight * max(dot(normal, kRimDirection), 0.0) * arriving;
+    vec3 shine = kKeyLight * hair.x * highlight(normal, to_viewer, kKeyDirection, 24.0) * 0.045 *
+                 open * hair.y * (1.0 - hair.z);
     vec3 light = (around + direct + rim) * (1.0 - 0.30 * grazing);
     return color * mix(light, vec3(0.92), plain) + shine * (1.0 - plain);
 }

@@ -81,9 +81,12 @@ Array3f forward_scattering(const Array3f& color) {
     return kForward * (-kAbsorbed * color.max(1e-3f).min(1.0f).log().square()).exp();
 }
 
+Array3f relative_loss(const Array3f& color) {
+    return -forward_scattering(color).log() / kUsualLoss;
+}
+
 Array3f light_through_hair(float light, const Array3f& color) {
-    const Array3f strands = -forward_scattering(color).log() / kUsualLoss;
-    return Array3f::Constant(std::max(light, 0.0f)).pow(strands);
+    return Array3f::Constant(std::max(light, 0.0f)).pow(relative_loss(color));
 }
 
 float strand_diffuse(const Vector3f& tangent, const Vector3f& to_light) {

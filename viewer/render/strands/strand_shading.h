@@ -53,6 +53,10 @@ float strand_transmission(float shift, const Eigen::Vector3f& tangent,
 /// every colour.
 Eigen::Array3f forward_scattering(const Eigen::Array3f& color);
 
+/// Returns the loss of light at such a strand by that of the usual brown: light that goes through
+/// hair is what brown hair leaves, to this power.
+Eigen::Array3f relative_loss(const Eigen::Array3f& color);
+
 /// Returns the transmittance of hair of this colour in front of a strand, a_f to the number of
 /// strands there; `light` is that of hair of the usual brown.
 Eigen::Array3f light_through_hair(float light, const Eigen::Array3f& color);

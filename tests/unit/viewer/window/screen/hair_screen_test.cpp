@@ -373,4 +373,14 @@ TEST_CASE("hair screen: meshes hide strands, and strands shade meshes") {
     show(screen, snapshot);
     const Image shaded = filled(screen, camera);
     CHECK(shaded.color(cx + 30, cy + 30).r < square.color(cx + 30, cy + 30).r - 0.05);
+    // Blond hair lets more light through, black hair less; above all yellow.
+    const auto under = [&](const Color& color) {
+        snapshot.strands[0].style.color = color;
+        show(screen, snapshot);
+        return filled(screen, camera).color(cx + 30, cy + 30);
+    };
+    const Color blond = under({0.9, 0.78, 0.5}), black = under({0.06, 0.05, 0.05});
+    CHECK(blond.r > shaded.color(cx + 30, cy + 30).r);
+    CHECK(blond.r > black.r + 0.05);
+    CHECK(blond.r - blond.b > square.color(cx + 30, cy + 30).r - square.color(cx + 30, cy + 30).b);
 }
