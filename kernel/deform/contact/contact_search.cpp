@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "kernel/deform/contact/spread_fans.h"
@@ -26,14 +28,24 @@ double longest_side(const std::array<Vec3, 3>& corners) {
     return std::sqrt(squared);
 }
 
-// Whether `b` lies on one side of the plane of `a`, farther than `distance`.
-bool is_beside(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, double distance) {
-    const Vec3 normal = (a[1] - a[0]).cross(a[2] - a[0]);
-    const double least = distance * normal.cwiseAbs().sum();
-    const double h0 = normal.dot(b[0] - a[0]);
-    const double h1 = normal.dot(b[1] - a[0]);
-    const double h2 = normal.dot(b[2] - a[0]);
-    return std::min({h0, h1, h2}) > least || std::max({h0, h1, h2}) < -least;
+// Whether two polygons lie apart along a normal of the first, by more than `distance`.
+bool are_apart(std::span<const Vec3> a, std::span<const Vec3> b, double distance) {
+    const Vec3 normal = a.size() == 3 ? Vec3((a[1] - a[0]).cross(a[2] - a[0]))
+                                      : Vec3((a[2] - a[0]).cross(a[3] - a[1]));
+    const double gap = distance * normal.cwiseAbs().sum();
+    double low = 0.0, high = 0.0;
+    for (std::size_t k = 1; k < a.size(); ++k) {
+        const double height = normal.dot(a[k] - a[0]);
+        low = std::min(low, height);
+        high = std::max(high, height);
+    }
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const Vec3& p : b) {
+        const double height = normal.dot(p - a[0]);
+        least = std::min(least, height);
+        most = std::max(most, height);
+    }
+    return least > high + gap || most < low - gap;
 }
 
 }  // namespace
@@ -129,31 +141,34 @@ bool ContactSearch::share_spread_fan(std::span<const Index> a, std::span<const I
 
 bool ContactSearch::polygons_meet(std::span<const Index> f, std::span<const Index> g,
                                   PolygonRoom& room) const {
-    triangulate(f, room, room.first);
-    triangulate(g, room, room.second);
-    for (const Corners& a : room.first) {
-        for (const Corners& b : room.second) {
-            if (corners_meet(a, b)) return true;
+    room.f.set(f, shape_);
+    room.g.set(g, shape_);
+    const double apart = kClearlyApart * static_cast<double>(local_.extent);
+    if (are_apart(room.f.points, room.g.points, apart)) return false;
+    if (are_apart(room.g.points, room.f.points, apart)) return false;
+    room.f.triangulate(room.room);
+    room.g.triangulate(room.room);
+    for (const Triangle& a : room.f.triangles) {
+        for (const Triangle& b : room.g.triangles) {
+            if (corners_meet(room.f.corners(a), room.g.corners(b))) return true;
         }
     }
     return false;
 }
 
-void ContactSearch::triangulate(std::span<const Index> polygon, PolygonRoom& room,
-                                std::vector<Corners>& triangles) const {
-    room.points.clear();
-    room.triangles.clear();
+void ContactSearch::Polygon::set(std::span<const Index> vertices, std::span<const Vec3> shape) {
+    points.clear();
+    for (const Index v : vertices) points.push_back(shape[at(v)]);
+}
+
+void ContactSearch::Polygon::triangulate(TriangulationRoom& room) {
     triangles.clear();
-    for (const Index v : polygon) room.points.push_back(shape_[at(v)]);
-    triangulate_polygon(room.points, room.triangles, room.room);
-    for (const auto& [a, b, c] : room.triangles) {
-        triangles.push_back({room.points[at(a)], room.points[at(b)], room.points[at(c)]});
-    }
+    triangulate_polygon(points, triangles, room);
 }
 
 bool ContactSearch::corners_meet(const Corners& a, const Corners& b) const {
     const double apart = kClearlyApart * static_cast<double>(local_.extent);
-    if (is_beside(a, b, apart) || is_beside(b, a, apart)) return false;
+    if (are_apart(a, b, apart) || are_apart(b, a, apart)) return false;
     return triangles_meet(a, b, kTouching * std::max(longest_side(a), longest_side(b)));
 }
 

@@ -41,11 +41,20 @@ class ContactSearch {
 
   private:
     using Corners = std::array<Vec3, 3>;
-    // Memory of the triangulations of two polygons.
-    struct PolygonRoom {
+    // A polygon and its triangles.
+    struct Polygon {
         std::vector<Vec3> points;
         std::vector<Triangle> triangles;
-        std::vector<Corners> first, second;
+
+        void set(std::span<const Index> vertices, std::span<const Vec3> shape);
+        void triangulate(TriangulationRoom& room);
+        Corners corners(const Triangle& t) const {
+            return {points[at(t[0])], points[at(t[1])], points[at(t[2])]};
+        }
+    };
+    // Memory of a search.
+    struct PolygonRoom {
+        Polygon f, g;
         TriangulationRoom room;
     };
 
@@ -55,8 +64,6 @@ class ContactSearch {
     bool meet(Index slot, Index other, PolygonRoom& room) const;
     bool share_spread_fan(std::span<const Index> a, std::span<const Index> b) const;
     bool polygons_meet(std::span<const Index> f, std::span<const Index> g, PolygonRoom& room) const;
-    void triangulate(std::span<const Index> polygon, PolygonRoom& room,
-                     std::vector<Corners>& triangles) const;
     bool corners_meet(const Corners& a, const Corners& b) const;
     Corners corners_at(std::span<const Index> vertices) const;
 

@@ -36,7 +36,7 @@ class Fan {
         take_edges();
         if (!edges_are_long()) return false;
         take_areas();
-        return faces_look_up() && lies_in_one_turn() && polygons_are_convex();
+        return faces_look_up() && lies_in_one_turn() && quads_lie_between_edges();
     }
 
   private:
@@ -98,7 +98,7 @@ class Fan {
     // Whether the edges, which turn left from one to the next, go round once at most. An open fan
     // leaves a quarter of a turn free.
     bool lies_in_one_turn() const {
-        const Vec3f side = normal_.cross(Vec3f(x_[0], y_[0], z_[0]));
+        const Vec3f side = normal_.cross(edge(0));
         const Row across = row(x_) * side.x() + row(y_) * side.y() + row(z_) * side.z();
         int rounds = 0;
         bool is_below = false;
@@ -109,33 +109,40 @@ class Fan {
         }
         if (face_count_ == count_) return is_below && rounds == 0;
         const std::size_t last = at(count_ - 1);
-        const float ahead = side.cross(normal_).dot(Vec3f(x_[last], y_[last], z_[last]));
+        const float ahead = side.cross(normal_).dot(edge(last));
         return rounds == 0 && !(is_below && ahead > 0.0F);
     }
 
-    bool polygons_are_convex() const {
+    // Whether each quad is seen between its two edges at the vertex; larger polygons are not asked.
+    bool quads_lie_between_edges() const {
         if (topology_.is_triangle_mesh()) return true;
-        for (const Index f : topology_.faces_around(v_)) {
-            const std::span<const Index> corners = topology_.face(f);
-            if (corners.size() > 4 || (corners.size() == 4 && !is_convex(corners))) return false;
+        const std::span<const Index> faces = topology_.faces_around(v_);
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            const std::span<const Index> corners = topology_.face(faces[i]);
+            if (corners.size() > 4) return false;
+            if (corners.size() == 4 && !lies_between_edges(opposite(corners), i)) return false;
         }
         return true;
     }
 
-    bool is_convex(std::span<const Index> quad) const {
+    Index opposite(std::span<const Index> quad) const {
+        const auto own = std::find(quad.begin(), quad.end(), v_) - quad.begin();
+        return quad[at((index_of(own) + 2) % 4)];
+    }
+
+    bool lies_between_edges(Index v, std::size_t i) const {
+        const Vec3f across =
+            (shape_.points[at(v)] - shape_.points[at(v_)]).template head<3>().matrix();
+        return turns_left(edge(i), across) && turns_left(across, edge(i + 1));
+    }
+
+    bool turns_left(const Vec3f& from, const Vec3f& to) const {
+        const float left = from.cross(to).dot(normal_);
         const float limit = kLeastSine * kLeastSine * normal_.squaredNorm();
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Vec3f in = point(quad[(k + 1) % 4]) - point(quad[k]);
-            const Vec3f out = point(quad[(k + 2) % 4]) - point(quad[(k + 1) % 4]);
-            const float left = in.cross(out).dot(normal_);
-            if (!(left > 0.0F && left * left > limit * in.squaredNorm() * out.squaredNorm())) {
-                return false;
-            }
-        }
-        return true;
+        return left > 0.0F && left * left > limit * from.squaredNorm() * to.squaredNorm();
     }
 
-    Vec3f point(Index v) const { return shape_.points[at(v)].template head<3>().matrix(); }
+    Vec3f edge(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
 
     const Topology& topology_;
     const LocalShape& shape_;
