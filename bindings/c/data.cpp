@@ -225,21 +225,22 @@ namespace {
 // -1 as an unsigned number.
 constexpr double kNoneUnsigned = 4294967295.0;
 
-std::vector<Index> read_ids(const lissom_input* input, bool may_be_none, const char* name) {
+std::vector<Index> read_ids(const lissom_input* input, bool may_be_none, const char* name,
+                            std::size_t width = 1) {
     require_list(input, name);
     require_integers(input->format, name);
-    const std::size_t stride = stride_of(input->stride, size_of(input->format), input->count, name);
-    const auto* place = static_cast<const unsigned char*>(input->data);
-    std::vector<Index> values(input->count);
-    for (Index& value : values) {
-        const double given = number_at(place, input->format);
+    const std::size_t size = size_of(input->format);
+    const std::size_t stride = stride_of(input->stride, width * size, input->count, name);
+    const auto* const data = static_cast<const unsigned char*>(input->data);
+    std::vector<Index> values(width * input->count);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double given = number_at(data + i / width * stride + i % width * size, input->format);
         const bool is_none = may_be_none && (given == -1.0 || given == kNoneUnsigned);
         if (!is_none && (given < 0.0 || given > std::numeric_limits<Index>::max())) {
             throw Error(ErrorCode::out_of_range,
                         std::string(name) + ": ids are from 0 to 2147483647");
         }
-        value = is_none ? kNoIndex : static_cast<Index>(given);
-        place += stride;
+        values[i] = is_none ? kNoIndex : static_cast<Index>(given);
     }
     return values;
 }
@@ -250,8 +251,8 @@ std::vector<Index> read_integers(const lissom_input* input, const char* name) {
     return read_ids(input, false, name);
 }
 
-std::vector<Index> read_labels(const lissom_input* input, const char* name) {
-    return read_ids(input, true, name);
+std::vector<Index> read_labels(const lissom_input* input, const char* name, std::size_t width) {
+    return read_ids(input, true, name, width);
 }
 
 std::vector<double> read_numbers(const lissom_input* input, Index width, const char* name) {

@@ -20,8 +20,9 @@ std::vector<Vec3> read_points(const lissom_input* input, const Space& space, con
 /// Returns integers of a host's list. Errors: as above; OUT_OF_RANGE if one is no id.
 std::vector<Index> read_integers(const lissom_input* input, const char* name);
 
-/// Returns labels of a host's list: -1 in 32 bits is none. Errors: as read_integers.
-std::vector<Index> read_labels(const lissom_input* input, const char* name);
+/// Returns labels of a host's list, `width` an element: -1 in 32 bits is none. Errors: as
+/// read_integers.
+std::vector<Index> read_labels(const lissom_input* input, const char* name, std::size_t width = 1);
 
 /// Returns the numbers of a host's list of any format, `width` an element. Errors:
 /// INVALID_ARGUMENT; NOT_FINITE.

@@ -1292,11 +1292,14 @@ typedef enum lissom_strand_value {
     LISSOM_STRAND_TRANSPARENCY = 2,      ///< 0 is opaque; 1, on strands or points
     LISSOM_STRAND_ROOT_UV = 3,           ///< texture coordinates of the root; 2
     LISSOM_STRAND_ROOT_FACE = 4,         ///< face of the head; 1 integer
-    LISSOM_STRAND_ROOT_BARYCENTRIC = 5,  ///< weights of that face's first three corners; 3
+    LISSOM_STRAND_ROOT_BARYCENTRIC = 5,  ///< weights of the triangle's vertices; 3
     LISSOM_STRAND_GROUP = 6,             ///< place in the list of groups, -1 for none; 1 integer
-    LISSOM_STRAND_ID = 7,        ///< stays with the strand when some are selected; 1 integer
-    LISSOM_STRAND_GUIDE = 8,     ///< id of the strand it follows, -1 for none; 1 integer
-    LISSOM_STRAND_GUIDE_ARC = 9  ///< metres along the guide that its tip follows; 1
+    LISSOM_STRAND_ID = 7,         ///< stays with the strand when some are selected; 1 integer
+    LISSOM_STRAND_GUIDE = 8,      ///< id of the strand it follows, -1 for none; 1 integer
+    LISSOM_STRAND_GUIDE_ARC = 9,  ///< metres along the guide that its tip follows; 1
+    /// Vertices of the triangle of the face that contains the root; 3 integers. Absent on heads of
+    /// triangles: then it has the three corners of the face.
+    LISSOM_STRAND_ROOT_TRIANGLE = 10
 } lissom_strand_value;
 
 /// Returns whether strands have these values: 0 or 1; -1 for an invalid handle. Widths,

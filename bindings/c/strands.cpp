@@ -16,7 +16,8 @@ Strands& own_strands(lissom_context& context, lissom_strands strands) {
 
 bool is_integer_value(lissom_strand_value value) {
     return value == LISSOM_STRAND_ROOT_FACE || value == LISSOM_STRAND_GROUP ||
-           value == LISSOM_STRAND_ID || value == LISSOM_STRAND_GUIDE;
+           value == LISSOM_STRAND_ID || value == LISSOM_STRAND_GUIDE ||
+           value == LISSOM_STRAND_ROOT_TRIANGLE;
 }
 
 bool is_point_value(lissom_strand_value value) {
@@ -25,7 +26,10 @@ bool is_point_value(lissom_strand_value value) {
 }
 
 Index width_of(lissom_strand_value value) {
-    if (value == LISSOM_STRAND_COLOR || value == LISSOM_STRAND_ROOT_BARYCENTRIC) return 3;
+    if (value == LISSOM_STRAND_COLOR || value == LISSOM_STRAND_ROOT_BARYCENTRIC ||
+        value == LISSOM_STRAND_ROOT_TRIANGLE) {
+        return 3;
+    }
     return value == LISSOM_STRAND_ROOT_UV ? 2 : 1;
 }
 
@@ -42,6 +46,8 @@ bool has_value(const Strands& strands, lissom_strand_value value) {
         case LISSOM_STRAND_ROOT_FACE:
         case LISSOM_STRAND_ROOT_BARYCENTRIC:
             return !strands.roots().faces.empty();
+        case LISSOM_STRAND_ROOT_TRIANGLE:
+            return !strands.roots().triangles.empty();
         case LISSOM_STRAND_GROUP:
             return !strands.groups().empty();
         case LISSOM_STRAND_GUIDE:
@@ -73,6 +79,8 @@ double number_of(const Strands& strands, lissom_strand_value value, Index s, Ind
             return roots.faces[at(s)];
         case LISSOM_STRAND_ROOT_BARYCENTRIC:
             return roots.barycentrics[at(s)][component];
+        case LISSOM_STRAND_ROOT_TRIANGLE:
+            return roots.triangles[at(s)][k];
         case LISSOM_STRAND_GROUP:
             return strands.group(s);
         case LISSOM_STRAND_ID:
@@ -101,10 +109,12 @@ std::vector<double> arcs_of(const Strands& strands, Index s) {
 void write_ids(const Strands& strands, lissom_strand_value value, const lissom_output* values) {
     std::vector<Index> list;
     for (Index s = 0; s < strands.size(); ++s) {
-        list.push_back(static_cast<Index>(number_of(strands, value, s, 0, 0)));
+        for (std::size_t k = 0; k < at(width_of(value)); ++k) {
+            list.push_back(static_cast<Index>(number_of(strands, value, s, 0, k)));
+        }
     }
     if (values && size_of(values->format) != 4) refuse_format("values", "UINT32 or INT32");
-    write_integers(values, list, "values");
+    write_integers(values, list, "values", at(width_of(value)));
 }
 
 void require_numbers(lissom_format format) {
@@ -182,6 +192,17 @@ void set_root_faces(Strands& strands, std::vector<Index> faces) {
         roots.barycentrics.assign(faces.size(), Eigen::Vector3f::Constant(1.0f / 3.0f));
     }
     roots.faces = std::move(faces);
+    roots.triangles.clear();
+    strands.set_roots(std::move(roots));
+}
+
+void set_root_triangles(Strands& strands, const std::vector<Index>& vertices) {
+    StrandRoots roots = strands.roots();
+    require(!roots.faces.empty(), "write the faces of the roots before their triangles");
+    roots.triangles.clear();
+    for (std::size_t i = 0; i < vertices.size(); i += 3) {
+        roots.triangles.push_back({vertices[i], vertices[i + 1], vertices[i + 2]});
+    }
     strands.set_roots(std::move(roots));
 }
 
@@ -202,7 +223,9 @@ void set_groups_of(Strands& strands, std::vector<Index> groups) {
 }
 
 void write_integers_to(Strands& strands, lissom_strand_value value, std::vector<Index> list) {
-    require(count_of(list) == strands.size(), "values need one element a strand");
+    require(list.size() == at(width_of(value)) * at(strands.size()),
+            "values need one element a strand");
+    if (value == LISSOM_STRAND_ROOT_TRIANGLE) return set_root_triangles(strands, list);
     if (value == LISSOM_STRAND_ROOT_FACE) return set_root_faces(strands, std::move(list));
     if (value == LISSOM_STRAND_GROUP) return set_groups_of(strands, std::move(list));
     if (value == LISSOM_STRAND_GUIDE) return set_guide_ids(strands, list);
@@ -248,7 +271,8 @@ void write_values(Strands& strands, lissom_strand_value value, bool at_points,
                   const lissom_input* values) {
     has_value(strands, value);
     if (is_integer_value(value)) {
-        return write_integers_to(strands, value, read_labels(values, "values"));
+        return write_integers_to(strands, value,
+                                 read_labels(values, "values", at(width_of(value))));
     }
     const std::vector<double> numbers = read_numbers(values, width_of(value), "values");
     const Index count = at_points ? strands.point_count() : strands.size();

@@ -27,7 +27,8 @@ bool equal(const StrandValues<Value>& a, const StrandValues<Value>& b) {
 }
 
 bool equal(const StrandRoots& a, const StrandRoots& b) {
-    return a.faces == b.faces && equal(a.barycentrics, b.barycentrics) && equal(a.uvs, b.uvs);
+    return a.faces == b.faces && equal(a.barycentrics, b.barycentrics) &&
+           a.triangles == b.triangles && equal(a.uvs, b.uvs);
 }
 
 bool equal_colors(const std::optional<StrandValues<Eigen::Vector3f>>& a,

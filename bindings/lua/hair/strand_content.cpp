@@ -55,6 +55,9 @@ int strand_root(Call& call) {
     if (!roots.barycentrics.empty()) {
         call.set_field("bary", call.push_vector(roots.barycentrics[i].cast<double>()));
     }
+    if (!roots.triangles.empty() && roots.triangles[i][0] != kNoIndex) {
+        call.set_field("triangle", call.push_ids(roots.triangles[i]));
+    }
     if (!roots.uvs.empty()) {
         const double uv[2] = {roots.uvs[i].x(), roots.uvs[i].y()};
         call.set_field("uv", call.push_numbers(uv));

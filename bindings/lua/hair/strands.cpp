@@ -137,7 +137,11 @@ std::vector<Record> strand_records() {
              {{"integer", "id", "Stays with the strand when some are selected."},
               {"number[]", "position", "Its first point, in metres."},
               {"integer|nil", "face", "The face of the head that it lies on."},
-              {"number[]|nil", "bary", "Weights of the first three corners of that face."},
+              {"number[]|nil", "bary",
+               "Weights of the vertices of `triangle`, else of the three corners of the face."},
+              {"integer[]|nil", "triangle",
+               "Vertices of the triangle of the face that contains the root, on heads with "
+               "polygons."},
               {"number[]|nil", "uv", "Texture coordinates there."},
               {"string|nil", "group", "The name of its group."},
               {"integer|nil", "guide", "The id of the strand that it follows."},

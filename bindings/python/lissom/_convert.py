@@ -120,7 +120,8 @@ def _record(struct):
 
 
 _STRANDS = {"width": (1, "d"), "color": (3, "d"), "transparency": (1, "d"), "root_uv": (2, "d"), "root_face": (1, "i"),
-            "root_barycentric": (3, "d"), "group": (1, "i"), "id": (1, "i"), "guide": (1, "i"), "guide_arc": (1, "d")}
+            "root_barycentric": (3, "d"), "group": (1, "i"), "id": (1, "i"), "guide": (1, "i"), "guide_arc": (1, "d"),
+            "root_triangle": (3, "i")}
 
 
 def _strand_value(value):

@@ -5,6 +5,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/hair/strands/strand_random.h"
+#include "kernel/hair/follow/strand_roots.h"
 
 namespace lissom {
 namespace {
@@ -36,20 +37,6 @@ void require_roots(const Mesh& head, std::span<const Root> roots) {
     }
 }
 
-// Returns weights of the first three corners of its face, negative if it lies beyond their
-// triangle.
-Eigen::Vector3f corner_weights(const Mesh& head, const Root& root) {
-    const std::span<const Index> face = head.topology().face(root.face);
-    const Vec3 &a = head.position(face[0]), &b = head.position(face[1]),
-               &c = head.position(face[2]);
-    const Vec3 normal = (b - a).cross(c - a);
-    const double area = normal.squaredNorm();
-    if (!(area > 0.0)) return Eigen::Vector3f::Constant(1.0f / 3.0f);
-    const double at_b = (root.position - a).cross(c - a).dot(normal) / area;
-    const double at_c = (b - a).cross(root.position - a).dot(normal) / area;
-    return Vec3(1.0 - at_b - at_c, at_b, at_c).cast<float>();
-}
-
 // Bits of x with two zeros between each.
 std::uint64_t spread_bits(std::uint64_t x) {
     std::uint64_t result = 0;
@@ -78,10 +65,7 @@ GrowthRoots::GrowthRoots(const Mesh& head, std::span<const Root> roots, const Co
                                    sizeof(StrandChance) + 2 * sizeof(Index) + sizeof(float);
     charge_ = context.charge(roots.size() * kBytes, "the roots of hair");
     put_in_order(roots, context);
-    for (const Root& root : roots) {
-        strand_roots_.faces.push_back(root.face);
-        strand_roots_.barycentrics.push_back(corner_weights(head, root));
-    }
+    strand_roots_ = roots_on(head, roots);
     for (const Index number : numbers_) {
         const Root& root = roots[at(number)];
         positions_.push_back(root.position);

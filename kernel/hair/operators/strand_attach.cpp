@@ -5,6 +5,7 @@
 
 #include "kernel/core/error.h"
 #include "kernel/hair/scalp/root_uvs.h"
+#include "kernel/hair/follow/strand_roots.h"
 
 namespace lissom {
 namespace {
@@ -44,10 +45,8 @@ void attach(Strands& strands, const Mesh& head, const Scalp& scalp, const Attach
         for (Index s = begin; s < end; ++s) places[at(s)] = nearest_root(strands, s, scalp);
     });
     std::vector<Root> known;
-    StrandRoots roots;
+    StrandRoots roots = roots_on(head, places);
     for (const Root& place : places) {
-        roots.faces.push_back(place.face);
-        roots.barycentrics.push_back(place.barycentric.cast<float>());
         if (place.face != kNoIndex) known.push_back(place);
     }
     const std::vector<Eigen::Vector2f> uvs = root_uvs(head, scalp, known);

@@ -110,6 +110,7 @@ StrandRoots roots_of(std::span<const Root> roots) {
     for (const Root& root : roots) {
         result.faces.push_back(root.face);
         result.barycentrics.push_back(root.barycentric.cast<float>());
+        result.triangles.push_back(root.triangle);
     }
     return result;
 }

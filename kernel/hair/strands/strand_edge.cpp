@@ -8,6 +8,7 @@
 #include "kernel/hair/strands/strand_pass.h"
 #include "kernel/hair/strands/strand_random.h"
 #include "kernel/hair/strands/strand_resample.h"
+#include "kernel/hair/follow/strand_roots.h"
 
 namespace lissom {
 namespace {
@@ -115,12 +116,11 @@ std::vector<float> inside_hairline(const Strands& strands, const Mesh& head, con
             inside.push_back(1.0f);
             continue;
         }
-        const auto corners = head.topology().face(face);
-        const Triangle triangle{corners[0], corners[1], corners[2]};
+        const auto triangle = root_triangle(roots, index_of(s), head);
+        require(triangle.has_value(), "the strands are rooted on another head");
         const Vec3 barycentric = roots.barycentrics[s].cast<double>();
-        Vec3 position = Vec3::Zero();
-        for (int c = 0; c < 3; ++c) position += barycentric[c] * head.position(triangle[at(c)]);
-        const double margin = scalp.margin_at(triangle, barycentric, position);
+        const Vec3 position = *root_place(roots, index_of(s), head);
+        const double margin = scalp.margin_at(*triangle, barycentric, position);
         inside.push_back(static_cast<float>(smooth_step(0.0, reach / softness, margin)));
     }
     return inside;

@@ -59,8 +59,8 @@ void choose_data(const Strands& strands, std::span<const Index> list, Strands& r
         result.set_colors(std::move(colors));
     }
     result.set_roots({chosen(strands.roots().faces, list),
-                      chosen(strands.roots().barycentrics, list),
-                      chosen(strands.roots().uvs, list)});
+                      chosen(strands.roots().barycentrics, list), chosen(strands.roots().uvs, list),
+                      chosen(strands.roots().triangles, list)});
     result.set_groups(chosen(strands.groups(), list), strands.group_names());
     result.set_ids(chosen(all_ids(strands), list));
     result.set_guides({chosen(strands.guides().ids, list), chosen(strands.guides().arcs, list)});
@@ -269,9 +269,11 @@ void append(Strands& strands, const Strands& other) {
     const StrandRoots &x = strands.roots(), &y = other.roots();
     const Eigen::Vector3f none = Eigen::Vector3f::Zero();
     const Eigen::Vector2f no_uv = Eigen::Vector2f::Zero();
+    const Triangle nowhere{kNoIndex, kNoIndex, kNoIndex};
     result.set_roots({joined(x.faces, a, y.faces, b, kNoIndex),
                       joined(x.barycentrics, a, y.barycentrics, b, none),
-                      joined(x.uvs, a, y.uvs, b, no_uv)});
+                      joined(x.uvs, a, y.uvs, b, no_uv),
+                      joined(x.triangles, a, y.triangles, b, nowhere)});
     result.set_widths(joined_widths(strands, other));
     result.set_transparency(
         joined<float>(strands.transparency(), strands, other.transparency(), other));

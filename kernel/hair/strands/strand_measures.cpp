@@ -155,6 +155,9 @@ class Hasher {
     void add(const Eigen::Matrix<float, N, 1>& vector) {
         for (const float x : vector) add(x);
     }
+    void add(const Triangle& vertices) {
+        for (const Index v : vertices) add(v);
+    }
     void add(std::string_view text) {
         add(std::uint64_t{text.size()});
         for (const char c : text) add(std::uint64_t{static_cast<unsigned char>(c)});
@@ -249,6 +252,7 @@ std::uint64_t hash(const Strands& strands) {
     hasher.add_list(strands.widths().profile);
     hasher.add_list(strands.roots().faces);
     hasher.add_list(strands.roots().barycentrics);
+    if (!strands.roots().triangles.empty()) hasher.add_list(strands.roots().triangles);
     hasher.add_list(strands.roots().uvs);
     hasher.add_list(strands.groups());
     hasher.add_list(strands.group_names());

@@ -7,6 +7,7 @@
 
 #include "kernel/hair/curve/length_text.h"
 #include "kernel/hair/strands/strand_measures.h"
+#include "kernel/hair/follow/strand_roots.h"
 
 namespace lissom {
 namespace {
@@ -40,18 +41,6 @@ double spread(const std::vector<Vec3>& points) {
     return std::sqrt(sum);
 }
 
-std::optional<Vec3> place_on(const Mesh& mesh, Index face, const Eigen::Vector3f& barycentric) {
-    if (face < 0 || face >= mesh.face_count() || mesh.topology().face(face).size() < 3) {
-        return std::nullopt;
-    }
-    const auto corners = mesh.topology().face(face);
-    Vec3 place = Vec3::Zero();
-    for (int i = 0; i < 3; ++i) {
-        place += static_cast<double>(barycentric[i]) * mesh.position(corners[i]);
-    }
-    return place;
-}
-
 // Places on a mesh, and the roots of the strands there.
 struct RootedPlaces {
     std::vector<Vec3> places, points;
@@ -63,7 +52,8 @@ std::optional<RootedPlaces> rooted_places(const Strands& strands, const Mesh& me
     RootedPlaces rooted;
     const std::size_t stride = std::max(roots.faces.size() / kLookedAt, std::size_t{1});
     for (std::size_t s = 0; s < roots.faces.size(); s += stride) {
-        const auto place = place_on(mesh, roots.faces[s], roots.barycentrics[s]);
+        if (roots.faces[s] == kNoIndex) continue;
+        const auto place = root_place(roots, index_of(s), mesh);
         const Vec3 point = strands.root(index_of(s)).cast<double>();
         if (!place) return std::nullopt;
         if (!point.allFinite()) continue;

@@ -57,7 +57,8 @@ std::size_t bytes_of(const StrandValues<Value>& values) {
 }
 
 std::size_t bytes_of(const StrandRoots& roots) {
-    return bytes_of(roots.faces) + bytes_of(roots.barycentrics) + bytes_of(roots.uvs);
+    return bytes_of(roots.faces) + bytes_of(roots.barycentrics) + bytes_of(roots.triangles) +
+           bytes_of(roots.uvs);
 }
 
 std::size_t bytes_of(const StrandGuides& guides) {
@@ -111,6 +112,7 @@ void Strands::set_widths(StrandWidths widths) {
 void Strands::set_roots(StrandRoots roots) {
     if (!roots.faces.empty()) require_length(roots.faces.size(), size(), "root faces");
     require_length(roots.barycentrics.size(), count_of(roots.faces), "barycentric coordinates");
+    if (!roots.triangles.empty()) require_length(roots.triangles.size(), size(), "root triangles");
     if (!roots.uvs.empty()) require_length(roots.uvs.size(), size(), "root uvs");
     count(roots_, roots);
     roots_ = std::move(roots);

@@ -15,6 +15,7 @@
 #include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/memory_hold.h"
+#include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
 
@@ -58,11 +59,14 @@ struct StrandWidths : StrandValues<float> {
 
 /// Roots of strands on the mesh of the head. Lists have one entry a strand, or none.
 struct StrandRoots {
-    std::vector<Index> faces;
-    /// Weights of the face's first three corners.
-    std::vector<Eigen::Vector3f> barycentrics;
+    std::vector<Index> faces = {};
+    /// Weights of the vertices of `triangles`, which sum to 1.
+    std::vector<Eigen::Vector3f> barycentrics = {};
     /// Texture coordinates of the roots.
-    std::vector<Eigen::Vector2f> uvs;
+    std::vector<Eigen::Vector2f> uvs = {};
+    /// Vertices of the triangle of the face that contains the root; empty on heads of triangles,
+    /// and if it is not known: then the first three corners of the face count.
+    std::vector<Triangle> triangles = {};
 };
 
 /// Id of the guide of a strand that follows none.

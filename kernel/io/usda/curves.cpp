@@ -268,6 +268,7 @@ class LayerReader {
         if (name.is("primvars:guideId")) return read_list(prim.guides);
         if (name.is("primvars:guideArc")) return read_list(prim.guide_arcs);
         if (name.is("primvars:rootFace")) return read_list(prim.faces);
+        if (name.is("primvars:rootVertices")) return read_list(prim.root_vertices);
         if (name.is("primvars:rootBarycentrics")) return read_list(prim.barycentrics);
         return false;
     }

@@ -178,6 +178,11 @@ void set_roots(const CurvesPrim& prim, const CurveCounts& counts, Strands& stran
     for (std::size_t i = 0; i < prim.barycentrics.size(); i += 3) {
         roots.barycentrics.emplace_back(prim.barycentrics.data() + i);
     }
+    const std::vector<Index> vertices = whole_numbers<Index>(
+        prim, prim.root_vertices, 3 * counts.strands, kNoIndex, "rootVertices");
+    for (std::size_t i = 0; i < vertices.size(); i += 3) {
+        roots.triangles.push_back({vertices[i], vertices[i + 1], vertices[i + 2]});
+    }
     strands.set_roots(std::move(roots));
 }
 

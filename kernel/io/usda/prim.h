@@ -36,7 +36,7 @@ struct CurvesPrim {
     std::vector<float> points;
     CurveValues widths, uvs, colors, opacities;
     std::vector<std::string> group_names;
-    std::vector<double> groups, ids, guides, faces;
+    std::vector<double> groups, ids, guides, faces, root_vertices;
     std::vector<float> guide_arcs;
     std::vector<float> barycentrics;
     /// Additional data of this program: widths before their profile, and the sources of opacities.

@@ -70,6 +70,14 @@ class LayerWriter {
         text_ += ')';
     }
 
+    void vertices(const Triangle& triangle) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            text_ += c == 0 ? "(" : ", ";
+            append_number(text_, triangle[c]);
+        }
+        text_ += ')';
+    }
+
     void write_points(Progress& progress) {
         Ticker ticker(progress);
         const Index count = strands_.point_count();
@@ -156,6 +164,11 @@ class LayerWriter {
             list(
                 "float3[] primvars:rootBarycentrics", strands_.size(),
                 [&](Index s) { tuple(roots.barycentrics[at(s)].data(), 3); }, "uniform");
+        }
+        if (!roots.triangles.empty()) {
+            list(
+                "int3[] primvars:rootVertices", strands_.size(),
+                [&](Index s) { vertices(roots.triangles[at(s)]); }, "uniform");
         }
         if (strands_.ids().empty()) return;
         list(

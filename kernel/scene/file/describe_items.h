@@ -105,6 +105,27 @@ void describe_values(Archive& a, StrandValues<Value>& values) {
     values.common = common.front();
 }
 
+// Files without them have roots on triangles, or weights of the first three corners of faces.
+template <typename Archive>
+void describe_root_triangles(Archive& a, StrandRoots& roots) {
+    std::optional<std::vector<Index>> vertices;
+    if (!roots.triangles.empty()) {
+        vertices.emplace();
+        for (const Triangle& t : roots.triangles)
+            vertices->insert(vertices->end(), t.begin(), t.end());
+    }
+    a.optional("root_triangles", vertices,
+               [](Archive& b, std::vector<Index>& x) { b.list("vertices", x); });
+    if (!Archive::kReads || !vertices) return;
+    if (vertices->size() % 3 != 0) {
+        throw Error(ErrorCode::file_syntax, "triangles of roots in the scene are not whole");
+    }
+    roots.triangles.clear();
+    for (std::size_t i = 0; i < vertices->size(); i += 3) {
+        roots.triangles.push_back({(*vertices)[i], (*vertices)[i + 1], (*vertices)[i + 2]});
+    }
+}
+
 template <typename Archive>
 void describe(Archive& a, StrandsRecord& strands) {
     if (Archive::kReads) strands.offsets.clear();
@@ -129,6 +150,7 @@ void describe(Archive& a, StrandsRecord& strands) {
         b.list("arcs", x.arcs);
     });
     strands.guides = std::move(guides).value_or(StrandGuides());
+    describe_root_triangles(a, strands.roots);
     a.optional("colors", strands.colors, [](Archive& b, auto& x) { describe_values(b, x); });
     a.object("transparency", [&](Archive& b) { describe_values(b, strands.transparency); });
     a.text("comment", strands.comment);

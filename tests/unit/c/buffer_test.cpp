@@ -701,6 +701,15 @@ TEST_CASE("values of strands go in and out, and groups keep their names") {
     const lissom_output triple{back, 2, 0, LISSOM_FLOAT32};
     CHECK(lissom_strands_read(host, strands, LISSOM_STRAND_ROOT_BARYCENTRIC, &triple) == LISSOM_OK);
     CHECK(std::memcmp(back, weights, sizeof back) == 0);
+    CHECK(has(LISSOM_STRAND_ROOT_TRIANGLE) == 0);
+    const std::int32_t triangles[][3] = {{1, 2, 3}, {4, 6, 5}};
+    const lissom_input vertices{triangles, 2, 0, LISSOM_INT32};
+    REQUIRE(lissom_strands_write(host, strands, LISSOM_STRAND_ROOT_TRIANGLE, &vertices) ==
+            LISSOM_OK);
+    std::int32_t corners[2][3];
+    const lissom_output of_roots{corners, 2, 0, LISSOM_INT32};
+    CHECK(lissom_strands_read(host, strands, LISSOM_STRAND_ROOT_TRIANGLE, &of_roots) == LISSOM_OK);
+    CHECK(std::memcmp(corners, triangles, sizeof corners) == 0);
     CHECK(write(LISSOM_STRAND_GUIDE, guides) == LISSOM_OK);
     CHECK(numbers(LISSOM_STRAND_GUIDE) == std::vector<std::int32_t>{-1, 0});
     CHECK(write(LISSOM_STRAND_GROUP, groups) == LISSOM_OUT_OF_RANGE);

@@ -79,7 +79,8 @@ Strands colored_strands() {
     strands.set_ids({7, 9});
     strands.set_roots({{3, 4},
                        {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 1, 0)},
-                       {Eigen::Vector2f(0.5f, 0.25f), Eigen::Vector2f(0, 1)}});
+                       {Eigen::Vector2f(0.5f, 0.25f), Eigen::Vector2f(0, 1)},
+                       {{4, 5, 6}, {5, 6, 7}}});
     strands.set_colors({Eigen::Vector3f::Zero(),
                         StrandDomain::strand,
                         {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 0, 1)}});

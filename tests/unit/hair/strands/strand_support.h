@@ -61,6 +61,8 @@ inline Strands rich_hair(Index count, unsigned seed = 1) {
         roots.faces.push_back(static_cast<Index>(7 * s));
         roots.barycentrics.emplace_back(x, 1.0f - x, 0.0f);
         roots.uvs.emplace_back(x, x * x);
+        const auto v = static_cast<Index>(5 * s);
+        roots.triangles.push_back({v, v + 2, v + 1});
         groups.push_back(static_cast<Index>(s % 3) - 1);
         ids.push_back(static_cast<std::uint32_t>(1000 + s));
     }
