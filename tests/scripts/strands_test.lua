@@ -276,3 +276,101 @@ do
             hair:cards{ count = 20, style = style, cap = false }:stats().triangles)
     end)
 end
+
+-- Hair that follows its head.
+do
+    local head = lissom.shapes.head{ vertices = 3000 }
+    local style = lissom.hairstyle(head, { resolution = 6000 })
+    for _, side in ipairs{ -1, 1 } do
+        style:add_stream{ points = {
+            style:at{ azimuth = 20 * side, elevation = 60, lift = 0.01 },
+            style:at{ azimuth = 80 * side, elevation = 20, lift = 0.02 },
+            style:at{ azimuth = 95 * side, elevation = -30, lift = 0.02 } } }
+    end
+    local hair = style:grow{ count = 300, length = 0.15 }
+
+    local function leaning(degrees)
+        local bent = head:copy()
+        local d = lissom.deformer(bent)
+        d:pin(bent:region{ plane = { point = { 0, -0.17, 0 }, normal = { 0, -1, 0 } } })
+        local skull = d:add_handle(bent:region{ plane = { point = { 0, 0, 0 }, normal = { 0, 1, 0 } } })
+        skull:rotate{ axis = "z", angle = degrees, about = { 0, -0.1, 0 } }
+        d:solve()
+        return bent
+    end
+
+    -- The place of a root on a mesh.
+    local function place(mesh, root)
+        local corners, p = root.triangle or mesh:face(root.face), { 0, 0, 0 }
+        for c = 1, 3 do
+            local x, y, z = mesh:position(corners[c])
+            for k, value in ipairs{ x, y, z } do p[k] = p[k] + root.bary[c] * value end
+        end
+        return p
+    end
+
+    test("barycentrics of roots lie in their triangle of a quad", function()
+        local on_quads = 0
+        for s = 1, #hair do
+            local root = hair:root(s)
+            if root.triangle then on_quads = on_quads + 1 end
+            local p = place(head, root)
+            for k = 1, 3 do
+                expect.truthy(root.bary[k] >= 0)
+                expect.near(p[k], root.position[k], 1e-6)
+            end
+        end
+        expect.truthy(on_quads > 200)
+        local file = test.file("roots.usda")
+        hair:save(file)
+        local back = lissom.load_strands(file)
+        for _, s in ipairs{ 1, 77, 300 } do
+            expect.equal(back:root(s).triangle, hair:root(s).triangle)
+        end
+    end)
+
+    test("roots stay on the skin of a leaning head and lengths stay", function()
+        local bent = leaning(25)
+        local moved = hair:follow(bent)
+        expect.equal(#moved, #hair)
+        for s = 1, #hair, 7 do
+            local root = moved:root(s)
+            local p = place(bent, root)
+            for k = 1, 3 do expect.near(p[k], root.position[k], 1e-6) end
+            expect.equal(root.id, hair:root(s).id)
+        end
+        expect.near(moved:stats().mean_length, hair:stats().mean_length, 0.002 * hair:stats().mean_length)
+        expect.equal(hair:follow(head):hash(), hair:hash())
+    end)
+
+    test("a head that is deformed in place takes its hair along, frame by frame", function()
+        local own = head:copy()
+        local grown = lissom.hairstyle(own, { resolution = 6000 }):grow{ count = 50, length = 0.05 }
+        local follower = grown:select{ first = 20 }:follower{ collision = "near" }
+        expect.equal(#follower, 20)
+        local into = grown:copy()
+        own:transform{ translate = { 0, 0.5, 0 } }
+        expect.equal(follower:follow(own, { into = into }), into)
+        expect.equal(#into, 20)
+        for s = 1, 20 do
+            expect.near(into:root(s).position[2], grown:root(s).position[2] + 0.5, 1e-6)
+        end
+        expect.equal(#grown:follow(own, { collision = "none" }), 50)
+    end)
+
+    test("hair of a file follows once its head is given", function()
+        local file = test.file("follow.usda")
+        hair:save(file)
+        local back, bent = lissom.load_strands(file), leaning(10)
+        expect.error(function() back:follow(bent) end, "rest")
+        expect.equal(#back:follow(bent, { rest = head }), #hair)
+    end)
+
+    test("misuse of follow has a remedy", function()
+        expect.error(function() hair:follow(lissom.shapes.head{ vertices = 4000 }) end, "attach")
+        expect.error(function() hair:follow(head:copy():transform{ scale = { -1, 1, 1 } }) end, "flip")
+        local bald = lissom.strands{ points = { { 0, 0, 0 }, { 0, 1, 0 } }, counts = { 2 } }
+        expect.error(function() bald:follow(head) end, "attach")
+        expect.error(function() hair:follow(head, { scale = 0 }) end, "scale")
+    end)
+end

@@ -15,4 +15,6 @@ std::vector<Record> cards_records();
 
 std::vector<Record> strand_check_records();
 
+Type strand_follower_type();
+
 }  // namespace lissom::lua

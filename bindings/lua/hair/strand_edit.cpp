@@ -41,7 +41,9 @@ int select_named(Call& call) {
     const char* group = call.string("group");
     const auto result = call.create<StrandsObject>();
     const bool done = call.attempt([&] {
-        result.set(std::make_shared<StrandsObject>(select_group(strands_of(call), group)));
+        auto made = std::make_shared<StrandsObject>(select_group(strands_of(call), group));
+        made->grown_on = call.self<StrandsObject>()->grown_on;
+        result.set(std::move(made));
     });
     if (!done) return call.fail();
     call.charge(result);
@@ -64,7 +66,7 @@ int select_strands(Call& call) {
     if (call.has("where")) list = ask_about_strands(call);
     if (call.has("strands")) list = call.ids("strands");
     if (call.has("group")) return select_named(call);
-    return new_strands(call, [&] {
+    const auto selected = [&] {
         const Strands& all = strands_of(call);
         if (call.has("first")) return prefix(all, call.integer("first"));
         if (call.has("region")) {
@@ -72,11 +74,13 @@ int select_strands(Call& call) {
         }
         if (call.has("near")) return select_near(call, all);
         return select(all, list);
-    });
+    };
+    return new_strands(call, selected, call.self<StrandsObject>()->grown_on);
 }
 
 int copy_strands(Call& call) {
-    return new_strands(call, [&] { return Strands(strands_of(call)); });
+    return new_strands(
+        call, [&] { return Strands(strands_of(call)); }, call.self<StrandsObject>()->grown_on);
 }
 
 int append_strands(Call& call) {

@@ -1,4 +1,7 @@
 // lissom.Strands: more hair of little, and the roots of given hair.
+#include <memory>
+#include <utility>
+
 #include "bindings/lua/hair/strand_effect.h"
 #include "kernel/hair/operators/strand_attach.h"
 #include "kernel/hair/operators/strand_fill.h"
@@ -20,15 +23,21 @@ std::vector<Root> new_roots(const Call& call, const HairstyleObject& style) {
 
 int interpolate_strands(Call& call) {
     const auto style = call.object<HairstyleObject>("style");
-    return new_strands(call, [&] {
-        (void)style->style();
+    const auto result = call.create<StrandsObject>();
+    const bool done = call.attempt([&] {
+        const std::shared_ptr<const Scalp> scalp = style->style().shared_scalp();
         InterpolateOptions options;
         options.near = call.integer("near");
         options.apart = call.number("apart") * kDegree;
         options.points = call.integer("points");
-        return interpolate(strands_of(call), new_roots(call, *style.get()), options,
-                           call.context());
+        auto made = std::make_shared<StrandsObject>(
+            interpolate(strands_of(call), new_roots(call, *style.get()), options, call.context()));
+        made->grown_on = scalp;
+        result.set(std::move(made));
     });
+    if (!done) return call.fail();
+    call.charge(result);
+    return 1;
 }
 
 int duplicate_strands(Call& call) {
@@ -52,10 +61,12 @@ int blend_strands(Call& call) {
 }
 
 int attach_strands(Call& call) {
+    const auto self = call.self<StrandsObject>();
+    const auto style = call.object<HairstyleObject>("head");
     return change_strands(call, [&](Strands& strands) {
-        const auto style = call.object<HairstyleObject>("head");
         attach(strands, style->head->mesh, style->style().scalp(), {call.boolean("snap")},
                call.context());
+        self->grown_on = style->style().shared_scalp();
     });
 }
 

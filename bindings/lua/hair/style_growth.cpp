@@ -138,6 +138,7 @@ int grow_hair(Call& call) {
                     options.growth);
         if (!reuse) result.set(std::make_shared<StrandsObject>(Strands()));
         own.grow(options, result->strands, call.context());
+        result->grown_on = own.shared_scalp();
     });
     if (!done) return call.fail();
     call.charge(result);
