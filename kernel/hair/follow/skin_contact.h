@@ -1,6 +1,7 @@
 /// Contact of moved hair with the skin; private to kernel/hair.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,6 +14,7 @@
 #include "kernel/hair/strands/strands.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/query/spatial_tree.h"
+#include "kernel/mesh/topology.h"
 
 namespace lissom {
 

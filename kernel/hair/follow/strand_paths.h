@@ -1,6 +1,7 @@
 /// Paths of strands in the space that moves with a head; private to kernel/hair.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>

@@ -4,8 +4,11 @@
 #include <optional>
 #include <span>
 
+#include "kernel/core/geometry.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/scalp/roots.h"
 #include "kernel/hair/strands/strands.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/mesh.h"
 
 namespace lissom {

@@ -18,6 +18,7 @@
 #include "kernel/deform/options.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/mesh/attributes.h"
+#include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/report.h"
 #include "kernel/scene/file/item_records.h"
 #include "kernel/scene/file/scene_archive.h"
