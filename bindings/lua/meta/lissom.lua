@@ -563,7 +563,8 @@
 ---@field id integer Stays with the strand when some are selected.
 ---@field position number[] Its first point, in metres.
 ---@field face integer|nil The face of the head that it lies on.
----@field bary number[]|nil Weights of the first three corners of that face.
+---@field bary number[]|nil Weights of the vertices of `triangle`, else of the three corners of the face.
+---@field triangle integer[]|nil Vertices of the triangle of the face that contains the root, on heads with polygons.
 ---@field uv number[]|nil Texture coordinates there.
 ---@field group string|nil The name of its group.
 ---@field guide integer|nil The id of the strand that it follows.
@@ -3126,6 +3127,33 @@ function Strands:cards(options) end
 ---@return lissom.StrandCheck check # The faults found.
 function Strands:check(options) end
 
+---@class lissom.Strands.FollowOptions
+---@field rest? lissom.Mesh The head with the shape it has under the strands. Default: the head that they grew on or were attached to, as it was then.
+---@field scale? number Factor of the strands' lengths. Default: that of the head if it was scaled as a whole, else 1.
+---@field ramp? number Length over which hair goes over from the rotation of the skin at its root to that of the head around it. In metres. Default: 0.04.
+---@field smoothing? number Length over which rotations of the skin are smoothed. In metres. Default: 0.015.
+---@field collision? "none"|"near"|"all" Hair that is kept out of the head: none; points near the skin at rest, over the place below them, which is fast; all. None is pushed farther out than it was at rest. Default: "all".
+---@field clearance? number Distance that hair stays off the skin. In metres. Default: 0.0005.
+
+---Moves hair with its head that was bent, morphed, scaled or skinned: roots stay on their places of the skin, lengths stay, or grow with a head that is scaled as a whole. Guides, groups, widths and colours are kept.
+---@param head lissom.Mesh The deformed head: the vertices and faces of the one at rest.
+---@param options? lissom.Strands.FollowOptions
+---@return lissom.Strands strands # New strands.
+function Strands:follow(head, options) end
+
+---@class lissom.Strands.FollowerOptions
+---@field rest? lissom.Mesh The head with the shape it has under the strands. Default: the head that they grew on or were attached to, as it was then.
+---@field scale? number Factor of the strands' lengths. Default: that of the head if it was scaled as a whole, else 1.
+---@field ramp? number Length over which hair goes over from the rotation of the skin at its root to that of the head around it. In metres. Default: 0.04.
+---@field smoothing? number Length over which rotations of the skin are smoothed. In metres. Default: 0.015.
+---@field collision? "none"|"near"|"all" Hair that is kept out of the head: none; points near the skin at rest, over the place below them, which is fast; all. None is pushed farther out than it was at rest. Default: "all".
+---@field clearance? number Distance that hair stays off the skin. In metres. Default: 0.0005.
+
+---Prepares hair to follow its head for each frame of an animation.
+---@param options? lissom.Strands.FollowerOptions
+---@return lissom.StrandFollower follower # The prepared strands, a copy.
+function Strands:follower(options) end
+
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Strands:close() end
 
@@ -3183,6 +3211,23 @@ function Cards:stats() end
 
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Cards:close() end
+
+---Strands prepared for the motion of their head.
+---@class lissom.StrandFollower
+---@operator len: integer
+local StrandFollower = {}
+
+---@class lissom.StrandFollower.FollowOptions
+---@field into? lissom.Strands Strands whose place the moved ones take. Default: new strands.
+
+---Moves the hair with its head in another shape, as `strands:follow`.
+---@param head lissom.Mesh The deformed head: the vertices and faces of the one at rest.
+---@param options? lissom.StrandFollower.FollowOptions
+---@return lissom.Strands strands # The moved strands.
+function StrandFollower:follow(head, options) end
+
+---Frees the contents of the object. It may be called again; any other use is an error then.
+function StrandFollower:close() end
 
 ---Named objects in an order, with a history of their changes.
 ---@class lissom.Scene
