@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "kernel/core/error.h"
-#include "kernel/hair/strands/strand_random.h"
 #include "kernel/hair/follow/strand_roots.h"
+#include "kernel/hair/strands/strand_random.h"
 
 namespace lissom {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "kernel/core/error.h"
-#include "kernel/hair/scalp/root_uvs.h"
 #include "kernel/hair/follow/strand_roots.h"
+#include "kernel/hair/scalp/root_uvs.h"
 
 namespace lissom {
 namespace {

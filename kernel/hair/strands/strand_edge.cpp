@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "kernel/core/error.h"
+#include "kernel/hair/follow/strand_roots.h"
 #include "kernel/hair/strands/strand_measures.h"
 #include "kernel/hair/strands/strand_pass.h"
 #include "kernel/hair/strands/strand_random.h"
 #include "kernel/hair/strands/strand_resample.h"
-#include "kernel/hair/follow/strand_roots.h"
 
 namespace lissom {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "kernel/hair/curve/length_text.h"
-#include "kernel/hair/strands/strand_measures.h"
 #include "kernel/hair/follow/strand_roots.h"
+#include "kernel/hair/strands/strand_measures.h"
 
 namespace lissom {
 namespace {

@@ -43,7 +43,7 @@ TEST_CASE("strands at the hairline are finer and shorter, some are baby hair; ro
               0.7f * before.widths().at(s, before.first_point(s)));
         baby += now < 0.025;
     }
-    REQUIRE(edge > 50);
+    REQUIRE(edge > 30);
     CHECK(baby > edge / 8);
     CHECK(baby < edge);
 }
