@@ -176,10 +176,23 @@ bool has_place(lua_State* L, int index) {
     return has;
 }
 
+// Shortens the text on top of the stack: a script may raise one of any length.
+void shorten_text(lua_State* L) {
+    constexpr std::size_t kMostBytes = 65536;
+    std::size_t bytes = 0;
+    const char* const text = lua_tolstring(L, -1, &bytes);
+    if (bytes <= kMostBytes) return;
+    lua_pushlstring(L, text, kMostBytes);
+    lua_pushfstring(L, "... (%d KB)", static_cast<int>(bytes >> 10));
+    lua_concat(L, 2);
+    lua_remove(L, -2);
+}
+
 // The handler of lua_pcall: error -> "file:line: message", the traceback of the place, its calls,
 // and its code.
 int explain_error(lua_State* L) {
     lua::push_error_text(L, 1);
+    shorten_text(L);
     if (!has_place(L, 1) && !names_a_chunk(L, lua_tostring(L, -1))) {
         push_script_place(L, 1);
         lua_insert(L, -2);

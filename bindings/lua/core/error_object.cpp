@@ -104,6 +104,21 @@ void push_operand(lua_State* L, int index) {
     }
 }
 
+// Pushes the text of a raised value that is no error object; one without a text has no address.
+const char* push_other_error(lua_State* L, int index) {
+    index = absolute_index(L, index);
+    const int kind = lua_type(L, index);
+    const bool is_plain =
+        kind == LUA_TSTRING || kind == LUA_TNUMBER || kind == LUA_TBOOLEAN || kind == LUA_TNIL;
+    if (is_plain) return to_display_string(L, index);
+    if (luaL_getmetafield(L, index, "__tostring")) {
+        lua_pop(L, 1);
+        return to_display_string(L, index);
+    }
+    lua_pushfstring(L, "the error is a %s without a text", luaL_typename(L, index));
+    return lua_tostring(L, -1);
+}
+
 int concatenate_error(lua_State* L) {
     lua_settop(L, 2);
     push_operand(L, 1);
@@ -215,7 +230,7 @@ void read_error(lua_State* L, int index, Failure& failure) {
 }
 
 const char* push_error_text(lua_State* L, int index) {
-    if (!is_error_object(L, index)) return to_display_string(L, index);
+    if (!is_error_object(L, index)) return push_other_error(L, index);
     index = absolute_index(L, index);
     const bool has_place = push_field(L, index, "place") == LUA_TSTRING;
     if (has_place) lua_pushliteral(L, ": ");

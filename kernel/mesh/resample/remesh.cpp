@@ -58,12 +58,9 @@ class Remeshing {
 
     void round() {
         split_long();
-        context_.checkpoint();
         collapse_short();
-        context_.checkpoint();
         flip_edges();
         relax();
-        context_.checkpoint();
     }
 
     RemeshResult result() const {
@@ -134,6 +131,7 @@ class Remeshing {
         blocked_.clear();
         for (const auto& [a, b] : edges()) add(a, b);
         while (!waiting.empty()) {
+            context_.checkpoint();
             const auto [length, a, b] = waiting.top();
             waiting.pop();
             const TriangleEditor::Edge edge = editor_.edge(a, b);
@@ -174,6 +172,7 @@ class Remeshing {
 
     void collapse_short() {
         for (const auto& [a, b] : edges()) {
+            context_.checkpoint();
             const TriangleEditor::Edge edge = editor_.edge(a, b);
             if (!exists(edge) || !may_change(edge) || relative_length(a, b) >= kTooShort) continue;
             if (!collapse(edge)) {
@@ -221,6 +220,7 @@ class Remeshing {
 
     void flip_edges() {
         for (const auto& [a, b] : edges()) {
+            context_.checkpoint();
             const TriangleEditor::Edge edge = editor_.edge(a, b);
             if (!exists(edge) || !may_change(edge) || !editor_.can_flip(edge)) continue;
             const Index c = editor_.opposite(edge.left, edge),
@@ -252,6 +252,7 @@ class Remeshing {
     // To the mean of the faces around, by area over wanted area, and back onto the surface.
     void relax() {
         for (Index v = 0; v < count_of(editor_.positions()); ++v) {
+            context_.checkpoint();
             if (!editor_.is_inner(v) || editor_.fan(v).empty()) continue;
             const Vec3 place = relaxed(v);
             const Index origin = editor_.faces()[at(editor_.fan(v).front())].origin;

@@ -347,6 +347,7 @@ TriangleEditor::Result TriangleEditor::result(const Mesh& source, const SurfaceS
     Result result;
     std::vector<SurfaceSamples::Sample> of_vertex;
     for (Index v = 0; v < count_of(positions_); ++v) {
+        context.checkpoint();
         const bool isolated = v < source.vertex_count() && source.topology().is_isolated(v);
         of_vertex.emplace_back();
         if (fan(v).empty() && !isolated) continue;
@@ -363,6 +364,7 @@ TriangleEditor::Result TriangleEditor::result(const Mesh& source, const SurfaceS
     FaceList faces;
     for (const Face& face : faces_) {
         if (!face.alive()) continue;
+        context.checkpoint();
         const Triangle& v = face.vertices;
         faces.add({new_id[at(v[0])], new_id[at(v[1])], new_id[at(v[2])]});
         result.map.faces.add_copy(face.origin);

@@ -181,6 +181,14 @@ TEST_CASE("scripts end with a status and the place of their error") {
     CHECK(ends("local lissom = require 'lissom'").status == kSuccess);
     CHECK(ends("\nerror('no')").err == "s.lua:2: no\n");
     CHECK(ends("\nerror('no')").status == kFailure);
+    // A value without a text is told by its type, never by its address.
+    CHECK(ends("\nerror{}").err == "s.lua:2: the error is a table without a text\n");
+    CHECK(ends("error(print)").err == "s.lua:1: the error is a function without a text\n");
+    CHECK(ends("error(setmetatable({}, { __tostring = function() return 'own' end }))").err ==
+          "s.lua:1: own\n");
+    const std::string flood = ends("error(('x'):rep(5e6))").err;
+    CHECK(flood.size() < 70'000);
+    CHECK(flood.find("... (4882 KB)") != std::string::npos);
     CHECK(ends("x = = 1").err.find("s.lua:1:") == 0);
     CHECK(ends("\n\nassert(require 'lissom'.load('none.obj'))").err.find("s.lua:3: none.obj") == 0);
     folder.write("part.lua", "return function()\n  local t\n  return t.x\nend");

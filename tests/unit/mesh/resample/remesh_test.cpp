@@ -1,6 +1,9 @@
 #include "kernel/mesh/resample/remesh.h"
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string_view>
 
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/query/self_intersections.h"
@@ -127,4 +130,22 @@ TEST_CASE("remeshing refuses lengths beyond the mesh, and more faces than it can
     // Edges that are short where they adapt only do not count everywhere.
     const Mesh sphere = make_sphere();
     CHECK(remesh(sphere, {.error = 0.05 * size, .shortest = 1e-5 * size}).mesh.face_count() > 0);
+}
+
+TEST_CASE("remeshing is cancelled within a round, not after it") {
+    using Clock = std::chrono::steady_clock;
+    const Mesh sphere = make_sphere({.segments = 24});
+    const RemeshOptions options{.edge = 0.012 * surface_radius(sphere), .iterations = 1};
+    const auto start = Clock::now();
+    remesh(sphere, options);
+    const auto whole = Clock::now() - start;
+    // It is cancelled at the first progress, before the round.
+    std::optional<Context> context;
+    ContextOptions settings;
+    settings.progress = [&](std::string_view, double) { context->cancel(); };
+    context.emplace(settings);
+    const auto begin = Clock::now();
+    CHECK(test::error_of([&] { remesh(sphere, options, *context); }).code() ==
+          ErrorCode::cancelled);
+    CHECK(4 * (Clock::now() - begin) < whole);
 }
