@@ -6,6 +6,9 @@
 #include <cstring>
 #include <limits>
 
+#include "kernel/io/stream/read_error.h"
+#include "kernel/io/stream/utf8.h"
+
 namespace lissom::c {
 namespace {
 
@@ -25,8 +28,22 @@ void put(unsigned char* place, Number value) {
 template <typename Number>
 Number nearest_integer(double value) {
     using Limits = std::numeric_limits<Number>;
+    if (std::isnan(value)) return 0;
     const double least = Limits::min(), most = Limits::max();
     return static_cast<Number>(std::clamp(std::nearbyint(value), least, most));
+}
+
+// Returns the nearest float; numbers beyond all floats go to the greatest.
+float nearest_float(double value) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    return static_cast<float>(std::clamp(value, -kMost, kMost));
+}
+
+// A number from -1 to 1 in as many steps: the least integer of the type is none of them.
+template <typename Number>
+Number nearest_signed_step(double value) {
+    constexpr double kSteps = std::numeric_limits<Number>::max();
+    return nearest_integer<Number>(kSteps * std::clamp(value, -1.0, 1.0));
 }
 
 // Half floats, IEEE 754 binary16: 11 bits of a number, the least of 2^-24.
@@ -180,7 +197,7 @@ bool is_normalized(lissom_format format) {
 void put_number(unsigned char* place, lissom_format format, double value) {
     switch (format) {
         case LISSOM_FLOAT32:
-            return put(place, static_cast<float>(value));
+            return put(place, nearest_float(value));
         case LISSOM_FLOAT64:
             return put(place, value);
         case LISSOM_UINT32:
@@ -196,9 +213,9 @@ void put_number(unsigned char* place, lissom_format format, double value) {
         case LISSOM_UNORM16:
             return put(place, nearest_integer<std::uint16_t>(65535.0 * value));
         case LISSOM_SNORM8:
-            return put(place, nearest_integer<std::int8_t>(127.0 * value));
+            return put(place, nearest_signed_step<std::int8_t>(value));
         case LISSOM_SNORM16:
-            return put(place, nearest_integer<std::int16_t>(32767.0 * value));
+            return put(place, nearest_signed_step<std::int16_t>(value));
         case LISSOM_FLOAT16:
             return put(place, nearest_half(value));
     }
@@ -238,7 +255,8 @@ std::vector<Index> read_ids(const lissom_input* input, bool may_be_none, const c
         const bool is_none = may_be_none && (given == -1.0 || given == kNoneUnsigned);
         if (!is_none && (given < 0.0 || given > std::numeric_limits<Index>::max())) {
             throw Error(ErrorCode::out_of_range,
-                        std::string(name) + ": ids are from 0 to 2147483647");
+                        std::string(name) + ": ids are from 0 to 2147483647, and one is " +
+                            std::to_string(static_cast<std::int64_t>(given)));
         }
         values[i] = is_none ? kNoIndex : static_cast<Index>(given);
     }
@@ -253,6 +271,17 @@ std::vector<Index> read_integers(const lissom_input* input, const char* name) {
 
 std::vector<Index> read_labels(const lissom_input* input, const char* name, std::size_t width) {
     return read_ids(input, true, name, width);
+}
+
+std::vector<Index> read_any_ids(const lissom_input* input, const char* name) {
+    require_list(input, name);
+    require_integers(input->format, name);
+    if (input->format != LISSOM_INT32) return read_labels(input, name);
+    const std::size_t stride = stride_of(input->stride, sizeof(Index), input->count, name);
+    const auto* place = static_cast<const unsigned char*>(input->data);
+    std::vector<Index> values(input->count);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = get<Index>(place + i * stride);
+    return values;
 }
 
 std::vector<double> read_numbers(const lissom_input* input, Index width, const char* name) {
@@ -278,8 +307,8 @@ void require_room(const lissom_output* output, std::size_t count, std::size_t wi
     require_given(output, name);
     if (!is_known(output->format)) refuse_format(name, "of a lissom_format");
     if (!output->data && count > 0 && output->count > 0) {
-        throw Error(ErrorCode::out_of_range, std::string(name) + ": its data are NULL, for " +
-                                                 std::to_string(count) + " elements");
+        throw Error(ErrorCode::invalid_argument, std::string(name) + ": its data are NULL, for " +
+                                                     std::to_string(count) + " elements");
     }
     if (output->count < count) {
         throw Error(ErrorCode::out_of_range, std::string(name) + ": there is room for " +
@@ -365,6 +394,13 @@ void write_triangles(const lissom_output* output, std::span<const Triangle> tria
 std::string given_text(const char* text, const char* name) {
     require_given(text, name);
     return text;
+}
+
+std::string given_name(const char* text, const char* name) {
+    require_given(text, name);
+    if (is_utf8(text)) return text;
+    throw Error(ErrorCode::invalid_argument,
+                std::string(name) + " is not UTF-8: " + in_quotes(text));
 }
 
 std::filesystem::path path_of(const std::string& text) {

@@ -24,6 +24,10 @@ std::vector<Index> read_integers(const lissom_input* input, const char* name);
 /// read_integers.
 std::vector<Index> read_labels(const lissom_input* input, const char* name, std::size_t width = 1);
 
+/// Returns the ids of a host's list, those below 0 too: whoever takes them names the wrong ones.
+/// Errors: as read_integers, but for those.
+std::vector<Index> read_any_ids(const lissom_input* input, const char* name);
+
 /// Returns the numbers of a host's list of any format, `width` an element. Errors:
 /// INVALID_ARGUMENT; NOT_FINITE.
 std::vector<double> read_numbers(const lissom_input* input, Index width, const char* name);
@@ -98,6 +102,10 @@ void write_triangles(const lissom_output* output, std::span<const Triangle> tria
 
 /// Returns a required text. Errors: INVALID_ARGUMENT, naming it, if it is NULL.
 std::string given_text(const char* text, const char* name);
+
+/// Returns a required text that is kept or looked for. Errors: INVALID_ARGUMENT, naming it, if it
+/// is NULL or not UTF-8.
+std::string given_name(const char* text, const char* name);
 
 /// Returns a path of UTF-8.
 std::filesystem::path path_of(const std::string& text);

@@ -1,8 +1,10 @@
 // Deformation by handles.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,12 +44,19 @@ DeformOptions deform_options(const lissom_deformer_options* given) {
     return options;
 }
 
+// The weight of a constraint of the host, for which 0 is hard.
+std::optional<double> given_weight(double weight) {
+    require(weight >= 0.0 && std::isfinite(weight),
+            "a weight must be above 0, or 0 for a hard constraint");
+    return weight > 0.0 ? std::optional<double>(weight) : std::nullopt;
+}
+
 HandleOptions handle_options(const lissom_handle_options* given) {
     const auto taken = take_options(given, lissom_default_handle_options());
     HandleOptions options;
     options.position = taken.position;
     options.gradient = taken.gradient;
-    if (taken.weight != 0.0) options.weight = taken.weight;
+    options.weight = given_weight(taken.weight);
     options.falloff = taken.falloff;
     return options;
 }
@@ -73,7 +82,7 @@ VertexConstraint constraint_of(const lissom_context& context, Index vertex, cons
     VertexConstraint constraint;
     constraint.vertex = vertex;
     if (position) constraint.position = context.space.to_kernel(position);
-    if (weight != 0.0) constraint.weight = weight;
+    constraint.weight = given_weight(weight);
     return constraint;
 }
 

@@ -320,8 +320,14 @@ typedef struct lissom_input {
 /// A list in the host's memory that is written: mapped vertex buffers too, as nothing is read from
 /// it. `count` is its capacity in elements; if it is too small the call is refused as OUT_OF_RANGE.
 /// The required number is returned by the neighbouring functions. Bytes between elements are left
-/// as they are. Integers that the format cannot hold are refused (OUT_OF_RANGE); numbers are
-/// rounded to the nearest that it holds. Normals and tangents may be SNORM8 or SNORM16 too.
+/// as they are. `data` may be NULL only if no element is written, else INVALID_ARGUMENT. Normals
+/// and tangents may be SNORM8 or SNORM16 too.
+///
+/// Ids and counts that the format cannot hold are refused (OUT_OF_RANGE). All other numbers are
+/// rounded to the nearest that it holds, also beyond its range: to 3.40282347e38 or its negative as
+/// FLOAT32, 65504 or -65504 as FLOAT16, 0 or 1 as UNORM8 and UNORM16, -1 or 1 as SNORM8 and
+/// SNORM16, and the least or greatest integer as UINT8, UINT16, UINT32 and INT32. NAN is 0 in
+/// formats that have none.
 typedef struct lissom_output {
     void* data;
     size_t count;
@@ -524,7 +530,8 @@ LISSOM_API lissom_status lissom_mesh_create(lissom_context* context, const lisso
 LISSOM_API lissom_status lissom_mesh_load(lissom_context* context, const char* path,
                                           const lissom_mesh_load_options* options,
                                           lissom_mesh* mesh);
-/// Reads a mesh from the bytes of a file; `extension` is "obj", "glb", ...
+/// Reads a mesh from the bytes of a file; `extension` is "obj", "glb", ... Errors: FILE_EMPTY
+/// without bytes; else as lissom_mesh_load.
 LISSOM_API lissom_status lissom_mesh_decode(lissom_context* context, const void* bytes, size_t size,
                                             const char* extension,
                                             const lissom_mesh_load_options* options,
@@ -628,8 +635,8 @@ LISSOM_API lissom_status lissom_mesh_read_attribute(lissom_context* context, lis
                                                     const char* name, const lissom_output* values);
 /// Adds an attribute of `width` numbers an element, or replaces the one of this name. Files get it
 /// as the type of the list's format if they can. Errors: INVALID_ARGUMENT for another number of
-/// elements than the domain has, an empty name, or a width that does not suit a name with a
-/// meaning; NOT_FINITE.
+/// elements than the domain has, an empty name or one that is not UTF-8, or a width that does not
+/// suit a name with a meaning; NOT_FINITE.
 LISSOM_API lissom_status lissom_mesh_write_attribute(lissom_context* context, lissom_mesh mesh,
                                                      const char* name, lissom_domain domain,
                                                      int32_t width, const lissom_input* values);
@@ -1326,7 +1333,7 @@ LISSOM_API lissom_status lissom_strands_write_at_points(lissom_context* context,
                                                         lissom_strand_value value,
                                                         const lissom_input* values);
 /// Replaces all points (triples); strands keep their numbers of points. Errors: INVALID_ARGUMENT
-/// for another number; NOT_FINITE.
+/// for another number; NOT_FINITE, also beyond 32-bit floats, which strands keep.
 LISSOM_API lissom_status lissom_strands_set_points(lissom_context* context, lissom_strands strands,
                                                    const lissom_input* points);
 /// Return the number of groups, or -1 for an invalid handle; and the name of one, which lives until
@@ -1380,8 +1387,8 @@ LISSOM_API lissom_sandbox_options lissom_default_sandbox_options(void);
 /// strings, tables, numbers and coroutines, and the library, but without the system, without binary
 /// chunks, and within fixed limits. A script that exceeds the time, the instructions or the output
 /// is CANCELLED; one that exceeds the memory gets MEMORY_LIMIT; the next one runs. `options` may be
-/// NULL. Errors: BAD_STRUCT; INVALID_ARGUMENT after a script or call, or for limits below 0;
-/// MEMORY_LIMIT.
+/// NULL. Errors: BAD_STRUCT; INVALID_ARGUMENT after a script or call, for a second sandbox, or for
+/// limits or numbers of folders below 0; MEMORY_LIMIT.
 LISSOM_API lissom_status lissom_sandbox_scripts(lissom_context* context,
                                                 const lissom_sandbox_options* options);
 
@@ -1414,10 +1421,10 @@ LISSOM_API lissom_status lissom_script_begin_run(lissom_context* context, lissom
 /// which is the object itself and no copy. `json` receives the list of results in the same format,
 /// objects with "type": "lissom.Mesh", ...: lissom.Mesh, Region, Deformer, Hairstyle and Strands
 /// are handles of those kinds, all others of lissom_object. Release objects that are not needed.
-/// Integers have 64 bits; a number beyond, a result that is not finite, a table that is a list and
-/// has names, and any other value that JSON cannot hold are refused. Errors: OUT_OF_RANGE for an
-/// unknown name, with the nearest; INVALID_ARGUMENT for bad JSON or arguments; INVALID_HANDLE;
-/// those of the function.
+/// Integers have 64 bits; a number beyond, a result that is not finite, a text that is not UTF-8, a
+/// table that is a list and has names, and any other value that JSON cannot hold are refused.
+/// Errors: OUT_OF_RANGE for an unknown name, with the nearest; INVALID_ARGUMENT for bad JSON or
+/// arguments; INVALID_HANDLE; those of the function.
 LISSOM_API lissom_status lissom_call(lissom_context* context, const char* name,
                                      const char* arguments, lissom_bytes* json);
 /// Starts the call as a job, whose results are JSON.
@@ -1435,8 +1442,9 @@ LISSOM_API lissom_status lissom_numbers_create(lissom_context* context, const li
 /// Return the number of elements, and of numbers in one, or -1 for another handle.
 LISSOM_API int32_t lissom_numbers_size(lissom_context* context, lissom_object numbers);
 LISSOM_API int32_t lissom_numbers_width(lissom_context* context, lissom_object numbers);
-/// Writes all elements. Errors: INVALID_ARGUMENT for an object that is no list; TOPOLOGY_MISMATCH
-/// for a list of a mesh that was released or has another topology.
+/// Writes all elements. A list of a mesh keeps that mesh: it is read after lissom_mesh_release too.
+/// Errors: INVALID_ARGUMENT for an object that is no list; TOPOLOGY_MISMATCH for a list of a mesh
+/// that has another topology by now, or of an attribute that has gone.
 LISSOM_API lissom_status lissom_numbers_read(lissom_context* context, lissom_object numbers,
                                              const lissom_output* values);
 

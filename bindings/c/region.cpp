@@ -2,6 +2,7 @@
 #include "kernel/mesh/region.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "bindings/c/data.h"
@@ -66,7 +67,7 @@ lissom_status lissom_region_of_vertices(lissom_context* context, lissom_mesh mes
     return run(context, [&] {
         add_region(
             *context,
-            Region(mesh_of(*context, mesh).shared_topology(), read_integers(vertices, "vertices")),
+            Region(mesh_of(*context, mesh).shared_topology(), read_any_ids(vertices, "vertices")),
             region);
     });
 }
@@ -128,7 +129,7 @@ lissom_status lissom_mesh_set_region(lissom_context* context, lissom_mesh mesh, 
                                      lissom_region region) {
     return run(context, [&] {
         Mesh& own = mesh_of(*context, mesh);
-        own.set_region(given_text(name, "name"), region_of(*context, region));
+        own.set_region(given_name(name, "name"), region_of(*context, region));
         context->sharing.changed(own);
     });
 }
@@ -150,7 +151,9 @@ lissom_status lissom_region_grow(lissom_context* context, lissom_region a, int32
                                  lissom_region* region) {
     return run(context, [&] {
         const Region& own = region_of(*context, a);
-        add_region(*context, rings < 0 ? own.shrunk(-rings) : own.grown(rings), region);
+        // The least number has no opposite.
+        const Index inward = -std::max(rings, -std::numeric_limits<Index>::max());
+        add_region(*context, rings < 0 ? own.shrunk(inward) : own.grown(rings), region);
     });
 }
 

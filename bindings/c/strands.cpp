@@ -2,6 +2,8 @@
 #include "kernel/hair/strands/strands.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -58,7 +60,10 @@ bool has_value(const Strands& strands, lissom_strand_value value) {
 }
 
 void require_value(const Strands& strands, lissom_strand_value value) {
-    require(has_value(strands, value), "the strands have no such values", ErrorCode::out_of_range);
+    require(has_value(strands, value),
+            "the strands have no such values: lissom_strands_has tells which they have, and "
+            "lissom_strands_write gives them some",
+            ErrorCode::out_of_range);
 }
 
 // Number k of a value at a point of a strand.
@@ -165,11 +170,19 @@ void read_point_values(const Strands& strands, lissom_strand_value value,
         [](std::size_t) { return false; });
 }
 
+// Strands keep 32-bit floats.
+float float_of(double number, const char* name) {
+    if (std::abs(number) <= std::numeric_limits<float>::max()) return static_cast<float>(number);
+    throw Error(
+        ErrorCode::not_finite,
+        std::string(name) + ": a number is not finite as the 32-bit float that strands keep");
+}
+
 template <int Width>
 std::vector<Eigen::Matrix<float, Width, 1>> vectors_of(const std::vector<double>& numbers) {
     std::vector<Eigen::Matrix<float, Width, 1>> list(numbers.size() / Width);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        list[i / Width][index_of(i % Width)] = static_cast<float>(numbers[i]);
+        list[i / Width][index_of(i % Width)] = float_of(numbers[i], "values");
     }
     return list;
 }
@@ -177,7 +190,7 @@ std::vector<Eigen::Matrix<float, Width, 1>> vectors_of(const std::vector<double>
 std::vector<float> floats_of(const std::vector<double>& numbers) {
     std::vector<float> list;
     list.reserve(numbers.size());
-    for (const double number : numbers) list.push_back(static_cast<float>(number));
+    for (const double number : numbers) list.push_back(float_of(number, "values"));
     return list;
 }
 
@@ -216,8 +229,12 @@ void set_guide_ids(Strands& strands, const std::vector<Index>& ids) {
 
 void set_groups_of(Strands& strands, std::vector<Index> groups) {
     for (const Index group : groups) {
-        require(group < count_of(strands.group_names()), "a group has no name",
-                ErrorCode::out_of_range);
+        const Index names = count_of(strands.group_names());
+        if (group < names) continue;
+        throw Error(ErrorCode::out_of_range,
+                    "group " + std::to_string(group) + " has no name: the strands have " +
+                        std::to_string(names) +
+                        " groups, numbered from 0; lissom_strands_set_groups names them");
     }
     strands.set_groups(std::move(groups), strands.group_names());
 }
@@ -327,13 +344,12 @@ lissom_status lissom_strands_set_points(lissom_context* context, lissom_strands 
         Strands& own = own_strands(*context, strands);
         const std::vector<Vec3> given = read_points(points, context->space, "points");
         require(count_of(given) == own.point_count(), "points need as many as there are");
+        std::vector<float> floats;
+        floats.reserve(3 * given.size());
         for (const Vec3& point : given) {
-            require(point.allFinite(), "points: a coordinate is not finite", ErrorCode::not_finite);
+            for (int k = 0; k < 3; ++k) floats.push_back(float_of(point[k], "points"));
         }
-        const auto place = own.edit_points();
-        for (std::size_t i = 0; i < place.size(); ++i) {
-            place[i] = static_cast<float>(given[i / 3][index_of(i % 3)]);
-        }
+        std::copy(floats.begin(), floats.end(), own.edit_points().begin());
     });
 }
 
@@ -362,7 +378,7 @@ lissom_status lissom_strands_set_groups(lissom_context* context, lissom_strands 
         if (count > 0) require_given(names, "names");
         std::vector<std::string> list;
         for (Index i = 0; i < count; ++i) {
-            list.push_back(given_text(names[i], "a name"));
+            list.push_back(given_name(names[i], "a name"));
             require(!list.back().empty(), "a group has an empty name");
         }
         std::vector<Index> groups = own.groups();

@@ -14,6 +14,7 @@
 #include "bindings/cli/terminal/script_place.h"
 #include "bindings/lua/core/error_object.h"
 #include "bindings/lua/core/script_parameters.h"
+#include "bindings/lua/host/counted_state.h"
 #include "kernel/io/stream/file.h"
 
 namespace lissom::cli {
@@ -298,16 +299,17 @@ void Script::open_in_sandbox(const lua::SandboxLimits& given) {
 void Script::open_trusted() {
     const Opening opening{&options_, &stoppable_, search_path(options_.arguments.script),
                           program_.unsafe_debug};
-    L_ = luaL_newstate();
-    if (!L_) throw std::bad_alloc();
-    lua_pushcfunction(L_, prepare);
-    lua_pushlightuserdata(L_, const_cast<Opening*>(&opening));
-    if (lua_pcall(L_, 1, 0, 0) != LUA_OK) {
-        const std::string message = lua_tostring(L_, -1);
-        lua_close(L_);
-        throw std::runtime_error(message);
+    lua::OwnedState made(luaL_newstate());
+    lua_State* L = made.get();
+    if (!L) throw std::bad_alloc();
+    lua_pushcfunction(L, prepare);
+    lua_pushlightuserdata(L, const_cast<Opening*>(&opening));
+    if (lua_pcall(L, 1, 0, 0) != LUA_OK) {
+        const char* text = lua_tostring(L, -1);
+        throw std::runtime_error(text ? text : "the Lua state cannot be opened");
     }
-    stoppable_.follow(state().context);
+    stoppable_.follow(lua::find_state(L)->context);
+    L_ = made.release();
 }
 
 Script::~Script() {

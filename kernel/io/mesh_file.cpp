@@ -364,6 +364,7 @@ SavedFile save_mesh(const Mesh& mesh, const std::filesystem::path& path, const S
 Mesh decode_mesh(std::string_view bytes, std::string_view extension, const LoadOptions& options,
                  const Context& context) {
     const Format& format = find_format(extension);
+    if (bytes.empty()) throw Error(ErrorCode::file_empty, "the file has no bytes");
     return with_place_in_errors("", [&] {
         return with_memory_errors([&] { return decode({bytes, {}}, format, options, context); });
     });

@@ -94,11 +94,14 @@ FaceLabels given_labels(const Mesh& mesh, const char* const* names, Index name_c
     require(name_count >= 0, "name_count is negative");
     if (name_count > 0) require_given(names, "names");
     FaceLabels made;
-    for (Index i = 0; i < name_count; ++i) made.names.push_back(given_text(names[i], "a name"));
+    for (Index i = 0; i < name_count; ++i) made.names.push_back(given_name(names[i], "a name"));
     made.of_face = read_labels(labels, "labels");
     require(count_of(made.of_face) == mesh.face_count(), "labels need one element a face");
     for (const Index label : made.of_face) {
-        require(label < name_count, "a label has no name", ErrorCode::out_of_range);
+        if (label < name_count) continue;
+        throw Error(ErrorCode::out_of_range,
+                    "label " + std::to_string(label) + " has no name: the names given are " +
+                        std::to_string(name_count) + ", and labels count from 0");
     }
     return made;
 }
@@ -179,7 +182,7 @@ lissom_status lissom_mesh_write_attribute(lissom_context* context, lissom_mesh m
     return run(context, [&] {
         Mesh& own = mesh_of(*context, mesh);
         Attribute made;
-        made.name = given_text(name, "name");
+        made.name = given_name(name, "name");
         made.domain = static_cast<Domain>(domain);
         made.width = width;
         made.values = read_numbers(values, width, "values");
@@ -244,7 +247,7 @@ lissom_status lissom_mesh_write_labels(lissom_context* context, lissom_mesh mesh
                                        const lissom_input* labels) {
     return run(context, [&] {
         Mesh& own = mesh_of(*context, mesh);
-        const std::string text = given_text(kind, "kind");
+        const std::string text = given_name(kind, "kind");
         require(!text.empty(), "kind is empty");
         FaceLabels made = given_labels(own, names, name_count, labels);
         AttributeSet next = own.attributes();

@@ -117,6 +117,8 @@ ScriptHost::~ScriptHost() {
 }
 
 void ScriptHost::open_sandbox(lua::SandboxLimits limits) {
+    require(!sandbox_,
+            "this context has its sandbox already; make another context for other limits");
     require(!L_, "scripts have run in this context already; make another context for the sandbox");
     lua::HostOptions options;
     options.context = state_options(context_);
@@ -163,7 +165,8 @@ std::vector<Held> ScriptHost::known_objects() {
 
 lua_State* ScriptHost::lua() {
     if (L_) return L_;
-    lua_State* L = lua_newstate(lua::allocate_counted, context_.kernel.memory().get());
+    lua::OwnedState state(lua_newstate(lua::allocate_counted, context_.kernel.memory().get()));
+    lua_State* L = state.get();
     if (!L) throw Error(ErrorCode::memory_limit, "there is not enough memory for a Lua state");
     lua::HostOptions options;
     options.context = state_options(context_);
@@ -172,14 +175,12 @@ lua_State* ScriptHost::lua() {
     lua_pushlightuserdata(L, &opening);
     if (lua_pcall(L, 1, 0, 0) != LUA_OK) {
         const char* text = lua_tostring(L, -1);
-        const std::string message = text ? text : "the Lua state cannot be opened";
-        lua_close(L);
-        throw Error(ErrorCode::memory_limit, message);
+        throw Error(ErrorCode::memory_limit, text ? text : "the Lua state cannot be opened");
     }
     // Operations of scripts are those of the context: its cancel, progress and memory.
     lua::find_state(L)->context = context_.kernel;
     stoppable_.follow(context_.kernel);
-    L_ = L;
+    L_ = state.release();
     return L_;
 }
 

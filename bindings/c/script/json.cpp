@@ -7,6 +7,8 @@
 
 #include "kernel/core/error.h"
 #include "kernel/core/numbers/number_text.h"
+#include "kernel/io/stream/read_error.h"
+#include "kernel/io/stream/utf8.h"
 
 namespace lissom::c {
 namespace {
@@ -103,7 +105,11 @@ void write_text(std::string& json, const std::string& text) {
     if (plain) {
         json += '"' + text + '"';
     } else {
-        json += Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+        if (!is_utf8(text)) {
+            throw Error(ErrorCode::invalid_argument,
+                        "a text is not UTF-8, which JSON cannot hold: " + in_quotes(text));
+        }
+        json += Json(text).dump();
     }
 }
 

@@ -45,7 +45,8 @@ constexpr int kDepth = 100;
 /// holds, or a name twice.
 List list_of_json(std::string_view text);
 
-/// Returns the JSON of a list, on one line. Bytes that are no UTF-8 are replaced.
+/// Returns the JSON of a list, on one line. Errors: invalid_argument for a
+/// text that is not UTF-8.
 std::string json_of(const List& list);
 
 }  // namespace lissom::c

@@ -167,6 +167,7 @@ void set_parameter(Script& script, const std::string& name, const std::string& v
 std::vector<std::filesystem::path> folders_of(const char* const* names, std::int32_t count,
                                               const char* name) {
     std::vector<std::filesystem::path> folders;
+    require(count >= 0, std::string(name) + ": the number of folders is negative");
     if (count > 0) require_given(names, name);
     for (std::int32_t i = 0; i < count; ++i) folders.push_back(path_of(given_text(names[i], name)));
     return folders;
@@ -333,7 +334,7 @@ lissom_status lissom_script_load(lissom_context* context, const char* text, size
         require_given(script, "script");
         auto made = std::make_shared<Script>();
         made->text.assign(text, size);
-        made->name = "@" + given_text(name, "name");
+        made->name = "@" + given_name(name, "name");
         ScriptHost& host = scripts_of(*context);
         const StackGuard guard(host.lua());
         check_syntax(host, *made);
@@ -359,8 +360,8 @@ lissom_status lissom_script_parameters(lissom_context* context, lissom_script sc
 lissom_status lissom_script_set(lissom_context* context, lissom_script script,
                                 const char* parameter, const char* value) {
     return run(context, [&] {
-        set_parameter(script_of(*context, script), given_text(parameter, "parameter"),
-                      given_text(value, "value"));
+        set_parameter(script_of(*context, script), given_name(parameter, "parameter"),
+                      given_name(value, "value"));
     });
 }
 

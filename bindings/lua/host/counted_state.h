@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "bindings/lua/core/compat.h"
 
@@ -10,6 +11,14 @@ namespace lissom::lua {
 /// A lua_Alloc that charges the lissom::MemoryAccount at `account`, and fails if that has no
 /// room.
 void* allocate_counted(void* account, void* block, std::size_t old_size, std::size_t new_size);
+
+/// Closes a Lua state.
+struct StateCloser {
+    void operator()(lua_State* L) const { lua_close(L); }
+};
+/// A Lua state that is closed with its owner, also while an exception passes: a text of an error
+/// may find no memory.
+using OwnedState = std::unique_ptr<lua_State, StateCloser>;
 
 /// os.exit of a script whose host goes on: raises an error with a replacement.
 int refuse_exit(lua_State* L);

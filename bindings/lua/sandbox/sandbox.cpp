@@ -312,6 +312,20 @@ Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
     parts.options.addresses = false;
     guard_files(parts);
     count_warnings(parts);
+    try {
+        open_state();
+    } catch (...) {
+        close_state();
+        throw;
+    }
+}
+
+Sandbox::~Sandbox() {
+    close_state();
+}
+
+void Sandbox::open_state() {
+    Parts& parts = *parts_;
     parts.L = lua_newstate(allocate_in_time, &parts);
     bool opened = false;
     if (parts.L) {
@@ -323,14 +337,14 @@ Sandbox::Sandbox(SandboxLimits limits, HostOptions options,
     if (!opened) {
         const char* text = parts.L ? lua_tostring(parts.L, -1) : nullptr;
         const std::string why = text ? text : "not enough memory";
-        if (parts.L) lua_close(parts.L);
         throw Error(ErrorCode::memory_limit, "the sandbox cannot be opened: " + why);
     }
     parts.stop.follow(state().context);
 }
 
 // Lua needs memory to call the finalizers of objects, which give back what they hold.
-Sandbox::~Sandbox() {
+void Sandbox::close_state() noexcept {
+    if (!parts_->L) return;
     const MemoryOverdraft overdraft(parts_->account);
     lua_close(parts_->L);
 }

@@ -77,6 +77,9 @@ class Sandbox {
     Parts& parts() const { return *parts_; }
 
   private:
+    void open_state();
+    void close_state() noexcept;
+
     std::unique_ptr<Parts> parts_;
 };
 

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "kernel/io/stream/utf8.h"
+
 namespace lissom {
 namespace {
 
@@ -11,20 +13,11 @@ constexpr std::size_t kMaximumElements = std::numeric_limits<Index>::max();
 
 // Bytes of the character of UTF-8 that begins `text`; 0 if none does or it cannot be printed.
 std::size_t printable_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) {
-        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-    };
-    const unsigned lead = byte(0), second = byte(1);
-    if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
-    if (lead < 0xc2 || lead > 0xf4) return 0;
-    const std::size_t length = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xc0) != 0x80) return 0;
-    }
-    const bool is_control = lead == 0xc2 && second < 0xa0;
-    const bool is_overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
-    const bool is_no_character = (lead == 0xed && second > 0x9f) || (lead == 0xf4 && second > 0x8f);
-    return is_control || is_overlong || is_no_character ? 0 : length;
+    const std::size_t length = utf8_length(text);
+    const auto lead = static_cast<unsigned char>(length > 0 ? text[0] : 0);
+    if (length == 1) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
+    const bool is_control = lead == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0;
+    return is_control ? 0 : length;
 }
 
 }  // namespace

@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "kernel/core/hasher.h"
 #include "kernel/mesh/measure/flat_face.h"
 #include "kernel/mesh/measure/normals_in_place.h"
+#include "kernel/mesh/measure/scale.h"
 #include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
@@ -87,18 +89,29 @@ Surface surface_of(const Mesh& mesh, const Triangulation& surface) {
     return result;
 }
 
-// The unit normal of a polygon whose k-th corner is `corner(k)`.
+// The unit normal of a polygon whose k-th corner is `corner(k)`; nothing if its size is too far
+// from 1 for products of lengths.
 template <typename Corner>
-Vec3 normal_of_corners(std::size_t count, const Corner& corner) {
+std::optional<Vec3> measured_normal(std::size_t count, const Corner& corner) {
     Vec3 area = Vec3::Zero();
     double longest = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
-        const Vec3& next = corner((k + 1) % count);
+        const Vec3 next = corner((k + 1) % count);
         area += 0.5 * (corner(k) - corner(0)).cross(next - corner(0));
         longest = std::max(longest, (next - corner(k)).squaredNorm());
     }
+    if (!is_measurable(longest)) return std::nullopt;
     const double size = area.norm();
     return size > kFlatFace * longest ? Vec3(area / size) : Vec3(Vec3::Zero());
+}
+
+// The unit normal of a polygon whose k-th corner is `corner(k)`, of any size.
+template <typename Corner>
+Vec3 normal_of_corners(std::size_t count, const Corner& corner) {
+    if (const auto normal = measured_normal(count, corner)) return *normal;
+    const double scale = scale_to_unit(count, corner);
+    return measured_normal(count, [&](std::size_t k) -> Vec3 { return scale * corner(k); })
+        .value_or(Vec3(Vec3::Zero()));
 }
 
 }  // namespace
@@ -207,7 +220,13 @@ Vec3 polygon_normal(std::span<const Vec3> corners) {
 }
 
 double corner_angle(const Vec3& before, const Vec3& corner, const Vec3& after, const Vec3& normal) {
-    const Vec3 a = after - corner, b = before - corner;
+    Vec3 a = after - corner, b = before - corner;
+    if (!is_measurable(a.squaredNorm()) || !is_measurable(b.squaredNorm())) {
+        const Vec3 points[] = {before, corner, after};
+        const double scale = scale_to_unit(3, [&](std::size_t k) { return points[k]; });
+        a = (scale * after - scale * corner).stableNormalized();
+        b = (scale * before - scale * corner).stableNormalized();
+    }
     const double angle = std::atan2(a.cross(b).dot(normal), a.dot(b));
     return angle < 0.0 ? angle + 2.0 * kPi : angle;
 }

@@ -7,6 +7,7 @@
 #include "kernel/core/error.h"
 #include "kernel/mesh/measure/angle.h"
 #include "kernel/mesh/measure/flat_face.h"
+#include "kernel/mesh/measure/scale.h"
 #include "kernel/mesh/topology.h"
 
 namespace lissom {
@@ -110,10 +111,11 @@ void RegionNormals::add_corners_of_rows() {
     }
 }
 
-void RegionNormals::measure_triangle(Index f) {
+bool RegionNormals::measure_triangle(Index f, double scale) {
     const std::size_t c = at(face_begin_[at(f)]);
-    const Vec3 &p = points_[at(corner_vertex_[c])], &q = points_[at(corner_vertex_[c + 1])],
-               &r = points_[at(corner_vertex_[c + 2])];
+    const Vec3 p = scale * points_[at(corner_vertex_[c])],
+               q = scale * points_[at(corner_vertex_[c + 1])],
+               r = scale * points_[at(corner_vertex_[c + 2])];
     const Vec3 a = q - p, b = r - q, d = p - r, cross = a.cross(b);
     const double size = cross.norm();
     const double longest = std::max({a.squaredNorm(), b.squaredNorm(), d.squaredNorm()});
@@ -123,12 +125,13 @@ void RegionNormals::measure_triangle(Index f) {
     corner_angle_[c] = at_p;
     corner_angle_[c + 1] = at_q;
     corner_angle_[c + 2] = std::max(kPi - at_p - at_q, 0.0);
+    return is_measurable(longest);
 }
 
-void RegionNormals::measure_polygon(Index f) {
+bool RegionNormals::measure_polygon(Index f, double scale) {
     const Index first = face_begin_[at(f)], count = face_begin_[at(f) + 1] - first;
-    const auto corner = [&](Index k) -> const Vec3& {
-        return points_[at(corner_vertex_[at(first + k % count)])];
+    const auto corner = [&](Index k) -> Vec3 {
+        return scale * points_[at(corner_vertex_[at(first + k % count)])];
     };
     Vec3 area = Vec3::Zero();
     double longest = 0.0;
@@ -143,11 +146,18 @@ void RegionNormals::measure_polygon(Index f) {
         corner_angle_[at(first + k)] =
             angle_about(corner(k + 1) - corner(k), corner(k + count - 1) - corner(k), normal);
     }
+    return is_measurable(longest);
 }
 
 void RegionNormals::measure_face(Index f) {
-    const bool is_triangle = face_begin_[at(f) + 1] - face_begin_[at(f)] == 3;
-    is_triangle ? measure_triangle(f) : measure_polygon(f);
+    const Index first = face_begin_[at(f)], count = face_begin_[at(f) + 1] - first;
+    const auto measure = [&](double scale) {
+        return count == 3 ? measure_triangle(f, scale) : measure_polygon(f, scale);
+    };
+    if (measure(1.0)) return;
+    measure(scale_to_unit(at(count), [&](std::size_t k) -> const Vec3& {
+        return points_[at(corner_vertex_[at(first) + k])];
+    }));
 }
 
 Vec3 RegionNormals::sum_at(Index row) const {

@@ -33,8 +33,9 @@ class RegionNormals {
     void charge(const Region& region, std::span<const Index> faces);
     void add_corners_of_rows();
     void measure_face(Index f);
-    void measure_triangle(Index f);
-    void measure_polygon(Index f);
+    /// These measure a face times `scale`. Return whether its size suits products of lengths.
+    bool measure_triangle(Index f, double scale);
+    bool measure_polygon(Index f, double scale);
     Vec3 sum_at(Index row) const;
 
     MemoryHold hold_;

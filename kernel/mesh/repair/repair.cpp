@@ -27,7 +27,7 @@ void require_indices(const Soup& soup) {
     }
     if (bad.count == 0) return;
     refuse(ErrorCode::face_index, std::move(bad),
-           "vertices outside the " + std::to_string(count) + " of the file are used by",
+           "vertices outside the " + std::to_string(count) + " given are used by",
            "correct the indices");
 }
 

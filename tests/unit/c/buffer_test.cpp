@@ -599,6 +599,60 @@ TEST_CASE("half floats go in and out bit by bit, and numbers go to the nearest o
     CHECK(lissom_mesh_set_positions(host, mesh, &moved) == LISSOM_OK);
 }
 
+TEST_CASE("numbers beyond the range of a format are the nearest that it holds") {
+    const Host host;
+    const lissom_mesh mesh = host.add(make_box({}));
+    const double values[8] = {-2, 2, -1, 1e300, -1e300, 70000, -70000, 0.25};
+    const lissom_input in{values, 8, 0, LISSOM_FLOAT64};
+    REQUIRE(lissom_mesh_write_attribute(host, mesh, "wear", LISSOM_ON_VERTICES, 1, &in) ==
+            LISSOM_OK);
+    const auto read = [&](auto number, lissom_format format) {
+        std::vector<decltype(number)> list(8);
+        const lissom_output out{list.data(), 8, 0, format};
+        REQUIRE(lissom_mesh_read_attribute(host, mesh, "wear", &out) == LISSOM_OK);
+        return list;
+    };
+    CHECK(read(std::int8_t{}, LISSOM_SNORM8) ==
+          std::vector<std::int8_t>{-127, 127, -127, 127, -127, 127, -127, 32});
+    CHECK(read(std::int16_t{}, LISSOM_SNORM16) ==
+          std::vector<std::int16_t>{-32767, 32767, -32767, 32767, -32767, 32767, -32767, 8192});
+    CHECK(read(std::uint8_t{}, LISSOM_UNORM8) ==
+          std::vector<std::uint8_t>{0, 255, 0, 255, 0, 255, 0, 64});
+    CHECK(
+        read(std::uint16_t{}, LISSOM_FLOAT16) ==
+        std::vector<std::uint16_t>{0xc000, 0x4000, 0xbc00, 0x7bff, 0xfbff, 0x7bff, 0xfbff, 0x3400});
+    CHECK(read(std::int32_t{}, LISSOM_INT32) ==
+          std::vector<std::int32_t>{-2, 2, -1, INT32_MAX, INT32_MIN, 70000, -70000, 0});
+    constexpr float kMost = std::numeric_limits<float>::max();
+    CHECK(read(0.0f, LISSOM_FLOAT32) ==
+          std::vector<float>{-2, 2, -1, kMost, -kMost, 70000, -70000, 0.25f});
+}
+
+TEST_CASE("names that are not UTF-8 are refused, those of other languages are not") {
+    const Host host;
+    const lissom_mesh mesh = host.add(make_box({}));
+    const double values[8] = {};
+    const lissom_input in{values, 8, 0, LISSOM_FLOAT64};
+    const auto write = [&](const char* name) {
+        return lissom_mesh_write_attribute(host, mesh, name, LISSOM_ON_VERTICES, 1, &in);
+    };
+    CHECK(write("\xe6\xb3\xa2 \xf0\x9f\x98\x80 \xc3\xa9") == LISSOM_OK);
+    const std::uint64_t before = host.hash(mesh);
+    for (const char* name : {"a\xff", "\xc3", "\xc0\x80", "\xed\xa0\x80", "\xf5\x80\x80\x80"}) {
+        CAPTURE(std::string(name));
+        CHECK(write(name) == LISSOM_INVALID_ARGUMENT);
+        CHECK(host.message().find("UTF-8") != std::string::npos);
+        const std::int32_t labels[6] = {};
+        const lissom_input of_faces{labels, 6, 0, LISSOM_INT32};
+        CHECK(lissom_mesh_write_labels(host, mesh, "group", &name, 1, &of_faces) ==
+              LISSOM_INVALID_ARGUMENT);
+        lissom_region all{};
+        REQUIRE(lissom_region_all(host, mesh, &all) == LISSOM_OK);
+        CHECK(lissom_mesh_set_region(host, mesh, name, all) == LISSOM_INVALID_ARGUMENT);
+    }
+    CHECK(host.hash(mesh) == before);
+}
+
 TEST_CASE("labels of faces are lists of numbers and names") {
     const Host host;
     const lissom_mesh mesh = host.add(make_box({}));
@@ -713,6 +767,12 @@ TEST_CASE("values of strands go in and out, and groups keep their names") {
     CHECK(write(LISSOM_STRAND_GUIDE, guides) == LISSOM_OK);
     CHECK(numbers(LISSOM_STRAND_GUIDE) == std::vector<std::int32_t>{-1, 0});
     CHECK(write(LISSOM_STRAND_GROUP, groups) == LISSOM_OUT_OF_RANGE);
+    CHECK(host.message().find("group 1 ") != std::string::npos);
+    const double far[15] = {1e200};
+    const lissom_input beyond{far, 5, 0, LISSOM_FLOAT64};
+    CHECK(lissom_strands_set_points(host, strands, &beyond) == LISSOM_NOT_FINITE);
+    CHECK(lissom_strands_write_at_points(host, strands, LISSOM_STRAND_COLOR, &beyond) ==
+          LISSOM_NOT_FINITE);
     const char* names[] = {"fringe", "crown"};
     REQUIRE(lissom_strands_set_groups(host, strands, names, 2) == LISSOM_OK);
     CHECK(write(LISSOM_STRAND_GROUP, groups) == LISSOM_OK);

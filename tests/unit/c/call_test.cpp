@@ -52,12 +52,27 @@ TEST_CASE("results that JSON cannot hold are refused, not changed") {
     for (const char* text :
          {"return {1, 2, name = 3}", "return {[1] = 1, [3] = 3}", "return {[2.5] = 1}",
           "return {{name = 1, [true] = 2}}", "return 0/0", "return 1/0", "return {-1/0}",
-          "return print", "local t = {} t.t = t return t"}) {
+          "return print", "return '\\xff\\xfe'", "return {['\\xff'] = 1}",
+          "return {{'\\xed\\xa0\\x80'}}", "local t = {} t.t = t return t"}) {
         CAPTURE(std::string(text));
         lissom_bytes bytes{};
         CHECK(run_text(host, text, nullptr, &bytes) == LISSOM_INVALID_ARGUMENT);
         CHECK(bytes.data == nullptr);
     }
+}
+
+TEST_CASE("names of a mesh's attributes that are not UTF-8 are refused as results") {
+    if (!lissom_has_scripts()) return;
+    const Host host;
+    lissom_bytes bytes{};
+    const char* text =
+        "local mesh = require('lissom').shapes.box() "
+        "mesh:add_attribute{ name = 'a\\xff' } return mesh:attributes()";
+    CHECK(run_text(host, text, nullptr, &bytes) == LISSOM_INVALID_ARGUMENT);
+    CHECK(host.message().find("UTF-8") != std::string::npos);
+    CHECK(bytes.data == nullptr);
+    REQUIRE(run_text(host, "return '\\u{6ce2}'", nullptr, &bytes) == LISSOM_OK);
+    CHECK(text_of(bytes) == "[\"\xe6\xb3\xa2\"]");
 }
 
 TEST_CASE("results that are refused leave no handles") {

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -109,7 +112,7 @@ TEST_CASE("polygons keep their corners, and lists without room are refused") {
     const lissom_output floats{corners, 24, 0, LISSOM_FLOAT32};
     CHECK(lissom_mesh_read_faces(host, mesh, &floats, nullptr) == LISSOM_INVALID_ARGUMENT);
     const lissom_output nowhere{nullptr, 8, 0, LISSOM_FLOAT32};
-    CHECK(lissom_mesh_read_positions(host, mesh, &nowhere) == LISSOM_OUT_OF_RANGE);
+    CHECK(lissom_mesh_read_positions(host, mesh, &nowhere) == LISSOM_INVALID_ARGUMENT);
 }
 
 TEST_CASE("lists of the host that make no sense are refused") {
@@ -137,6 +140,71 @@ TEST_CASE("lists of the host that make no sense are refused") {
     CHECK(create({nan, 4, 0, LISSOM_FLOAT64}, faces, nullptr) == LISSOM_NOT_FINITE);
     CHECK(lissom_object_count(host) == 0);
     CHECK(create(points, faces, nullptr) == LISSOM_OK);
+}
+
+TEST_CASE(
+    "positions beyond a format's range are its greatest numbers, and normals are of unit length") {
+    const Host host;
+    Mesh shape = make_box({});
+    for (Vec3& p : shape.edit_positions()) p *= 1e200;
+    const lissom_mesh mesh = host.add(shape);
+    float points[8][3], normals[8][3];
+    const lissom_output p{points, 8, 0, LISSOM_FLOAT32}, n{normals, 8, 0, LISSOM_FLOAT32};
+    REQUIRE(lissom_mesh_read_positions(host, mesh, &p) == LISSOM_OK);
+    REQUIRE(lissom_mesh_read_normals(host, mesh, &n) == LISSOM_OK);
+    for (std::size_t v = 0; v < 8; ++v) {
+        double square = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            CHECK(std::abs(points[v][k]) == std::numeric_limits<float>::max());
+            square += double{normals[v][k]} * normals[v][k];
+        }
+        CHECK(square == doctest::Approx(1.0));
+    }
+}
+
+TEST_CASE("an error of wrong vertices names all of them") {
+    const Host host;
+    const lissom_mesh mesh = host.add(make_box({}));
+    const std::int32_t vertices[] = {0, -1, 99999, -7};
+    const lissom_input list{vertices, 4, 0, LISSOM_INT32};
+    lissom_region region{};
+    CHECK(lissom_region_of_vertices(host, mesh, &list, &region) == LISSOM_OUT_OF_RANGE);
+    const lissom_error& error = *lissom_last_error(host);
+    CHECK(error.element == LISSOM_VERTEX);
+    REQUIRE(error.element_count == 3);
+    CHECK(std::vector<std::int32_t>(error.ids, error.ids + 3) ==
+          std::vector<std::int32_t>{-1, 99999, -7});
+    const std::uint32_t large[] = {0, 3000000000u};
+    const lissom_input unsigned_list{large, 2, 0, LISSOM_UINT32};
+    CHECK(lissom_region_of_vertices(host, mesh, &unsigned_list, &region) == LISSOM_OUT_OF_RANGE);
+    CHECK(host.message().find("3000000000") != std::string::npos);
+}
+
+TEST_CASE("a region grows and shrinks by any number of rings") {
+    const Host host;
+    const lissom_mesh mesh = host.add(make_box({.segments = {4, 4, 4}}));
+    const double up[] = {0, 1, 0}, origin[] = {0, 0, 0};
+    lissom_region top{}, result{};
+    REQUIRE(lissom_region_plane(host, mesh, origin, up, &top) == LISSOM_OK);
+    for (const std::int32_t rings : {INT32_MIN, INT32_MIN + 1, -100}) {
+        REQUIRE(lissom_region_grow(host, top, rings, &result) == LISSOM_OK);
+        CHECK(lissom_region_size(host, result) == 0);
+    }
+    REQUIRE(lissom_region_grow(host, top, INT32_MAX, &result) == LISSOM_OK);
+    CHECK(lissom_region_size(host, result) == lissom_mesh_vertex_count(host, mesh));
+}
+
+TEST_CASE("a file of no bytes is empty, and wrong faces of a buffer are of no file") {
+    const Host host;
+    lissom_mesh mesh{};
+    CHECK(lissom_mesh_decode(host, "", 0, "obj", nullptr, &mesh) == LISSOM_FILE_EMPTY);
+    const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::uint16_t corners[] = {0, 1, 7};
+    lissom_buffer buffer = lissom_default_buffer();
+    buffer.positions = {points, 3, 0, LISSOM_FLOAT32};
+    buffer.corners = {corners, 3, 0, LISSOM_UINT16};
+    CHECK(lissom_mesh_create_welded(host, &buffer, &mesh, nullptr) == LISSOM_FACE_INDEX);
+    CHECK(host.message().find("outside the 3 given") != std::string::npos);
 }
 
 TEST_CASE("regions select, combine and are kept with their mesh") {

@@ -212,11 +212,19 @@ TEST_CASE("sandbox of C: what it refuses") {
     options = lissom_default_sandbox_options();
     options.read_folder_count = 1;
     CHECK(lissom_sandbox_scripts(host, &options) == LISSOM_INVALID_ARGUMENT);
+    for (const auto count :
+         {&lissom_sandbox_options::read_folder_count, &lissom_sandbox_options::write_folder_count,
+          &lissom_sandbox_options::module_folder_count}) {
+        options = lissom_default_sandbox_options();
+        options.*count = -3;
+        CHECK(lissom_sandbox_scripts(host, &options) == LISSOM_INVALID_ARGUMENT);
+    }
     lissom_sandbox_options zeros{};
     CHECK(lissom_sandbox_scripts(host, &zeros) == LISSOM_BAD_STRUCT);
     CHECK(run_sandboxed(host, "return true") == LISSOM_OK);
     CHECK(lissom_sandbox_scripts(host, nullptr) == LISSOM_INVALID_ARGUMENT);
-    CHECK(host.message().find("already") != std::string::npos);
+    CHECK(host.message().find("scripts have run") == std::string::npos);
+    CHECK(host.message().find("sandbox already") != std::string::npos);
 }
 
 TEST_CASE("results that stand in many places of a table are refused before they fill the memory") {

@@ -161,6 +161,9 @@ TEST_CASE("calls take and return lists of numbers without JSON") {
     CHECK(lissom_numbers_read(host, view, &narrow) == LISSOM_INVALID_ARGUMENT);
     CHECK(lissom_numbers_size(host, {mesh.id}) == -1);
     CHECK(lissom_numbers_create(host, &in, 0, &list) == LISSOM_INVALID_ARGUMENT);
+    // The list keeps its mesh.
+    CHECK(lissom_mesh_release(host, made) == LISSOM_OK);
+    CHECK(lissom_numbers_read(host, view, &out) == LISSOM_OK);
     CHECK(lissom_object_release(host, view) == LISSOM_OK);
     CHECK(lissom_numbers_read(host, view, &out) == LISSOM_INVALID_HANDLE);
 }

@@ -970,6 +970,50 @@ TEST_CASE("memory that runs out while a context is made is a status") {
     }
 }
 
+namespace {
+
+// Calls `use` in a new context, whose memory ends for good at allocation `n`; false once that is
+// beyond the last one.
+bool first_use(lissom_status (*use)(lissom_context*), long n) {
+    CAPTURE(n);
+    const long before = live_blocks();
+    lissom_context* context = nullptr;
+    REQUIRE(lissom_context_create(nullptr, &context) == LISSOM_OK);
+    fail_at(n, true);
+    const lissom_status status = use(context);
+    const bool failed = stop_failing();
+    CHECK(status == (failed ? LISSOM_MEMORY_LIMIT : LISSOM_OK));
+    lissom_context_destroy(context);
+    CHECK(live_blocks() == before);
+    return failed;
+}
+
+}  // namespace
+
+TEST_CASE("a state of scripts that finds no more memory while it is made leaves nothing") {
+    if (!lissom_has_scripts()) return;
+    lissom_status (*const uses[])(lissom_context*) = {
+        [](lissom_context* context) {
+            lissom_bytes json{};
+            return lissom_call(context, "shapes.box", "[]", &json);
+        },
+        [](lissom_context* context) {
+            lissom_script script{};
+            return lissom_script_load(context, "return 1", 8, "tool.lua", &script);
+        },
+        [](lissom_context* context) { return lissom_sandbox_scripts(context, nullptr); }};
+    for (const auto use : uses) {
+        // What the process keeps is made by the first.
+        lissom_context* context = nullptr;
+        REQUIRE(lissom_context_create(nullptr, &context) == LISSOM_OK);
+        REQUIRE(use(context) == LISSOM_OK);
+        lissom_context_destroy(context);
+        int failures = 0;
+        for (long n = 0; first_use(use, n); n += 1 + n / 16) ++failures;
+        CHECK(failures > 50);
+    }
+}
+
 TEST_CASE("the static library uses the program's own memory: it takes no allocator, and says so") {
     lissom_memory_options options = lissom_default_memory_options();
     CHECK(lissom_set_memory(&options) == LISSOM_OK);

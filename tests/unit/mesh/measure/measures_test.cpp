@@ -97,6 +97,24 @@ TEST_CASE("vertex normals do not depend on how flat faces are divided") {
     }
 }
 
+TEST_CASE("normals do not depend on the size of a mesh, as far as numbers reach") {
+    for (const Mesh& shape : {make_sphere({.segments = 8}), triangulate(make_sphere({}))}) {
+        const std::vector<Vec3> expected = vertex_normals(shape), of_faces = face_normals(shape);
+        for (const double size : {1e-300, 1e-160, 1e-70, 1e70, 1e100, 1e200, 1e308}) {
+            CAPTURE(size);
+            Mesh scaled = shape;
+            for (Vec3& p : scaled.edit_positions()) p *= size;
+            const std::vector<Vec3> normals = vertex_normals(scaled), faces = face_normals(scaled);
+            for (std::size_t v = 0; v < normals.size(); ++v) {
+                CHECK((normals[v] - expected[v]).norm() < 1e-12);
+            }
+            for (std::size_t f = 0; f < faces.size(); ++f) {
+                CHECK((faces[f] - of_faces[f]).norm() < 1e-12);
+            }
+        }
+    }
+}
+
 TEST_CASE("faces without area are found and have no normal") {
     FaceList faces;
     faces.add({0, 1, 2});

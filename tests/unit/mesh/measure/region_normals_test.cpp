@@ -64,6 +64,19 @@ TEST_CASE("normals of a region are those of its mesh, frame after frame") {
     }
 }
 
+TEST_CASE("normals of a region are those of its mesh at every size") {
+    for (const Mesh& shape : {make_sphere({.segments = 8}), make_star()}) {
+        for (const double size : {1e-300, 1e-160, 1e-70, 1e70, 1e100, 1e200, 1e307}) {
+            CAPTURE(size);
+            Mesh scaled = shape;
+            for (Vec3& p : scaled.edit_positions()) p *= size;
+            const Region all = Region::all(scaled.shared_topology());
+            RegionNormals rule = rule_of(scaled, all);
+            CHECK(worst_difference(scaled, all, rule) < 1e-13);
+        }
+    }
+}
+
 TEST_CASE("normals at the outline of a region count the faces outside") {
     const Mesh mesh = shaken(make_sphere({.segments = 20}), 5);
     std::vector<Index> upper;
