@@ -98,7 +98,7 @@ TEST_CASE("vertex normals do not depend on how flat faces are divided") {
 }
 
 TEST_CASE("normals do not depend on the size of a mesh, as far as numbers reach") {
-    for (const Mesh& shape : {make_sphere({.segments = 8}), triangulate(make_sphere({}))}) {
+    for (const Mesh& shape : {make_sphere({.segments = 8}), make_box()}) {
         const std::vector<Vec3> expected = vertex_normals(shape), of_faces = face_normals(shape);
         for (const double size : {1e-300, 1e-160, 1e-70, 1e70, 1e100, 1e200, 1e308}) {
             CAPTURE(size);
