@@ -10,6 +10,7 @@
 #include "kernel/core/memory_error.h"
 #include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer_state.h"
+#include "kernel/deform/description.h"
 #include "kernel/deform/frame/frame_steps.h"
 #include "kernel/deform/frame/tears.h"
 
@@ -197,6 +198,10 @@ const std::vector<Mat3>& gradients_of(Deformer& deformer) {
     return with_memory_errors([&]() -> const std::vector<Mat3>& {
         return *DeformerAccess::state(deformer).complete()->gradients;
     });
+}
+
+std::size_t constraint_bytes(const Deformer& deformer) {
+    return memory_bytes(*DeformerAccess::state(deformer).constraints);
 }
 
 DeformStats stats_of(const Deformer& deformer) {

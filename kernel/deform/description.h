@@ -62,6 +62,8 @@ const std::vector<Vec3>& positions_of(const RestShape& rest);
 /// Returns the bytes of a rest shape, a constraint set or a result, about.
 std::size_t memory_bytes(const RestShape& rest);
 std::size_t memory_bytes(const ConstraintSet& constraints);
+/// Returns the bytes of the present handles and constraints, which are on no account.
+std::size_t constraint_bytes(const Deformer& deformer);
 std::size_t memory_bytes(const DeformFrame& frame);
 
 }  // namespace lissom

@@ -3,10 +3,38 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <variant>
 
 #include "kernel/core/error.h"
+#include "kernel/hair/style_bytes.h"
 
 namespace lissom {
+namespace {
+
+std::size_t bytes_in(const std::vector<Vec3>& points) {
+    return points.size() * sizeof(Vec3);
+}
+
+std::size_t bytes_in(const StyleCurve& curve) {
+    std::size_t bytes = curve.name.size() + bytes_in(drawn_points(curve));
+    if (const auto* dividing = std::get_if<DividingCurve>(&curve.shape)) {
+        for (const auto& hint : dividing->hints) bytes += sizeof hint + bytes_in(hint);
+    }
+    if (const auto* tail = std::get_if<Ponytail>(&curve.shape)) {
+        bytes += bytes_in(tail->options.section);
+        for (const auto& profile : tail->options.profiles) bytes += bytes_in(profile);
+    }
+    return bytes;
+}
+
+}  // namespace
+
+std::size_t memory_bytes(const StyleInputs& inputs) {
+    std::size_t bytes = inputs.scalp_step.size() * sizeof(GridConstraint);
+    for (const MaskStroke& mask : inputs.masks) bytes += sizeof mask + bytes_in(mask.points);
+    for (const PlacedCurve& one : inputs.curves) bytes += sizeof one + bytes_in(one.curve);
+    return bytes;
+}
 
 PlacedCurve& placed_curve(StyleInputs& inputs, CurveId id) {
     return const_cast<PlacedCurve&>(placed_curve(std::as_const(inputs), id));

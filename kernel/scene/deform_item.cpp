@@ -96,6 +96,8 @@ DeformContent::DeformContent(DeformSnapshot snapshot, ContentStore& store) {
     constraints_ = store.keep(snapshot.constraints, lissom::memory_bytes(*snapshot.constraints));
     shown_ = store.keep(snapshot.shown, lissom::memory_bytes(*snapshot.shown));
     poses_ = std::move(snapshot.poses);
+    count_own(store, sizeof *this + poses_.handles.size() * sizeof poses_.handles[0] +
+                         poses_.targets.size() * sizeof poses_.targets[0]);
 }
 
 bool DeformContent::operator==(const DeformContent& other) const {

@@ -3,25 +3,12 @@
 #include <algorithm>
 
 #include "kernel/core/hasher.h"
+#include "kernel/hair/style_bytes.h"
 #include "kernel/io/style_file.h"
 #include "kernel/scene/mesh_item.h"
 
 namespace lissom {
 namespace {
-
-std::size_t size_in_bytes(const StyleInputs& inputs) {
-    std::size_t bytes = inputs.scalp_step.size() * sizeof(GridConstraint);
-    for (const MaskStroke& mask : inputs.masks) {
-        bytes += sizeof mask + mask.points.size() * sizeof(Vec3);
-    }
-    for (const PlacedCurve& placed : inputs.curves) {
-        bytes += sizeof placed + drawn_points(placed.curve).size() * sizeof(Vec3);
-        const auto* dividing = std::get_if<DividingCurve>(&placed.curve.shape);
-        if (!dividing) continue;
-        for (const auto& hint : dividing->hints) bytes += hint.size() * sizeof(Vec3);
-    }
-    return bytes;
-}
 
 void add_frame(Hasher& hasher, const Scalp& scalp) {
     for (const double x : scalp.frame().center) hasher.add(x);
@@ -35,9 +22,12 @@ void add_frame(Hasher& hasher, const Scalp& scalp) {
 
 HairstyleContent::HairstyleContent(const Hairstyle& style, const StyleInputs& inputs,
                                    ContentStore& store)
-    : inputs_(store.keep(std::make_shared<const StyleInputs>(inputs), size_in_bytes(inputs))),
+    : inputs_(
+          store.keep(std::make_shared<const StyleInputs>(inputs), lissom::memory_bytes(inputs))),
       options_(style.options()),
-      scalp_(style.shared_scalp()) {}
+      scalp_(style.shared_scalp()) {
+    count_own(store, sizeof *this);
+}
 
 void HairstyleContent::list_kept(std::vector<const KeptBytes*>& list) const {
     list.push_back(inputs_.get());

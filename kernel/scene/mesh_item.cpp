@@ -83,6 +83,16 @@ MeshContent::MeshContent(const Mesh& mesh, const MeshContent* last, bool same_po
                                {byte_view(attribute.values),
                                 known ? last->attributes_[i].values : SharedBlocks(), store}});
     }
+    count_own(store, own_bytes());
+}
+
+std::size_t MeshContent::own_bytes() const {
+    std::size_t bytes = sizeof *this + positions_.list_bytes();
+    for (const AttributeContent& attribute : attributes_) {
+        bytes += sizeof attribute + attribute.form.name.size() + attribute.values.list_bytes();
+    }
+    for (const std::string& library : material_libraries_) bytes += sizeof library + library.size();
+    return bytes;
 }
 
 bool MeshContent::same_form(const MeshContent& other) const {

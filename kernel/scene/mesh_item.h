@@ -52,6 +52,7 @@ class MeshContent : public ItemContent {
 
     std::uint64_t compute_hash() const override;
     bool same_form(const MeshContent& other) const;
+    std::size_t own_bytes() const;
 
     std::shared_ptr<const Kept<Topology>> topology_;
     SharedBlocks positions_;

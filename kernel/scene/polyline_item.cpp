@@ -6,7 +6,9 @@ namespace lissom {
 
 PolylineContent::PolylineContent(const Polyline& polyline, ContentStore& store)
     : polyline_(store.keep(std::make_shared<const Polyline>(polyline),
-                           polyline.points.size() * sizeof(Vec3))) {}
+                           polyline.points.size() * sizeof(Vec3))) {
+    count_own(store, sizeof *this);
+}
 
 void PolylineContent::list_kept(std::vector<const KeptBytes*>& list) const {
     list.push_back(polyline_.get());

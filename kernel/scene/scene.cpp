@@ -35,14 +35,32 @@ std::shared_ptr<const T> charged(MemoryCharge charge, T&& value) {
     return {made, &made->value};
 }
 
+// Bytes of the item of an object, and of blocks of the allocator.
+constexpr std::size_t kItemBytes = 256;
+
 std::shared_ptr<const NamedObject> charged_object(const ContentStore& store, NamedObject object) {
-    return charged(store.charge_beside(sizeof object + object.name.size()), std::move(object));
+    const std::size_t texts = object.name.size() + object.look.style.region.size();
+    return charged(store.charge_beside(sizeof object + kItemBytes + texts), std::move(object));
 }
+
+// Bytes of the state's count, and of blocks of the allocator.
+constexpr std::size_t kStateBytes = 128;
 
 std::shared_ptr<const SceneState> charged_state(const ContentStore& store, SceneState state) {
     const std::size_t bytes = state.objects.size() * sizeof(ObjectList::value_type) +
                               state.items.size() * sizeof(CapturedItem);
-    return charged(store.charge_beside(sizeof state + bytes), std::move(state));
+    return charged(store.charge_beside(sizeof state + kStateBytes + bytes), std::move(state));
+}
+
+// Bytes of parameters as they are kept, with the nodes of their maps.
+std::size_t bytes_of(const std::string& owner, const SceneParameters& values) {
+    constexpr std::size_t kNode = 64;
+    std::size_t bytes = 2 * (kNode + sizeof owner + owner.size()) + sizeof values;
+    for (const auto& [name, value] : values) {
+        const auto* text = std::get_if<std::string>(&value);
+        bytes += kNode + sizeof name + name.size() + sizeof value + (text ? text->size() : 0);
+    }
+    return bytes;
 }
 
 }  // namespace
@@ -185,7 +203,8 @@ void Scene::begin(std::string name) {
     require(!name.empty(), "a step needs a name");
     with_memory_errors([&] {
         open_.empty() ? settle() : capture();
-        open_.push_back({std::move(name), seen_, store_.bytes()});
+        MemoryCharge charge = store_.charge_beside(sizeof(OpenStep) + name.size());
+        open_.push_back({std::move(name), seen_, store_.bytes(), std::move(charge)});
     });
 }
 
@@ -316,11 +335,16 @@ void Scene::set_parameters(const std::string& owner, SceneParameters values) {
         require(!number || std::isfinite(*number), "the parameter '" + name + "' must be finite",
                 ErrorCode::not_finite);
     }
-    if (values.empty()) {
-        parameters_.erase(owner);
-    } else {
+    with_memory_errors([&] {
+        if (values.empty()) {
+            parameters_.erase(owner);
+            parameter_charges_.erase(owner);
+            return;
+        }
+        MemoryCharge charge = store_.charge_beside(bytes_of(owner, values));
         parameters_[owner] = std::move(values);
-    }
+        parameter_charges_[owner] = std::move(charge);
+    });
 }
 
 std::uint64_t Scene::hash() {

@@ -13,6 +13,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -132,7 +134,7 @@ class Scene {
     void append(std::string name, ObjectList objects);
 
     /// Values that tools and scripts keep with the scene, by whose they are. They are no part of
-    /// its history nor of its hash. Errors: not_finite.
+    /// its history nor of its hash. Errors: not_finite; memory_limit.
     const ParametersByOwner& parameters() const { return parameters_; }
     /// No values: forgets those of `owner`.
     void set_parameters(const std::string& owner, SceneParameters values);
@@ -149,6 +151,7 @@ class Scene {
         /// State that rollback returns to.
         std::shared_ptr<const SceneState> before;
         std::size_t bytes;
+        MemoryCharge charge;
     };
 
     template <typename Change>
@@ -170,6 +173,7 @@ class Scene {
     History history_;
     std::vector<OpenStep> open_;
     ParametersByOwner parameters_;
+    std::map<std::string, MemoryCharge, std::less<>> parameter_charges_;
 };
 
 }  // namespace lissom

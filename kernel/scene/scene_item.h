@@ -35,8 +35,12 @@ class ItemContent {
   protected:
     ItemContent() = default;
     virtual std::uint64_t compute_hash() const = 0;
+    /// Charges the account for the content's own struct, texts and lists of blocks, which
+    /// `list_kept` does not have.
+    void count_own(const ContentStore& store, std::size_t bytes);
 
   private:
+    MemoryCharge own_;
     mutable std::once_flag hashed_;
     mutable std::uint64_t hash_ = 0;
 };

@@ -25,6 +25,8 @@ class SharedBlocks {
                  const ContentStore& store);
 
     std::size_t size() const { return size_; }
+    /// Bytes of the list of blocks, without the blocks themselves.
+    std::size_t list_bytes() const { return blocks_.size() * sizeof blocks_[0]; }
     /// Writes everything; `target` has `size()` bytes.
     void copy_to(std::span<std::byte> target) const;
     /// Writes the blocks that are not those of `present`, which `target` holds now, and which has

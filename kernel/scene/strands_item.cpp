@@ -4,6 +4,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "kernel/hair/strands/strand_measures.h"
@@ -48,6 +49,13 @@ bool equal(const StrandFrame& frame, const Strands& strands) {
            equal(frame.transparency, strands.transparency()) && frame.comment == strands.comment();
 }
 
+// Texts, and the profile of widths.
+std::size_t bytes_beside(const Strands& strands) {
+    std::size_t bytes = strands.comment().size() + strands.widths().profile.size() * sizeof(float);
+    for (const std::string& name : strands.group_names()) bytes += sizeof name + name.size();
+    return bytes;
+}
+
 }  // namespace
 
 StrandFrame frame_of(const Strands& strands) {
@@ -79,12 +87,14 @@ void set_frame(Strands& strands, StrandFrame frame) {
 StrandsContent::StrandsContent(const Strands& strands, const StrandsContent* last,
                                ContentStore& store)
     : points_(std::as_bytes(strands.points()), last ? last->points_ : SharedBlocks(), store) {
+    count_own(store, sizeof *this + sizeof(StrandFrame) + points_.list_bytes());
     if (last && equal(*last->frame_->value, strands)) {
         frame_ = last->frame_;
         return;
     }
     const std::size_t bytes = strands.memory_bytes() - strands.points().size_bytes();
-    frame_ = store.keep(std::make_shared<const StrandFrame>(frame_of(strands)), bytes);
+    frame_ = store.keep(std::make_shared<const StrandFrame>(frame_of(strands)),
+                        bytes + bytes_beside(strands));
 }
 
 Strands StrandsContent::strands() const {

@@ -187,13 +187,31 @@ void own_cell(lua_State* L, State& state, Cell* cell, std::size_t bytes) {
     lua_error(L);
 }
 
-Holder* push_holder(lua_State* L, State& state, const char* type_name) {
+namespace {
+
+// Blocks of the allocator: the cell, the counted object, and the object with its own count.
+constexpr std::size_t kBlockBytes = 3 * 32;
+
+// Null if there is no memory for one.
+ObjectSlot::Content* new_cell() noexcept {
+    auto* cell = new (std::nothrow) ObjectSlot::Content;
+    try {
+        if (cell) cell->counted = std::make_shared<CountedObject>();
+    } catch (const std::bad_alloc&) {
+        delete std::exchange(cell, nullptr);
+    }
+    return cell;
+}
+
+}  // namespace
+
+Holder* push_holder(lua_State* L, State& state, const char* type_name, std::size_t bytes) {
     auto* holder = static_cast<Holder*>(new_userdata(L, sizeof(Holder)));
     new (holder) Holder(type_name);
     luaL_getmetatable(L, type_name);
     lua_setmetatable(L, -2);
-    auto* cell = new (std::nothrow) ObjectSlot::Content;
-    own_cell(L, state, cell, sizeof *cell);
+    auto* cell = new_cell();
+    own_cell(L, state, cell, sizeof *cell + sizeof(CountedObject) + kBlockBytes + bytes);
     holder->object.set_cell(cell);
     return holder;
 }
@@ -267,11 +285,15 @@ int Call::fail() {
     raise_failure(L_, failure_);
 }
 
+void Call::resize_held(MemoryHold& held, std::size_t bytes) const {
+    if (!held.account()) held = MemoryHold(context().memory(), "an object of a script");
+    held.resize(bytes);
+}
+
 void Call::hold_memory(MemoryHold& held, std::size_t bytes) const {
     bool fits = true;
     try {
-        if (!held.account()) held = MemoryHold(context().memory(), "an object of a script");
-        held.resize(bytes);
+        resize_held(held, bytes);
     } catch (const Error&) {
         fits = false;
     }

@@ -164,7 +164,7 @@ class Call {
     /// Pushes a new userdata without an object.
     template <typename T>
     Ref<T> create() const {
-        return Ref<T>(push_holder(L_, *state_, T::kTypeName));
+        return Ref<T>(push_holder(L_, *state_, T::kTypeName, own_bytes<T>()));
     }
 
     // ---- Step 3: C++.
@@ -196,20 +196,28 @@ class Call {
     /// Ends the call: raises the failure as an error object.
     [[noreturn]] int fail();
 
-    /// Tells the collector how much native memory `object` has now; growth since the last time
-    /// makes it work. May run finalizers. T has `memory_bytes()` and `charged_bytes`; if it has
-    /// `held` too, that many bytes are held on the context's account, which nothing else counts:
-    /// raises a Lua error if there is no room.
-    template <typename T>
-    void charge(const Ref<T>& object) const {
+    /// Tells the collector how much native memory `object`, a Ref or pointer to a T, has now;
+    /// growth since the last time makes it work. May run finalizers. T has `memory_bytes()` and
+    /// `charged_bytes`; if it has `held` too, that many bytes are held on the context's account, or
+    /// `held_bytes()` if it has that: those that nothing else counts. Raises a Lua error if there
+    /// is no room.
+    template <typename Object>
+    void charge(const Object& object) const {
         if constexpr (requires { object->held; }) {
-            hold_memory(object->held, object->memory_bytes());
+            hold_memory(object->held, held_bytes_of(object));
         }
         const std::size_t before = object->charged_bytes;
         object->charged_bytes = object->memory_bytes();
         if (object->charged_bytes > before) charge_bytes(object->charged_bytes - before);
     }
     void charge_bytes(std::size_t bytes) const;
+
+    /// Inside attempt, before `object` grows by about `more` bytes that `charge` will hold: a
+    /// script that catches the error has not kept them. Errors: memory_limit.
+    template <typename Object>
+    void reserve(const Object& object, std::size_t more) const {
+        resize_held(object->held, held_bytes_of(object) + more);
+    }
 
     /// Each pushes one value and returns 1.
     int push(bool value) const;
@@ -257,7 +265,16 @@ class Call {
         own_cell(L_, *state_, cell, bytes);
         return cell;
     }
+    template <typename Object>
+    static std::size_t held_bytes_of(const Object& object) {
+        if constexpr (requires { object->held_bytes(); }) {
+            return object->held_bytes();
+        } else {
+            return object->memory_bytes();
+        }
+    }
     void hold_memory(MemoryHold& held, std::size_t bytes) const;
+    void resize_held(MemoryHold& held, std::size_t bytes) const;
     bool push_remembered(const void* object) const;
     void make_room() const;
     void begin_work();
@@ -281,8 +298,9 @@ inline constexpr const char kOwnLuaText[] = "lissom tools:";
 /// place even after a tail call or inside a metamethod.
 void push_place(lua_State* L);
 
-/// Pushes a new userdata of the type with this name, without an object.
-Holder* push_holder(lua_State* L, State& state, const char* type_name);
+/// Pushes a new userdata of the type with this name, without an object. `bytes`, those of the
+/// object's own structs, are on the account of the state's context.
+Holder* push_holder(lua_State* L, State& state, const char* type_name, std::size_t bytes);
 
 /// Gives a new cell of `bytes` to the state, on the account of its context. Deletes it and raises a
 /// Lua error if there is no room, or if it is null.

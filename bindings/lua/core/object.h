@@ -2,6 +2,7 @@
 /// pointer, so that a region can keep its mesh alive whatever the collector does.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <utility>
 
@@ -44,21 +45,27 @@ class CellList {
     End first_;
 };
 
+/// An object with the bytes of its own structs, which are on the account of its script for as long
+/// as anything holds the object.
+struct CountedObject {
+    MemoryHold bytes;
+    std::shared_ptr<void> object;
+};
+
 /// The object of a userdata; none once that was closed or collected.
 class ObjectSlot {
   public:
     struct Content : Cell {
         std::shared_ptr<void> object;
+        /// Takes over `bytes` along with the first object; null afterwards.
+        std::shared_ptr<CountedObject> counted;
     };
 
     explicit operator bool() const { return get() != nullptr; }
     void* get() const { return cell_ ? cell_->object.get() : nullptr; }
     const std::shared_ptr<void>& shared() const { return cell_ ? cell_->object : kNone; }
     /// Puts an object there, unless the userdata was collected.
-    ObjectSlot& operator=(std::shared_ptr<void> object) {
-        if (cell_) cell_->object = std::move(object);
-        return *this;
-    }
+    ObjectSlot& operator=(std::shared_ptr<void> object) noexcept;
     void reset() {
         if (cell_) cell_->object.reset();
     }
@@ -88,6 +95,17 @@ struct Holder {
 
     static const char kMark;
 };
+
+/// Bytes that an object takes before its lists: its struct, and if T has `kBytesBeside`, so many in
+/// blocks of their own.
+template <typename T>
+constexpr std::size_t own_bytes() {
+    if constexpr (requires { T::kBytesBeside; }) {
+        return sizeof(T) + T::kBytesBeside;
+    } else {
+        return sizeof(T);
+    }
+}
 
 /// The object in a userdata on the stack of the present call. Plain data: it may be left by
 /// longjmp. T has `static constexpr const char* kTypeName`, the name of its Type.

@@ -261,6 +261,7 @@ int set_value(Call& call) {
             ScriptParameter changed = *p;
             changed.value = value;
             changed.make_folder(call.state());
+            call.reserve(self, size);
             *p = std::move(changed);
         } catch (const ParameterError& error) {
             throw Error(ErrorCode::invalid_argument, error.message);

@@ -9,6 +9,21 @@ namespace lissom::lua {
 const char Holder::kMark = 0;
 const std::shared_ptr<void> ObjectSlot::kNone;
 
+// Those who share the object share its count.
+ObjectSlot& ObjectSlot::operator=(std::shared_ptr<void> object) noexcept {
+    if (!cell_) return *this;
+    std::shared_ptr<CountedObject> counted = std::move(cell_->counted);
+    if (!counted || !object) {
+        cell_->object = std::move(object);
+        return *this;
+    }
+    counted->bytes = std::move(cell_->bytes);
+    counted->object = std::move(object);
+    void* const at = counted->object.get();
+    cell_->object = std::shared_ptr<void>(std::move(counted), at);
+    return *this;
+}
+
 Cell::~Cell() {
     if (before_) before_->after_ = after_;
     if (after_) after_->before_ = before_;

@@ -11,6 +11,7 @@
 #include "kernel/deform/contact/contact_stop.h"
 #include "kernel/deform/deform_report.h"
 #include "kernel/deform/deformed_surface.h"
+#include "kernel/deform/description.h"
 #include "kernel/deform/handle_basis.h"
 #include "kernel/deform/handle_changes.h"
 #include "kernel/deform/stats.h"
@@ -22,6 +23,11 @@ std::size_t DeformObject::memory_bytes() const {
     std::size_t bytes = stats_of(*content).factor_bytes;
     for (const AttachedMesh& part : attached) bytes += part.attachment.memory_bytes();
     return bytes + content->positions().size() * 4 * sizeof(Mat3);
+}
+
+std::size_t DeformObject::held_bytes() const {
+    const std::size_t constraints = content ? constraint_bytes(*content) : 0;
+    return constraints + attached.size() * sizeof(AttachedMesh);
 }
 
 void DeformObject::show_result(const Context& context) {
@@ -96,6 +102,10 @@ int add_handle(Call& call) {
     const auto result = call.create<HandleObject>();
     const bool done = call.attempt([&] {
         Deformer& deformer = edit->deformer();
+        const std::size_t size = has_points ? points.size()
+                                 : on_path  ? at(path->current().size())
+                                            : at(region->current().size());
+        call.reserve(edit, (mirrors ? 2 : 1) * handle_bytes(size));
         const auto add = [&]() -> HandleId {
             if (has_points) return deformer.add_handle(mesh_points(*edit, points), options);
             if (!on_path) return deformer.add_handle(region->current(), options);
@@ -114,14 +124,21 @@ int add_handle(Call& call) {
         }
         result.set(std::make_shared<HandleObject>(HandleObject{edit.share(), id}));
     });
-    return done ? 1 : call.fail();
+    if (!done) return call.fail();
+    call.charge(edit);
+    return 1;
 }
 
 int pin(Call& call) {
     const auto edit = call.self<DeformObject>();
     const auto region = call.object<RegionObject>("region");
-    const bool done = call.attempt([&] { edit->deformer().add_handle(region->current()); });
-    return done ? call.push_argument() : call.fail();
+    const bool done = call.attempt([&] {
+        call.reserve(edit, handle_bytes(at(region->current().size())));
+        edit->deformer().add_handle(region->current());
+    });
+    if (!done) return call.fail();
+    call.charge(edit);
+    return call.push_argument();
 }
 
 int constrain(Call& call) {
@@ -137,18 +154,25 @@ int constrain(Call& call) {
         if (has_weight) constraint.weight = weight;
         if (has_position) constraint.position = position;
         if (has_gradient) constraint.gradient = gradient;
+        call.reserve(edit, handle_bytes(1));
         edit->deformer().constrain(constraint);
     });
-    return done ? call.push_argument() : call.fail();
+    if (!done) return call.fail();
+    call.charge(edit);
+    return call.push_argument();
 }
 
 int set_stiffness(Call& call) {
     const auto edit = call.self<DeformObject>();
     const auto region = call.object<RegionObject>("region");
     const double factor = call.number("factor");
-    const bool done =
-        call.attempt([&] { set_stiffness(edit->deformer(), region->current(), factor); });
-    return done ? call.push_argument() : call.fail();
+    const bool done = call.attempt([&] {
+        call.reserve(edit, edit->deformer().positions().size() * 2 * sizeof(double));
+        set_stiffness(edit->deformer(), region->current(), factor);
+    });
+    if (!done) return call.fail();
+    call.charge(edit);
+    return call.push_argument();
 }
 
 int keep_volume(Call& call) {

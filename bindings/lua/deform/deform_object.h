@@ -36,8 +36,11 @@ struct DeformObject {
     std::shared_ptr<Deformer> content;
     std::vector<AttachedMesh> attached;
     std::size_t charged_bytes = 0;
+    MemoryHold held;
 
     std::size_t memory_bytes() const;
+    /// Bytes of handles, constraints and the list of attached meshes.
+    std::size_t held_bytes() const;
     /// Writes the last result into the mesh, and moves the attached meshes along; after an error
     /// all are as before. Throws topology_mismatch if an attached mesh has another topology by now.
     void show_result(const Context& context);
@@ -52,6 +55,11 @@ struct HandleObject {
     std::shared_ptr<DeformObject> edit;
     HandleId id;
 };
+
+/// Returns the bytes of a handle of so many vertices or points, at most about.
+constexpr std::size_t handle_bytes(std::size_t size) {
+    return 1024 + 128 * size;
+}
 
 /// Pushes contacts as a lissom.Contacts, on top of values of its own.
 void push_contacts(Call& call, const DeformObject& edit, const std::vector<FacePair>& pairs);

@@ -144,9 +144,13 @@ int handle_region(Call& call) {
 int set_handle_region(Call& call) {
     const auto handle = call.self<HandleObject>();
     const auto region = call.object<RegionObject>("region");
-    const bool done = call.attempt(
-        [&] { set_handle_region(handle->edit->deformer(), handle->id, region->current()); });
-    return done ? call.push_argument() : call.fail();
+    const bool done = call.attempt([&] {
+        call.reserve(handle->edit, handle_bytes(at(region->current().size())));
+        set_handle_region(handle->edit->deformer(), handle->id, region->current());
+    });
+    if (!done) return call.fail();
+    call.charge(handle->edit);
+    return call.push_argument();
 }
 
 int mirrored_handle(Call& call) {

@@ -20,7 +20,8 @@ namespace {
 template <typename Work>
 int change_curve(Call& call, const Work& work) {
     const auto curve = call.self<CurveObject>();
-    const bool done = call.attempt([&] { work(curve->owner->style(), curve->id); });
+    const bool done = call.attempt(
+        [&] { curve->owner->edit(call, [&](Hairstyle& style) { work(style, curve->id); }); });
     return done ? call.push_argument() : call.fail();
 }
 
@@ -113,7 +114,9 @@ int reorder_curve(Call& call) {
 int remove_curve(Call& call) {
     const auto curve = call.self<CurveObject>();
     const bool done = call.attempt([&] { curve->owner->style().remove(curve->id); });
-    return done ? 0 : call.fail();
+    if (!done) return call.fail();
+    call.charge(curve->owner);
+    return 0;
 }
 
 // Replaces the drawn points by edit(curve, hint, options); the curve is as smooth as it is seen.

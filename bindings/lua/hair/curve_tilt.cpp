@@ -46,7 +46,7 @@ int add_hint(Call& call) {
         Hairstyle& style = curve->owner->style();
         std::vector<Vec3> hint;
         for (const Vec3& p : call.points("hint")) hint.push_back(style.scalp().to_metres(p));
-        style.add_hint(curve->id, std::move(hint));
+        curve->owner->edit(call, [&](Hairstyle& own) { own.add_hint(curve->id, std::move(hint)); });
         fit = style.tilt(curve->id);
     });
     return done ? push_tilt(call, fit) : call.fail();

@@ -33,10 +33,27 @@ struct HairstyleObject {
     /// Empty once it was closed.
     std::shared_ptr<Hairstyle> content;
     std::size_t charged_bytes = 0;
+    MemoryHold held;
 
     std::size_t memory_bytes() const { return content ? content->memory_bytes() : 0; }
+    /// Bytes of curves and masks, and of what follows from them, about.
+    std::size_t held_bytes() const;
     /// Throws handle_removed if it was closed.
     Hairstyle& style();
+    /// Runs work(Hairstyle&), which changes curves or masks, and holds what they take. Inside
+    /// Call::attempt only. Errors: memory_limit, and then the style is as before.
+    template <typename Work>
+    void edit(const Call& call, const Work& work) {
+        Hairstyle& own = style();
+        const StyleInputs before = own.inputs();
+        work(own);
+        try {
+            call.reserve(this, 0);
+        } catch (...) {
+            own.restore(before);
+            throw;
+        }
+    }
 };
 
 struct CurveObject {

@@ -4,12 +4,23 @@
 
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/hair/hair_object.h"
+#include "kernel/hair/style_bytes.h"
 
 namespace lissom::lua {
 
 Hairstyle& HairstyleObject::style() {
     if (content) return *content;
     throw Error(ErrorCode::handle_removed, "the hairstyle was closed; make a new one");
+}
+
+// Inputs are kept twice, with the curves as they act; about every point of these constrains the
+// corners of a cell of the grid, in the curve's list and in that of the style.
+std::size_t HairstyleObject::held_bytes() const {
+    if (!content) return 0;
+    constexpr std::size_t kPoint = sizeof(Vec3) + 16 * sizeof(GridConstraint);
+    std::size_t bytes = 2 * lissom::memory_bytes(content->inputs());
+    for (const CurveId id : content->curves()) bytes += content->course(id).size() * kPoint;
+    return bytes;
 }
 
 namespace {
@@ -24,7 +35,8 @@ int add_curve(Call& call, bool ponytails) {
     const bool done = call.attempt([&] {
         StyleCurve curve{curve_with<Shape>(style->style().options().fidelity)};
         reader.read(style->style().scalp(), curve);
-        const CurveId id = style->style().add(std::move(curve));
+        CurveId id;
+        style->edit(call, [&](Hairstyle& own) { id = own.add(std::move(curve)); });
         result.set(std::make_shared<CurveObject>(CurveObject{style.share(), id}));
     });
     return done ? 1 : call.fail();

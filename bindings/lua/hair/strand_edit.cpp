@@ -102,7 +102,11 @@ int push_comment(Call& call) {
 
 int set_comment(Call& call) {
     const std::string_view text = call.string("text");
-    return change_strands(call, [&](Strands& s) { s.set_comment(std::string(text)); });
+    const auto self = call.self<StrandsObject>();
+    return change_strands(call, [&](Strands& s) {
+        call.reserve(self, text.size());
+        s.set_comment(std::string(text));
+    });
 }
 
 int transform_strands(Call& call) {
@@ -163,6 +167,7 @@ int set_widths(Call& call) {
             widths.domain = domain_of(widths.values.size(), strands, "widths");
         }
         if (call.has("profile")) {
+            call.reserve(call.self<StrandsObject>(), 4 * call.numbers("profile").size());
             widths.profile = factors_of(call.numbers("profile"), "factors of a profile");
         }
         strands.set_widths(std::move(widths));

@@ -29,7 +29,7 @@ int add_mask(Call& call) {
         stroke.value = call.number("value");
         stroke.radius = call.number("radius");
         stroke.softness = call.number("softness");
-        style->style().add_mask(std::move(stroke));
+        style->edit(call, [&](Hairstyle& own) { own.add_mask(std::move(stroke)); });
     });
     return done ? call.push_argument() : call.fail();
 }
@@ -63,7 +63,9 @@ int clear_masks(Call& call) {
             if (wanted) style->style().clear_masks(kind);
         }
     });
-    return done ? call.push_argument() : call.fail();
+    if (!done) return call.fail();
+    call.charge(style);
+    return call.push_argument();
 }
 
 // ---- The comb
@@ -96,8 +98,9 @@ int comb_style(Call& call) {
         options.by = call.choice<CombBy>("by");
         options.reach = call.number("reach");
         options.tolerance = call.number("tolerance") * kDegree;
-        Hairstyle& own = style->style();
-        report = comb(own, points_in_metres(call, own.scalp()), options, call.context());
+        style->edit(call, [&](Hairstyle& own) {
+            report = comb(own, points_in_metres(call, own.scalp()), options, call.context());
+        });
         owner = style.share();
     });
     if (!done) return call.fail();

@@ -315,7 +315,9 @@ int mesh_attribute(Call& call) {
         if (!attribute) refuse_absent("attribute", name, attribute_names(mesh->mesh));
         result.set(attribute_buffer(mesh.share(), *attribute));
     });
-    return done ? 1 : call.fail();
+    if (!done) return call.fail();
+    call.charge(result);
+    return 1;
 }
 
 int mesh_attributes(Call& call) {
@@ -365,6 +367,7 @@ int add_attribute(Call& call) {
     });
     if (!done) return call.fail();
     call.charge(mesh);
+    call.charge(result);
     return 1;
 }
 

@@ -27,7 +27,7 @@ struct BufferObject {
     MemoryHold held;
 
     bool writable() const { return source != Source::own; }
-    std::size_t memory_bytes() const { return values.size() * sizeof(double); }
+    std::size_t memory_bytes() const { return values.size() * sizeof(double) + name.size(); }
 
     /// Returns the present numbers. Throws topology_mismatch if the mesh was closed or has another
     /// topology by now, or the attribute has gone or has another width.

@@ -29,9 +29,11 @@ int polyline_points(Call& call) {
 int set_polyline_points(Call& call) {
     const auto self = call.self<PolylineObject>();
     const auto points = call.points("points");
-    if (!call.attempt_quick([&] { self->polyline.points.assign(points.begin(), points.end()); })) {
-        return call.fail();
-    }
+    const bool done = call.attempt_quick([&] {
+        call.reserve(self, points.size_bytes());
+        self->polyline.points.assign(points.begin(), points.end());
+    });
+    if (!done) return call.fail();
     call.charge(self);
     return call.push_argument();
 }

@@ -14,6 +14,8 @@ namespace lissom::lua {
 
 struct SceneObject {
     static constexpr const char* kTypeName = "lissom.Scene";
+    /// The first state, the accounts and the first block of the list of steps.
+    static constexpr std::size_t kBytesBeside = 1024;
 
     explicit SceneObject(const SceneOptions& options) : scene(options) {}
 

@@ -43,7 +43,9 @@ int make_support(Call& call) {
         SupportSurface surface(seen_curve(style, curve->id), camera->camera, options);
         result.set(std::make_shared<SupportObject>(std::move(surface), metre));
     });
-    return done ? 1 : call.fail();
+    if (!done) return call.fail();
+    call.charge(result);
+    return 1;
 }
 
 int support_mode(Call& call) {

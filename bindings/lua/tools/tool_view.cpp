@@ -53,12 +53,54 @@ std::vector<Vec3> point_list(const Call& call, const char* path) {
     return {given.begin(), given.end()};
 }
 
+// ---- Memory of marks
+
+std::size_t bytes_of(const std::vector<Vec3>& points) {
+    return points.size() * sizeof(Vec3);
+}
+std::size_t bytes_of(const PointMarks& mark) {
+    return sizeof mark + bytes_of(mark.points);
+}
+std::size_t bytes_of(const LineMark& mark) {
+    return sizeof mark + bytes_of(mark.points);
+}
+std::size_t bytes_of(const LabelMark& mark) {
+    return sizeof mark + mark.text.size();
+}
+std::size_t bytes_of(const OutlineMark& mark) {
+    return sizeof mark + mark.pixels.size() * sizeof(Vec2);
+}
+std::size_t bytes_of(const CircleMark& mark) {
+    return sizeof mark;
+}
+std::size_t bytes_of(const RegionMark& mark) {
+    return sizeof mark;
+}
+std::size_t bytes_of(const SurfaceMark& mark) {
+    return sizeof mark + bytes_of(mark.from) + bytes_of(mark.to);
+}
+std::size_t bytes_of(const MeshMark& mark) {
+    return sizeof mark;
+}
+
+// Lists of marks grow to twice their size; colours are short.
+template <typename Mark>
+void keep_mark(const Call& call, ToolViewObject& view, std::vector<Mark>& list, Mark mark) {
+    const std::size_t bytes = sizeof mark + bytes_of(mark);
+    call.reserve(&view, bytes);
+    list.push_back(std::move(mark));
+    view.mark_bytes += bytes;
+}
+
 // Adds the result of `make` to a list of the view; returns the view.
 template <typename Mark, typename Make>
 int add_mark(Call& call, std::vector<Mark> ToolViewObject::*list, const Make& make) {
     require_color(call);
     const auto view = call.self<ToolViewObject>();
-    if (!call.attempt_quick([&] { (view.get()->*list).push_back(make()); })) return call.fail();
+    const bool done =
+        call.attempt_quick([&] { keep_mark(call, *view, view.get()->*list, make()); });
+    if (!done) return call.fail();
+    call.charge(view);
     return call.push_argument();
 }
 
@@ -192,14 +234,17 @@ int draw_gizmo(Call& call) {
             return hexadecimal(role_color(role, held && *held == part));
         };
         for (const GizmoLine& line : shape.lines) {
-            self->lines.push_back(
-                {line.points, color(line.part, line.role), line.width, line.closed});
+            keep_mark(call, *self, self->lines,
+                      {line.points, color(line.part, line.role), line.width, line.closed});
         }
         for (const GizmoPoint& point : shape.points) {
-            self->points.push_back({{point.position}, color(point.part, point.role), point.radius});
+            keep_mark(call, *self, self->points,
+                      {{point.position}, color(point.part, point.role), point.radius});
         }
     });
-    return done ? call.push_argument() : call.fail();
+    if (!done) return call.fail();
+    call.charge(self);
+    return call.push_argument();
 }
 
 // Fields come before methods; a view without a cursor has nil.

@@ -1,6 +1,7 @@
 /// ToolView: the marks that a tool draws over the picture, as its methods have read them.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "bindings/lua/core/compat.h"
 #include "bindings/lua/core/registry.h"
 #include "bindings/lua/mesh/mesh_object.h"
+#include "kernel/core/memory_hold.h"
 
 namespace lissom::lua {
 
@@ -80,6 +82,12 @@ struct ToolViewObject {
     std::vector<RegionMark> regions;
     std::vector<SurfaceMark> surfaces;
     std::vector<MeshMark> meshes;
+    /// Bytes of all marks, with their lists and texts.
+    std::size_t mark_bytes = 0;
+    std::size_t charged_bytes = 0;
+    MemoryHold held;
+
+    std::size_t memory_bytes() const { return mark_bytes; }
 };
 
 /// A C function for Lua: returns a view without marks, with the fields of a table: camera, scene,

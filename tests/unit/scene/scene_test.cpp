@@ -343,6 +343,32 @@ TEST_CASE("scene: a history without memory keeps no step, and steps are still ro
     CHECK(scene.hash() == before);
 }
 
+TEST_CASE("scene: texts are on its account for as long as it keeps them") {
+    const auto account = std::make_shared<MemoryAccount>(0);
+    const std::string text(1'000'000, 't');
+    {
+        Scene scene({.account = account});
+        const ObjectId id = scene.add("bar", item_of(shared_bar()));
+        const std::size_t before = account->used();
+        scene.set_parameters("tool", {{"a", text}});
+        CHECK(account->used() >= before + text.size());
+        scene.set_parameters("tool", {});
+        CHECK(account->used() == before);
+        scene.begin(text);
+        CHECK(account->used() >= before + text.size());
+        CHECK_FALSE(scene.commit());
+        CHECK(account->used() < before + text.size());
+        ObjectLook look;
+        look.style.region = text;
+        scene.set_look(id, look);
+        scene.set_look(id, {});
+        CHECK(account->used() >= before + text.size());
+        scene.clear_history();
+        CHECK(account->used() < before + text.size());
+    }
+    CHECK(account->used() == 0);
+}
+
 TEST_CASE("scene: what two meshes share counts once") {
     Scene scene;
     const auto bar = shared_bar();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bindings/lua/core/registry.h"
+#include "kernel/core/memory_hold.h"
 #include "kernel/hair/guides/guide_set.h"
 
 namespace lissom::lua {
@@ -17,9 +18,10 @@ struct GuideSetObject {
 
     GuideSet set;
     std::size_t charged_bytes = 0;
+    MemoryHold held;
 
     std::size_t memory_bytes() const {
-        return set.guided.size() * sizeof(GuidedStrand) +
+        return set.strands.size() * sizeof(Index) + set.guided.size() * sizeof(GuidedStrand) +
                set.curves.size() * sizeof(Eigen::Vector3f) +
                set.details.size() * sizeof(std::int16_t);
     }

@@ -477,7 +477,7 @@ std::vector<HostileScript> ways_out() {
 std::vector<HostileScript> hostile_scripts() {
     std::vector<HostileScript> all = endless();
     for (const auto& more : {patterns(), memory(), objects(), ways_out(), hostile_names(),
-                             hostile_addresses(), hostile_callbacks()}) {
+                             hostile_addresses(), hostile_callbacks(), hostile_keeping()}) {
         all.insert(all.end(), more.begin(), more.end());
     }
     return all;

@@ -29,9 +29,10 @@ struct HostileScript {
 /// All of them.
 std::vector<HostileScript> hostile_scripts();
 
-/// Parts: texts that are kept, addresses, and callbacks within the library.
+/// Parts: texts that are kept, addresses, callbacks within the library, and content of objects.
 std::vector<HostileScript> hostile_names();
 std::vector<HostileScript> hostile_addresses();
 std::vector<HostileScript> hostile_callbacks();
+std::vector<HostileScript> hostile_keeping();
 
 }  // namespace lissom::test

@@ -1,0 +1,96 @@
+// What an object of a script takes before its lists is charged to its account, whatever its kind.
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "bindings/lua/core/error_object.h"
+#include "bindings/lua/sandbox/sandbox.h"
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace lissom::lua {
+namespace {
+
+constexpr std::size_t kLimit = std::size_t{48} << 20;
+
+// Bytes of the process's heap in use; 0 where that is not known.
+std::size_t heap_bytes() {
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
+    const auto info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+#else
+    return 0;
+#endif
+}
+
+// Makes the objects that `expression` gives after `setup`, and keeps all of them.
+std::string keeping(const std::string& setup, const std::string& expression) {
+    return "local l = require 'lissom' kept = {} " + setup +
+           " for i = 1, 1e9 do kept[i] = " + expression + " end";
+}
+
+void check_kind(const std::string& setup, const std::string& expression) {
+    CAPTURE(expression);
+    SandboxLimits limits;
+    limits.seconds = 1000.0;
+    limits.memory_bytes = kLimit;
+    const std::size_t before = heap_bytes();
+    std::shared_ptr<MemoryAccount> memory;
+    {
+        Sandbox sandbox(limits, {});
+        memory = sandbox.memory();
+        lua_State* L = sandbox.lua();
+        const std::string text = keeping(setup, expression);
+        REQUIRE(luaL_loadbufferx(L, text.data(), text.size(), "=script", "t") == LUA_OK);
+        CHECK(sandbox.call(0, 0) != LUA_OK);
+        const std::string message = push_error_text(L, -1);
+        CHECK_MESSAGE(message.find("memory") != std::string::npos, message);
+        const std::size_t growth = heap_bytes() - before;
+        INFO("the heap grew by ", growth >> 10, " kB");
+        CHECK(growth <= 3 * kLimit);
+    }
+    CHECK(memory->used() == 0);
+}
+
+TEST_CASE("sandbox: many objects of a kind end at the limit of memory") {
+    const std::string box = "local m = l.shapes.box()";
+    check_kind("", "l.shapes.box()");
+    check_kind(box, "m:region{ vertices = { 1 } }");
+    check_kind("local m = l.shapes.grid{ segments = 2 }", "m:boundaries()[1]");
+    check_kind(box, "m:positions()");
+    check_kind(box + " m:add_attribute{ name = 'a', domain = 'vertex', width = 1 }",
+               "m:attribute('a')");
+    check_kind("", "l.strands{ points = { { 0, 0, 0 } }, counts = { 1 } }");
+    check_kind("", "l.scene{}");
+    check_kind("", "l.gizmo{}");
+    check_kind("", "l.camera{ eye = { 0, 0, 5 } }");
+    check_kind("", "l.polyline{ { 0, 0, 0 }, { 1, 0, 0 } }");
+    check_kind("", "l.params({ a = { type = 'number', default = 1 } }, { command_line = false })");
+    check_kind(box, "l.deformer(m)");
+    check_kind(box + " local d = l.deformer(m) d:add_handle(m:region{ vertices = { 1 } })",
+               "d:handles()[1]");
+}
+
+TEST_CASE("sandbox: many objects of hair end at the limit of memory") {
+    const std::string style =
+        "local head = l.shapes.head{ vertices = 1000 } "
+        "local style = l.hairstyle(head, { resolution = 2000 }) "
+        "local p = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 }, "
+        "style:at{ azimuth = 70, elevation = 10, lift = 0.02 } } "
+        "style:add_stream{ points = p } ";
+    check_kind(style, "style:scalp()");
+    check_kind(style, "style:curves()[1]");
+    check_kind(style + "local camera = l.camera{ eye = { 0, 0, 2 } } local c = style:curves()[1]",
+               "c:support{ camera = camera }");
+    check_kind(
+        "local h = l.strands{ points = { { 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, "
+        "{ 1, 1, 0 }, { 2, 0, 0 }, { 2, 1, 0 } }, counts = { 2, 2, 2 } }",
+        "h:cards{ count = 2 }");
+}
+
+}  // namespace
+}  // namespace lissom::lua
