@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/scene/content_store.h"
 
 namespace lissom {
