@@ -68,28 +68,11 @@ TEST_CASE("sandbox: many objects of a kind end at the limit of memory") {
     check_kind("", "l.scene{}");
     check_kind("", "l.gizmo{}");
     check_kind("", "l.camera{ eye = { 0, 0, 5 } }");
-    check_kind("", "l.polyline{ { 0, 0, 0 }, { 1, 0, 0 } }");
+    check_kind("", "l.polyline{ points = { { 0, 0, 0 }, { 1, 0, 0 } } }");
     check_kind("", "l.params({ a = { type = 'number', default = 1 } }, { command_line = false })");
     check_kind(box, "l.deformer(m)");
     check_kind(box + " local d = l.deformer(m) d:add_handle(m:region{ vertices = { 1 } })",
                "d:handles()[1]");
-}
-
-TEST_CASE("sandbox: many objects of hair end at the limit of memory") {
-    const std::string style =
-        "local head = l.shapes.head{ vertices = 1000 } "
-        "local style = l.hairstyle(head, { resolution = 2000 }) "
-        "local p = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 }, "
-        "style:at{ azimuth = 70, elevation = 10, lift = 0.02 } } "
-        "style:add_stream{ points = p } ";
-    check_kind(style, "style:scalp()");
-    check_kind(style, "style:curves()[1]");
-    check_kind(style + "local camera = l.camera{ eye = { 0, 0, 2 } } local c = style:curves()[1]",
-               "c:support{ camera = camera }");
-    check_kind(
-        "local h = l.strands{ points = { { 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, "
-        "{ 1, 1, 0 }, { 2, 0, 0 }, { 2, 1, 0 } }, counts = { 2, 2, 2 } }",
-        "h:cards{ count = 2 }");
 }
 
 }  // namespace
