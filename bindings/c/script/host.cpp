@@ -373,7 +373,7 @@ struct NewObject {
 // Protected: (NewObject*). Returns its userdata.
 int push_new_object(lua_State* L) {
     const auto* given = static_cast<const NewObject*>(lua_touserdata(L, 1));
-    lua::push_holder(L, *given->state, given->type)->object = *given->object;
+    lua::push_holder(L, *given->state, given->type, 0)->object = *given->object;
     return 1;
 }
 

@@ -63,7 +63,7 @@ void ScriptHost::push_object(std::uint64_t id) {
         return;
     }
     lua_pop(L_, 1);
-    lua::Holder* made = lua::push_holder(L_, binding(), found->second.type_name);
+    lua::Holder* made = lua::push_holder(L_, binding(), found->second.type_name, 0);
     made->object = found->second.object;
     lua_pushvalue(L_, -1);
     lua::raw_set_pointer(L_, -3, content);
