@@ -14,7 +14,7 @@ constexpr std::size_t kPointBytes = 12, kCountBytes = 4;
 std::size_t read_point_count(ByteSource& source) {
     const auto count = source.read<std::int32_t>();
     const std::size_t strand = source.tally.found;
-    const Place place{ElementKind::strand, strand};
+    const FilePlace place{ElementKind::strand, strand};
     if (count < 0) {
         refuse(ErrorCode::file_syntax,
                "strand " + std::to_string(strand) + " has " + std::to_string(count) + " points",

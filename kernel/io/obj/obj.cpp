@@ -219,7 +219,7 @@ class ObjReader {
         if (regions_.give_way()) groups_.set(group_, mesh_.faces.size());
         face_.clear();
         const std::size_t first_corner = mesh_.faces.vertices.size();
-        const Place place = text_.place();
+        const FilePlace place = text_.place();
         while (!text_.at_line_end()) {
             const std::size_t corner = first_corner + face_.size();
             face_.push_back(vertices_.checked(read_vertex_index(), place));
@@ -234,7 +234,7 @@ class ObjReader {
     void read_points() {
         if (!regions_.is_within()) return skipped_.add("points");
         while (!text_.at_line_end()) {
-            const Place place = text_.place();
+            const FilePlace place = text_.place();
             regions_.add(vertices_.checked(read_vertex_index(), place));
         }
     }
@@ -368,7 +368,7 @@ class ObjReader {
     std::string group_;
     SkippedContent skipped_;
     LineFinding colors_not_finite_;
-    Place first_unknown_;
+    FilePlace first_unknown_;
 };
 
 }  // namespace

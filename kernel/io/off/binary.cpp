@@ -106,7 +106,7 @@ class OffBinaryReader {
     }
 
     void read_face() {
-        const Place place{ElementKind::face, data_.tally.found};
+        const FilePlace place{ElementKind::face, data_.tally.found};
         builder_.face.clear();
         for (std::size_t k = read_length(); k > 0; --k) {
             builder_.face.push_back(builder_.vertices.checked(data_.read<std::int32_t>(), place));

@@ -15,7 +15,7 @@ bool begins_number(std::string_view word) {
 }
 
 // Parses the keyword: [ST][C][N][4][n]OFF.
-std::optional<OffLayout> parse_keyword(std::string_view word, Place place) {
+std::optional<OffLayout> parse_keyword(std::string_view word, FilePlace place) {
     if (!word.ends_with("OFF")) return std::nullopt;
     OffLayout layout;
     for (std::string_view prefix = word.substr(0, word.size() - 3); !prefix.empty();) {

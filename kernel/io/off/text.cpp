@@ -79,7 +79,7 @@ class OffTextReader {
 
     void read_face() {
         const std::int64_t size = text_.next_integer();
-        const Place place = text_.place();
+        const FilePlace place = text_.place();
         if (size < 0 || (size == 0 && !reading_.vertices_by_line)) {
             refuse(ErrorCode::file_syntax, "a face has " + std::to_string(size) + " vertices",
                    place);
@@ -113,7 +113,7 @@ class OffTextReader {
     // Some programs write a line for each edge after the faces.
     void skip_edges() {
         if (text_.at_end()) return;
-        const Place place = text_.place();
+        const FilePlace place = text_.place();
         std::int64_t lines = 0;
         for (; !text_.at_end(); text_.skip_line()) ++lines;
         if (lines != counts_.edges) {
@@ -173,7 +173,8 @@ bool concerns_content(const Error& error) {
 }
 
 // Returns the reason that a first line with this count of numbers is no vertex, if it is not.
-std::optional<Error> first_line_error(OffLayout layout, std::size_t on_first_line, Place place) {
+std::optional<Error> first_line_error(OffLayout layout, std::size_t on_first_line,
+                                      FilePlace place) {
     const std::size_t others = layout.numbers_without_color();
     const bool is_odd = on_first_line == others + 1 || on_first_line == others + 2;
     if (!is_odd) return std::nullopt;

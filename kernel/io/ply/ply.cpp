@@ -32,7 +32,7 @@ class TextSource {
     double number(ScalarType) { return text_.next_number(); }
     std::size_t remaining() const { return text_.remaining(); }
     double fraction() const { return text_.fraction(); }
-    Place place(std::size_t) const { return text_.place(); }
+    FilePlace place(std::size_t) const { return text_.place(); }
 
   private:
     TextReader text_;
@@ -47,7 +47,7 @@ class BinarySource {
     double number(ScalarType type) { return bytes_.read(type); }
     std::size_t remaining() const { return bytes_.remaining(); }
     double fraction() const { return bytes_.fraction(); }
-    Place place(std::size_t row) const { return {ElementKind::face, row}; }
+    FilePlace place(std::size_t row) const { return {ElementKind::face, row}; }
 
   private:
     ByteReader bytes_;
@@ -294,7 +294,7 @@ class BodyReader {
 
     void add_polygon(std::size_t row) {
         face_.clear();
-        const Place place = source_.place(row);
+        const FilePlace place = source_.place(row);
         for (const double index : indices_) {
             face_.push_back(vertices_.checked(to_index(index, row), place));
         }

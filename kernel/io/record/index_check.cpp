@@ -4,7 +4,7 @@
 
 namespace lissom {
 
-void IndexCheck::refuse_index(std::int64_t index, Place place) const {
+void IndexCheck::refuse_index(std::int64_t index, FilePlace place) const {
     const std::string what = std::string(element_) + " " + std::to_string(index + base_);
     refuse(ErrorCode::face_index,
            what + (index < 0 ? " does not exist; the first is " + std::to_string(base_)

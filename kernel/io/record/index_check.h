@@ -19,7 +19,7 @@ class IndexCheck {
 
     /// Returns the 0-based index for `index`, itself 0-based. Errors: face_index if negative or too
     /// large.
-    Index checked(std::int64_t index, Place place) {
+    Index checked(std::int64_t index, FilePlace place) {
         if (index < 0 || index > kLargest) refuse_index(index, place);
         if (index > largest_) {
             largest_ = index;
@@ -33,12 +33,12 @@ class IndexCheck {
   private:
     static constexpr std::int64_t kLargest = 0x7ffffffe;
 
-    [[noreturn]] void refuse_index(std::int64_t index, Place place) const;
+    [[noreturn]] void refuse_index(std::int64_t index, FilePlace place) const;
 
     std::string_view element_;
     int base_;
     std::int64_t largest_ = -1;
-    Place largest_place_;
+    FilePlace largest_place_;
 };
 
 }  // namespace lissom

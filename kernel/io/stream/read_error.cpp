@@ -22,7 +22,7 @@ std::size_t printable_length(std::string_view text) {
 
 }  // namespace
 
-void refuse(ErrorCode code, const std::string& message, Place place) {
+void refuse(ErrorCode code, const std::string& message, FilePlace place) {
     if (place.kind == ElementKind::none) throw Error(code, message);
     const auto id = index_of(std::min(place.id, kMaximumElements));
     throw Error(code, message, {place.kind, 1, {id}});
@@ -37,7 +37,7 @@ void refuse_truncated(const Tally& tally) {
 }
 
 std::size_t checked_count(std::int64_t count, std::size_t file_bytes, std::string_view elements,
-                          Place place) {
+                          FilePlace place) {
     const std::string what = std::to_string(count) + " " + std::string(elements);
     if (count < 0) refuse(ErrorCode::file_syntax, "the header announces " + what, place);
     if (count > static_cast<std::int64_t>(kMaximumElements)) {

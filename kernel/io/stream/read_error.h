@@ -12,13 +12,13 @@
 namespace lissom {
 
 /// Place of an error in a file: a line of a text, or an element of a binary file.
-struct Place {
+struct FilePlace {
     ElementKind kind = ElementKind::none;
     std::size_t id = 0;
 };
 
 /// Throws an error at a place.
-[[noreturn]] void refuse(ErrorCode code, const std::string& message, Place place = {});
+[[noreturn]] void refuse(ErrorCode code, const std::string& message, FilePlace place = {});
 
 /// Kind and count of the elements found, for a file that ends too early. `elements` is a plural;
 /// `announced` is 0 if the file does not say how many there are.
@@ -35,7 +35,7 @@ struct Tally {
 /// bytes may hold as many. Errors: file_syntax for a negative count; file_too_large for more than
 /// can be numbered; file_truncated for more than there are bytes.
 std::size_t checked_count(std::int64_t count, std::size_t file_bytes, std::string_view elements,
-                          Place place);
+                          FilePlace place);
 
 /// Returns the beginning of `text` in quotes: valid UTF-8, with '?' for unprintable characters.
 std::string in_quotes(std::string_view text);

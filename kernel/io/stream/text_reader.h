@@ -36,7 +36,7 @@ class TextReader {
 
     /// 0-based number of the present line, and the same as a place for errors.
     std::size_t line() const { return line_; }
-    Place place() const { return {ElementKind::line, line_}; }
+    FilePlace place() const { return {ElementKind::line, line_}; }
     std::size_t offset() const { return at(at_ - begin_); }
     std::size_t remaining() const { return at(end_ - at_); }
     /// Share of the text that lies behind, 0 to 1.

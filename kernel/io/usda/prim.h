@@ -30,7 +30,7 @@ struct CurveValues {
 struct CurvesPrim {
     std::string name;
     /// First place of the prim.
-    Place place;
+    FilePlace place;
     std::string type = "cubic", basis = "bezier", wrap = "nonperiodic";
     std::vector<double> counts;
     std::vector<float> points;

@@ -47,7 +47,7 @@ class UsdaText {
     /// Reads a list of texts, or one, with characters escaped by backslashes. Errors: as `numbers`.
     std::vector<std::string> texts();
 
-    Place place() const { return {ElementKind::line, next_.line}; }
+    FilePlace place() const { return {ElementKind::line, next_.line}; }
     /// Throws file_syntax (file_truncated at the end of the text): something else was expected.
     [[noreturn]] void refuse_token(std::string_view expected) const;
     /// Share of the text that lies behind, 0 to 1.

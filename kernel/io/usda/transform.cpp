@@ -95,12 +95,12 @@ std::size_t width_of(std::string_view kind) {
 }
 
 [[noreturn]] void refuse_operation(ErrorCode code, std::string_view name, const std::string& what,
-                                   Place place) {
+                                   FilePlace place) {
     refuse(code, "the transform " + in_quotes(name) + " " + what, place);
 }
 
 // USD multiplies rows by matrices: a translation stands in the last row.
-Affine affine_of_rows(std::string_view name, const std::vector<double>& m, Place place) {
+Affine affine_of_rows(std::string_view name, const std::vector<double>& m, FilePlace place) {
     if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
         refuse_operation(ErrorCode::unsupported, name, "is not affine; apply it before exporting",
                          place);
@@ -117,7 +117,7 @@ Affine affine_of_rows(std::string_view name, const std::vector<double>& m, Place
 }
 
 // The real part comes first.
-Affine orientation(std::string_view name, const std::vector<double>& q, Place place) {
+Affine orientation(std::string_view name, const std::vector<double>& q, FilePlace place) {
     const Eigen::Quaterniond turn(q[0], q[1], q[2], q[3]);
     if (!(turn.norm() > 0.0)) {
         refuse_operation(ErrorCode::file_syntax, name, "is a quaternion of length 0", place);
@@ -125,7 +125,7 @@ Affine orientation(std::string_view name, const std::vector<double>& q, Place pl
     return linear_map(turn.normalized().toRotationMatrix());
 }
 
-Affine affine_of(std::string_view name, const std::vector<double>& v, Place place) {
+Affine affine_of(std::string_view name, const std::vector<double>& v, FilePlace place) {
     const std::string_view kind = kind_of(name);
     if (kind == "translate") return translation(vector_of(v));
     if (kind == "scale") return linear_map(vector_of(v).asDiagonal());
@@ -158,7 +158,7 @@ void UsdaTransform::set_changing(std::string_view name) {
     operations_[std::string(name)].changes = true;
 }
 
-void UsdaTransform::set_order(std::vector<std::string> order, Place place) {
+void UsdaTransform::set_order(std::vector<std::string> order, FilePlace place) {
     order_ = std::move(order);
     place_ = place;
 }

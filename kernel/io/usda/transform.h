@@ -20,7 +20,7 @@ class UsdaTransform {
     /// Marks an operation whose numbers change over time.
     void set_changing(std::string_view name);
     /// Sets the value of "xformOpOrder": the operations, the one that acts last first.
-    void set_order(std::vector<std::string> order, Place place);
+    void set_order(std::vector<std::string> order, FilePlace place);
 
     /// Returns whether there is any operation.
     bool is_set() const { return !order_.empty(); }
@@ -43,7 +43,7 @@ class UsdaTransform {
 
     std::map<std::string, Operation, std::less<>> operations_;
     std::vector<std::string> order_;
-    Place place_;
+    FilePlace place_;
 };
 
 }  // namespace lissom
