@@ -72,7 +72,7 @@ std::optional<SkinHeight> SkinSurface::height(const Vec3& point, double reach) c
 
 SkinBinding::SkinBinding(const Strands& strands, const SkinSurface& skin, const HeadMotion& head,
                          double reach, const Context& context) {
-    std::vector<std::vector<Place>> lists(at(strands.size()));
+    std::vector<std::vector<SkinPlace>> lists(at(strands.size()));
     context.parallel_for(0, strands.size(), kBindGrain, [&](Index begin, Index end) {
         for (Index s = begin; s < end; ++s) {
             const StrandView strand = strands.strand(s);
@@ -80,7 +80,7 @@ SkinBinding::SkinBinding(const Strands& strands, const SkinSurface& skin, const 
                 const Vec3 point = point_of(strand, k);
                 const auto foot = point.allFinite() ? skin.nearest(point, reach) : std::nullopt;
                 if (!foot || !has_normals(head, foot->triangle)) continue;
-                Place place{.point = k};
+                SkinPlace place{.point = k};
                 for (std::size_t c = 0; c < 3; ++c) {
                     place.vertices[c] = static_cast<std::uint32_t>(foot->triangle[c]);
                     place.weights[c] = static_cast<float>(foot->barycentric[index_of(c)]);
@@ -91,15 +91,15 @@ SkinBinding::SkinBinding(const Strands& strands, const SkinSurface& skin, const 
         }
     });
     first_.push_back(0);
-    for (const std::vector<Place>& list : lists) first_.push_back(first_.back() + list.size());
-    charge_ = context.charge(first_.back() * sizeof(Place), "hair near the skin");
+    for (const std::vector<SkinPlace>& list : lists) first_.push_back(first_.back() + list.size());
+    charge_ = context.charge(first_.back() * sizeof(SkinPlace), "hair near the skin");
     places_.reserve(first_.back());
-    for (const std::vector<Place>& list : lists) {
+    for (const std::vector<SkinPlace>& list : lists) {
         places_.insert(places_.end(), list.begin(), list.end());
     }
 }
 
-SkinHeight SkinBinding::height(const Place& place, const Vec3& point, const HeadMotion& head) {
+SkinHeight SkinBinding::height(const SkinPlace& place, const Vec3& point, const HeadMotion& head) {
     Vec3 foot = Vec3::Zero(), normal = Vec3::Zero();
     for (std::size_t c = 0; c < 3; ++c) {
         const double weight = place.weights[c];
@@ -110,7 +110,8 @@ SkinHeight SkinBinding::height(const Place& place, const Vec3& point, const Head
     return {normal.dot(point - foot), normal};
 }
 
-float SkinBinding::quick_height(const Place& place, const float* point, const HeadMotion& head) {
+float SkinBinding::quick_height(const SkinPlace& place, const float* point,
+                                const HeadMotion& head) {
     Eigen::Array4f foot(-point[0], -point[1], -point[2], 0.0f), normal = Eigen::Array4f::Zero();
     for (std::size_t c = 0; c < 3; ++c) {
         const HeadMotion::SkinVertex& vertex = head.skin()[place.vertices[c]];

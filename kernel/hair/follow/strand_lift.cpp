@@ -63,7 +63,7 @@ bool StrandLift::raise(LiftedStrand& strand, Index k, Vec3& point, double floor,
     return moved;
 }
 
-void StrandLift::over_places(std::span<const SkinBinding::Place> places,
+void StrandLift::over_places(std::span<const SkinBinding::SkinPlace> places,
                              LiftedStrand strand) const {
     const auto low = std::find_if(places.begin(), places.end(), [&](const auto& place) {
         const double floor =
@@ -82,7 +82,7 @@ void StrandLift::over_places(std::span<const SkinBinding::Place> places,
         Vec3 point = pushed ? drawn_point(strand, k, (target - old).norm()) : target;
         bool moved = false;
         if (bound) {
-            const SkinBinding::Place& place = *next++;
+            const SkinBinding::SkinPlace& place = *next++;
             const double floor =
                 std::min(floor_at(strand.arcs[at(k)]), head_.scale() * double{place.height});
             moved = raise(strand, k, point, floor, [&](const Vec3& p) {

@@ -25,7 +25,7 @@ class StrandLift {
     StrandLift(const HeadMotion& head, double clearance) : head_(head), clearance_(clearance) {}
 
     /// Keeps points over the places that they are bound to.
-    void over_places(std::span<const SkinBinding::Place> places, LiftedStrand strand) const;
+    void over_places(std::span<const SkinBinding::SkinPlace> places, LiftedStrand strand) const;
     /// Keeps all points, and the middles between them, out of the moved skin.
     void out_of(const SkinSurface& moved, const SkinSurface& rest, LiftedStrand strand) const;
 
