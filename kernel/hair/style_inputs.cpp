@@ -18,7 +18,8 @@ std::size_t bytes_in(const std::vector<Vec3>& points) {
 std::size_t bytes_in(const StyleCurve& curve) {
     std::size_t bytes = curve.name.size() + bytes_in(drawn_points(curve));
     if (const auto* dividing = std::get_if<DividingCurve>(&curve.shape)) {
-        for (const auto& hint : dividing->hints) bytes += sizeof hint + bytes_in(hint);
+        for (const auto& hint : dividing->hints)
+            bytes += sizeof(std::vector<Vec3>) + bytes_in(hint);
     }
     if (const auto* tail = std::get_if<Ponytail>(&curve.shape)) {
         bytes += bytes_in(tail->options.section);

@@ -80,7 +80,8 @@ void MotionField::weigh(const HeadMotion& head, const Context& context) {
         std::vector<double> row(samples_.size());
         for (Index i = begin; i < end; ++i) {
             const Index node = used_[at(i)], x = node % counts_[0], y = node / counts_[0];
-            const Vec3 cell(x, y % counts_[1], y / counts_[1]);
+            const Index z = y / counts_[1];
+            const Vec3 cell(x, y % counts_[1], z);
             const Vec3 place = origin_.head<3>().matrix().cast<double>() + step * cell;
             double sum = 0.0;
             for (std::size_t j = 0; j < samples_.size(); ++j) {

@@ -123,12 +123,12 @@ class StrandFollower::Prepared {
           field(paths.knots(), head, sample_vertices(strands, rest, head), context),
           triangles(triangulate_faces(rest.topology(), rest.positions())) {
         rest_positions.assign(rest.positions().begin(), rest.positions().end());
-        charge = context.charge(strands.memory_bytes() + head.rest().size() * 4 * sizeof(Vec3),
-                                "hair that follows");
+        charge_ = context.charge(strands.memory_bytes() + head.rest().size() * 4 * sizeof(Vec3),
+                                 "hair that follows");
         if (options.collision == FollowCollision::none || strands.empty()) return;
-        skin.emplace(head.rest(), triangles, head.topology(), head.outward(), context);
+        skin_.emplace(head.rest(), triangles, head.topology(), head.outward(), context);
         if (options.collision == FollowCollision::near) {
-            binding = SkinBinding(strands, *skin, head, kBindReach, context);
+            binding_ = SkinBinding(strands, *skin_, head, kBindReach, context);
         }
     }
 
@@ -136,7 +136,7 @@ class StrandFollower::Prepared {
         head.move(positions, unit, options.scale, context);
         field.move(head, context);
         std::optional<SkinSurface> moved;
-        if (options.collision == FollowCollision::all && skin) {
+        if (options.collision == FollowCollision::all && skin_) {
             moved.emplace(head.places(), triangles, head.topology(), head.outward(), context);
         }
         context.parallel_for(0, paths.group_count(), kFollowGrain, [&](Index begin, Index end) {
@@ -151,7 +151,7 @@ class StrandFollower::Prepared {
     }
 
     std::size_t memory_bytes() const {
-        return strands.memory_bytes() + field.memory_bytes() + binding.memory_bytes() +
+        return strands.memory_bytes() + field.memory_bytes() + binding_.memory_bytes() +
                paths.memory_bytes() + head.rest().size() * 8 * sizeof(Vec3);
     }
 
@@ -175,16 +175,16 @@ class StrandFollower::Prepared {
             rest, arcs, {points.data() + 3 * at(strands.first_point(s)), 3, rest.cols()}};
         const StrandLift over(head, options.clearance);
         if (moved) {
-            over.out_of(*moved, *skin, strand);
+            over.out_of(*moved, *skin_, strand);
         } else {
-            over.over_places(binding.of(s), strand);
+            over.over_places(binding_.of(s), strand);
         }
     }
 
     /// The skin at rest.
-    std::optional<SkinSurface> skin;
-    SkinBinding binding;
-    MemoryCharge charge;
+    std::optional<SkinSurface> skin_;
+    SkinBinding binding_;
+    MemoryCharge charge_;
 };
 
 StrandFollower::StrandFollower(Strands strands, const Mesh& rest, const FollowOptions& options,
