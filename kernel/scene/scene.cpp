@@ -55,10 +55,11 @@ std::shared_ptr<const SceneState> charged_state(const ContentStore& store, Scene
 // Bytes of parameters as they are kept, with the nodes of their maps.
 std::size_t bytes_of(const std::string& owner, const SceneParameters& values) {
     constexpr std::size_t kNode = 64;
-    std::size_t bytes = 2 * (kNode + sizeof owner + owner.size()) + sizeof values;
+    std::size_t bytes = 2 * (kNode + sizeof(std::string) + owner.size()) + sizeof(SceneParameters);
     for (const auto& [name, value] : values) {
         const auto* text = std::get_if<std::string>(&value);
-        bytes += kNode + sizeof name + name.size() + sizeof value + (text ? text->size() : 0);
+        bytes +=
+            kNode + sizeof(std::string) + name.size() + sizeof value + (text ? text->size() : 0);
     }
     return bytes;
 }
