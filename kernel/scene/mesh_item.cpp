@@ -91,8 +91,9 @@ std::size_t MeshContent::own_bytes() const {
     for (const AttributeContent& attribute : attributes_) {
         bytes += sizeof attribute + attribute.form.name.size() + attribute.values.list_bytes();
     }
-    for (const std::string& library : material_libraries_)
+    for (const std::string& library : material_libraries_) {
         bytes += sizeof(std::string) + library.size();
+    }
     return bytes;
 }
 

@@ -52,8 +52,9 @@ bool equal(const StrandFrame& frame, const Strands& strands) {
 // Texts, and the profile of widths.
 std::size_t bytes_beside(const Strands& strands) {
     std::size_t bytes = strands.comment().size() + strands.widths().profile.size() * sizeof(float);
-    for (const std::string& name : strands.group_names())
+    for (const std::string& name : strands.group_names()) {
         bytes += sizeof(std::string) + name.size();
+    }
     return bytes;
 }
 
