@@ -72,6 +72,9 @@ paste = lissom.paste{ source = globe, target = globe:copy(), placement = { at = 
 local tuft = lissom.strands{ counts = { 2, 2, 2, 2 }, points = { { 0, 0, 0 }, { 0, 1, 0 }, { 0.1, 0, 0 }, { 0.1, 1, 0 },
     { 0, 0, 0.1 }, { 0, 1, 0.1 }, { 0.1, 0, 0.1 }, { 0.1, 1, 0.1 } } }
 guides, cards = tuft:guide_set{ count = 3 }, tuft:cards{ count = 2 }
+local planted = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 })
+planted:add_stream{ points = { { 0, 1, 0 }, { 0, 1.2, 0 } } }
+follower = planted:grow{ count = 3, length = 0.1 }:follower{}
 local eye = lissom.camera{ eye = { 0, 0, 5 } }
 lissom.tool_host{ scene = lissom.scene{}, camera = eye, tool = lissom.tool{ name = "draws",
     draw = function(_, given) view = given end } }:draw()
@@ -91,6 +94,7 @@ function fresh()
         ["lissom.Strands"] = strands, ["lissom.Scalp"] = scalp, ["lissom.Hairstyle"] = style,
         ["lissom.Curve"] = curve, ["lissom.Merger"] = merger, ["lissom.Provenance"] = provenance,
         ["lissom.Paste"] = paste, ["lissom.GuideSet"] = guides, ["lissom.Cards"] = cards,
+        ["lissom.StrandFollower"] = follower,
         ["lissom.Scene"] = scene, ["lissom.Camera"] = camera, ["lissom.Gizmo"] = gizmo,
         ["lissom.Support"] = support, ["lissom.ToolView"] = view,
         ["lissom.Polyline"] = lissom.polyline{ points = { { 0, 0, 0 }, { 0, 1, 0 } } } }
