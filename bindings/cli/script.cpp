@@ -183,7 +183,10 @@ void shorten_text(lua_State* L) {
     std::size_t bytes = 0;
     const char* const text = lua_tolstring(L, -1, &bytes);
     if (bytes <= kMostBytes) return;
-    lua_pushlstring(L, text, kMostBytes);
+    std::size_t end = kMostBytes;
+    // A character of UTF-8 stays whole.
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;
+    lua_pushlstring(L, text, end);
     lua_pushfstring(L, "... (%d KB)", static_cast<int>(bytes >> 10));
     lua_concat(L, 2);
     lua_remove(L, -2);

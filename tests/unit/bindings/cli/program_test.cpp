@@ -189,6 +189,10 @@ TEST_CASE("scripts end with a status and the place of their error") {
     const std::string flood = ends("error(('x'):rep(5e6))").err;
     CHECK(flood.size() < 70'000);
     CHECK(flood.find("... (4882 KB)") != std::string::npos);
+    for (const std::string before : {"", "a", "ab"}) {
+        const std::string cut = ends("error('" + before + "' .. ('\xc3\xa9'):rep(1e6))").err;
+        CHECK(cut.find("\xc3\xa9... (") != std::string::npos);
+    }
     CHECK(ends("x = = 1").err.find("s.lua:1:") == 0);
     CHECK(ends("\n\nassert(require 'lissom'.load('none.obj'))").err.find("s.lua:3: none.obj") == 0);
     folder.write("part.lua", "return function()\n  local t\n  return t.x\nend");
