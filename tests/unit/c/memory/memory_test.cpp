@@ -901,7 +901,7 @@ void fail_everywhere(World& world, const MemoryCase& one) {
 }
 
 // Blocks that a process keeps: messages and tables that are made when they are first needed.
-constexpr long kKeptBlocks = 6;
+constexpr long kKeptBlocks = 3;
 
 using Add = void(std::vector<MemoryCase>&);
 
