@@ -373,7 +373,9 @@ struct NewObject {
 // Protected: (NewObject*). Returns its userdata.
 int push_new_object(lua_State* L) {
     const auto* given = static_cast<const NewObject*>(lua_touserdata(L, 1));
-    lua::push_holder(L, *given->state, given->type, 0)->object = *given->object;
+    // In a statement of its own: a Lua error there would leave a copy of the object behind.
+    lua::Holder* const holder = lua::push_holder(L, *given->state, given->type, 0);
+    holder->object = *given->object;
     return 1;
 }
 
