@@ -33,7 +33,8 @@ extract_blocks() {
         file { print >file }' "${pages[@]}"
 }
 
-run_command() { (cd "$root" && bash -euo pipefail -c "$1") </dev/null; }
+# A command that does not end, such as a server, fails.
+run_command() { (cd "$root" && timeout 600 bash -euo pipefail -c "$1") </dev/null; }
 
 run_script() {
     mkdir -p "$work/lua"

@@ -7,20 +7,6 @@
 
 namespace lissom::lua {
 
-const std::string kStyle = R"(local head = lissom.shapes.head{ vertices = 3000 }
-local style = lissom.hairstyle(head, { resolution = 5000 })
-local points = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 },
-                 style:at{ azimuth = 70, elevation = 10, lift = 0.02 } }
-local curve = style:add_stream{ points = points, name = "side" }
-)";
-
-const std::string kParting = kStyle + R"(local line = {}
-for i, elevation in ipairs{ 40, 60, 80 } do
-    line[i] = style:at{ azimuth = 0, elevation = elevation }
-end
-local parting = style:add_dividing{ points = line }
-)";
-
 namespace {
 
 void take_length(const Call& call, const char* path, double& target) {

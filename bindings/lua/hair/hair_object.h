@@ -105,9 +105,6 @@ std::vector<Function> style_field_methods();
 std::vector<Function> style_growth_methods();
 Function style_save_method();
 
-/// Start of examples: kStyle, and a parting.
-extern const std::string kParting;
-
 /// Pushes a curve.
 bool push_curve(Call& call, const std::shared_ptr<HairstyleObject>& style, CurveId id);
 
@@ -126,7 +123,21 @@ int push_normal_at(Call& call, const Scalp& scalp);
 Function point_at_method(Body body, const std::string& example);
 Function normal_at_method(Body body, const std::string& example);
 
-/// Start of examples: a style with one stream curve on the generated head.
-extern const std::string kStyle;
+/// Start of examples: a style with one stream curve on the generated head. Inline, as examples of
+/// other files are made of it before main.
+inline const std::string kStyle = R"(local head = lissom.shapes.head{ vertices = 3000 }
+local style = lissom.hairstyle(head, { resolution = 5000 })
+local points = { style:at{ azimuth = 20, elevation = 50, lift = 0.01 },
+                 style:at{ azimuth = 70, elevation = 10, lift = 0.02 } }
+local curve = style:add_stream{ points = points, name = "side" }
+)";
+
+/// Start of examples: kStyle, and a parting.
+inline const std::string kParting = kStyle + R"(local line = {}
+for i, elevation in ipairs{ 40, 60, 80 } do
+    line[i] = style:at{ azimuth = 0, elevation = elevation }
+end
+local parting = style:add_dividing{ points = line }
+)";
 
 }  // namespace lissom::lua

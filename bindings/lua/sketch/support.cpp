@@ -169,12 +169,10 @@ int read_hint(Call& call) {
 
 // ---- Descriptions
 
-// Start of examples. A function, as kStyle is another file's.
-std::string support_setup() {
-    return kStyle + R"(local camera = lissom.camera{ eye = { 0, 0, 2 } }
+// Start of examples.
+const std::string kSupport = kStyle + R"(local camera = lissom.camera{ eye = { 0, 0, 2 } }
 local support = curve:support{ camera = camera }
 )";
-}
 
 Parameter camera_option(const std::string& help) {
     return object("camera", CameraObject::kTypeName, help);
@@ -204,7 +202,7 @@ std::vector<Function> support_methods_of_curve() {
                          .defaults(SupportOptions{}.extension)},
          .results = {{"lissom.Support", "support", "The surface, of the curve as it is now."}},
          .errors = {ErrorCode::handle_removed, ErrorCode::invalid_argument},
-         .example = support_setup() + "assert(support:mode() == 'strip')"},
+         .example = kSupport + "assert(support:mode() == 'strip')"},
         {.name = "read_hint",
          .body = read_hint,
          .summary = "The meaning of a hint stroke, seen on the picture: within 20 pixels is "
@@ -219,7 +217,7 @@ std::vector<Function> support_methods_of_curve() {
          .results = {{"lissom.HintReading", "reading", "Its reading."}},
          .errors = {ErrorCode::handle_removed, ErrorCode::invalid_argument,
                     ErrorCode::out_of_range},
-         .example = support_setup() + R"(local tip = curve:points()[2]
+         .example = kSupport + R"(local tip = curve:points()[2]
 local x, y = camera:project(tip)
 local reading = curve:read_hint{ camera = camera, points = { { x, y }, { x + 5, y + 90 } } }
 assert(reading.operation == 'concatenate' and reading.sure))"}};
@@ -235,40 +233,40 @@ Type support_type() {
                      .body = support_mode,
                      .summary = "Kind of the surface.",
                      .results = {{"string", "mode", "\"ruled\" or \"strip\"."}},
-                     .example = support_setup() + "assert(support:mode() == 'strip')"},
+                     .example = kSupport + "assert(support:mode() == 'strip')"},
                     {.name = "end_on",
                      .body = support_end_on,
                      .summary = "Fraction of the curve that is seen end-on from the viewpoint, at "
                                 "which a surface says little of it. Warn above a third, and take "
                                 "another viewpoint.",
                      .results = {{"number", "share", "Fraction of its length, 0 to 1."}},
-                     .example = support_setup() + "assert(support:end_on() <= 1)"},
+                     .example = kSupport + "assert(support:end_on() <= 1)"},
                     {.name = "seen_from",
                      .body = support_seen,
                      .summary = "Cosine at which a camera sees the surface. Strokes need 0.3.",
                      .arguments = {camera_option("The camera.")},
                      .results = {{"number", "cosine", "0, seen edge-on, to 1."}},
                      .errors = {ErrorCode::invalid_argument},
-                     .example = support_setup() + "assert(support:seen_from(camera) > 0.3)"},
+                     .example = kSupport + "assert(support:seen_from(camera) > 0.3)"},
                     {.name = "edges",
                      .body = support_edges,
                      .summary = "Its two edges, for drawing it with view:surface.",
                      .results = {{"lissom.Vector[]", "first", "From the root to beyond the tip."},
                                  {"lissom.Vector[]", "second", "Likewise, as many points."}},
-                     .example = support_setup() + "local first, second = support:edges()\n"
-                                                  "assert(#first == #second)"},
+                     .example = kSupport + "local first, second = support:edges()\n"
+                                           "assert(#first == #second)"},
                     {.name = "mesh",
                      .body = support_mesh,
                      .summary = "The surface as a mesh: two vertices and two triangles a line.",
                      .results = {{"lissom.Mesh", "mesh", "A new mesh."}},
-                     .example = support_setup() + "assert(support:mesh():is_manifold())"},
+                     .example = kSupport + "assert(support:mesh():is_manifold())"},
                     {.name = "pick",
                      .body = support_pick,
                      .summary = "First intersection with a ray.",
                      .arguments = {vector("origin", "Start of the ray."),
                                    vector("direction", "Its direction; any length.")},
                      .results = {{"lissom.SupportPoint?", "hit", "nil if there is none."}},
-                     .example = support_setup() + R"(local hit = support:pick(camera:ray(640, 480))
+                     .example = kSupport + R"(local hit = support:pick(camera:ray(640, 480))
 assert(hit == nil or hit.distance > 0))"}},
         .operators = {{"__tostring", support_text, "tostring(support)", "its kind"}}};
 }

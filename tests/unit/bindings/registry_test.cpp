@@ -114,7 +114,7 @@ TEST_CASE("every name that the table uses as a type is described") {
         return registry.find_type(name) != nullptr || name == "lissom.Vector";
     };
     const auto check = [&](std::string type) {
-        const std::size_t end = type.find_first_of("[]?");
+        const std::size_t end = type.find_first_of("[]?|");
         type = type.substr(0, end);
         if (type.compare(0, 7, "lissom.") == 0) CHECK_MESSAGE(known(type), type);
     };
