@@ -4,38 +4,12 @@
 // page was not built, or there is no Chromium or no puppeteer-core.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
-import http from 'node:http';
-import { createRequire } from 'node:module';
-import os from 'node:os';
 import path from 'node:path';
+import { openBrowser, serve, skip } from './browser.mjs';
 
 const [folder, ...options] = process.argv.slice(2);
-const skip = why => { console.log(`skipped: ${why}`); process.exit(77); };
 if (!fs.existsSync(path.join(folder, 'lissom.wasm'))) skip('the playground was not built (./dev playground)');
-const chromium = process.env.LISSOM_CHROMIUM || ['/usr/bin/chromium', '/usr/bin/google-chrome'].find(file => fs.existsSync(file));
-if (!chromium) skip('no Chromium');
-const npm = process.env.LISSOM_WEB_NPM || path.join(os.homedir(), '.cache', 'lissom', 'web');
-let puppeteer;
-try { puppeteer = createRequire(path.join(npm, 'package.json'))('puppeteer-core'); } catch { skip('no puppeteer-core in ' + npm); }
-
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css',
-    '.json': 'application/json', '.svg': 'image/svg+xml', '.webmanifest': 'application/manifest+json' };
-function serve() {
-    return new Promise(resolve => {
-        const server = http.createServer((request, response) => {
-            const name = decodeURIComponent(new URL(request.url, 'http://x').pathname).replace(/\/$/, '/index.html');
-            const file = path.join(folder, name);
-            if (!file.startsWith(path.resolve(folder)) && !path.resolve(file).startsWith(path.resolve(folder))) return response.writeHead(403).end();
-            if (!fs.existsSync(file)) return response.writeHead(404).end();
-            response.writeHead(200, { 'content-type': types[path.extname(file)] || 'text/plain' });
-            return fs.createReadStream(file).pipe(response);
-        }).listen(0, () => resolve(server));
-    });
-}
-
-const server = await serve(), address = `http://localhost:${server.address().port}/`;
-const browser = await puppeteer.launch({ executablePath: chromium, headless: true, protocolTimeout: 600000,
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--disable-dev-shm-usage'] });
+const browser = await openBrowser(), { server, address } = await serve(folder);
 const pictures = options.includes('--pictures') ? options[options.indexOf('--pictures') + 1] : null;
 const troubles = [];
 const patience = 240000;

@@ -62,13 +62,9 @@ function arrives(grid, depth, x, y, z, d) {
     }
 }
 
-// Returns the grid and, a texel a cell, the mean of light from all sides and its slope along the axes.
-export function hairLight(points, offsets, widths, head) {
-    if (points.length < 6) return null;
-    const grid = gridAround(points, 40), { size } = grid;
-    const depth = depths(grid, points, offsets, widths);
-    if (head) addHead(grid, depth, head);
-    const texels = new Uint8Array(4 * depth.length);
+// A texel a cell: the mean of light from all sides and its slope along the axes.
+function momentsOf(grid, depth) {
+    const { size } = grid, texels = new Uint8Array(4 * depth.length);
     let at = 0;
     for (let z = 0; z < size[2]; ++z)
         for (let y = 0; y < size[1]; ++y)
@@ -83,5 +79,16 @@ export function hairLight(points, offsets, widths, head) {
                 texels[at++] = 255 * mean;
                 for (let k = 0; k < 3; ++k) texels[at++] = 127.5 + 127.5 * Math.min(Math.max(slope[k], -1), 1);
             }
-    return { size, origin: grid.origin, step: grid.step, texels };
+    return texels;
+}
+
+// Returns the grid, the light that arrives at the hair, and that which hair alone leaves to the head: what the head
+// itself takes from it is no shadow of hair, and has none of its colour.
+export function hairLight(points, offsets, widths, head) {
+    if (points.length < 6) return null;
+    const grid = gridAround(points, 40), depth = depths(grid, points, offsets, widths);
+    const onHead = momentsOf(grid, depth);
+    if (!head) return { ...grid, texels: onHead, onHead };
+    addHead(grid, depth, head);
+    return { ...grid, texels: momentsOf(grid, depth), onHead };
 }

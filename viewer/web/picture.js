@@ -35,6 +35,30 @@ function compiled(gl, vertex, fragment) {
     return { program, places, slots };
 }
 
+// Each row of numbers two times.
+function twice(values, width) {
+    const doubled = new values.constructor(2 * values.length);
+    for (let from = 0, to = 0; from < values.length; from += width) {
+        for (let copy = 0; copy < 2; ++copy) for (let k = 0; k < width; ++k) doubled[to++] = values[from + k];
+    }
+    return doubled;
+}
+
+// Two triangles a segment, and their corners up to each of the starts, which are counts of points. Not an instance a
+// segment: drivers that draw in software take far longer for each instance than for its triangles.
+function ribbons(points, starts) {
+    const count = points.length / 4 - 3, indices = new Uint32Array(6 * Math.max(count, 0)), ends = [];
+    let at = 0;
+    for (let p = 0; p <= count; ++p) {
+        while (ends.length < starts.length && starts[ends.length] <= p) ends.push(at);
+        if (p + 1 >= count || !(points[4 * (p + 1) + 3] >= 0)) continue;
+        const v = 2 * p;
+        indices.set([v, v + 1, v + 2, v + 2, v + 1, v + 3], at);
+        at += 6;
+    }
+    return { indices: indices.subarray(0, at), ends };
+}
+
 export class View {
     // Calls `changed` after a frame. Throws if the browser has no WebGL 2.
     constructor(canvas, changed = () => {}) {
@@ -86,7 +110,7 @@ export class View {
         for (const one of [...meshes, ...strands, ...(lines ? [lines] : [])]) {
             gl.deleteVertexArray(one.array);
             one.buffers.forEach(buffer => gl.deleteBuffer(buffer));
-            if (one.light) gl.deleteTexture(one.light.texture);
+            if (one.light) [one.light.texture, one.light.onHead].forEach(texture => gl.deleteTexture(texture));
         }
         this.drawn = { meshes: [], strands: [], lines: null };
     }
@@ -119,19 +143,23 @@ export class View {
         return { array, buffers, count: mesh.positions.length / 3, place: mesh.place || identity };
     }
 
+    // Two vertices a point, which know the points before and after theirs.
     uploadStrands(strands) {
         const gl = this.gl, { slots } = this.hair, array = gl.createVertexArray();
         gl.bindVertexArray(array);
-        const buffers = [this.buffer(strands.points), this.buffer(strands.colors)];
-        for (const [name, point] of [['a_before', 0], ['a_from', 1], ['a_to', 2], ['a_after', 3]]) {
-            this.attribute(slots[name], buffers[0], 4, gl.FLOAT, false, 16, 16 * point, 1);
+        const { indices, ends } = ribbons(strands.points, strands.starts);
+        const buffers = [this.buffer(twice(strands.points, 4)), this.buffer(twice(new Uint32Array(strands.colors.buffer), 1))];
+        for (const [name, point] of [['a_before', 0], ['a_here', 1], ['a_after', 2]]) {
+            this.attribute(slots[name], buffers[0], 4, gl.FLOAT, false, 16, 32 * point);
         }
-        for (const [name, point] of [['a_from_color', 1], ['a_to_color', 2]]) {
-            this.attribute(slots[name], buffers[1], 4, gl.UNSIGNED_BYTE, true, 4, 4 * point, 1);
-        }
+        this.attribute(slots.a_color, buffers[1], 4, gl.UNSIGNED_BYTE, true, 4, 8);
+        const corners = gl.createBuffer();
+        gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, corners);
+        gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
         gl.bindVertexArray(null);
-        const light = strands.light && { ...strands.light, texture: this.texture3d(strands.light.size, strands.light.texels) };
-        return { array, buffers, count: strands.points.length / 4 - 3, starts: strands.starts, light, look: strands.look };
+        const light = strands.light && { ...strands.light, texture: this.texture3d(strands.light.size, strands.light.texels),
+            onHead: this.texture3d(strands.light.size, strands.light.onHead) };
+        return { array, buffers: [...buffers, corners], ends, light, look: strands.look };
     }
 
     uploadLines(picture) {
@@ -290,7 +318,8 @@ export class View {
     }
 
     size() {
-        const { canvas } = this, scale = Math.min(window.devicePixelRatio || 1, 2);
+        // Hair is finer than the pixels of most screens.
+        const { canvas } = this, scale = this.drawn.strands.length ? 2 : Math.min(window.devicePixelRatio || 1, 2);
         const width = Math.max(Math.round(canvas.clientWidth * scale), 1), height = Math.max(Math.round(canvas.clientHeight * scale), 1);
         if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
         return { width, height, scale };
@@ -317,7 +346,7 @@ export class View {
         const near = Math.max(this.distance - reach, 0.002 * this.distance);
         const projection = perspective(this.fov, w / h, near, this.distance + reach);
         // The middle of the picture is that of what nothing covers.
-        if (!centred && !this.picture?.camera) projection[8] += this.covered() / Math.max(this.canvas.clientWidth, 1);
+        if (!centred) projection[8] += this.covered() / Math.max(this.canvas.clientWidth, 1);
         const light = cell.hair ? this.drawn.strands.find(one => one.light)?.light : null;
         const shared = { view, projection, light, h };
         this.drawMeshes(cell.meshes, shared, scale);
@@ -326,12 +355,12 @@ export class View {
         gl.bindVertexArray(null);
     }
 
-    useLight({ places }, { view, projection, light }, shadow) {
+    useLight({ places }, { view, projection, light }, shadow, texture = light?.texture) {
         const gl = this.gl;
         gl.uniformMatrix4fv(places.u_view, false, view);
         gl.uniformMatrix4fv(places.u_projection, false, projection);
         gl.activeTexture(gl.TEXTURE0);
-        gl.bindTexture(gl.TEXTURE_3D, light ? light.texture : this.noLight);
+        gl.bindTexture(gl.TEXTURE_3D, light ? texture : this.noLight);
         gl.uniform1i(places.u_hair, 0);
         gl.uniform4fv(places.u_hair_grid, light ? [...light.origin, light.step] : [0, 0, 0, 0]);
         gl.uniform3fv(places.u_hair_size, light ? light.size : [1, 1, 1]);
@@ -342,7 +371,7 @@ export class View {
     drawMeshes(meshes, shared, scale) {
         const gl = this.gl, { program, places } = this.mesh;
         gl.useProgram(program);
-        this.useLight(this.mesh, shared, 1);
+        this.useLight(this.mesh, shared, 1, shared.light?.onHead);
         gl.uniform1f(places.u_wire, this.settings.wire || this.picture?.wire ? scale : 0);
         gl.uniform1i(places.u_flat, this.settings.flat || this.picture?.flat ? 1 : 0);
         for (const mesh of meshes) {
@@ -365,8 +394,7 @@ export class View {
             gl.uniform1f(places.u_wide, 1 / Math.sqrt(level));
             gl.uniform1f(places.u_thinnest, 0.42 * 2 * Math.tan(this.fov / 2) / shared.h);
             gl.bindVertexArray(strands.array);
-            const count = strands.starts[Math.floor(level * (strands.starts.length - 1))];
-            gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, Math.max(count - 1, 0));
+            gl.drawElements(gl.TRIANGLES, strands.ends[Math.floor(level * (strands.ends.length - 1))], gl.UNSIGNED_INT, 0);
         }
         if (!this.moving) return;
         // A pixel is read, so that the time is that of the frame.

@@ -97,11 +97,11 @@ void main() {
     o_color = vec4(shown(lit), 1.0);
 }`;
 
-// Ribbons that face the viewer, an instance a segment. Points hold half a width, below zero at the end of a strand.
+// Ribbons that face the viewer, two vertices a point. Points hold half a width, below zero at the end of a strand.
 export const hairVertex = `#version 300 es
 precision highp float;
-in vec4 a_before, a_from, a_to, a_after;
-in vec4 a_from_color, a_to_color;  // squares are linear; a random lean
+in vec4 a_before, a_here, a_after;
+in vec4 a_color;  // squares are linear; a random lean
 uniform mat4 u_projection;
 uniform float u_wide, u_thinnest, u_unit;
 uniform vec4 u_lobes;  // strengths and exponents of the white and the coloured reflection
@@ -133,18 +133,15 @@ vec3 lit(Strand s, vec3 to_light, float left, float through) {
     return arriving * (s.color * (kDiffuse * lc + secondary) + through * exp(-3.0 * s.loss)) + left * primary;
 }
 void main() {
-    bool second = gl_VertexID > 1;
-    vec4 point = second ? a_to : a_from, mixed = second ? a_to_color : a_from_color;
-    bool first = a_before.w < 0.0, last = a_to.w < 0.0;
-    vec3 along = second ? (last ? a_to.xyz - a_from.xyz : a_after.xyz - a_from.xyz)
-                        : (first ? a_to.xyz - a_from.xyz : a_to.xyz - a_before.xyz);
-    vec3 world = point.xyz;
+    bool first = a_before.w < 0.0, last = a_here.w < 0.0;
+    vec3 along = (last ? a_here.xyz : a_after.xyz) - (first ? a_here.xyz : a_before.xyz);
+    vec3 world = a_here.xyz;
     vec3 position = (u_view * vec4(world, 1.0)).xyz;
     vec3 tangent = normalize(mat3(u_view) * along + vec3(0.0, 1e-9, 0.0));
     vec3 to_viewer = normalize(-position);
-    vec3 color = mixed.rgb * mixed.rgb;
+    vec3 color = a_color.rgb * a_color.rgb;
     vec3 arriving = hair_light(world);
-    float lean = 0.05 * (2.0 * mixed.a - 1.0) * 1.0;
+    float lean = 0.05 * (2.0 * a_color.a - 1.0);
     Strand strand = Strand(color, tangent, to_viewer, lean, loss_of(color));
     vec3 around = kScattered + (1.0 - kScattered) * through_hair(strand.loss, arriving.z);
     v_color = around * kAround * color + kKeyLight * lit(strand, kKeyDirection, arriving.x, 0.0)
@@ -153,12 +150,12 @@ void main() {
     v_color = shown(v_color);
     vec3 across = cross(tangent, to_viewer);
     across = length(across) > 1e-3 ? normalize(across) : normalize(vec3(to_viewer.z, 0.0, -to_viewer.x));
-    float reach = max(abs(point.w) * u_wide, -position.z * u_thinnest);
+    float reach = max(abs(a_here.w) * u_wide, -position.z * u_thinnest);
     position += ((gl_VertexID & 1) == 0 ? reach : -reach) * across;
     // Ends reach out by the area of round ones: seen end-on, a strand is a disc.
-    float end = second ? (last ? 1.0 : 0.0) : (first ? -1.0 : 0.0);
+    float end = last ? 1.0 : first ? -1.0 : 0.0;
     position += end * 0.7854 * reach * cross(to_viewer, across);
-    gl_Position = a_from.w < 0.0 ? vec4(2.0, 2.0, 2.0, 1.0) : u_projection * vec4(position, 1.0);
+    gl_Position = u_projection * vec4(position, 1.0);
 }`;
 
 export const hairFragment = `#version 300 es

@@ -209,7 +209,7 @@ function drawnPicture(picture) {
 
 function buffersOf(picture) {
     return [...picture.meshes.flatMap(m => [m.positions, m.normals, m.colors, m.flags]),
-        ...picture.strands.flatMap(s => [s.points, s.colors, ...(s.light ? [s.light.texels] : [])])].map(list => list.buffer);
+        ...picture.strands.flatMap(s => [s.points, s.colors, ...(s.light ? new Set([s.light.texels, s.light.onHead]) : [])])].map(list => list.buffer);
 }
 
 // ---- Files
