@@ -251,6 +251,8 @@ struct lissom_context {
     lissom_error shown{};
     /// Memory that lissom_bytes and texts of reports point to.
     std::string bytes, text, more_text;
+    /// Memory that lissom_contacts point to.
+    std::vector<std::int32_t> faces;
     lissom::c::NormalsRoom normals;
     /// Jobs that were not finished; polled and cancelled from any thread.
     mutable std::mutex jobs_mutex;

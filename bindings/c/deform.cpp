@@ -11,6 +11,9 @@
 #include "bindings/c/data.h"
 #include "bindings/c/jobs.h"
 #include "bindings/c/thesis_parts.h"
+#include "kernel/deform/contact/contact_avoid.h"
+#include "kernel/deform/contact/contact_stop.h"
+#include "kernel/deform/contact/contacts.h"
 #include "kernel/deform/deform_report.h"
 #include "kernel/deform/deformed_surface.h"
 #include "kernel/deform/deformer.h"
@@ -108,6 +111,15 @@ lissom_deform_report told_report(lissom_context& context, const DeformReport& fo
     }
     told.warnings = context.text.c_str();
     return told;
+}
+
+lissom_contacts told_contacts(lissom_context& context, const std::vector<FacePair>& pairs) {
+    context.faces.clear();
+    for (const FacePair& pair : pairs) {
+        context.faces.push_back(pair.first);
+        context.faces.push_back(pair.second);
+    }
+    return {context.faces.data(), pairs.size()};
 }
 
 // ---- Bases, in the host's space
@@ -379,6 +391,39 @@ lissom_status lissom_deformer_report(lissom_context* context, lissom_deformer de
                                             mesh_of(*context, mesh), {crossings}, context->kernel));
         told.struct_size = report->struct_size;
         std::memcpy(report, &told, std::min(report->struct_size, sizeof told));
+    });
+}
+
+lissom_status lissom_deformer_find_contacts(lissom_context* context, lissom_deformer deformer,
+                                            lissom_mesh mesh, lissom_contacts* contacts) {
+    return run(context, [&] {
+        require_given(contacts, "contacts");
+        *contacts = told_contacts(*context, contacts_of(deformer_of(*context, deformer),
+                                                        mesh_of(*context, mesh), context->kernel));
+    });
+}
+
+lissom_status lissom_deformer_solve_until_contact(lissom_context* context, lissom_deformer deformer,
+                                                  lissom_mesh mesh, double* share,
+                                                  lissom_contacts* contacts) {
+    return run(context, [&] {
+        require_given(share, "share");
+        const ContactStop stop = solve_until_contact(deformer_of(*context, deformer),
+                                                     mesh_of(*context, mesh), context->kernel);
+        *share = stop.share;
+        if (contacts) *contacts = told_contacts(*context, stop.contacts);
+    });
+}
+
+lissom_status lissom_deformer_solve_avoiding_contacts(lissom_context* context,
+                                                      lissom_deformer deformer, lissom_mesh mesh,
+                                                      int32_t* before, lissom_contacts* left) {
+    return run(context, [&] {
+        require_given(left, "left");
+        const AvoidedContacts avoided = solve_avoiding_contacts(
+            deformer_of(*context, deformer), mesh_of(*context, mesh), context->kernel);
+        if (before) *before = avoided.before;
+        *left = told_contacts(*context, avoided.contacts);
     });
 }
 

@@ -968,6 +968,38 @@ LISSOM_API lissom_deform_report lissom_default_deform_report(void);
 LISSOM_API lissom_status lissom_deformer_report(lissom_context* context, lissom_deformer deformer,
                                                 lissom_mesh mesh, bool crossings,
                                                 lissom_deform_report* report);
+
+/// Pairs of faces that run through one another in the last result of a deformer and did not at
+/// rest.
+typedef struct lissom_contacts {
+    /// Two faces for each pair, the lower first, in ascending order. They live until the next call
+    /// with the context.
+    const int32_t* faces;
+    /// Number of pairs.
+    size_t count;
+} lissom_contacts;
+
+/// Finds the contacts of the last result, in about the time of a frame. Takes the mesh that the
+/// deformer was made for, or a copy; its shape within the region does not matter. Errors:
+/// TOPOLOGY_MISMATCH; MEMORY_LIMIT; CANCELLED.
+LISSOM_API lissom_status lissom_deformer_find_contacts(lissom_context* context,
+                                                       lissom_deformer deformer, lissom_mesh mesh,
+                                                       lissom_contacts* contacts);
+/// Solves in full along the way from the poses of the last solve to the present ones, and stays,
+/// with the handles, before contacts appear. `share` is that of the way that was gone, 0 to 1, and
+/// `contacts`, which may be NULL, those a thousandth of the way further. Errors: as solve and
+/// find_contacts.
+LISSOM_API lissom_status lissom_deformer_solve_until_contact(lissom_context* context,
+                                                             lissom_deformer deformer,
+                                                             lissom_mesh mesh, double* share,
+                                                             lissom_contacts* contacts);
+/// Solves in full and pushes apart what runs through itself; handles hold exactly. `before`, which
+/// may be NULL, is the number of contacts without pushing, and `left` those that stay, no more.
+/// Errors: as solve and find_contacts; UNSUPPORTED for a comparison method.
+LISSOM_API lissom_status lissom_deformer_solve_avoiding_contacts(lissom_context* context,
+                                                                 lissom_deformer deformer,
+                                                                 lissom_mesh mesh, int32_t* before,
+                                                                 lissom_contacts* left);
 /// Returns all handles and the surface to rest.
 LISSOM_API lissom_status lissom_deformer_reset(lissom_context* context, lissom_deformer deformer);
 /// Makes the last result the rest shape; handles stay in place on it.

@@ -242,6 +242,25 @@ class Deformer : public Object<lissom_deformer, lissom_deformer_release> {
         check(lissom_deformer_report(context_, handle_, mesh.handle(), crossings, &found));
         return found;
     }
+    lissom_contacts find_contacts(const Mesh& mesh) {
+        lissom_contacts contacts{};
+        check(lissom_deformer_find_contacts(context_, handle_, mesh.handle(), &contacts));
+        return contacts;
+    }
+    /// Returns the share of the way that was gone.
+    double solve_until_contact(const Mesh& mesh) {
+        double share = 0.0;
+        check(
+            lissom_deformer_solve_until_contact(context_, handle_, mesh.handle(), &share, nullptr));
+        return share;
+    }
+    /// Returns the contacts that are left.
+    lissom_contacts solve_avoiding_contacts(const Mesh& mesh) {
+        lissom_contacts left{};
+        check(lissom_deformer_solve_avoiding_contacts(context_, handle_, mesh.handle(), nullptr,
+                                                      &left));
+        return left;
+    }
     void reset() { check(lissom_deformer_reset(context_, handle_)); }
 };
 

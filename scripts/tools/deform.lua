@@ -89,7 +89,11 @@ end
 
 -- Solves for the present place of the handle, and reports the result.
 local function finish(self, one)
-    one.deformer:solve()
+    if self.params.avoid then
+        one.deformer:solve{ avoid = true }
+    else
+        one.deformer:solve()
+    end
     self.contacts = nil
     local report = one.deformer:report()
     local words = { string.format("stretch %.2f", report.stretch) }
@@ -152,6 +156,8 @@ return lissom.tool{
             "never" }, help = "Drags are quick, with some shear, and exact when they end." },
         contacts = { type = "boolean", default = false,
             help = "Shows the faces that run through one another, in red." },
+        avoid = { type = "boolean", default = false,
+            help = "Pushes apart what would run through itself, when a drag ends." },
         reach = { type = "number", default = 0, min = 0, max = 4, unit = "mesh sizes",
             group = "next handle", help = "How far around the first one it may move; 0: everywhere." },
         softness = { type = "number", default = 0, min = 0, max = 10, group = "next handle",

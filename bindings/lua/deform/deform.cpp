@@ -8,6 +8,7 @@
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "bindings/lua/mesh/transform_options.h"
+#include "kernel/deform/contact/contact_avoid.h"
 #include "kernel/deform/contact/contact_stop.h"
 #include "kernel/deform/deform_report.h"
 #include "kernel/deform/deformed_surface.h"
@@ -205,30 +206,57 @@ int preview(Call& call) {
         call, [&](Deformer& deformer) { deformer.solve(FrameQuality::preview, call.context()); });
 }
 
+// The mesh on the stack, and a record after it, which `contacts` is a field of.
+int push_mesh_and_record(Call& call, const DeformObject& edit,
+                         const std::vector<FacePair>& contacts) {
+    lua_State* L = call.lua();
+    const int mesh_place = lua_gettop(L);
+    push_contacts(call, edit, contacts);
+    const int contacts_place = lua_gettop(L);
+    lua_pushvalue(L, mesh_place);
+    lua_createtable(L, 0, 3);
+    lua_pushvalue(L, contacts_place);
+    lua_setfield(L, -2, "contacts");
+    return 2;
+}
+
 // The mesh, and how far the handles came.
 int solve_with_stop(Call& call) {
-    if (call.boolean("draft")) call.reject("draft", "a drag that stops is solved in full");
     const auto edit = call.self<DeformObject>();
     auto& stop = call.hold<ContactStop>();
     const int results = write_result(call, [&](Deformer& deformer) {
         stop = solve_until_contact(deformer, edit->mesh->mesh, call.context());
     });
     if (results != 1) return results;
-    lua_State* L = call.lua();
-    const int mesh_place = lua_gettop(L);
-    push_contacts(call, *edit, stop.contacts);
-    const int contacts_place = lua_gettop(L);
-    lua_pushvalue(L, mesh_place);
-    lua_createtable(L, 0, 2);
+    push_mesh_and_record(call, *edit, stop.contacts);
     call.set_field("share", call.push(stop.share));
-    lua_pushvalue(L, contacts_place);
-    lua_setfield(L, -2, "contacts");
+    return 2;
+}
+
+// The mesh, and the contacts before and after.
+int solve_avoiding(Call& call) {
+    const auto edit = call.self<DeformObject>();
+    auto& avoided = call.hold<AvoidedContacts>();
+    const int results = write_result(call, [&](Deformer& deformer) {
+        avoided = solve_avoiding_contacts(deformer, edit->mesh->mesh, call.context());
+    });
+    if (results != 1) return results;
+    push_mesh_and_record(call, *edit, avoided.contacts);
+    call.set_field("before", call.push(avoided.before));
+    call.set_field("rounds", call.push(avoided.rounds));
     return 2;
 }
 
 int solve(Call& call) {
+    const bool draft = call.boolean("draft"), avoid = call.boolean("avoid");
+    if (draft && (avoid || call.has("stop"))) {
+        call.reject("draft", "contacts are those of a result in full");
+    }
+    if (avoid && call.has("stop")) {
+        call.reject("avoid", "a drag stops at contacts, or pushes them apart");
+    }
     if (call.has("stop")) return solve_with_stop(call);
-    const bool draft = call.boolean("draft");
+    if (avoid) return solve_avoiding(call);
     return write_result(call, [&](Deformer& deformer) {
         draft ? deformer.solve(FrameQuality::draft, call.context())
               : deformer.solve(FrameQuality::full, call.context());
@@ -480,9 +508,16 @@ std::vector<Function> solving_methods() {
                             "present ones, and stays, with the handles, at the last pose before "
                             "faces intersect that did not at rest. A drag that begins in contact "
                             "goes on while no more do. Each sample of the way takes a frame.")
-                         .optional("goes all the way")},
+                         .optional("goes all the way"),
+                     boolean(
+                         "avoid",
+                         "Pushes apart parts that would run through one another, in up to three "
+                         "rounds: both alike unless one is held. Handles hold exactly. It takes "
+                         "some frames if anything meets; see `contacts` for what is left.")
+                         .defaults(false)},
          .results = {{"lissom.Mesh", "mesh", "The mesh."},
-                     {"lissom.ContactStop|nil", "stop", "How far the handles came, with `stop`."}},
+                     {"lissom.ContactStop|lissom.AvoidedContacts|nil", "record",
+                      "With `stop` how far the handles came, with `avoid` what was pushed apart."}},
          .effect = Effect::replaces,
          .errors = kSolveErrors,
          .example = kBar + R"(top:rotate{ axis = "z", angle = 60 }

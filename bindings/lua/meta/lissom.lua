@@ -130,6 +130,12 @@
 ---@field share number The share of the way that the handles went, 0 to 1.
 ---@field contacts lissom.Contacts The pairs of faces that meet a thousandth of the way further; none if share is 1.
 
+---Contacts that a solve pushed apart.
+---@class lissom.AvoidedContacts
+---@field before integer The number of pairs without pushing.
+---@field contacts lissom.Contacts The pairs that are left.
+---@field rounds integer Rounds of pushing, 0 to 3.
+
 ---A harm that a deformation did to the surface.
 ---@class lissom.DeformWarning
 ---@field kind string torn: handles that nearly touch go different ways; stretched: edges become more than 3 times as long or short as the handles ask for; folded: faces look against their neighbours; crossing: the surface runs through itself, if that was asked for; volume: it is a quarter smaller than the handles ask for, or three quarters larger.
@@ -1609,11 +1615,12 @@ function Deformer:preview() end
 ---@class lissom.Deformer.SolveOptions
 ---@field draft? boolean For the frames of a drag: about five digits in half the time. Solve once more when the drag ends. Default: false.
 ---@field stop? "contact" "contact": goes from the poses of the last solve towards the present ones, and stays, with the handles, at the last pose before faces intersect that did not at rest. A drag that begins in contact goes on while no more do. Each sample of the way takes a frame. Default: goes all the way.
+---@field avoid? boolean Pushes apart parts that would run through one another, in up to three rounds: both alike unless one is held. Handles hold exactly. It takes some frames if anything meets; see `contacts` for what is left. Default: false.
 
 ---Solves both systems and writes the result into the mesh. Handles in their initial place give the rest shape, to the bit. Other changes of the region's vertices are overwritten; if the mesh around the region was moved, so that the result would tear, it is an error.
 ---@param options? lissom.Deformer.SolveOptions
 ---@return lissom.Mesh mesh # The mesh.
----@return lissom.ContactStop|nil stop # How far the handles came, with `stop`.
+---@return lissom.ContactStop|lissom.AvoidedContacts|nil record # With `stop` how far the handles came, with `avoid` what was pushed apart.
 function Deformer:solve(options) end
 
 ---Handles and mesh go back to the rest shape, to the bit; vertex constraints go.

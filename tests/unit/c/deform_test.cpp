@@ -7,6 +7,7 @@
 #include "bindings/engine/lissom_basis.h"
 #include "kernel/deform/deformer.h"
 #include "kernel/mesh/edit/append.h"
+#include "kernel/mesh/measure/measures.h"
 #include "kernel/mesh/query/region_select.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/c/host.h"
@@ -251,6 +252,57 @@ TEST_CASE("a report names the harm that a deformation did, and keeps to the host
     CHECK(lissom_deformer_report(host, bend.deformer, host.add(make_bar({1.0, 2.0, 3, 4})), false,
                                  &small) == LISSOM_TOPOLOGY_MISMATCH);
     CHECK(lissom_deformer_report(host, bend.deformer, bend.mesh, false, nullptr) ==
+          LISSOM_INVALID_ARGUMENT);
+}
+
+TEST_CASE("contacts are found, stop a drag, or are pushed apart") {
+    const Host host;
+    const Mesh bar = make_bar({.width = 1.0, .length = 8.0, .across = 8, .along = 64});
+    const Bend bend(host, bar);
+    const lissom_deformer deformer = bend.deformer;
+    const lissom_mesh mesh = bend.mesh;
+    const Vec3 top(0.0, bounds(bar).max.y(), 0.0);
+    // Bends the upper end over, and lays it into the lower one.
+    const auto pose = [&](double share) {
+        Affine map = rotation(Vec3::UnitZ(), 3.1 * share, top);
+        map.translation += share * Vec3(-0.4, -7.2, 0.0);
+        const lissom_transform transform = transform_of(map);
+        REQUIRE(lissom_deformer_set_transform(host, deformer, bend.top, &transform) == LISSOM_OK);
+    };
+    lissom_contacts contacts{};
+    for (const double share : {0.5, 1.0}) {
+        pose(share);
+        REQUIRE(lissom_deformer_solve(host, deformer, LISSOM_FULL) == LISSOM_OK);
+    }
+    REQUIRE(lissom_deformer_find_contacts(host, deformer, mesh, &contacts) == LISSOM_OK);
+    REQUIRE(contacts.count > 10);
+    for (std::size_t i = 0; i < contacts.count; ++i) {
+        CHECK(contacts.faces[2 * i] < contacts.faces[2 * i + 1]);
+    }
+    const auto through = static_cast<int32_t>(contacts.count);
+    int32_t before = -1;
+    REQUIRE(lissom_deformer_solve_avoiding_contacts(host, deformer, mesh, &before, &contacts) ==
+            LISSOM_OK);
+    CHECK(before == through);
+    CHECK(contacts.count < static_cast<std::size_t>(through) / 2);
+
+    pose(0.5);
+    REQUIRE(lissom_deformer_solve(host, deformer, LISSOM_FULL) == LISSOM_OK);
+    pose(1.0);
+    double share = -1.0;
+    REQUIRE(lissom_deformer_solve_until_contact(host, deformer, mesh, &share, &contacts) ==
+            LISSOM_OK);
+    CHECK(share > 0.0);
+    CHECK(share < 1.0);
+    CHECK(contacts.count > 0);
+    REQUIRE(lissom_deformer_find_contacts(host, deformer, mesh, &contacts) == LISSOM_OK);
+    CHECK(contacts.count == 0);
+
+    const lissom_mesh other = host.add(make_bar({1.0, 2.0, 3, 4}));
+    CHECK(lissom_deformer_find_contacts(host, deformer, other, &contacts) ==
+          LISSOM_TOPOLOGY_MISMATCH);
+    CHECK(lissom_deformer_find_contacts(host, deformer, mesh, nullptr) == LISSOM_INVALID_ARGUMENT);
+    CHECK(lissom_deformer_solve_until_contact(host, deformer, mesh, nullptr, nullptr) ==
           LISSOM_INVALID_ARGUMENT);
 }
 

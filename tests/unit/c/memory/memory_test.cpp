@@ -508,6 +508,20 @@ void add_deform_cases(std::vector<MemoryCase>& all) {
         auto report = lissom_default_deform_report();
         return lissom_deformer_report(world, world.deformer, world.bar, true, &report);
     });
+    add("lissom_deformer_find_contacts", solved_deformer, [](World& world) {
+        lissom_contacts contacts{};
+        return lissom_deformer_find_contacts(world, world.deformer, world.bar, &contacts);
+    });
+    add("lissom_deformer_solve_until_contact", posed_deformer, [](World& world) {
+        double share = 0.0;
+        return lissom_deformer_solve_until_contact(world, world.deformer, world.bar, &share,
+                                                   nullptr);
+    });
+    add("lissom_deformer_solve_avoiding_contacts", posed_deformer, [](World& world) {
+        lissom_contacts left{};
+        return lissom_deformer_solve_avoiding_contacts(world, world.deformer, world.bar, nullptr,
+                                                       &left);
+    });
     add("lissom_deformer_reset", solved_deformer,
         [](World& world) { return lissom_deformer_reset(world, world.deformer); });
     add("lissom_deformer_rebase", solved_deformer,
