@@ -12,6 +12,8 @@ const made = (tag, set = {}, ...children) => {
     return node;
 };
 const largestFile = 400e6;
+// Within a page of the site: the picture, the values and the console alone.
+const embedded = new URLSearchParams(location.search).has('embed');
 
 // ---- What is open
 
@@ -108,7 +110,7 @@ function run({ quiet = false } = {}) {
     editor.clear();
     $('console').replaceChildren();
     worker.postMessage({ kind: 'run', id: running, script: editor.text, name: state.name, values: state.values, inputs: state.inputs,
-        picture: state.reply?.pictures?.[state.reply.at]?.name });
+        picture: state.wanted || state.reply?.pictures?.[state.reply.at]?.name });
     clearTimeout(run.timer);
     run.timer = setTimeout(() => busy(true), quiet ? 500 : 150);
 }
@@ -147,6 +149,7 @@ function finished(data) {
 }
 
 function showReply(data) {
+    state.wanted = null;
     const seconds = data.ms / 1000;
     $('state').textContent = `${seconds < 10 ? seconds.toFixed(2) : seconds.toFixed(1)} s`;
     if (data.files.length) print(`Files: ${data.files.map(file => file.name).join(', ')}`, 'muted');
@@ -207,8 +210,8 @@ function showValues(data) {
 
 // ---- Scripts
 
-function openScript({ script, values = {}, name = 'script.lua', frame = true }) {
-    Object.assign(state, { name, values: { ...values }, frame, schema: null });
+function openScript({ script, values = {}, name = 'script.lua', frame = true, picture = null }) {
+    Object.assign(state, { name, values: { ...values }, frame, schema: null, wanted: picture });
     editor.text = script;
     $('parameters').hidden = true;
     if (running) stop();
@@ -223,12 +226,24 @@ async function openExample(name) {
     history.replaceState(null, '', `#${name}`);
     const response = await fetch(`examples/${example.file}`);
     if (!response.ok) return note(`The example ${name} is not there.`);
-    openScript({ script: await response.text(), values: example.values, name: example.file.split('/').pop() });
+    openScript({ script: await response.text(), values: example.values, name: example.file.split('/').pop(), picture: example.picture });
     $('examples').value = name;
 }
 
-// The work is kept in this browser until another visit.
+// A script of the site's gallery, which lies beside the page; false if there is none of this name.
+async function openOfGallery(name) {
+    const response = await fetch(`gallery/${name}.json`).catch(() => null);
+    if (!response?.ok) return false;
+    const { s, v, n, p } = await response.json();
+    Object.assign(state, { example: null, changed: false, reply: null });
+    $('examples').selectedIndex = -1;
+    openScript({ script: s, values: v, name: n, picture: p });
+    return true;
+}
+
+// The work is kept in this browser until another visit; that of a frame in another page is not.
 function keep() {
+    if (embedded) return;
     clearTimeout(keep.timer);
     keep.timer = setTimeout(() => {
         try { localStorage.setItem('lissom.script', JSON.stringify({ script: editor.text, values: state.values, name: state.name })); } catch { /* A private window keeps nothing. */ }
@@ -248,6 +263,10 @@ async function openFirst() {
         } catch {
             note('The link is not whole: it may have been cut when it was copied. The first example is shown.', true);
         }
+    }
+    if (/^gallery\/\w[\w.-]*$/.test(mark)) {
+        if (await openOfGallery(mark.slice(8))) return;
+        note('The gallery has no script of this name. The first example is shown.', true);
     }
     if (examples.some(one => one.name === mark)) return openExample(mark);
     const old = mark === '' ? kept() : null;
@@ -410,8 +429,14 @@ function listen() {
     $('reset').onclick = () => { view.frame(); view.ask(); };
 }
 
+function beEmbedded() {
+    document.body.dataset.embed = '';
+    $('picture').append(made('a', { id: 'whole', href: `./${location.hash}`, target: '_parent', textContent: 'Open in the playground' }));
+}
+
 async function begin() {
     firstTheme();
+    if (embedded) beEmbedded();
     startWorker();
     let edits = 0;
     editor = new Editor($('editor'), {
