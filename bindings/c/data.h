@@ -70,24 +70,38 @@ void write_elements(const lissom_output& output, std::size_t count, std::size_t 
 
 [[noreturn]] void refuse_format(const char* name, const char* wanted);
 
+/// Puts point(i) into rows of three numbers.
+template <typename Point>
+void put_points(const lissom_output& output, std::size_t count, const Point& point) {
+    const std::size_t size = size_of(output.format);
+    const std::size_t stride = output.stride != 0 ? output.stride : 3 * size;
+    auto* place = static_cast<unsigned char*>(output.data);
+    for (std::size_t i = 0; i < count; ++i, place += stride) {
+        const Vec3 p = point(i);
+        for (int k = 0; k < 3; ++k) put_number(place + k * size, output.format, p[k]);
+    }
+}
+
 /// Writes triples; point(i) is in the host's space.
 template <typename Point>
 void write_points(const lissom_output* output, std::size_t count, const char* name,
                   const Point& point) {
     require_room(output, count, 3, name);
     if (!is_float(output->format)) refuse_format(name, "FLOAT16, FLOAT32 or FLOAT64");
-    const std::size_t size = size_of(output->format);
-    const std::size_t stride = output->stride != 0 ? output->stride : 3 * size;
-    auto* place = static_cast<unsigned char*>(output->data);
-    for (std::size_t i = 0; i < count; ++i, place += stride) {
-        const Vec3 p = point(i);
-        for (int k = 0; k < 3; ++k) put_number(place + k * size, output->format, p[k]);
-    }
+    put_points(*output, count, point);
 }
 
 /// Throws if a list of directions is neither of floats nor of numbers from -1 to 1.
 void require_directions(const lissom_output* output, std::size_t count, std::size_t width,
                         const char* name);
+
+/// Writes unit vectors in a format of floats, or of numbers from -1 to 1: direction(i).
+template <typename Direction>
+void write_directions(const lissom_output* output, std::size_t count, const char* name,
+                      const Direction& direction) {
+    require_directions(output, count, 3, name);
+    put_points(*output, count, direction);
+}
 
 /// Turns all faces over; the first corner of each stays the first.
 void reverse_faces(FaceList& faces);

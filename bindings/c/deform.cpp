@@ -355,8 +355,8 @@ lissom_status lissom_deformer_read_normals(lissom_context* context, lissom_defor
         const Frame* frame = last_frame(*context, deformer);
         const std::vector<Vec3>& own =
             frame ? frame->normals : normals_of(deformer_of(*context, deformer), context->kernel);
-        write_points(normals, own.size(), "normals",
-                     [&](std::size_t i) { return context->space.to_host(own[i]); });
+        write_directions(normals, own.size(), "normals",
+                         [&](std::size_t i) { return context->space.to_host(own[i]); });
     });
 }
 

@@ -99,14 +99,16 @@ lissom_status tell(const lissom_context* context, lissom_status status, const ch
 }
 
 lissom_status refuse_job(const lissom_context* context) {
-    return tell(context, LISSOM_INVALID_HANDLE, "there is no such job: it was finished");
+    return tell(context, LISSOM_INVALID_HANDLE,
+                "the context has no such job: it was finished, or is that of another");
 }
 
 // Gives up the job and its objects, and takes over its result or throws its error.
 void finish_job(lissom_context& context, lissom_job job, JobResult& result) {
     const auto found = find_job(context, job);
     if (!found) {
-        throw StatusError(LISSOM_INVALID_HANDLE, "there is no such job: it was finished");
+        throw StatusError(LISSOM_INVALID_HANDLE,
+                          "the context has no such job: it was finished, or is that of another");
     }
     wait_for_job(context, *found);
     free_objects(context, *found);

@@ -133,7 +133,7 @@ lissom_status lissom_mesh_decode(lissom_context* context, const void* bytes, siz
                                  const char* extension, const lissom_mesh_load_options* options,
                                  lissom_mesh* mesh) {
     return run(context, [&] {
-        require_given(bytes, "bytes");
+        if (size > 0) require_given(bytes, "bytes");
         require_given(mesh, "mesh");
         Mesh made =
             decode_mesh({static_cast<const char*>(bytes), size}, given_text(extension, "extension"),
@@ -211,8 +211,8 @@ lissom_status lissom_mesh_read_normals(lissom_context* context, lissom_mesh mesh
         std::vector<Vec3>& own = context->normals.found;
         own.resize(at(shown.vertex_count()));
         find_vertex_normals(shown, own);
-        write_points(normals, own.size(), "normals",
-                     [&](std::size_t i) { return context->space.to_host(own[i]); });
+        write_directions(normals, own.size(), "normals",
+                         [&](std::size_t i) { return context->space.to_host(own[i]); });
     });
 }
 

@@ -45,7 +45,8 @@ const PlacedCurve& placed_curve(const StyleInputs& inputs, CurveId id) {
     const auto found = std::find_if(inputs.curves.begin(), inputs.curves.end(),
                                     [&](const PlacedCurve& one) { return one.id == id; });
     if (found == inputs.curves.end()) {
-        throw Error(ErrorCode::handle_removed, "the curve was removed from its hairstyle");
+        throw Error(ErrorCode::handle_removed,
+                    "the hairstyle has no such curve: it was removed, or is that of another");
     }
     return *found;
 }

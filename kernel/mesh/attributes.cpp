@@ -1,6 +1,7 @@
 #include "kernel/mesh/attributes.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "kernel/core/error.h"
@@ -14,6 +15,9 @@ bool is_set(std::string_view name, std::string_view base) {
     const std::string_view number = name.substr(base.size());
     return std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
+
+// Attributes are found by comparing names, and files that have more are made to take long.
+constexpr std::size_t kMostAttributes = 16384;
 
 constexpr const char* kPurpose = "attributes of a mesh";
 
@@ -116,6 +120,11 @@ Attribute& AttributeSet::add(Attribute attribute) {
                     "an attribute needs a name and a width of at least 1");
     }
     Attribute* existing = find(attribute.name);
+    if (!existing && attributes_.size() >= kMostAttributes) {
+        throw Error(ErrorCode::invalid_argument, "a mesh has at most " +
+                                                     std::to_string(kMostAttributes) +
+                                                     " attributes; remove those that nothing uses");
+    }
     const std::size_t replaced = existing ? bytes_of(*existing) : 0;
     hold_.resize(memory_bytes() - replaced + bytes_of(attribute));
     if (existing) {

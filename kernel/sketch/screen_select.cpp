@@ -133,8 +133,8 @@ class Lasso : public Shape {
   public:
     explicit Lasso(std::span<const Vec2> outline, const Vec2& low, const Vec2& high)
         : Shape(low, high), outline_(outline.begin(), outline.end()), low_(low.y()) {
-        bands_.resize(std::clamp<std::size_t>(outline.size(), 1, 1024));
         const double height = high.y() - low.y();
+        bands_.resize(band_count(height));
         per_pixel_ = height > 0.0 ? static_cast<double>(bands_.size()) / height : 0.0;
         for (std::size_t i = 0; i < outline_.size(); ++i) {
             const double a = outline_[i].y(), b = end(i).y();
@@ -158,6 +158,17 @@ class Lasso : public Shape {
     }
 
   private:
+    // As many as sides of the mean height cross two of.
+    std::size_t band_count(double height) const {
+        double heights = 0.0;
+        for (std::size_t i = 0; i < outline_.size(); ++i) {
+            heights += std::abs(end(i).y() - outline_[i].y());
+        }
+        if (!(heights > 0.0)) return 1;
+        const double sides = static_cast<double>(outline_.size());
+        return static_cast<std::size_t>(std::clamp(height * sides / heights, 1.0, 1024.0));
+    }
+
     const Vec2& end(std::size_t i) const { return outline_[(i + 1) % outline_.size()]; }
     std::size_t band(double y) const {
         const double place = std::max(0.0, (y - low_) * per_pixel_);
@@ -250,6 +261,8 @@ void SurfaceSelection::collect(const Shape& shape) {
         return (frame.min_pixels(box).array() <= reach.array()).all();
     };
     surface_.boxes().visit(may_meet, [&](Index item) {
+        // An outline of many sides takes long for each vertex.
+        context_.checkpoint();
         if (by_vertex()) {
             collect_vertices(shape, frame, surface_.triangles()[at(item)]);
         } else if (!done_[at(surface_.faces()[at(item)])]) {

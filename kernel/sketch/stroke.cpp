@@ -80,13 +80,14 @@ Course with_even_steps(const Course& course, double step) {
 
 // The mean of a Gauss bell along the course. Near an end the bell is as narrow as the end is near,
 // so that ends stay.
-std::vector<Vec2> softened(const Course& course, double width) {
+std::vector<Vec2> softened(const Course& course, double width, const Context& context) {
     std::vector<Vec2> result = course.points;
     std::size_t first = 0;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const double place = course.places[i];
         const double reach = std::min({3.0 * width, place, course.length() - place});
         if (reach <= 0.0) continue;
+        context.checkpoint();  // there may be many points within reach
         while (course.places[first] < place - 3.0 * width) ++first;
         Vec2 sum = Vec2::Zero();
         double weights = 0.0;
@@ -191,9 +192,9 @@ struct Corner {
     Vec2 point;
 };
 
-std::vector<Corner> find_corners(const Course& course) {
+std::vector<Corner> find_corners(const Course& course, const Context& context) {
     const Course even = with_even_steps(course, kCornerStep);
-    const std::vector<Vec2> soft = softened(even, kCornerSoftening);
+    const std::vector<Vec2> soft = softened(even, kCornerSoftening, context);
     const std::vector<double> sharp = turns(soft, kCornerChord),
                               wide = turns(soft, kCornerLongChord);
     std::vector<Corner> corners;
@@ -208,8 +209,8 @@ std::vector<Corner> find_corners(const Course& course) {
 // ---- fitting
 
 // The knots farthest apart that stay near enough to the points.
-PlaneSpline fit_piece(const Course& piece, double smoothing) {
-    const std::vector<double> soft = places_of(softened(piece, kParameterSoftening));
+PlaneSpline fit_piece(const Course& piece, double smoothing, const Context& context) {
+    const std::vector<double> soft = places_of(softened(piece, kParameterSoftening, context));
     std::vector<double> parameters(soft.size());
     for (std::size_t i = 0; i < soft.size(); ++i) {
         parameters[i] = soft.back() > 0.0 ? soft[i] / soft.back() : 0.0;
@@ -220,6 +221,7 @@ PlaneSpline fit_piece(const Course& piece, double smoothing) {
             samples, std::max<Index>(1, static_cast<Index>(std::lround(soft.back() / distance))));
     };
     for (const double distance : kKnotDistances) {
+        context.checkpoint();
         PlaneSpline spline = fit(distance);
         if (fit_error(spline, samples) <= kFitError * smoothing) return spline;
     }
@@ -227,12 +229,13 @@ PlaneSpline fit_piece(const Course& piece, double smoothing) {
 }
 
 // A piece between corners, resampled; its ends are exact.
-std::vector<Vec2> fair_piece(const Course& piece, const StrokeOptions& options) {
+std::vector<Vec2> fair_piece(const Course& piece, const StrokeOptions& options,
+                             const Context& context) {
     constexpr int kFine = 8;
     if (piece.length() == 0.0) return {piece.points.front(), piece.points.back()};
     Course fine = piece;
     if (options.smoothing > 0.0 && piece.points.size() > 2) {
-        const PlaneSpline spline = fit_piece(piece, options.smoothing);
+        const PlaneSpline spline = fit_piece(piece, options.smoothing, context);
         const int count = kFine * std::max(1, static_cast<int>(std::ceil(piece.length() / kFine)));
         std::vector<Vec2> points{piece.points.front()};
         for (int i = 1; i < count; ++i) points.push_back(spline.at(static_cast<double>(i) / count));
@@ -245,11 +248,12 @@ std::vector<Vec2> fair_piece(const Course& piece, const StrokeOptions& options) 
 // The points of a course between two places, ends included, with given ends.
 Course piece_between(const Course& course, const Corner& from, const Corner& to) {
     std::vector<Vec2> points{from.point};
-    for (std::size_t i = 0; i < course.points.size(); ++i) {
-        // Points nearer to a corner than its displacement would fold the piece back.
-        const bool inside = course.places[i] > from.place && course.places[i] < to.place;
-        if (inside) points.push_back(course.points[i]);
-    }
+    // Points nearer to a corner than its displacement would fold the piece back.
+    const auto first = std::upper_bound(course.places.begin(), course.places.end(), from.place);
+    const auto end = std::lower_bound(first, course.places.end(), to.place);
+    const auto begin = course.points.begin();
+    points.insert(points.end(), begin + (first - course.places.begin()),
+                  begin + (end - course.places.begin()));
     points.push_back(to.point);
     return course_of(std::move(points));
 }
@@ -279,6 +283,22 @@ void require_options(const StrokeOptions& options) {
         throw Error(ErrorCode::invalid_argument,
                     "the spacing of a stroke must be positive and its smoothing 0 or more");
     }
+}
+
+// The memory of the points along a course in even steps. Errors: as fair_stroke.
+MemoryCharge charge_points(const Course& course, const StrokeOptions& options,
+                           const Context& context) {
+    constexpr double kMostPoints = 4e6;
+    constexpr std::size_t kBytes = 160;
+    const double points = course.length() / std::min(kCornerStep, options.spacing);
+    if (!(points <= kMostPoints)) {
+        throw Error(
+            ErrorCode::invalid_argument,
+            "the stroke would have more than four million points; ask for a larger spacing, "
+            "or give fewer events");
+    }
+    return context.charge(kBytes * (static_cast<std::size_t>(points) + course.points.size()),
+                          "the points of a stroke");
 }
 
 // The events that move, in logical pixels.
@@ -326,7 +346,8 @@ bool is_click(std::span<const StrokeEvent> events, double scale) {
     return seconds < kClickSeconds && std::all_of(events.begin(), events.end(), is_near);
 }
 
-Stroke fair_stroke(std::span<const StrokeEvent> events, const StrokeOptions& options) {
+Stroke fair_stroke(std::span<const StrokeEvent> events, const StrokeOptions& options,
+                   const Context& context) {
     require_events(events);
     require_options(options);
     std::vector<StrokeEvent> kept = moving(events, options.scale);
@@ -340,14 +361,16 @@ Stroke fair_stroke(std::span<const StrokeEvent> events, const StrokeOptions& opt
     const auto [first, last] = without_hooks(course_of(kept));
     kept = {kept.begin() + first, kept.begin() + last + 1};
     const Course course = course_of(kept);
+    const MemoryCharge charge = charge_points(course, options, context);
 
     std::vector<Corner> ends{{0.0, course.points.front()}};
-    for (const Corner& corner : find_corners(course)) ends.push_back(corner);
+    for (const Corner& corner : find_corners(course, context)) ends.push_back(corner);
     ends.push_back({course.length(), course.points.back()});
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         if (i > 0) stroke.corners.push_back(count_of(stroke.points) - 1);
+        context.checkpoint();
         const std::vector<Vec2> piece =
-            fair_piece(piece_between(course, ends[i], ends[i + 1]), options);
+            fair_piece(piece_between(course, ends[i], ends[i + 1]), options, context);
         stroke.points.insert(stroke.points.end(), piece.begin() + (i > 0), piece.end());
     }
     add_times(stroke, kept, course);

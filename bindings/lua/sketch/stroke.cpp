@@ -155,7 +155,7 @@ int draw_stroke(Call& call) {
     const bool done = call.attempt([&] {
         const std::vector<StrokeEvent> events = read_events(call);
         drawn.is_click = is_click(events, options.scale);
-        drawn.stroke = fair_stroke(events, options);
+        drawn.stroke = fair_stroke(events, options, call.context());
         for (Vec2& pixel : drawn.stroke.points) pixel *= options.scale;
         if (call.has("on") || call.has("plane")) drawn.points = placed(call, drawn, view);
     });

@@ -162,6 +162,24 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("normals are written as bytes and shorts too") {
+    const Host host;
+    const lissom_mesh mesh = host.add(make_box({}));
+    std::int8_t bytes[8][4] = {};
+    std::int16_t shorts[8][4] = {};
+    const lissom_output b{bytes, 8, sizeof bytes[0], LISSOM_SNORM8},
+        s{shorts, 8, sizeof shorts[0], LISSOM_SNORM16};
+    REQUIRE(lissom_mesh_read_normals(host, mesh, &b) == LISSOM_OK);
+    REQUIRE(lissom_mesh_read_normals(host, mesh, &s) == LISSOM_OK);
+    for (std::size_t v = 0; v < 8; ++v) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            CHECK(std::abs(bytes[v][k]) == 73);
+            CHECK(std::abs(std::abs(shorts[v][k] / 32767.0) - 1.0 / std::sqrt(3.0)) < 1e-4);
+        }
+        CHECK(bytes[v][3] == 0);
+    }
+}
+
 TEST_CASE("an error of wrong vertices names all of them") {
     const Host host;
     const lissom_mesh mesh = host.add(make_box({}));

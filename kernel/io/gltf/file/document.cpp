@@ -30,6 +30,28 @@ void restore_integers(Json& json) {
     }
 }
 
+// Bytes that the values of a text take while it is read: as values, as their copy for the parser
+// and that of the parser, and as elements of its model.
+std::size_t bytes_of_values(std::string_view text) {
+    constexpr std::size_t kValue = 48, kMember = 128, kBracket = 64, kElement = 768, kCopies = 3;
+    std::size_t bytes = text.size(), objects = 0;
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quoted && c == '\\') {
+            ++i;
+        } else if (c == '"') {
+            quoted = !quoted;
+        } else if (!quoted) {
+            if (c == ',') bytes += kValue;
+            if (c == ':') bytes += kMember;
+            if (c == '{' || c == '[') bytes += kBracket;
+            if (c == '{') ++objects;
+        }
+    }
+    return kCopies * bytes + kElement * objects;
+}
+
 Json parse_json(std::string_view text) {
     require_shallow(text);
     // A GLB chunk may be padded with zeros by careless writers.
@@ -302,6 +324,8 @@ std::string_view bytes_of_view(const GltfDocument& document, std::size_t number)
 GltfDocument open_gltf(const FileInput& file, Report& report, const Context& context) {
     const GltfContainer container = open_gltf_container(file.bytes);
     GltfDocument document;
+    document.values =
+        context.charge(bytes_of_values(container.json), "the elements of a glTF file");
     document.json = parse_json(container.json);
     document.bytes_read = file.bytes.size();
     require_gltf_2(document.json);

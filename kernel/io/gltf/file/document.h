@@ -44,7 +44,8 @@ struct GltfDocument {
     std::vector<SharedBytes> images;
     /// Bytes of the file and of its referenced files.
     std::size_t bytes_read = 0;
-    MemoryCharge charge;
+    /// Of its values, and of the bytes of all files.
+    MemoryCharge values, charge;
     /// Of buffers that were decompressed.
     std::vector<MemoryCharge> decompressed;
 };

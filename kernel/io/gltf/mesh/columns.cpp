@@ -32,11 +32,15 @@ std::vector<double> widened(std::span<const double> values, Index from, Index to
 void AttributeColumns::add(const std::string& name, Index width, ScalarType type, std::size_t first,
                            std::span<const double> values) {
     const auto [entry, is_new] = number_of_.emplace(name, columns_.size());
-    if (is_new) columns_.push_back({name, Domain::vertex, width, type, {}});
+    if (is_new) {
+        columns_.push_back({name, Domain::vertex, width, type, {}});
+        width_ += at(width);
+    }
     Attribute& column = columns_[entry->second];
     if (column.type != type) column.type = ScalarType::float32;
     if (column.width < width) {
         column.values = widened(column.values, column.width, width, fill_of(name));
+        width_ += at(width - column.width);
         column.width = width;
     }
     column.values.resize(first * column.width, kNoColumn);
@@ -46,14 +50,6 @@ void AttributeColumns::add(const std::string& name, Index width, ScalarType type
         const auto wide = widened(values, width, column.width, fill_of(name));
         column.values.insert(column.values.end(), wide.begin(), wide.end());
     }
-}
-
-std::size_t AttributeColumns::number_count(std::size_t vertex_count) const {
-    std::size_t count = 0;
-    for (const Attribute& column : columns_) {
-        count += vertex_count * column.width;
-    }
-    return count;
 }
 
 void AttributeColumns::finish(AttributeSet& attributes, std::size_t vertex_count) {

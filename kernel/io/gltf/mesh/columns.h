@@ -22,13 +22,15 @@ class AttributeColumns {
     void add(const std::string& name, Index width, ScalarType type, std::size_t first,
              std::span<const double> values);
     /// Numbers that `finish` will hold.
-    std::size_t number_count(std::size_t vertex_count) const;
+    std::size_t number_count(std::size_t vertex_count) const { return vertex_count * width_; }
     /// Adds all attributes of `vertex_count` vertices.
     void finish(AttributeSet& attributes, std::size_t vertex_count);
 
   private:
     std::vector<Attribute> columns_;
     std::unordered_map<std::string, std::size_t> number_of_;
+    /// Numbers of all attributes at one vertex.
+    std::size_t width_ = 0;
 };
 
 /// `values` of `from` numbers each with `to` numbers, the new ones being `fill`.

@@ -1,7 +1,9 @@
 // What an object of a script takes before its lists is charged to its account, whatever its kind.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <fstream>
 #include <memory>
 #include <string>
 
@@ -73,6 +75,48 @@ TEST_CASE("sandbox: many objects of a kind end at the limit of memory") {
     check_kind(box, "l.deformer(m)");
     check_kind(box + " local d = l.deformer(m) d:add_handle(m:region{ vertices = { 1 } })",
                "d:handles()[1]");
+}
+
+// A number of /proc/self/status in bytes; 0 if there is none.
+std::size_t status_bytes(const std::string& name) {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with(name + ":")) return std::stoul(line.substr(name.size() + 1)) << 10;
+    }
+    return 0;
+}
+
+// Makes the greatest resident size that of now. Returns whether the system can.
+bool forget_greatest_size() {
+    std::ofstream refs("/proc/self/clear_refs");
+    return static_cast<bool>(refs << "5" << std::flush);
+}
+
+TEST_CASE("sandbox: strokes and outlines of many points take no memory that is not counted") {
+    const std::string points =
+        "local l = require 'lissom' local m = l.shapes.sphere{} local c = l.frame(m) local p = {} "
+        "for i = 1, 100000 do p[i] = { 640 + 600 * math.cos(i), 480 + 400 * math.sin(i * 1.1) } "
+        "end ";
+    for (const std::string call :
+         {"c:select{ mesh = m, lasso = p }", "c:stroke{ points = p, spacing = .01 }",
+          "c:stroke{ points = p, on = m }",
+          "c:stroke{ points = { p[1], p[2], p[3] }, spacing = 1e-9 }",
+          "c:stroke{ points = { { 1, 2 }, { 1e16, 1e16 } } }"}) {
+        CAPTURE(call);
+        SandboxLimits limits;
+        limits.seconds = 2.0;
+        limits.memory_bytes = 2 * kLimit;
+        Sandbox sandbox(limits, {});
+        lua_State* L = sandbox.lua();
+        const std::string text = points + "return pcall(function() " + call + " end)";
+        REQUIRE(luaL_loadbufferx(L, text.data(), text.size(), "=script", "t") == LUA_OK);
+        const std::size_t before = status_bytes("VmRSS");
+        if (!forget_greatest_size()) return;
+        sandbox.call(0, 0);
+        const std::size_t growth = std::max(status_bytes("VmHWM"), before) - before;
+        INFO("the process grew by ", growth >> 20, " MB");
+        CHECK(growth <= 2 * limits.memory_bytes);
+    }
 }
 
 }  // namespace

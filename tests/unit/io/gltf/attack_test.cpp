@@ -254,6 +254,31 @@ TEST_CASE("nodes that are no trees are refused") {
     CHECK(code_of(file) == ErrorCode::file_syntax);
 }
 
+TEST_CASE("the elements of a file count on the account before they are read") {
+    GltfFile file;
+    file.add_mesh(file.square_primitive());
+    for (int i = 1; i < 20000; ++i) file.json["nodes"].push_back(Json::object());
+    const std::string text = file.text();
+    const auto loaded = [&](std::size_t megabytes) {
+        ContextOptions options;
+        options.memory_limit = megabytes << 20;
+        const Context context(options);
+        return decode_mesh(text, "gltf", {}, context);
+    };
+    CHECK(loaded(64).vertex_count() == 4);
+    CHECK(error_of([&] { loaded(8); }).code() == ErrorCode::memory_limit);
+}
+
+TEST_CASE("more attributes than a mesh can have are refused") {
+    GltfFile file;
+    Json primitive = file.square_primitive();
+    for (int i = 0; i < 40000; ++i) {
+        primitive["attributes"]["_" + std::to_string(i)] = primitive["attributes"]["POSITION"];
+    }
+    file.add_mesh(primitive);
+    CHECK(code_of(file) == ErrorCode::invalid_argument);
+}
+
 TEST_CASE("JSON that would exhaust the stack is refused") {
     GltfFile file;
     std::string deep(200000, '[');
