@@ -37,7 +37,8 @@ struct Verdict {
 ///   (CrossingGroup::hidden);
 /// - source and target do not lie on the same side of their boundary;
 /// - the surface does not fold back within one radius of the seam and did not before, but for .15
-///   radii in all;
+///   radii in all; edges of one side within half a radius do not turn by more than 60 degrees along
+///   1.3 radii more than before;
 /// - within half a radius it is at most 1.4 times as rough as both sides were, or turns by less
 ///   than 8 degrees an edge; the source by itself 1.6 times as rough as it was, or it turns by less
 ///   than 11 degrees, merged above 14 degrees 1.4 times; the target 1.3 times, or by 5 degrees;
@@ -51,8 +52,8 @@ struct Verdict {
 ///   times as much as the sharpest did before, or 88 degrees if that is less, or 1.35 times as
 ///   much;
 /// - the surface turns by no more than 30 degrees at the edges of the seam, but for a thirtieth of
-///   its length, and 20 in the mean (two thirds of the crease of a paste), or by no more than at
-///   edges beside the boundaries, 1.3 times as much in the mean;
+///   its length, and 20 in the mean (two thirds of the crease of a paste), or by no more than a
+///   thirtieth of the edges at the boundaries did, 1.3 times as much in the mean;
 /// - a paste takes no sharp edge of its target along more than .3 of its radius, or deeper than
 ///   .15;
 /// - its place is not a toss;

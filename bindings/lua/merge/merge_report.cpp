@@ -82,6 +82,7 @@ void push_band_quality(const Call& call, const BandQuality& band) {
     call.set_field("target_roughness", call.push(kDegrees * band.target_roughness));
     call.set_field("rest_target_roughness", call.push(kDegrees * band.rest_target_roughness));
     call.set_field("steep", call.push(kDegrees * band.steep));
+    call.set_field("rest_steep", call.push(kDegrees * band.rest_steep));
     call.set_field("bend", call.push(kDegrees * band.bend));
     call.set_field("rest_bend", call.push(kDegrees * band.rest_bend));
     call.set_field("max_bend", call.push(kDegrees * band.max_bend));
@@ -91,6 +92,7 @@ void push_band_quality(const Call& call, const BandQuality& band) {
     call.set_field("flare", call.push(kDegrees * band.flare));
     call.set_field("spike", call.push(kDegrees * band.spike));
     call.set_field("rest_spike", call.push(kDegrees * band.rest_spike));
+    call.set_field("sharpened", call.push(band.sharpened));
     call.set_field("source_volume", call.push(band.source_volume));
     call.set_field("target_volume", call.push(band.target_volume));
     call.set_field("radius", call.push(band.radius));
@@ -529,6 +531,8 @@ std::vector<Record> merge_records() {
           {"number", "target_roughness", "The same of the target alone."},
           {"number", "rest_target_roughness", "The same of the target before."},
           {"number", "steep", "Angle of the seam's edges that a thirtieth of its length exceeds."},
+          {"number", "rest_steep",
+           "The same of the edges of the faces at the boundaries before, of the steeper side."},
           {"number", "bend",
            "The RMS angle between planes fitted to the surface on either side of points of the "
            "seam, to strips a third of the radius wide."},
@@ -550,6 +554,9 @@ std::vector<Record> merge_records() {
            "sum of angles missing to full turns around the vertices within .15 radii, in degrees. "
            "The corner of a cube has 90, a needle 360."},
           {"number", "rest_spike", "The same of both sides before."},
+          {"number", "sharpened",
+           "Length of the edges within half a radius that turn by more than 60 degrees, in radii "
+           "of the seam, beyond that of the same side before: of the side that gained most."},
           {"number", "source_volume",
            "Volume between source and seam, over that of the source at rest at its scale: 1 if "
            "it was kept, negative if it turned inside out."},
@@ -581,7 +588,8 @@ std::vector<Record> merge_records() {
           {"boolean", "ok",
            "Whether the result is good: no faces run through one another that did not before, but "
            "for those that only touch; the "
-           "surface around the seam does not fold back, is at most 1.4 times as rough as the parts "
+           "surface around the seam does not fold back, has no sharp edges along 1.3 radii that it "
+           "had not, is at most 1.4 times as rough as the parts "
            "were there (or turns by less than 8 degrees an edge), the source at most 1.6 times as "
            "it was (or by 11 degrees; merged above 14 degrees 1.4 times) and the target 1.3 "
            "times (or by 5 degrees), and bends by no more than 35 "

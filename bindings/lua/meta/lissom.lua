@@ -310,6 +310,7 @@
 ---@field target_roughness number The same of the target alone.
 ---@field rest_target_roughness number The same of the target before.
 ---@field steep number Angle of the seam's edges that a thirtieth of its length exceeds.
+---@field rest_steep number The same of the edges of the faces at the boundaries before, of the steeper side.
 ---@field bend number The RMS angle between planes fitted to the surface on either side of points of the seam, to strips a third of the radius wide.
 ---@field rest_bend number The same before on the side that bends more, from the strip at the boundary to the one behind it.
 ---@field max_bend number Angle that a tenth of those in `bend` exceed.
@@ -319,6 +320,7 @@
 ---@field flare number The RMS angle by which the rim of the source turns outward beside the seam more than at rest; 0 of a paste.
 ---@field spike number Sharpness of the sharpest tip or pit within half a radius of the seam: the greatest sum of angles missing to full turns around the vertices within .15 radii, in degrees. The corner of a cube has 90, a needle 360.
 ---@field rest_spike number The same of both sides before.
+---@field sharpened number Length of the edges within half a radius that turn by more than 60 degrees, in radii of the seam, beyond that of the same side before: of the side that gained most.
 ---@field source_volume number Volume between source and seam, over that of the source at rest at its scale: 1 if it was kept, negative if it turned inside out.
 ---@field target_volume number The same of the target; 1 of a paste.
 ---@field radius number Radius of the seam.
@@ -341,7 +343,7 @@
 ---Report of a merge.
 ---@class lissom.MergeReport
 ---@field bite lissom.TargetBite Loss of the sharp edges of its target, by a paste.
----@field ok boolean Whether the result is good: no faces run through one another that did not before, but for those that only touch; the surface around the seam does not fold back, is at most 1.4 times as rough as the parts were there (or turns by less than 8 degrees an edge), the source at most 1.6 times as it was (or by 11 degrees; merged above 14 degrees 1.4 times) and the target 1.3 times (or by 5 degrees), and bends by no more than 35 degrees from one side to the other and 60 along a tenth of it, or 1.3 times the angle before (and by the crease of a paste); the rim of the source of a merge turns outward by no more than 65 degrees more than before, or 22.5 if it crumples; no tip lacks more than 88 degrees to flat (45 beside smooth parts), or 1.35 times as many as the sharpest before; a paste takes no sharp edge of its target along more than .3 of its radius or deeper than .15; each part keeps two fifths of its volume; the seam turns by no more than 30 degrees but for a thirtieth of its length and 20 in the mean, or than the surfaces did beside the boundaries; no place is a toss; no triangle at the seam has less than 2 degrees, or than there were.
+---@field ok boolean Whether the result is good: no faces run through one another that did not before, but for those that only touch; the surface around the seam does not fold back, has no sharp edges along 1.3 radii that it had not, is at most 1.4 times as rough as the parts were there (or turns by less than 8 degrees an edge), the source at most 1.6 times as it was (or by 11 degrees; merged above 14 degrees 1.4 times) and the target 1.3 times (or by 5 degrees), and bends by no more than 35 degrees from one side to the other and 60 along a tenth of it, or 1.3 times the angle before (and by the crease of a paste); the rim of the source of a merge turns outward by no more than 65 degrees more than before, or 22.5 if it crumples; no tip lacks more than 88 degrees to flat (45 beside smooth parts), or 1.35 times as many as the sharpest before; a paste takes no sharp edge of its target along more than .3 of its radius or deeper than .15; each part keeps two fifths of its volume; the seam turns by no more than 30 degrees but for a thirtieth of its length and 20 in the mean, or than the surfaces did beside the boundaries; no place is a toss; no triangle at the seam has less than 2 degrees, or than there were.
 ---@field verdict string The same in one line, with the reasons.
 ---@field reasons lissom.MergeReason[] Each fault with its measure, its limit and a remedy; empty if ok. tostring(report) lists them.
 ---@field joins lissom.JoinReport[] One a join.

@@ -23,6 +23,8 @@ constexpr double kBand = 0.5, kFolds = 1.0, kStrip = 1.0 / 3.0;
 // of thin parts turn by more or less as these bend, faces that turned over turn by nearly half a
 // turn.
 constexpr double kBandFolded = 135.0 * kDegree, kNearlyFolded = 105.0 * kDegree;
+// Angle of an edge that shows by itself, as a slit, a ridge or a tooth.
+constexpr double kSharp = 60.0 * kDegree;
 // Points of a seam at which planes are fitted, at most.
 constexpr std::size_t kBandPlanes = 48;
 // A side is flat that has less volume than this many cubes of the radius: a dome as steep as a
@@ -31,7 +33,7 @@ constexpr double kBandFlat = 0.7;
 
 // Adds up edges by their lengths.
 struct EdgeSum {
-    double length = 0.0, squares = 0.0, folded = 0.0, nearly_folded = 0.0;
+    double length = 0.0, squares = 0.0, sharp = 0.0, folded = 0.0, nearly_folded = 0.0;
 
     void add(const Mesh& mesh, Index a, Index b) {
         const Index left = face_left_of(mesh.topology(), a, b);
@@ -43,6 +45,7 @@ struct EdgeSum {
         const double edge = (mesh.position(b) - mesh.position(a)).norm();
         length += edge;
         squares += edge * angle * angle;
+        if (angle > kSharp) sharp += edge;
         if (angle > kBandFolded) folded += edge;
         if (angle > kNearlyFolded) nearly_folded += edge;
     }
@@ -121,21 +124,32 @@ Bends bends_between(std::span<const Vec3> first, std::span<const Vec3> second) {
 // A shorter part of a seam that turns does not show.
 constexpr double kSteepPart = 1.0 / 30.0;
 
-// The dihedral angle that this part of a closed line of edges exceeds.
-double steep_angle(const Mesh& mesh, std::span<const Index> loop) {
-    std::vector<std::pair<double, double>> edges;
+// Angles of edges, and their lengths.
+using SteepEdges = std::vector<std::pair<double, double>>;
+
+void add_steep(const Mesh& mesh, Index a, Index b, SteepEdges& edges) {
+    edges.emplace_back(edge_dihedral(mesh, a, b), (mesh.position(b) - mesh.position(a)).norm());
+}
+
+// The angle that this part of their length exceeds.
+double steep_angle(SteepEdges edges) {
     double rest = 0.0;
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-        const Index a = loop[k], b = loop[(k + 1) % loop.size()];
-        edges.emplace_back(edge_dihedral(mesh, a, b), (mesh.position(b) - mesh.position(a)).norm());
-        rest += kSteepPart * edges.back().second;
-    }
+    for (const auto& [angle, length] : edges) rest += kSteepPart * length;
     std::sort(edges.begin(), edges.end(), std::greater<>());
     for (const auto& [angle, length] : edges) {
         rest -= length;
         if (rest < 0.0) return angle;
     }
     return 0.0;
+}
+
+// That of the edges of a closed line.
+double steep_line(const Mesh& mesh, std::span<const Index> loop) {
+    SteepEdges edges;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        add_steep(mesh, loop[k], loop[(k + 1) % loop.size()], edges);
+    }
+    return steep_angle(std::move(edges));
 }
 
 // One side as it is measured: its loop's size, and how far its faces are from it.
@@ -166,6 +180,15 @@ class Side {
             if (nearest(f) <= radii * radius_) near.push_back(f);
         }
         return edges_of(mesh_, near, seam_);
+    }
+
+    // Of the edges of the faces that touch the loop.
+    double steep_beside() const {
+        std::vector<Index> touching;
+        for (const Index f : faces_) {
+            if (nearest(f) <= 0.0) touching.push_back(f);
+        }
+        return steep_dihedral(mesh_, touching);
     }
 
     // Directions of the planes through the faces whose middles lie in the strip from `begin` to
@@ -266,6 +289,20 @@ double rms_dihedral(const Mesh& mesh, std::span<const Index> faces) {
     return edges_of(mesh, faces, {}).rms();
 }
 
+double steep_dihedral(const Mesh& mesh, std::span<const Index> faces) {
+    SteepEdges edges;
+    std::unordered_set<std::uint64_t> seen;
+    for (const Index f : faces) {
+        const std::span<const Index> face = mesh.topology().face(f);
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const Index a = face[k], b = face[(k + 1) % face.size()];
+            const bool open = face_left_of(mesh.topology(), b, a) == kNoIndex;
+            if (!open && seen.insert(edge_key(a, b)).second) add_steep(mesh, a, b, edges);
+        }
+    }
+    return steep_angle(std::move(edges));
+}
+
 BandQuality band_quality(const BandSide& made_target, const BandSide& made_source,
                          const BandSide& target, const BandSide& source, double scale, bool stays,
                          const Context& context) {
@@ -275,7 +312,8 @@ BandQuality band_quality(const BandSide& made_target, const BandSide& made_sourc
     result.radius = on_target.radius();
     note_roughness({on_target.edges(kBand), on_source.edges(kBand)},
                    {old_target.edges(kBand), old_source.edges(kBand)}, scale, result);
-    result.steep = steep_angle(*made_target.mesh, made_target.loop);
+    result.steep = steep_line(*made_target.mesh, made_target.loop);
+    result.rest_steep = std::max(old_target.steep_beside(), old_source.steep_beside());
     const Bends across =
         bends_between(on_target.planes(0.0, kStrip), on_source.planes(0.0, kStrip));
     const Bends own[] = {old_target.own_bends(), old_source.own_bends()};
@@ -289,6 +327,14 @@ BandQuality band_quality(const BandSide& made_target, const BandSide& made_sourc
     result.folded = folds(on_target, &EdgeSum::folded) + folds(on_source, &EdgeSum::folded);
     result.rest_folded =
         folds(old_target, &EdgeSum::nearly_folded) + folds(old_source, &EdgeSum::nearly_folded);
+    const auto sharpened = [](const Side& made, const Side& rest) {
+        const bool clear = made.radius() > 0.0 && rest.radius() > 0.0;
+        return clear ? made.edges(kBand).sharp / made.radius() -
+                           rest.edges(kBand).sharp / rest.radius()
+                     : 0.0;
+    };
+    result.sharpened =
+        std::max({0.0, sharpened(on_target, old_target), sharpened(on_source, old_source)});
     result.spike = on_target.spike();
     result.rest_spike = std::max(old_target.spike(), old_source.spike());
     if (!made_source.rest.empty()) {

@@ -21,8 +21,9 @@ struct BandQuality {
     /// The same of each side by itself: a smooth part that crumples beside a rough one shows.
     double source_roughness = 0.0, rest_source_roughness = 0.0;
     double target_roughness = 0.0, rest_target_roughness = 0.0;
-    /// Dihedral angle of the seam's edges that a thirtieth of its length exceeds.
-    double steep = 0.0;
+    /// Dihedral angle of the seam's edges that a thirtieth of its length exceeds; and the same of
+    /// the edges of the faces at the boundaries before, of the side that is steeper.
+    double steep = 0.0, rest_steep = 0.0;
     /// Angles between planes fitted to the surface on either side of points of the seam, each to a
     /// strip a third of the radius wide: the RMS, and the angle that a tenth of them exceed. And
     /// those on either side before, from the strip next to the boundary to the one behind it, of
@@ -32,6 +33,10 @@ struct BandQuality {
     /// degrees, in radii of the seam; and of those of both sides before that turned by more than
     /// 105, and may have become such without a face turning over.
     double folded = 0.0, rest_folded = 0.0;
+    /// Length of the edges within half a radius that turn by more than 60 degrees, in radii of the
+    /// seam, beyond that of the same side before: of the side that gained most, at least 0. A slit,
+    /// a ridge or teeth show there on sides that are too rough for `roughness` to tell.
+    double sharpened = 0.0;
     /// Outward turn of the source between neighbouring strips beside the seam, beyond that at rest,
     /// which shows as a flared rim: the RMS over the seam of the greatest gain; 0 if the origin of
     /// its vertices is unknown.
@@ -76,5 +81,9 @@ double loop_radius(const Mesh& mesh, std::span<const Index> loop);
 /// The RMS dihedral angle, weighted by length, of the edges of `faces`, in radians; 0 without any.
 /// Open edges and those of faces without area do not count.
 double rms_dihedral(const Mesh& mesh, std::span<const Index> faces);
+
+/// The dihedral angle that a thirtieth of the length of the edges of `faces` exceeds, in radians; 0
+/// without any. Open edges do not count.
+double steep_dihedral(const Mesh& mesh, std::span<const Index> faces);
 
 }  // namespace lissom

@@ -21,7 +21,9 @@ constexpr double kClearlyBetterAngle = 0.95;
 // The disk of the target is this many times as wide as the ring on it. Ways along edges are up to
 // 1.4 times as long as the surface is wide, so that one that does not cover the ring is widened.
 constexpr double kRoom = 1.5, kMoreRoom = 2.1;
-// At corners they are longer still: such a disk is made if the feature lies outside that one.
+// At corners they are longer still: such a disk is made if the feature lies outside that one. And
+// rings that are tubes, as around joined outlines, get a larger size in the plane than their reach
+// tells: then disks of twice and four times that width.
 constexpr double kMaxRoom = 3.0;
 constexpr int kClosestRounds = 4;
 constexpr Index kWarmIterations = 3;
@@ -336,8 +338,9 @@ void Paste::State::place_on_disk(const PastePlacement& placement, std::span<cons
     std::optional<PlacedOn> found;
     // On an edge a boundary that looks along the part reaches farther.
     const bool wide = !options.thesis && has_edges_near(placement);
-    for (const double room : {wide ? kMoreRoom : kRoom, wide ? kRoom : kMoreRoom, kMaxRoom}) {
-        if (found && (covers(found->place) || room == kMaxRoom)) break;
+    for (const double room : {wide ? kMoreRoom : kRoom, wide ? kRoom : kMoreRoom, kMaxRoom,
+                              2.0 * kMaxRoom, 4.0 * kMaxRoom}) {
+        if (found && (covers(found->place) || room >= kMaxRoom)) break;
         std::optional<PlacedOn> next = placed_within(placement, room, start, effort, context);
         if (next && (!found || covers(next->place))) found = std::move(next);
     }

@@ -114,7 +114,7 @@ SewnPart sewn_along(const PartTrials& trials, const TargetPiece& target, PartTri
 // Steep or rough places along the boundary on the source may be so on the target.
 void note_source(const SourceRest& rest, MergeReport& report) {
     BandQuality& band = report.joins[0].band;
-    report.source_rim.max_near = std::max(report.source_rim.max_near, rest.steepest);
+    band.rest_steep = std::max(band.rest_steep, rest.steep);
     band.rest_roughness = std::max(band.rest_roughness, rest.roughness);
     band.rest_bend = std::max(band.rest_bend, rest.bend);
     band.rest_max_bend = std::max(band.rest_max_bend, rest.max_bend);

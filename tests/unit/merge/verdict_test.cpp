@@ -205,6 +205,34 @@ TEST_CASE("a few steep edges of a seam do not decide, a thirtieth of it does") {
     CHECK(!verdict_of(report, {}).good);
 }
 
+TEST_CASE("one steep edge beside the boundaries is no excuse for a steep seam, some of them are") {
+    MergeReport report = report_with(50.0, 20.0);
+    BandQuality& band = report.joins.front().band;
+    band = good_band();
+    band.radius = 1.0;
+    band.steep = 45.0 * kDegree;
+    band.rest_steep = 20.0 * kDegree;
+    report.source_rim.max_near = 90.0 * kDegree;
+    CHECK(only_reason(report).fault == MergeFault::seam);
+    CHECK(only_reason(report).limit == doctest::Approx(30.0 * kDegree));
+    band.rest_steep = 50.0 * kDegree;
+    CHECK(verdict_of(report, {}).good);
+}
+
+TEST_CASE("edges beside the seam that became sharp are folds, unless the parts fit") {
+    BandQuality band = good_band();
+    band.sharpened = 1.0;
+    CHECK(verdict_of(report_with(band), {}).good);
+    band.sharpened = 2.0;
+    const MergeReason reason = only_reason(report_with(band));
+    CHECK(reason.fault == MergeFault::folds);
+    CHECK(reason.value == doctest::Approx(2.0));
+    CHECK(says(verdict_of(report_with(band), {}), "creased beside the seam"));
+    MergeReport fits = report_with(band);
+    fits.joins.front().fits = true;
+    CHECK(verdict_of(fits, {}).good);
+}
+
 TEST_CASE("surfaces that only touch are told, and are no reason against a merge") {
     MergeReport report = report_with(good_band());
     report.intersections.resize(3);

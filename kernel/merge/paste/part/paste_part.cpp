@@ -110,6 +110,15 @@ PastePart part_inside(const Mesh& source, const PasteRegions& regions, std::span
     return part;
 }
 
+namespace {
+
+[[noreturn]] void refuse_line() {
+    throw Error(ErrorCode::boundary_conflict,
+                "the ring is too coarse to be divided along the boundary that was found");
+}
+
+}  // namespace
+
 PastePart part_inside(const Mesh& source, const PasteRegions& regions, const PasteChart& chart,
                       std::span<const Vec2> line, const Context& context) {
     FaceSet around(source.topology(), regions.region);
@@ -128,11 +137,10 @@ PastePart part_inside(const Mesh& source, const PasteRegions& regions, const Pas
         uv.push_back(chart.map.uv[at(place)]);
     }
     set_line_values(piece.mesh.topology(), vertices, uv, line, contour.value);
+    const auto [least, most] = std::minmax_element(contour.value.begin(), contour.value.end());
+    if (!(*least < 0.0 && *most > 0.0)) refuse_line();
     Cut parts = cut(piece.mesh, contour, {CutLoops::all, kSlide}, context);
-    if (parts.lines.size() != 1 || !parts.lines.front().kept.closed()) {
-        throw Error(ErrorCode::boundary_conflict,
-                    "the ring is too coarse to be divided along the boundary that was found");
-    }
+    if (parts.lines.size() != 1 || !parts.lines.front().kept.closed()) refuse_line();
     const MeshMap map = composed(parts.kept.map, part_map(piece, source.topology()));
     return {std::move(parts.kept.mesh), map, parts.lines.front().kept.vertices()};
 }

@@ -34,17 +34,6 @@ std::vector<Index> faces_at_loop(const Mesh& source, const PastePart& part) {
     return {faces.begin(), faces.end()};
 }
 
-double steepest_edge(const Mesh& mesh, std::span<const Index> faces) {
-    GreatestAngle greatest;
-    for (const Index f : faces) {
-        const std::span<const Index> face = mesh.topology().face(f);
-        for (std::size_t k = 0; k < face.size(); ++k) {
-            add_edge_dihedral(mesh, face[k], face[(k + 1) % face.size()], greatest);
-        }
-    }
-    return greatest.value();
-}
-
 // A face near the loop: its place, along its normal, and whether it belongs to the part.
 struct RestFace {
     Vec3 center = Vec3::Zero(), area = Vec3::Zero();
@@ -118,7 +107,7 @@ SourceRest source_rest(const Mesh& source, const PastePart& part, const Context&
     context.checkpoint();
     SourceRest rest;
     const std::vector<Index> at_loop = faces_at_loop(source, part);
-    rest.steepest = steepest_edge(source, at_loop);
+    rest.steep = steep_dihedral(source, at_loop);
     rest.roughness = rms_dihedral(source, at_loop);
     const std::vector<Vec3> rim = rim_points(part);
     Vec3 middle = Vec3::Zero();

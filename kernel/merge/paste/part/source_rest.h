@@ -10,8 +10,9 @@ namespace lissom {
 /// Angles of the source along a part's boundary, on both sides of it, in radians: a foot that is
 /// steep on the source may be so on the target.
 struct SourceRest {
-    /// Between faces at the boundary: the greatest, and the RMS weighted by length.
-    double steepest = 0.0, roughness = 0.0;
+    /// Between faces at the boundary: the angle that a thirtieth of the length of their edges
+    /// exceeds, and the RMS weighted by length.
+    double steep = 0.0, roughness = 0.0;
     /// Between the planes of strips a third of the boundary's radius wide on either side of it: the
     /// RMS, and the greatest. 0 if the boundary is an open one of the source.
     double bend = 0.0, max_bend = 0.0;

@@ -292,11 +292,8 @@ MarkedRegion marked_region(const Mesh& source, const PasteMarks& marks, const Co
     return region;
 }
 
-PasteRegions regions_with(const Mesh& source, const MarkedRegion& region, const PasteMarks& marks,
-                          double share, const Context& context) {
+PasteRegions regions_around(const MarkedRegion& region, const FaceSet& core) {
     const FaceSet& whole = region.faces;
-    const FaceSet core =
-        clean_feature(whole, marked_feature(source, region, marks, share, context), context);
     PasteRegions result;
     result.outer = outline_of(whole);
     require_apart(result.outer, core);
@@ -315,6 +312,35 @@ PasteRegions regions_with(const Mesh& source, const MarkedRegion& region, const 
     return result;
 }
 
+PasteRegions regions_with(const Mesh& source, const MarkedRegion& region, const PasteMarks& marks,
+                          double share, const Context& context) {
+    return regions_around(
+        region, clean_feature(region.faces, marked_feature(source, region, marks, share, context),
+                              context));
+}
+
+// Shares of a sought ring in the order that they are tried: that asked for, narrower ones, which
+// leave more of the handles of the surface to the feature, and wider ones, whose feature keeps away
+// from an outline that is drawn in somewhere.
+std::vector<double> shares_from(double asked) {
+    std::vector<double> shares{asked};
+    if (!(asked > 0.0 && asked < 1.0)) return shares;
+    while (shares.back() * kNarrowerShare >= kMinShare) {
+        shares.push_back(shares.back() * kNarrowerShare);
+    }
+    for (double inside = 1.0 - asked; inside * kNarrowerShare >= kMinShare;) {
+        inside *= kNarrowerShare;
+        shares.push_back(1.0 - inside);
+    }
+    return shares;
+}
+
+// Whether another ring may be possible.
+bool depends_on_ring(ErrorCode code) {
+    return code == ErrorCode::not_a_disk || code == ErrorCode::boundary_conflict ||
+           code == ErrorCode::region_empty;
+}
+
 }  // namespace
 
 PasteRegions paste_regions(const Mesh& source, const PasteMarks& marks, const Context& context) {
@@ -322,16 +348,28 @@ PasteRegions paste_regions(const Mesh& source, const PasteMarks& marks, const Co
     if (marks.feature) require_same_topology(source, marks.feature->topology(), "the feature");
     const MarkedRegion region = marked_region(source, marks, context);
     const bool sought = !marks.feature || region.joined();
+    if (!sought) return regions_with(source, region, marks, marks.share, context);
     std::optional<Error> first;
-    for (double width = marks.share; width >= kMinShare || !first; width *= kNarrowerShare) {
+    const auto attempt = [&](const auto& make) -> std::optional<PasteRegions> {
         try {
-            return regions_with(source, region, marks, width, context);
+            return make();
         } catch (const Error& error) {
-            // A narrower ring leaves more of the handles of the surface to the feature.
-            if (!sought || error.code() != ErrorCode::not_a_disk) throw;
+            if (!depends_on_ring(error.code())) throw;
             if (!first) first = error;
+            return std::nullopt;
         }
+    };
+    for (const double share : shares_from(marks.share)) {
+        const auto found =
+            attempt([&] { return regions_with(source, region, marks, share, context); });
+        if (found) return *found;
     }
+    // All but the faces at the outline, if handles and holes come that close to it.
+    const auto all = attempt([&] {
+        return regions_around(region,
+                              clean_feature(region.faces, without_rim(region.faces), context));
+    });
+    if (all) return *all;
     throw Error(*first);
 }
 

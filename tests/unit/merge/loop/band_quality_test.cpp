@@ -241,3 +241,49 @@ TEST_CASE("one point of a seam does not decide how much it bends, a tenth of it 
     CHECK(dented(0.1).max_bend < 30.0 * kDegree);
     CHECK(dented(1.0).max_bend > 35.0 * kDegree);
 }
+
+TEST_CASE("a slit beside the seam counts by its sharp edges, one that was there before does not") {
+    const Barrel barrel;
+    CHECK(barrel.measured(barrel.mesh).sharpened == 0.0);
+    // One line of vertices along the column is drawn in.
+    const Mesh slit = barrel.moved([](Vec3& p) {
+        if (p.y() > 0.0 && std::abs(p.x()) < 0.05 && p.z() > 0.0) p.z() -= 0.4;
+    });
+    const BandQuality cut = barrel.measured(slit);
+    CHECK(cut.sharpened > 0.4);
+    CHECK(cut.sharpened < 3.0);
+    const BandQuality same = band_quality(
+        {&slit, barrel.below, barrel.seam}, {&slit, barrel.above, barrel.seam},
+        {&slit, barrel.below, barrel.seam}, {&slit, barrel.above, barrel.seam}, 1.0, false);
+    CHECK(same.sharpened == 0.0);
+    // Whatever the size.
+    Mesh large = slit, large_rest = barrel.mesh;
+    transform(large, scaling(Vec3(128, 128, 128), Vec3::Zero()));
+    transform(large_rest, scaling(Vec3(128, 128, 128), Vec3::Zero()));
+    const BandQuality scaled =
+        band_quality({&large, barrel.below, barrel.seam}, {&large, barrel.above, barrel.seam},
+                     {&large_rest, barrel.below, barrel.seam},
+                     {&large_rest, barrel.above, barrel.seam}, 1.0, false);
+    CHECK(scaled.sharpened == doctest::Approx(cut.sharpened));
+}
+
+TEST_CASE("a single tooth does not make the edges beside a boundary steep, pleats do") {
+    const auto rest_steep = [](double part) {
+        const Barrel barrel;
+        const Mesh pleated = barrel.moved([part](Vec3& p) {
+            const double turn = std::atan2(p.x(), p.z()) / (2.0 * kPi) + 0.5;
+            if (p.y() <= 0.0 || turn > part) return;
+            const double out = std::lround(turn * kAround) % 2 == 0 ? 1.15 : 0.9;
+            p.x() *= out;
+            p.z() *= out;
+        });
+        return band_quality({&pleated, barrel.below, barrel.seam},
+                            {&pleated, barrel.above, barrel.seam},
+                            {&pleated, barrel.below, barrel.seam},
+                            {&pleated, barrel.above, barrel.seam}, 1.0, false)
+            .rest_steep;
+    };
+    CHECK(rest_steep(0.0) < 15.0 * kDegree);
+    CHECK(rest_steep(0.5 / kAround) < 30.0 * kDegree);
+    CHECK(rest_steep(1.0) > 60.0 * kDegree);
+}

@@ -2,6 +2,7 @@
 #include "kernel/merge/paste/region/paste_regions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,19 @@ TEST_CASE(
     }
     const Mesh horn = horned_ball();
     CHECK_FALSE(regions_of(horn, around_horn(horn)).joined);
+}
+
+TEST_CASE("paste regions: wherever a piece of a handle is marked, a feature and a ring are found") {
+    const Mesh torus = make_torus();
+    for (int k = 0; k < 12; ++k) {
+        const double angle = k * kPi / 6.0;
+        for (const double radius : {1.1, 1.3}) {
+            CAPTURE(k);
+            CAPTURE(radius);
+            const Vec3 middle(std::cos(angle), 0.017 * k, std::sin(angle));
+            check_annulus(torus, regions_of(torus, select_sphere(torus, middle, radius)));
+        }
+    }
 }
 
 TEST_CASE("paste regions: specks go, islands are filled, parts of a feature are joined") {
