@@ -57,6 +57,19 @@ test("features under a paste are removed first", function()
     expect_whole((cleared:merge()))
 end)
 
+test("pieces of a ring find a feature and room wherever they are marked", function()
+    local ring = lissom.shapes.torus{}
+    local ball = lissom.shapes.sphere{ segments = 24, kind = "triangles", radius = 2 }
+    for _, piece in ipairs{ { 1, 0.8 }, { 4, 1.1 }, { 7, 0.8 }, { 9, 1.1 }, { 10, 1.3 } } do
+        local angle = 0.52 * piece[1]
+        local middle = { math.cos(angle), piece[1] / 60, math.sin(angle) }
+        local region = ring:region{ sphere = { center = middle, radius = piece[2] } }
+        local paste = lissom.paste{ source = ring, region = region, target = ball,
+            placement = { at = { 0, 0, 2 }, scale = 0.5 } }
+        expect.truthy(paste:loop():is_closed())
+    end
+end)
+
 test("a part that is dragged is shown by drafts, and pasted well where it stays", function()
     local ball, horn = horned()
     local target = lissom.shapes.sphere{ segments = 24, radius = 2 }
