@@ -1,6 +1,6 @@
 --- An afro: tight coils that stand off the head, cut to a ball.
 --
---     lissom run scripts/presets/afro.lua --size 0.12
+--     lissom run scripts/presets/afro.lua --height 0.12
 local lissom = require "lissom"
 local styling = require "styling"
 

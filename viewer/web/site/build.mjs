@@ -181,9 +181,10 @@ function makeStart(count) {
 
 // ---- All together
 
+// `page` are values for pages alone: hair as text takes longer to save there than to grow.
 function putPlaygroundScripts() {
     const folder = 'playground/gallery';
-    for (const one of gallery) put(`${folder}/${one.id}.json`, JSON.stringify({ s: one.script, v: one.values || {}, n: path.basename(one.file), p: one.picture }));
+    for (const one of gallery) put(`${folder}/${one.id}.json`, JSON.stringify({ s: one.script, v: { ...one.values, ...one.page }, n: path.basename(one.file), p: one.picture }));
     for (const one of scripts) if (one.play) put(`${folder}/${one.id}.json`, JSON.stringify({ s: one.play, v: {}, n: `${one.id.replace(/[^\w]+/g, '_')}.lua` }));
 }
 
