@@ -26,7 +26,8 @@ struct AvoidedContacts {
 /// surface answers them as one that is deformed, with rotations fitted to it again. Handles and
 /// constraints hold exactly, so that parts which handles push into one another stay there. A result
 /// without contacts is that of solve to the bit, and so is one of whose contacts pushing does not
-/// take away a third: parts that have run right through one another have no way out.
+/// take away a third, or only by crumpling the surface: parts that have run right through one
+/// another have no way out.
 /// `mesh` is as for contacts_of. Errors: as Deformer::solve and contacts_of; unsupported for a
 /// comparison method.
 AvoidedContacts solve_avoiding_contacts(Deformer& deformer, const Mesh& mesh,

@@ -21,10 +21,7 @@ constexpr double kReach = 1.6;
 // round too.
 constexpr double kRoom = 1.05;
 // A row counts as movable if its answer to its own force is this part of the greatest.
-constexpr double kMovable = 0.02;
-// Added to the diagonal of the compliance, as a part of it: rows that nearly repeat one another
-// share their forces.
-constexpr double kSharing = 0.01;
+constexpr double kMovable = 0.15;
 constexpr int kSweeps = 400;
 // Fits of the rotations to the displaced surface.
 constexpr int kFits = 2;
@@ -205,10 +202,10 @@ void Separation::find_compliance() {
 }
 
 // Projected Gauss-Seidel, from the forces before.
-void Separation::find_forces() {
+void Separation::find_forces(double softness) {
     const auto count = index_of(rows_.size());
     const Eigen::VectorXd own = compliance_.diagonal();
-    const double least = kMovable * own.maxCoeff();
+    const double least = kMovable * own.maxCoeff(), soft = softness * own.mean();
     Eigen::VectorXd force(count), asked(count);
     for (Index r = 0; r < count; ++r) {
         force[r] = rows_[at(r)].force;
@@ -217,9 +214,8 @@ void Separation::find_forces() {
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
         for (Index r = 0; r < count; ++r) {
             if (!(own[r] > least)) continue;
-            const double missing =
-                asked[r] - compliance_.row(r).dot(force) - kSharing * own[r] * force[r];
-            force[r] = std::max(0.0, force[r] + missing / ((1.0 + kSharing) * own[r]));
+            const double missing = asked[r] - compliance_.row(r).dot(force) - soft * force[r];
+            force[r] = std::max(0.0, force[r] + missing / (own[r] + soft));
         }
     }
     for (Index r = 0; r < count; ++r) rows_[at(r)].force = force[r];
@@ -264,11 +260,13 @@ void Separation::turn(const Context& context) {
     system_.solve(change_, turned_, false, scratch_, context);
 }
 
-void Separation::solve(const Context& context) {
-    for (int round = 0;; ++round) {
-        find_forces();
+void Separation::solve(double softness, const Context& context) {
+    turned_.assign(turned_.size(), Vec4::Zero());
+    for (Row& row : rows_) row.force = 0.0;
+    for (int fit = 0;; ++fit) {
+        find_forces(softness);
         add_answers();
-        if (round == kFits) return;
+        if (fit == kFits) return;
         turn(context);
     }
 }

@@ -33,8 +33,10 @@ class Separation {
     /// Adds rows for what penetrates with the present displacement. Returns whether there are any
     /// that forces can move.
     bool add(std::span<const Penetration> penetrations, const Context& context);
-    /// Finds the forces and the displacement for all rows. Errors: cancelled.
-    void solve(const Context& context);
+    /// Finds the forces and the displacement for all rows. `softness` is added to the diagonal of
+    /// the rows' compliance, as a part of its mean: with more, stiff places are pushed less, and
+    /// not as far as is asked. Errors: cancelled.
+    void solve(double softness, const Context& context);
     /// Adds the displacement to the positions of the frame.
     void displace(DeformFrame& frame) const;
 
@@ -55,7 +57,7 @@ class Separation {
     void find_responses(std::span<Row> rows, const Context& context);
     void find_compliance();
     static Vec3 mean_of(const Row& row, std::span<const Vec4> u);
-    void find_forces();
+    void find_forces(double softness);
     void add_answers();
     void fit(std::vector<Mat3>& rotations, const Context& context) const;
     void turn(const Context& context);
