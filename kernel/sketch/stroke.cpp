@@ -288,13 +288,13 @@ void require_options(const StrokeOptions& options) {
 // The memory of the points along a course in even steps. Errors: as fair_stroke.
 MemoryCharge charge_points(const Course& course, const StrokeOptions& options,
                            const Context& context) {
-    constexpr double kMostPoints = 4e6;
+    constexpr double kMostPoints = 3e7;
     constexpr std::size_t kBytes = 160;
     const double points = course.length() / std::min(kCornerStep, options.spacing);
     if (!(points <= kMostPoints)) {
         throw Error(
             ErrorCode::invalid_argument,
-            "the stroke would have more than four million points; ask for a larger spacing, "
+            "the stroke would have more than thirty million points; ask for a larger spacing, "
             "or give fewer events");
     }
     return context.charge(kBytes * (static_cast<std::size_t>(points) + course.points.size()),

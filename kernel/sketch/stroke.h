@@ -50,7 +50,7 @@ bool is_click(std::span<const StrokeEvent> events, double scale = 1.0);
 /// fewest knots (90 to 20 pixels apart) that stay near enough. The first point stays at the first
 /// event, unless it begins a hook. A click gives its first point alone; times that run backwards
 /// are taken as standing still. Errors: invalid_argument without events, for a spacing or scale
-/// that is not positive, a negative smoothing, or more than four million points; not_finite;
+/// that is not positive, a negative smoothing, or more than thirty million points; not_finite;
 /// memory_limit; cancelled.
 Stroke fair_stroke(std::span<const StrokeEvent> events, const StrokeOptions& options = {},
                    const Context& context = {});

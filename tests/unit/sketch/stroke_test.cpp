@@ -142,6 +142,8 @@ TEST_CASE("what a hand can do wrong is refused or endured") {
     CHECK(code_of({{{0, 0}, 0}}, {.spacing = 0.0}) == ErrorCode::invalid_argument);
     CHECK(code_of({{{0, 0}, 0}}, {.scale = -1.0}) == ErrorCode::invalid_argument);
     CHECK(code_of({{{0, 0}, 0}}, {.smoothing = -1.0}) == ErrorCode::invalid_argument);
+    CHECK(code_of({{{0, 0}, 0}, {{100, 0}, 1}}, {.spacing = 1e-9}) == ErrorCode::invalid_argument);
+    CHECK(code_of({{{0, 0}, 0}, {{1e16, 0}, 1}}) == ErrorCode::invalid_argument);
     CHECK(fair_stroke(std::vector<StrokeEvent>{{{3, 4}, 0}}).points.size() == 1);
     // To and fro on one line, and ten thousand points at equal times.
     std::vector<StrokeEvent> line, many;
