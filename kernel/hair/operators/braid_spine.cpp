@@ -23,9 +23,9 @@ std::vector<Vec3> even_spine(const std::vector<Vec3>& points) {
     const auto count =
         static_cast<std::size_t>(std::clamp(std::ceil(arcs.back() / kSpineStep), 1.0, 100000.0));
     std::vector<Vec3> made;
+    std::size_t k = 1;
     for (std::size_t i = 0; i <= count; ++i) {
         const double arc = arcs.back() * double(i) / double(count);
-        std::size_t k = 1;
         while (k + 1 < arcs.size() && arcs[k] < arc) ++k;
         const double size = arcs[k] - arcs[k - 1];
         const double u = size > 0.0 ? (arc - arcs[k - 1]) / size : 0.0;

@@ -83,6 +83,7 @@ std::vector<Joint> joints_of(const Strands& strands, const BraidSpine& spine,
     context.parallel_for(0, strands.size(), 256, [&](Index begin, Index end) {
         for (Index s = begin; s < end; ++s) {
             if (!options.mask.empty() && options.mask[at(s)] < 0.5f) continue;
+            context.checkpoint();  // a spine may have many points
             const StrandView strand = strands.strand(s);
             if (strand.allFinite() && has_length(strand))
                 all[at(s)] = joint_of(strands, s, spine, options);

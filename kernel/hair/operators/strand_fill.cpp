@@ -128,7 +128,9 @@ Strands interpolate(const Strands& guides, std::span<const Root> roots,
     const Index count = count_of(roots), points = options.points;
     require(count <= std::numeric_limits<Index>::max() / points,
             "there are more points than can be numbered; ask for fewer strands or points");
-    std::vector<float> made(at(count) * at(points) * 3);
+    const std::size_t numbers = at(count) * at(points) * 3;
+    MemoryCharge charge = context.charge(numbers * sizeof(float), "points of strands");
+    std::vector<float> made(numbers);
     std::vector<Index> offsets(at(count) + 1), nearest(at(count), kNoIndex);
     for (Index s = 0; s <= count; ++s) offsets[at(s)] = s * points;
     Progress progress(context, "interpolate strands");
@@ -147,6 +149,7 @@ Strands interpolate(const Strands& guides, std::span<const Root> roots,
             }
         }
     });
+    charge = {};
     Strands strands(std::move(made), std::move(offsets), guides.account());
     strands.set_roots(roots_of(roots));
     StrandWidths widths;
@@ -203,7 +206,11 @@ void duplicate(Strands& strands, const DuplicateOptions& options, const Context&
     require(count_of(hair) == 0 ||
                 options.copies <= (std::numeric_limits<Index>::max() - before) / count_of(hair),
             "there are more strands than can be numbered; ask for fewer copies");
+    // Of the list, and of ids and guides in the making.
+    const std::size_t after = at(before) + at(options.copies) * hair.size();
+    const MemoryCharge charge = context.charge(16 * after, "copies of strands");
     std::vector<Index> list(at(before));
+    list.reserve(after);
     std::iota(list.begin(), list.end(), 0);
     for (Index copy = 0; copy < options.copies; ++copy) {
         list.insert(list.end(), hair.begin(), hair.end());

@@ -12,8 +12,14 @@ void carry_on(Strands& strands, const std::vector<CutStrand>& ends,
               const std::function<void(std::size_t, std::vector<Vec3>&)>& tail,
               const Context& context) {
     std::vector<std::vector<Vec3>> tails(ends.size());
+    std::vector<MemoryCharge> charges(ends.size());
     context.parallel_for(0, count_of(ends), 64, [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) tail(at(i), tails[at(i)]);
+        for (Index i = begin; i < end; ++i) {
+            context.checkpoint();
+            tail(at(i), tails[at(i)]);
+            charges[at(i)] =
+                context.charge(tails[at(i)].capacity() * sizeof(Vec3), "tails of strands");
+        }
     });
     std::vector<Index> place(at(strands.size()), kNoIndex);
     for (std::size_t i = 0; i < ends.size(); ++i) place[at(ends[i].strand)] = index_of(i);

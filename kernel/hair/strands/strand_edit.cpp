@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kernel/core/error.h"
+#include "kernel/core/memory_hold.h"
 #include "kernel/core/roots.h"
 #include "kernel/hair/strands/strand_measures.h"
 
@@ -177,11 +178,15 @@ Strands joined_points(const Strands& a, const Strands& b) {
         throw Error(ErrorCode::invalid_argument,
                     "together there would be more points than can be numbered");
     }
+    const auto account = a.account() ? a.account() : b.account();
+    MemoryHold hold(account, "strands");
+    hold.resize(a.points().size_bytes() + b.points().size_bytes());
     std::vector<float> points(a.points().begin(), a.points().end());
     points.insert(points.end(), b.points().begin(), b.points().end());
     std::vector<Index> offsets(a.offsets().begin(), a.offsets().end());
     for (const Index offset : b.offsets().subspan(1)) offsets.push_back(a.point_count() + offset);
-    return {std::move(points), std::move(offsets), a.account() ? a.account() : b.account()};
+    hold.resize(0);
+    return {std::move(points), std::move(offsets), account};
 }
 
 double scale_of(const Affine& map) {
@@ -229,11 +234,15 @@ Strands select(const Strands& strands, std::span<const Index> list) {
     if (total > at(std::numeric_limits<Index>::max())) {
         throw Error(ErrorCode::invalid_argument, "the list has more points than can be numbered");
     }
+    // Strands count their lists once they have them.
+    MemoryHold hold(strands.account(), "strands");
+    hold.resize(3 * sizeof(float) * total);
     points.reserve(3 * total);
     for (const Index s : list) {
         const StrandView strand = strands.strand(s);
         points.insert(points.end(), strand.data(), strand.data() + strand.size());
     }
+    hold.resize(0);
     Strands result(std::move(points), std::move(offsets), strands.account());
     choose_data(strands, list, result);
     return result;
