@@ -262,7 +262,9 @@ class Example {
   private:
     Detail between(double arc, std::size_t& below) const {
         if (below + 1 >= arcs_.size() || arcs_[below] > arc) below = 0;
-        while (below + 2 < arcs_.size() && arcs_[below + 1] < arc) ++below;
+        // By halves: examples may have many points, and strands many lengths of them.
+        const auto next = arcs_.begin() + (index_of(below) + 1);
+        below += lissom::at(index_of(std::lower_bound(next, arcs_.end() - 1, arc) - next));
         const double size = arcs_[below + 1] - arcs_[below];
         const double u = std::clamp((arc - arcs_[below]) / size, 0.0, 1.0);
         const Detail &a = details_[below], &b = details_[below + 1];
