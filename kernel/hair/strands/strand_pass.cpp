@@ -225,6 +225,18 @@ void StrandWork::space_evenly(double length) {
     scale_segments(lengths.data());
 }
 
+namespace {
+
+// Room of the threads for the strand that each changes, which matters if one has most points.
+std::size_t bytes_of_work(const Strands& strands, const Context& context) {
+    constexpr std::size_t kBytesOfPoint = 128;
+    Index longest = 0;
+    for (Index s = 0; s < strands.size(); ++s) longest = std::max(longest, strands.point_count(s));
+    return kBytesOfPoint * at(longest) * at(std::min(context.threads(), strands.size()));
+}
+
+}  // namespace
+
 void change_strands(Strands& strands, const StrandOperatorOptions& options,
                     const std::function<void(StrandWork& work)>& change, const Context& context) {
     const auto make = [&]() -> std::function<void(StrandWork&)> { return std::ref(change); };
@@ -236,7 +248,8 @@ void change_strand_runs(Strands& strands, const StrandOperatorOptions& options,
                         const Context& context) {
     require_operator(strands, options);
     if (options.factor == 0.0 || strands.empty()) return;
-    const MemoryCharge charge = context.charge(strands.points().size_bytes(), "changing strands");
+    const MemoryCharge charge = context.charge(
+        strands.points().size_bytes() + bytes_of_work(strands, context), "changing strands");
     Backup backup(strands);
     std::vector<std::vector<Index>> bad(at(strands.size() / kPassGrain + 1));
     float* const points = strands.edit_points().data();
