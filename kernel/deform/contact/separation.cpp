@@ -16,7 +16,7 @@ namespace {
 // Rows of one penetration, and of all that are added together.
 constexpr std::size_t kMostOfOne = 16, kMostTogether = 48;
 // A row reaches this far about its seed, in distances to the next seeds.
-constexpr double kReach = 1.6;
+constexpr double kRowReach = 1.6;
 // Share of the depth that is asked for: a little room, so that what is apart is so in the next
 // round too.
 constexpr double kRoom = 1.05;
@@ -111,7 +111,7 @@ void Separation::add_rows(const Penetration& penetration, std::size_t most,
     const auto [seeds, covered] =
         spread_seeds(penetration, deepest, std::min(most, penetration.size()));
     for (const std::size_t seed : seeds) {
-        Row row = row_around(penetration, seed, kReach * covered);
+        Row row = row_around(penetration, seed, kRowReach * covered);
         if (!row.entries.empty()) rows.push_back(std::move(row));
     }
 }

@@ -229,7 +229,7 @@ namespace {
 
 // Room of the threads for the strand that each changes, which matters if one has most points.
 std::size_t bytes_of_work(const Strands& strands, const Context& context) {
-    constexpr std::size_t kBytesOfPoint = 128;
+    constexpr std::size_t kBytesOfPoint = 320;
     Index longest = 0;
     for (Index s = 0; s < strands.size(); ++s) longest = std::max(longest, strands.point_count(s));
     return kBytesOfPoint * at(longest) * at(std::min(context.threads(), strands.size()));

@@ -14,6 +14,20 @@ namespace {
     throw Error(ErrorCode::invalid_argument, message);
 }
 
+// Operators look at their limits of time and memory from strand to strand.
+void require_short(const std::vector<Index>& offsets) {
+    constexpr Index kMostPoints = 100'000;
+    Elements longer{ElementKind::strand, 0, {}};
+    for (std::size_t s = 1; s < offsets.size(); ++s) {
+        if (offsets[s] - offsets[s - 1] > kMostPoints) longer.add(index_of(s - 1));
+    }
+    if (longer.count == 0) return;
+    const std::string names = describe(longer);
+    throw Error(ErrorCode::invalid_argument,
+                names + " would have more than 100,000 points; resample with fewer",
+                std::move(longer));
+}
+
 void require_offsets(const std::vector<float>& points, const std::vector<Index>& offsets) {
     constexpr std::size_t kMaximum = std::numeric_limits<Index>::max();
     if (points.size() % 3 != 0) refuse("points need three numbers each");
@@ -26,7 +40,7 @@ void require_offsets(const std::vector<float>& points, const std::vector<Index>&
                std::to_string(count));
     }
     const auto stuck = std::adjacent_find(offsets.begin(), offsets.end(), std::greater_equal<>());
-    if (stuck == offsets.end()) return;
+    if (stuck == offsets.end()) return require_short(offsets);
     throw Error(ErrorCode::invalid_argument,
                 "offsets must grow: every strand has at least one point",
                 {ElementKind::strand, 1, {index_of(stuck - offsets.begin())}});

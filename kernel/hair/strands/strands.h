@@ -101,8 +101,8 @@ class Strands {
     /// No strands.
     Strands() = default;
     /// `points`: x y z of all strands one after the other; strand s has the points offsets[s] to
-    /// offsets[s + 1] - 1. Errors: invalid_argument if offsets do not begin with 0, grow, and end
-    /// with the number of points; memory_limit. Null counts nowhere.
+    /// offsets[s + 1] - 1, at most 100,000. Errors: invalid_argument if offsets do not begin with
+    /// 0, grow, and end with the number of points; memory_limit. Null counts nowhere.
     Strands(std::vector<float> points, std::vector<Index> offsets,
             std::shared_ptr<MemoryAccount> account = nullptr);
 

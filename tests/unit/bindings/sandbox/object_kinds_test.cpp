@@ -140,7 +140,8 @@ TEST_CASE("sandbox: calls with many points take no memory that is not counted") 
     for (const std::string call :
          {"h:duplicate{ copies = 1000000 }", "h:duplicate{ copies = 20000000 }",
           "h:feed_braid{ spine = s, across = { 1, 0, 0 } }",
-          "for i = 1, 1e9 do h:append(h:copy()) end", "h:resample{ points = 1000000 }"}) {
+          "for i = 1, 1e9 do h:append(h:copy()) end",
+          "h:resample{ count = 20000 } h:detail{ from = h }", "h:resample{ count = 1000000 }"}) {
         check_peak(hair, call);
     }
 }
