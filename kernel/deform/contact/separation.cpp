@@ -19,7 +19,7 @@ constexpr std::size_t kMostOfOne = 16, kMostTogether = 48;
 constexpr double kRowReach = 1.6;
 // Share of the depth that is asked for: a little room, so that what is apart is so in the next
 // round too.
-constexpr double kRoom = 1.05;
+constexpr double kSpare = 1.05;
 // A row counts as movable if its answer to its own force is this part of the greatest.
 constexpr double kMovable = 0.15;
 constexpr int kSweeps = 400;
@@ -133,7 +133,7 @@ Separation::Row Separation::row_around(const Penetration& penetration, std::size
         if (far >= 1.0) continue;
         shares[i] = (1.0 - far * far) * (1.0 - far * far);
         sum += shares[i];
-        if (shares[i] > 0.25) row.depth = std::max(row.depth, kRoom * point.depth);
+        if (shares[i] > 0.25) row.depth = std::max(row.depth, kSpare * point.depth);
     }
     for (std::size_t i = 0; i < penetration.size(); ++i) {
         if (shares[i] == 0.0) continue;
