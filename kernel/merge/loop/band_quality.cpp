@@ -24,7 +24,7 @@ constexpr double kBand = 0.5, kFolds = 1.0, kStrip = 1.0 / 3.0;
 // turn.
 constexpr double kBandFolded = 135.0 * kDegree, kNearlyFolded = 105.0 * kDegree;
 // Angle of an edge that shows by itself, as a slit, a ridge or a tooth.
-constexpr double kSharp = 60.0 * kDegree;
+constexpr double kSharpEdge = 60.0 * kDegree;
 // Points of a seam at which planes are fitted, at most.
 constexpr std::size_t kBandPlanes = 48;
 // A side is flat that has less volume than this many cubes of the radius: a dome as steep as a
@@ -45,7 +45,7 @@ struct EdgeSum {
         const double edge = (mesh.position(b) - mesh.position(a)).norm();
         length += edge;
         squares += edge * angle * angle;
-        if (angle > kSharp) sharp += edge;
+        if (angle > kSharpEdge) sharp += edge;
         if (angle > kBandFolded) folded += edge;
         if (angle > kNearlyFolded) nearly_folded += edge;
     }
