@@ -125,14 +125,14 @@ Bends bends_between(std::span<const Vec3> first, std::span<const Vec3> second) {
 constexpr double kSteepPart = 1.0 / 30.0;
 
 // Angles of edges, and their lengths.
-using SteepEdges = std::vector<std::pair<double, double>>;
+using AngledEdges = std::vector<std::pair<double, double>>;
 
-void add_steep(const Mesh& mesh, Index a, Index b, SteepEdges& edges) {
+void add_steep(const Mesh& mesh, Index a, Index b, AngledEdges& edges) {
     edges.emplace_back(edge_dihedral(mesh, a, b), (mesh.position(b) - mesh.position(a)).norm());
 }
 
 // The angle that this part of their length exceeds.
-double steep_angle(SteepEdges edges) {
+double steep_angle(AngledEdges edges) {
     double rest = 0.0;
     for (const auto& [angle, length] : edges) rest += kSteepPart * length;
     std::sort(edges.begin(), edges.end(), std::greater<>());
@@ -145,7 +145,7 @@ double steep_angle(SteepEdges edges) {
 
 // That of the edges of a closed line.
 double steep_line(const Mesh& mesh, std::span<const Index> loop) {
-    SteepEdges edges;
+    AngledEdges edges;
     for (std::size_t k = 0; k < loop.size(); ++k) {
         add_steep(mesh, loop[k], loop[(k + 1) % loop.size()], edges);
     }
@@ -290,7 +290,7 @@ double rms_dihedral(const Mesh& mesh, std::span<const Index> faces) {
 }
 
 double steep_dihedral(const Mesh& mesh, std::span<const Index> faces) {
-    SteepEdges edges;
+    AngledEdges edges;
     std::unordered_set<std::uint64_t> seen;
     for (const Index f : faces) {
         const std::span<const Index> face = mesh.topology().face(f);
