@@ -981,7 +981,7 @@ typedef struct lissom_contacts {
 
 /// Finds the contacts of the last result, in about the time of a frame. Takes the mesh that the
 /// deformer was made for, or a copy; its shape within the region does not matter. Errors:
-/// TOPOLOGY_MISMATCH; MEMORY_LIMIT; CANCELLED.
+/// TOPOLOGY_MISMATCH; NOT_FINITE beyond 1e30; MEMORY_LIMIT; CANCELLED.
 LISSOM_API lissom_status lissom_deformer_find_contacts(lissom_context* context,
                                                        lissom_deformer deformer, lissom_mesh mesh,
                                                        lissom_contacts* contacts);

@@ -73,7 +73,7 @@ std::vector<Function> contact_methods() {
              "enough to follow a drag: boxes around the faces are made once, and fitted to each "
              "result.",
          .results = {{"lissom.Contacts", "contacts", "The pairs; none if the list is empty."}},
-         .errors = {ErrorCode::handle_removed, ErrorCode::topology_mismatch,
+         .errors = {ErrorCode::handle_removed, ErrorCode::topology_mismatch, ErrorCode::not_finite,
                     ErrorCode::memory_limit, ErrorCode::cancelled},
          .example = R"(local bar = lissom.shapes.bar{ across = 4, along = 24 }
 local deformer = lissom.deformer(bar):pin(bar:region("bottom"))

@@ -15,7 +15,8 @@ namespace lissom {
 /// builds a hierarchy of boxes over all faces, which later ones fit to the shape; they take about
 /// as long as a frame, less if handles hold large parts. Accepts the mesh that the deformer was
 /// made for, or a copy; its shape within the region does not matter. Errors: as
-/// require_surroundings; memory_limit; cancelled.
+/// require_surroundings; not_finite for a surface that reaches beyond 1e30; memory_limit;
+/// cancelled.
 std::vector<FacePair> contacts_of(Deformer& deformer, const Mesh& mesh,
                                   const Context& context = own_context());
 

@@ -19,7 +19,7 @@ struct LocalShape {
     /// The greatest coordinate. Points are rounded by less than 1e-7 of it.
     float extent = 0.0F;
 
-    /// Takes the points of `shape`. Errors: cancelled.
+    /// Takes the points of `shape`. Errors: not_finite beyond 1e30 of its middle; cancelled.
     void set(std::span<const Vec3> shape, const Context& context);
 };
 

@@ -94,7 +94,9 @@ inline double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 /// The face on the left of a directed edge, or kNoIndex.
 inline Index face_left_of(const Topology& topology, Index from, Index to) {
-    for (const Index f : topology.faces_around(from)) {
+    // A hub of very many faces is met from the other end.
+    const Index around = topology.valence(from) <= topology.valence(to) ? from : to;
+    for (const Index f : topology.faces_around(around)) {
         const std::span<const Index> face = topology.face(f);
         const std::size_t n = face.size();
         for (std::size_t k = 0; k < n; ++k) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kernel/deform/contact/contact_avoid.h"
 #include "kernel/deform/contact/contacts.h"
 #include "kernel/deform/contact/pose_path.h"
 #include "kernel/deform/deformed_surface.h"
@@ -108,6 +109,20 @@ TEST_CASE("stop: after an error nothing has moved") {
           ErrorCode::cancelled);
     CHECK(edit.deformer.positions() == before);
     CHECK(edit.deformer.pose(edit.high) == asked);
+}
+
+TEST_CASE("stop: handles farther away than boxes reach are refused, and nothing moves") {
+    const Scene scene = bar_scene();
+    Edit edit = make_edit(scene);
+    const std::vector<Vec3> before = edit.deformer.solve();
+    for (const double far : {1e40, 1e200, 1e308}) {
+        edit.deformer.set_transform(edit.high, translation({far, 0.0, 0.0}));
+        CHECK(error_of([&] { solve_until_contact(edit.deformer, scene.mesh); }).code() ==
+              ErrorCode::not_finite);
+        CHECK(error_of([&] { solve_avoiding_contacts(edit.deformer, scene.mesh); }).code() ==
+              ErrorCode::not_finite);
+        CHECK(edit.deformer.positions() == before);
+    }
 }
 
 TEST_CASE("stop: a constraint of a vertex moves in proportion") {
