@@ -993,7 +993,7 @@ LISSOM_API lissom_status lissom_deformer_solve_until_contact(lissom_context* con
                                                              lissom_deformer deformer,
                                                              lissom_mesh mesh, double* share,
                                                              lissom_contacts* contacts);
-/// Solves in full and pushes apart what runs through itself; handles hold exactly. `before`, which
+/// Solves in full and pushes apart parts that meet; handles hold exactly. `before`, which
 /// may be NULL, is the number of contacts without pushing, and `left` those that stay, no more.
 /// Errors: as solve and find_contacts; UNSUPPORTED for a comparison method.
 LISSOM_API lissom_status lissom_deformer_solve_avoiding_contacts(lissom_context* context,

@@ -157,7 +157,7 @@ return lissom.tool{
         contacts = { type = "boolean", default = false,
             help = "Shows the faces that run through one another, in red." },
         avoid = { type = "boolean", default = false,
-            help = "Pushes apart what would run through itself, when a drag ends." },
+            help = "Pushes apart parts that would run through one another, when a drag ends." },
         reach = { type = "number", default = 0, min = 0, max = 4, unit = "mesh sizes",
             group = "next handle", help = "How far around the first one it may move; 0: everywhere." },
         softness = { type = "number", default = 0, min = 0, max = 10, group = "next handle",

@@ -19,7 +19,7 @@ const ids = new Map([...html].map(([page, text]) => [page, idsOf(text)]));
 const cases = [];
 const test = (name, check) => cases.push({ name, check });
 
-// What is wrong with an address on a page, or null.
+// Returns the fault of an address on a page, or null.
 function wrong(page, href) {
     if (/^(https?:|mailto:)/.test(href)) return null;
     const [name, mark] = href.replace(/&amp;/g, '&').split('#');

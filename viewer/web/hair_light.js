@@ -82,8 +82,8 @@ function momentsOf(grid, depth) {
     return texels;
 }
 
-// Returns the grid, the light that arrives at the hair, and that which hair alone leaves to the head: what the head
-// itself takes from it is no shadow of hair, and has none of its colour.
+// Returns the grid, the light that arrives at the hair, and the light behind hair alone: the shadow of the head on itself
+// is no shadow of hair, and has none of its colour.
 export function hairLight(points, offsets, widths, head) {
     if (points.length < 6) return null;
     const grid = gridAround(points, 40), depth = depths(grid, points, offsets, widths);

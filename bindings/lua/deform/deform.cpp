@@ -517,7 +517,8 @@ std::vector<Function> solving_methods() {
                          .defaults(false)},
          .results = {{"lissom.Mesh", "mesh", "The mesh."},
                      {"lissom.ContactStop|lissom.AvoidedContacts|nil", "record",
-                      "With `stop` how far the handles came, with `avoid` what was pushed apart."}},
+                      "With `stop` how far the handles came, with `avoid` the contacts before and "
+                      "after."}},
          .effect = Effect::replaces,
          .errors = kSolveErrors,
          .example = kBar + R"(top:rotate{ axis = "z", angle = 60 }

@@ -1622,7 +1622,7 @@ function Deformer:preview() end
 ---Solves both systems and writes the result into the mesh. Handles in their initial place give the rest shape, to the bit. Other changes of the region's vertices are overwritten; if the mesh around the region was moved, so that the result would tear, it is an error.
 ---@param options? lissom.Deformer.SolveOptions
 ---@return lissom.Mesh mesh # The mesh.
----@return lissom.ContactStop|lissom.AvoidedContacts|nil record # With `stop` how far the handles came, with `avoid` what was pushed apart.
+---@return lissom.ContactStop|lissom.AvoidedContacts|nil record # With `stop` how far the handles came, with `avoid` the contacts before and after.
 function Deformer:solve(options) end
 
 ---Handles and mesh go back to the rest shape, to the bit; vertex constraints go.

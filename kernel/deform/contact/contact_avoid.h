@@ -21,9 +21,9 @@ struct AvoidedContacts {
     int rounds = 0;
 };
 
-/// Solves as Deformer::solve, and pushes apart what runs through itself: forces along the way out
-/// of the other part, of both parts alike unless one is held, as few as keep them apart; the
-/// surface answers them as one that is deformed, with rotations fitted to it again. Handles and
+/// Solves as Deformer::solve, and pushes apart parts that run through one another: forces along the
+/// way out of the other part, of both parts alike unless one is held, as few as keep them apart;
+/// the surface answers them as one that is deformed, with rotations fitted to it again. Handles and
 /// constraints hold exactly, so that parts which handles push into one another stay there. A result
 /// without contacts is that of solve to the bit, and so is one of whose contacts pushing does not
 /// take away a third, or only by crumpling the surface: parts that have run right through one

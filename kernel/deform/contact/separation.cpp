@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMostOfOne = 16, kMostTogether = 48;
 // A row reaches this far about its seed, in distances to the next seeds.
 constexpr double kRowReach = 1.6;
-// Share of the depth that is asked for: a little room, so that what is apart is so in the next
+// Share of the depth that is asked for: a little room, so that parts stay apart in the next
 // round too.
 constexpr double kSpare = 1.05;
 // A row counts as movable if its answer to its own force is this part of the greatest.

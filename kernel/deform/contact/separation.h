@@ -21,17 +21,17 @@ namespace lissom {
 /// The displacement u of a frame by contact forces. Penetrating points are taken together in rows:
 /// the mean over a row of u at its vertices less u at their exits, along its way, shall be at least
 /// its depth. With K the matrix of the second system, J the rows and l their forces,
-///     u = K^-1 (J^T l + change of the rotations),  l >= 0, zero where u is more than asked for,
+///     u = K^-1 (J^T l + change of the rotations),  l >= 0, zero if u is more than asked for,
 /// a linear complementarity problem in few unknowns. The rotations are those that fit the displaced
 /// surface best, less those that fit the frame: without them a push would shear the surface, and
-/// the frame itself stays as it is where nothing is pushed.
+/// the frame stays the same beside a push.
 class Separation {
   public:
     /// Displaces `frame`, a full one of `prepared`, which has the implicit method.
     Separation(const Preparation& prepared, const DeformFrame& frame, const Context& context);
 
-    /// Adds rows for what penetrates with the present displacement. Returns whether there are any
-    /// that forces can move.
+    /// Adds rows for vertices that penetrate with the present displacement. Returns whether there
+    /// are any that forces can move.
     bool add(std::span<const Penetration> penetrations, const Context& context);
     /// Finds the forces and the displacement for all rows. `softness` is added to the diagonal of
     /// the rows' compliance, as a part of its mean: with more, stiff places are pushed less, and

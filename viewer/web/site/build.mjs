@@ -114,7 +114,7 @@ function makePages(side) {
     }
 }
 
-// The pages of the guide in the order of README's table, and what it leaves out.
+// The pages of the guide in the order of README's table, then all others.
 function guideSide() {
     const rows = read('README.md').split('\n## Next steps')[1].split('\n## ')[0].split('\n').filter(row => /^\| (?!You|---)/.test(row));
     const groups = [{ title: 'Guide', links: [['guide/index.html', 'Overview']] }], known = new Set(['guide/index.html']);

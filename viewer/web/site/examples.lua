@@ -44,7 +44,7 @@ local function is_numbers_of(value, mesh)
     return type(value[1]) == "number"
 end
 
--- What is drawn upon one mesh.
+-- Options that draw upon one mesh.
 local function marks(mesh, named, values)
     local more = ""
     local path, region = named("Path"), named("Region")

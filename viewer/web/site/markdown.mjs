@@ -22,7 +22,7 @@ function luaColors(npm) {
 }
 
 // render(text, { link, image, example }): the HTML, and its sections as { id, title, depth, text } for the search.
-//   link(href) and image(href) return the address in the site, or null for what has none there;
+//   link(href) and image(href) return the address in the site, or null if there is none;
 //   example(code, anchor) returns HTML that follows a block of Lua.
 export function makeRenderer(npm) {
     const { Marked } = createRequire(path.join(npm, 'package.json'))('marked');

@@ -1,4 +1,4 @@
-// The HTML around what a page of the site says.
+// The HTML around the content of a page.
 import { escaped } from './markdown.mjs';
 
 const logo = '<svg viewBox="0 0 32 32" aria-hidden="true"><path d="M9 28C9 12 21 20 23 4" fill="none" stroke="currentColor" stroke-width="5" stroke-linecap="round"/></svg>';

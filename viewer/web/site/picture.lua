@@ -48,7 +48,7 @@ local function drawable(kind, ...)
     end
 end
 
--- A script that draws nothing itself shows what it returns or has saved, as in the playground.
+-- A script without a picture of its own shows its results or saved files, as in the playground.
 local function draw_results(...)
     if drawn then return end
     local saved, style = os.getenv("SITE_SAVED"), drawable("lissom.Hairstyle", ...)

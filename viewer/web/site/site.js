@@ -1,4 +1,4 @@
-// What the pages of the site do: theme, search, filters of the gallery, examples that run in place.
+// Behaviour of the pages: theme, search, filters of the gallery, examples that run in place.
 const up = document.documentElement.dataset.up || '';
 
 // ---- Light and dark

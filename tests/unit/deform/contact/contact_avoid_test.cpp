@@ -1,4 +1,4 @@
-// Solves that push apart what would run through itself.
+// Solves that push apart parts which would run through one another.
 #include "kernel/deform/contact/contact_avoid.h"
 
 #include <Eigen/Geometry>
