@@ -1,4 +1,4 @@
--- What a deformation holds: soft handles, points of faces and edges, paths.
+-- What a deformation holds: soft handles, points of faces and edges, paths; blends of posed meshes.
 local lissom = require "lissom"
 
 local function scene()
@@ -170,4 +170,68 @@ test("misuse", function()
     expect.error(function() deformer:constrain{ face = 1, position = { 0, 0, 0 } } end,
         "face and bary together")
     expect.error(function() deformer:add_handle({ { face = 1, bary = { 0.5, 0.5, 0 } } }) end, "4 corners")
+end)
+
+-- ---- Posed meshes
+
+local function bar() return lissom.shapes.bar{ across = 2, along = 20 } end
+
+local function bent(angle)
+    local mesh = bar()
+    return lissom.deform(mesh, {
+        pin = mesh:region("bottom"),
+        handles = { { region = mesh:region("top"), rotate = { axis = "z", angle = angle } } },
+    })
+end
+
+local function greatest_distance(a, b)
+    local p, q = a:positions(), b:positions()
+    local greatest = 0
+    for i = 1, #p do greatest = math.max(greatest, math.abs(p[i] - q[i])) end
+    return greatest
+end
+
+test("pose_space: rest, poses and paths are exact", function()
+    local rest, half, whole = bar(), bent(60), bent(120)
+    local space = lissom.pose_space{ rest = rest, poses = { bent = { half, whole }, back = bent(-40) } }
+    expect.equal(tostring(space), "lissom.PoseSpace: 2 poses")
+    expect.equal(space:names()[1], "back")
+    expect.equal(greatest_distance(space:blend{}, rest), 0)
+    expect.equal(greatest_distance(space:blend{ bent = 0.5 }, half), 0)
+    expect.equal(greatest_distance(space:blend{ bent = 1, back = 0 }, whole), 0)
+    expect.near(space:blend{ bent = 0.25 }:volume(), rest:volume(), 0.05 * rest:volume())
+end)
+
+test("pose_space: the poses are copies", function()
+    local rest, pose = bar(), bent(60)
+    local space = lissom.pose_space{ rest = rest, poses = { bent = pose } }
+    local expected = pose:copy()
+    pose:transform{ translate = { 5, 0, 0 } }
+    rest:transform{ translate = { 5, 0, 0 } }
+    expect.equal(greatest_distance(space:blend{ bent = 1 }, expected), 0)
+end)
+
+test("pose_space: bad input is refused", function()
+    local rest, pose = bar(), bent(60)
+    local function code(f, ...)
+        local value, e = lissom.try(f, ...)
+        return value == nil and e.code
+    end
+    local make = lissom.pose_space
+    expect.equal(code(make, { rest = rest, poses = {} }), "invalid_argument")
+    expect.equal(code(make, { rest = rest, poses = { a = {} } }), "invalid_argument")
+    expect.equal(code(make, { rest = rest, poses = { a = lissom.shapes.box() } }), "topology_mismatch")
+    for _, poses in ipairs{ { pose }, { a = 1 }, { a = { 1 } }, { a = { a = pose, pose, "x" } } } do
+        expect.equal(code(make, { rest = rest, poses = poses }), "invalid_argument")
+    end
+    local space = make{ rest = rest, poses = { bent = pose } }
+    local function blend(weights) return space:blend(weights) end
+    local value, e = lissom.try(blend, { bend = 1 })
+    expect.equal(value, nil)
+    expect.equal(e.code, "out_of_range")
+    expect.truthy(tostring(e):find("did you mean 'bent'", 1, true))
+    expect.equal(code(blend, { bent = 0 / 0 }), "not_finite")
+    expect.equal(code(blend, { bent = math.huge }), "not_finite")
+    expect.equal(code(blend, { bent = "much" }), "invalid_argument")
+    expect.equal(code(blend, { 0.5 }), "invalid_argument")
 end)

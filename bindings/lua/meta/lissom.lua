@@ -1822,6 +1822,22 @@ function Handle:remove() end
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Handle:close() end
 
+---Posed meshes of one topology, and their blends.
+---@class lissom.PoseSpace
+local PoseSpace = {}
+
+---A blend of poses: rotations add up as rotation vectors, stretches as they are, and the surface is fitted to both. Vertices that no pose moves stay.
+---@param weights table Weights of poses by name: 0 is rest, 1 the pose, others go beyond. Poses that are left out have 0.
+---@return lissom.Mesh mesh # A new mesh: rest with the blended shape. Custom normals, tangents and morph targets turn along.
+function PoseSpace:blend(weights) end
+
+---The names of the poses, in alphabetical order.
+---@return string[] names # The names.
+function PoseSpace:names() end
+
+---Frees the contents of the object. It may be called again; any other use is an error then.
+function PoseSpace:close() end
+
 ---A merge that is solved again, without factoring again, after its keys have moved: for a tool while the user drags a key.
 ---@class lissom.Merger
 local Merger = {}
@@ -4071,6 +4087,15 @@ function lissom.deform(mesh, options) end
 ---@param options? lissom.DeformerOptions
 ---@return lissom.Deformer deformer # Give it handles, move them, solve.
 function lissom.deformer(mesh, options) end
+
+---@class lissom.Pose_spaceOptions
+---@field rest lissom.Mesh The mesh at rest.
+---@field poses table Meshes by name. A list of n meshes is a path from rest: mesh k is at weight k / n.
+
+---Makes a space of poses: meshes with the vertices and faces of one at rest, which blend by rotations. Half of a bent arm is an arm bent by half, of its full length; details turn along. Turns beyond half a turn are kept if the surface leads to them.
+---@param options lissom.Pose_spaceOptions
+---@return lissom.PoseSpace space # Its poses are copies.
+function lissom.pose_space(options) end
 
 ---@class lissom.MergeOptions.Transition
 ---@field source? number Width on the source. In units of the source. Default: 0.

@@ -73,6 +73,7 @@ TEST_CASE("sandbox: many objects of a kind end at the limit of memory") {
     check_kind("", "l.polyline{ points = { { 0, 0, 0 }, { 1, 0, 0 } } }");
     check_kind("", "l.params({ a = { type = 'number', default = 1 } }, { command_line = false })");
     check_kind(box, "l.deformer(m)");
+    check_kind(box, "l.pose_space{ rest = m, poses = { a = m } }");
     check_kind(box + " local d = l.deformer(m) d:add_handle(m:region{ vertices = { 1 } })",
                "d:handles()[1]");
 }

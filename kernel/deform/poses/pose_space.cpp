@@ -1,0 +1,202 @@
+#include "kernel/deform/poses/pose_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "kernel/core/error.h"
+#include "kernel/core/memory_hold.h"
+#include "kernel/core/nearest.h"
+#include "kernel/deform/poses/edge_surface.h"
+#include "kernel/deform/poses/posed_shape.h"
+#include "kernel/deform/rotation/rest_directions.h"
+#include "kernel/mesh/region.h"
+
+namespace lissom {
+namespace {
+
+void require_same_faces(const Mesh& rest, const Mesh& shape, const std::string& name) {
+    const Topology &a = rest.topology(), &b = shape.topology();
+    if (&a == &b) return;
+    const bool same = a.vertex_count() == b.vertex_count() &&
+                      a.faces().offsets == b.faces().offsets &&
+                      a.faces().vertices == b.faces().vertices;
+    require(same,
+            "the pose '" + name +
+                "' has other vertices or faces than the rest shape; pose a copy of the rest "
+                "shape, and load files with the same options",
+            ErrorCode::topology_mismatch);
+}
+
+void require_poses(const Mesh& rest, const std::vector<NamedPose>& poses) {
+    require(rest.vertex_count() > 0, "the rest shape has no vertices", ErrorCode::mesh_empty);
+    require(!poses.empty(), "a pose space needs a pose; give at least one");
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const std::string& name = poses[i].name;
+        require(!name.empty(), "a pose needs a name");
+        require(!poses[i].shapes.empty(), "the pose '" + name + "' has no shapes");
+        for (std::size_t k = 0; k < i; ++k) {
+            require(poses[k].name != name, "there are two poses called '" + name + "'");
+        }
+        for (const Mesh& shape : poses[i].shapes) require_same_faces(rest, shape, name);
+    }
+}
+
+// Vertices that no shape moves.
+std::vector<char> unmoved_vertices(const Mesh& rest, const std::vector<NamedPose>& poses) {
+    std::vector<char> unmoved(at(rest.vertex_count()), 1);
+    for (const NamedPose& pose : poses) {
+        for (const Mesh& shape : pose.shapes) {
+            for (Index v = 0; v < rest.vertex_count(); ++v) {
+                if (shape.position(v) != rest.position(v)) unmoved[at(v)] = 0;
+            }
+        }
+    }
+    return unmoved;
+}
+
+// The shapes of a path, rest first, on either side of a weight; beyond its ends the last two.
+struct PathPlace {
+    std::size_t before;
+    double fraction;
+};
+
+PathPlace place_on_path(double weight, std::size_t count) {
+    const double along = weight * static_cast<double>(count);
+    const double before = std::clamp(std::floor(along), 0.0, static_cast<double>(count - 1));
+    return {static_cast<std::size_t>(before), along - before};
+}
+
+}  // namespace
+
+struct PoseSpace::State {
+    Mesh rest;
+    PoseTriangles triangles;
+    std::optional<EdgeSurface> surface;
+    RestDirections directions;
+    std::vector<std::string> names;
+    std::vector<std::vector<PosedShape>> poses;
+    MemoryHold hold;
+
+    State(const Mesh& mesh, const std::vector<NamedPose>& given, const Context& context)
+        : rest(mesh),
+          triangles(pose_triangles(mesh, context)),
+          directions(mesh, Region::all(mesh.shared_topology())),
+          hold(context.memory(), "a pose space") {
+        hold.resize(shape_count(given) * bytes_of_shape());
+        surface.emplace(mesh, triangles, unmoved_vertices(mesh, given), context);
+        for (const NamedPose& pose : given) add(pose, context);
+    }
+
+    static std::size_t shape_count(const std::vector<NamedPose>& given) {
+        std::size_t count = 0;
+        for (const NamedPose& pose : given) count += pose.shapes.size();
+        return count;
+    }
+
+    std::size_t bytes_of_shape() const {
+        return at(rest.vertex_count()) * sizeof(Vec3) +
+               triangles.triangles.size() * (sizeof(SurfaceTurn) + sizeof(TriangleEdges));
+    }
+
+    void add(const NamedPose& pose, const Context& context) {
+        names.push_back(pose.name);
+        std::vector<PosedShape>& shapes = poses.emplace_back();
+        for (const Mesh& shape : pose.shapes) {
+            const std::span<const SurfaceTurn> before =
+                shapes.empty() ? std::span<const SurfaceTurn>() : shapes.back().turns;
+            shapes.push_back(posed_shape(triangles, rest.positions(),
+                                         {shape.positions().begin(), shape.positions().end()},
+                                         before, context));
+        }
+    }
+
+    std::size_t pose_number(const std::string& name) const {
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found != names.end()) return at(found - names.begin());
+        throw Error(ErrorCode::out_of_range, "there is no pose '" + name + "'" +
+                                                 name_hint(name, {names.begin(), names.end()}));
+    }
+
+    std::vector<ShapeShare> shares_of(const std::vector<PoseWeight>& weights) const {
+        std::vector<double> sums(names.size(), 0.0);
+        for (const PoseWeight& given : weights) {
+            double& sum = sums[pose_number(given.name)];
+            sum += given.weight;
+            require(std::isfinite(sum), "the weight of the pose '" + given.name + "' is not finite",
+                    ErrorCode::not_finite);
+        }
+        std::vector<ShapeShare> shares;
+        for (std::size_t p = 0; p < poses.size(); ++p) {
+            const auto [before, fraction] = place_on_path(sums[p], poses[p].size());
+            if (before > 0 && fraction != 1.0) {
+                shares.push_back({&poses[p][before - 1], 1.0 - fraction});
+            }
+            if (fraction != 0.0) shares.push_back({&poses[p][before], fraction});
+        }
+        return shares;
+    }
+
+    std::vector<Vec3> positions(std::span<const ShapeShare> shares, const Context& context) const {
+        if (shares.empty()) return {rest.positions().begin(), rest.positions().end()};
+        if (shares.size() == 1 && shares[0].share == 1.0) return shares[0].shape->positions;
+        const auto edges = blended_edges(triangles, rest.positions(), shares, context);
+        context.checkpoint();
+        std::vector<Vec3> result = surface->solve(triangles, edges);
+        place_floating(triangles, rest.topology().components(), surface->floats(), rest.positions(),
+                       shares, result);
+        move_isolated(shares, result);
+        return result;
+    }
+
+    // Vertices without faces go along straight lines.
+    void move_isolated(std::span<const ShapeShare> shares, std::span<Vec3> result) const {
+        for (Index v = 0; v < rest.vertex_count(); ++v) {
+            if (!rest.topology().is_isolated(v)) continue;
+            for (const auto& [shape, share] : shares) {
+                result[at(v)] += share * (shape->positions[at(v)] - rest.position(v));
+            }
+        }
+    }
+};
+
+PoseSpace::PoseSpace(const Mesh& rest, const std::vector<NamedPose>& poses,
+                     const Context& context) {
+    require_poses(rest, poses);
+    state_ = std::make_shared<const State>(rest, poses, context);
+}
+
+std::vector<Vec3> PoseSpace::positions(const std::vector<PoseWeight>& weights,
+                                       const Context& context) const {
+    return state_->positions(state_->shares_of(weights), context);
+}
+
+Mesh PoseSpace::blend(const std::vector<PoseWeight>& weights, const Context& context) const {
+    Mesh mesh = state_->rest;
+    mesh.set_positions(positions(weights, context));
+    const RestDirections& directions = state_->directions;
+    const std::vector<Mat3> alone(directions.without_faces().size(), Mat3::Identity());
+    directions.apply_to(mesh, alone);
+    return mesh;
+}
+
+const Mesh& PoseSpace::rest() const {
+    return state_->rest;
+}
+
+std::vector<std::string> PoseSpace::names() const {
+    return state_->names;
+}
+
+Index PoseSpace::shape_count(const std::string& name) const {
+    return count_of(state_->poses[state_->pose_number(name)]);
+}
+
+std::size_t PoseSpace::memory_bytes() const {
+    return state_->hold.bytes() + state_->surface->memory_bytes();
+}
+
+}  // namespace lissom
