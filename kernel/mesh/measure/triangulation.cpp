@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kernel/mesh/measure/flat_triangle.h"
 #include "kernel/mesh/measure/triangulation_room.h"
 
 namespace lissom {
@@ -12,9 +13,6 @@ namespace {
 // Diagonals whose lengths differ by less than this fraction count as equal, so that rounding in a
 // moved or turned copy of a mesh does not change the choice.
 constexpr double kDiagonalTolerance = 1e-6;
-
-// A triangle is flat if its area is below this fraction of its longest side squared.
-constexpr double kFlat = 1e-9;
 
 // Polygons of more corners are clipped without looking for the best ear each time.
 constexpr std::size_t kLargestByQuality = 32;
@@ -29,19 +27,10 @@ Vec3 mean_normal(std::span<const Vec3> points) {
     return length > 0.0 ? Vec3(normal / length) : normal;
 }
 
-double longest_side_squared(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-}
-
-// Twice the area of a triangle seen along the unit normal.
-double signed_area(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
-    return (b - a).cross(c - a).dot(normal);
-}
-
 void triangulate_quad(std::span<const Vec3> points, std::vector<Triangle>& triangles) {
     const Vec3 normal = mean_normal(points);
     const auto convex = [&](int a, int b, int c) {
-        const double flat = kFlat * longest_side_squared(points[a], points[b], points[c]);
+        const double flat = kFlatTriangle * longest_side_squared(points[a], points[b], points[c]);
         return signed_area(points[a], points[b], points[c], normal) > flat;
     };
     const bool first_valid = convex(0, 1, 2) && convex(0, 2, 3);
@@ -67,7 +56,7 @@ double ear_quality(std::span<const Vec3> points, const std::vector<Index>& loop,
     const std::size_t n = loop.size();
     const Index before = loop[(at + n - 1) % n], here = loop[at], after = loop[(at + 1) % n];
     const Vec3 &a = points[before], &b = points[here], &c = points[after];
-    const double longest = longest_side_squared(a, b, c), flat = kFlat * longest;
+    const double longest = longest_side_squared(a, b, c), flat = kFlatTriangle * longest;
     const double area = signed_area(a, b, c, normal);
     if (area < -flat) return kInvalid;
     if (area <= flat) return kInLine;
@@ -105,125 +94,6 @@ void clip_ears(std::span<const Vec3> points, std::vector<Triangle>& triangles,
     triangles.push_back({loop[0], loop[1], loop[2]});
 }
 
-// Clips the ears of large polygons as they come, going around, in time that grows as the number of
-// corners: looking for the best one each time would take its cube.
-class EarWalk {
-  public:
-    EarWalk(std::span<const Vec3> points, std::vector<Triangle>& triangles, TriangulationRoom& room)
-        : points_(points),
-          triangles_(triangles),
-          normal_(mean_normal(points)),
-          left_(points.size()),
-          tests_left_(kTestsPerCorner * points.size()),
-          before_(room.before),
-          after_(room.after),
-          is_obstacle_(room.is_obstacle),
-          obstacles_(room.obstacles) {
-        const auto n = count_of(points);
-        before_.resize(points.size());
-        after_.resize(points.size());
-        is_obstacle_.assign(points.size(), false);
-        obstacles_.clear();
-        for (Index i = 0; i < n; ++i) {
-            before_[i] = (i + n - 1) % n;
-            after_[i] = (i + 1) % n;
-        }
-        for (Index i = 0; i < n; ++i) note_obstacle(i);
-    }
-
-    void clip_all() {
-        int tolerance = 0;
-        while (left_ > 3) {
-            const std::size_t clipped = clip_one_round(tolerance);
-            tolerance = clipped > 0 ? 0 : tolerance + 1;
-        }
-        triangles_.push_back({before_[at_], at_, after_[at_]});
-    }
-
-  private:
-    // Enough for any outline that is drawn, and a bound for outlines made to be slow.
-    static constexpr std::size_t kTestsPerCorner = 5000;
-
-    enum Shape { convex, in_line, reflex };
-
-    Shape shape(Index i) const {
-        const Vec3 &a = points_[before_[i]], &b = points_[i], &c = points_[after_[i]];
-        const double flat = kFlat * longest_side_squared(a, b, c);
-        const double area = signed_area(a, b, c, normal_);
-        return area > flat ? convex : area < -flat ? reflex : in_line;
-    }
-
-    // Only corners that are not convex can lie in an ear.
-    void note_obstacle(Index i) {
-        const bool is_obstacle = shape(i) != convex;
-        if (is_obstacle && !is_obstacle_[i]) obstacles_.push_back(i);
-        is_obstacle_[i] = is_obstacle;
-    }
-
-    bool is_covered(Index i) {
-        const Vec3 &a = points_[before_[i]], &b = points_[i], &c = points_[after_[i]];
-        const double flat = kFlat * longest_side_squared(a, b, c);
-        for (std::size_t k = 0; k < obstacles_.size() && tests_left_ > 0; ++k, --tests_left_) {
-            while (k < obstacles_.size() && !is_obstacle_[obstacles_[k]]) {
-                obstacles_[k] = obstacles_.back();
-                obstacles_.pop_back();
-            }
-            if (k == obstacles_.size()) break;
-            const Vec3& p = points_[obstacles_[k]];
-            if (p == a || p == b || p == c) continue;
-            const bool covered = signed_area(a, b, p, normal_) >= -flat &&
-                                 signed_area(b, c, p, normal_) >= -flat &&
-                                 signed_area(c, a, p, normal_) >= -flat;
-            if (covered) return true;
-        }
-        return false;
-    }
-
-    // At first only proper ears are clipped; if there is none, corners in line; then convex ones;
-    // then any.
-    bool may_clip(Index i, int tolerance) {
-        const Shape found = shape(i);
-        if (tolerance >= 3 || tests_left_ == 0) return true;
-        if (found == in_line) return tolerance >= 1;
-        return found == convex && (tolerance >= 2 || !is_covered(i));
-    }
-
-    std::size_t clip_one_round(int tolerance) {
-        const std::size_t corners = left_;
-        std::size_t clipped = 0;
-        for (std::size_t i = 0; i < corners && left_ > 3; ++i) {
-            tests_left_ -= tests_left_ > 0 ? 1 : 0;
-            if (may_clip(at_, tolerance)) {
-                clip(at_);
-                ++clipped;
-            }
-            at_ = after_[at_];
-        }
-        return clipped;
-    }
-
-    void clip(Index i) {
-        const Index a = before_[i], c = after_[i];
-        triangles_.push_back({a, i, c});
-        after_[a] = c;
-        before_[c] = a;
-        is_obstacle_[i] = false;
-        --left_;
-        note_obstacle(a);
-        note_obstacle(c);
-        at_ = c;
-    }
-
-    std::span<const Vec3> points_;
-    std::vector<Triangle>& triangles_;
-    Vec3 normal_;
-    std::size_t left_, tests_left_;
-    std::vector<Index>&before_, &after_;
-    std::vector<bool>& is_obstacle_;
-    std::vector<Index>& obstacles_;
-    Index at_ = 0;
-};
-
 }  // namespace
 
 void triangulate_polygon(std::span<const Vec3> points, std::vector<Triangle>& triangles,
@@ -235,7 +105,7 @@ void triangulate_polygon(std::span<const Vec3> points, std::vector<Triangle>& tr
     } else if (points.size() <= kLargestByQuality) {
         clip_ears(points, triangles, room.loop);
     } else {
-        EarWalk(points, triangles, room).clip_all();
+        clip_ears_around(points, mean_normal(points), triangles, room.ears);
     }
 }
 

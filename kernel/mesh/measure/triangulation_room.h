@@ -6,6 +6,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/mesh/measure/ear_walk.h"
 #include "kernel/mesh/measure/triangulation.h"
 #include "kernel/mesh/topology.h"
 
@@ -15,8 +16,8 @@ namespace lissom {
 struct TriangulationRoom {
     std::vector<Vec3> points;
     std::vector<Triangle> local;
-    std::vector<Index> loop, before, after, obstacles;
-    std::vector<bool> is_obstacle;
+    std::vector<Index> loop;
+    EarRoom ears;
 };
 
 /// As triangulate_polygon, in the memory of `room`.

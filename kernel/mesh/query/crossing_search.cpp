@@ -13,6 +13,9 @@ namespace {
 
 constexpr Index kIntersectionGrain = 1024;
 
+// Pairs between two looks at whether to stop. At a hub one triangle alone may have as many.
+constexpr std::size_t kPairsPerCheckpoint = 1 << 14;
+
 // Boxes of triangles and a tree of them.
 constexpr std::size_t kSearchBytesPerCorner = 120;
 
@@ -45,10 +48,11 @@ std::vector<FacePair> CrossingSearch::find(std::span<const Vec3> positions,
     std::vector<std::vector<FacePair>> found(
         at((count + kIntersectionGrain - 1) / kIntersectionGrain));
     context.parallel_for(0, count, kIntersectionGrain, [&](Index begin, Index end) {
-        context.checkpoint();
+        std::size_t pairs = 0;
         for (Index i = begin; i < end; ++i) {
             const Index t = asked_[at(i)];
             tree_.visit(boxes_[at(t)], [&](Index other) {
+                if (pairs++ % kPairsPerCheckpoint == 0) context.checkpoint();
                 const FacePair pair = pair_if_they_meet(t, other);
                 if (pair.first != kNoIndex) found[at(begin / kIntersectionGrain)].push_back(pair);
             });
@@ -67,10 +71,11 @@ bool CrossingSearch::finds_others(std::span<const Vec3> positions, std::span<con
     prepare(positions);
     std::atomic<bool> found = false;
     const auto search = [&](Index begin, Index end) {
-        context.checkpoint();
+        std::size_t pairs = 0;
         for (Index i = begin; i < end && !found.load(std::memory_order_relaxed); ++i) {
             const Index t = asked_[at(i)];
             tree_.visit(boxes_[at(t)], [&](Index other) {
+                if (pairs++ % kPairsPerCheckpoint == 0) context.checkpoint();
                 const FacePair pair = pair_if_they_meet(t, other);
                 if (pair.first == kNoIndex) return;
                 if (!std::binary_search(known.begin(), known.end(), pair)) found = true;

@@ -1,5 +1,7 @@
 #include "kernel/mesh/measure/triangulation.h"
 
+#include <random>
+
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
@@ -186,26 +188,77 @@ TEST_CASE("chosen faces alone are triangulated") {
     CHECK(error.elements().ids == std::vector<Index>{8});
 }
 
-TEST_CASE("polygons of very many corners are triangulated without overlap, and soon") {
-    // A comb: teeth and gaps as on a gear, far from convex.
-    for (const Index n : {34, 400, 4000}) {
-        CAPTURE(n);
-        std::vector<Vec3> points;
-        double area = 0.0;
-        for (Index i = 0; i < n; ++i) {
-            const double angle = 2.0 * kPi * i / n, radius = i % 4 < 2 ? 1.0 : 0.9;
-            points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
-        }
-        for (Index i = 0; i < n; ++i) area += 0.5 * points[i].cross(points[(i + 1) % n]).z();
-        std::vector<Triangle> triangles;
-        triangulate_polygon(points, triangles);
-        CHECK(triangles.size() == static_cast<std::size_t>(n) - 2);
-        double total = 0.0;
-        for (const Triangle& t : triangles) {
-            total += 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).norm();
-        }
-        CHECK(total == doctest::Approx(area).epsilon(1e-9));
+namespace {
+
+// The outline whose corner i has the radius radius(i) at the angle angle(i).
+template <typename Radius, typename Angle>
+std::vector<Vec3> polar_outline(Index n, const Radius& radius, const Angle& angle) {
+    std::vector<Vec3> points;
+    for (Index i = 0; i < n; ++i) {
+        const double r = radius(i), a = angle(i);
+        points.emplace_back(r * std::cos(a), r * std::sin(a), 0.0);
     }
+    return points;
+}
+
+// Outlines of n corners, n even, that wind once around what they enclose.
+std::vector<std::vector<Vec3>> large_outlines(Index n) {
+    const auto around = [&](Index i) { return 2.0 * kPi * i / n; };
+    std::vector<std::vector<Vec3>> outlines;
+    outlines.push_back(polar_outline(
+        n, [](Index) { return 1.0; }, around));
+    outlines.push_back(polar_outline(
+        n, [](Index i) { return i % 4 < 2 ? 1.0 : 0.9; }, around));
+    outlines.push_back(polar_outline(
+        n, [](Index i) { return i % 2 ? 1.0 : 1e-3; }, around));
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(0.5, 1.0);
+    outlines.push_back(polar_outline(
+        n, [&](Index) { return uniform(random); }, around));
+    // A band wound up ten times, out and back.
+    const auto place = [&](Index i) { return (i < n / 2 ? i : n - 1 - i) / (0.5 * n); };
+    outlines.push_back(polar_outline(
+        n, [&](Index i) { return (i < n / 2 ? 0.2 : 0.17) + place(i); },
+        [&](Index i) { return 20.0 * kPi * place(i); }));
+    return outlines;
+}
+
+}  // namespace
+
+TEST_CASE("polygons of very many corners are triangulated without overlap, and soon") {
+    for (const Index n : {34, 400, 4000, 100000}) {
+        for (const std::vector<Vec3>& points : large_outlines(n)) {
+            CAPTURE(n);
+            CAPTURE(points[1]);
+            double area = 0.0, total = 0.0;
+            for (Index i = 0; i < n; ++i) area += 0.5 * points[i].cross(points[(i + 1) % n]).z();
+            std::vector<Triangle> triangles;
+            triangulate_polygon(points, triangles);
+            CHECK(triangles.size() == static_cast<std::size_t>(n) - 2);
+            for (const Triangle& t : triangles) {
+                const Vec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+                total += 0.5 * (b - a).cross(c - a).norm();
+            }
+            CHECK(total == doctest::Approx(std::abs(area)).epsilon(1e-9));
+        }
+    }
+}
+
+TEST_CASE("outlines that cross themselves are triangulated, and soon") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 50000; ++i) {
+        points.emplace_back(uniform(random), uniform(random), uniform(random));
+    }
+    std::vector<Triangle> triangles;
+    triangulate_polygon(points, triangles);
+    CHECK(triangles.size() == 49998);
+    std::vector<int> used(points.size(), 0);
+    for (const Triangle& t : triangles) {
+        for (const Index corner : t) used[corner] = 1;
+    }
+    CHECK(std::count(used.begin(), used.end(), 1) == 50000);
 }
 
 TEST_CASE("large polygons without a plane have as many triangles as others") {
