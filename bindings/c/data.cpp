@@ -296,7 +296,8 @@ std::vector<double> read_numbers(const lissom_input* input, Index width, const c
         for (std::size_t k = 0; k < at(width); ++k) {
             values.push_back(number_at(place + k * size, input->format));
             if (std::isfinite(values.back())) continue;
-            throw Error(ErrorCode::not_finite, std::string(name) + ": a number is not finite");
+            throw Error(ErrorCode::not_finite, std::string(name) + ": a number of element " +
+                                                   std::to_string(i) + " is NaN or infinite");
         }
     }
     return values;

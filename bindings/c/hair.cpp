@@ -297,7 +297,11 @@ lissom_status lissom_strands_create(lissom_context* context, const lissom_input*
         require_given(strands, "strands");
         std::vector<float> coordinates;
         for (const Vec3& point : read_points(points, context->space, "points")) {
-            require(point.allFinite(), "points: a coordinate is not finite", ErrorCode::not_finite);
+            if (!point.allFinite()) {
+                throw Error(ErrorCode::not_finite, "points: a coordinate of point " +
+                                                       std::to_string(coordinates.size() / 3) +
+                                                       " is NaN or infinite");
+            }
             for (int k = 0; k < 3; ++k) coordinates.push_back(static_cast<float>(point[k]));
         }
         strands->id =

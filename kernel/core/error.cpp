@@ -135,6 +135,21 @@ std::string plural(ElementKind kind) {
     return std::string(kind_name(kind)) + "s";
 }
 
+bool continues_character(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
+// Messages quote names, which may be of any length. The ends of a message say what happened and
+// what to do, so the middle is left out. Characters of UTF-8 stay whole.
+std::string shortened(std::string message) {
+    constexpr std::size_t kLongest = 4096;
+    if (message.size() <= kLongest) return message;
+    std::size_t first = kLongest / 2, last = message.size() - kLongest / 2;
+    while (first > 0 && continues_character(message[first])) --first;
+    while (last < message.size() && continues_character(message[last])) ++last;
+    return message.substr(0, first) + " [...] " + message.substr(last);
+}
+
 }  // namespace
 
 void Elements::add(Index id) {
@@ -150,7 +165,7 @@ void Elements::add_edge(Index a, Index b) {
 }
 
 Error::Error(ErrorCode code, std::string message, Elements elements)
-    : code_(code), message_(std::move(message)), elements_(std::move(elements)) {}
+    : code_(code), message_(shortened(std::move(message))), elements_(std::move(elements)) {}
 
 std::string_view code_name(ErrorCode code) {
     return entry(code).name;

@@ -75,7 +75,7 @@ struct Elements {
     void add_edge(Index a, Index b);
 };
 
-/// The exception that every operation of the kernel throws.
+/// The exception that every operation of the kernel throws. The middle of a long message is cut.
 class Error : public std::exception {
   public:
     Error(ErrorCode code, std::string message, Elements elements = {});

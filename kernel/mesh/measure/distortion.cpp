@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <unordered_map>
 
 #include "kernel/core/geometry.h"
 #include "kernel/mesh/measure/measures.h"
@@ -82,6 +83,9 @@ constexpr double kFlipped = 30.0 * kPi / 180.0;
 // none can look against them.
 constexpr double kCoherent = 0.25;
 
+// Faces around a vertex beyond which they are summed once for all of them.
+constexpr std::size_t kHubFaces = 256;
+
 // How a face lies beside the faces that it shares vertices with, each counting by its area.
 struct Facing {
     double angle = 0.0;
@@ -92,24 +96,47 @@ struct Facing {
 class Neighborhood {
   public:
     Neighborhood(const Mesh& mesh, std::span<const Vec3> normals)
-        : topology_(mesh.topology()), normals_(normals), area_(face_areas(mesh)) {}
+        : topology_(mesh.topology()), normals_(normals), area_(face_areas(mesh)) {
+        for (Index v = 0; v < mesh.vertex_count(); ++v) {
+            if (!is_hub(v)) continue;
+            Sum& sum = hubs_[v];
+            for (const Index g : topology_.faces_around(v)) add(sum, g, 1.0);
+        }
+    }
 
     Facing facing(Index f) const {
-        Vec3 sum = Vec3::Zero();
-        double whole = 0.0;
+        Sum sum;
         for (const Index v : topology_.face(f)) {
+            if (is_hub(v)) {
+                const Sum& hub = hubs_.at(v);
+                sum.area += hub.area;
+                sum.whole += hub.whole;
+                add(sum, f, -1.0);
+                continue;
+            }
             for (const Index g : topology_.faces_around(v)) {
-                if (g == f) continue;
-                sum += area_[at(g)] * normals_[at(g)];
-                whole += area_[at(g)];
+                if (g != f) add(sum, g, 1.0);
             }
         }
         const double angle =
-            std::atan2(sum.cross(normals_[at(f)]).norm(), sum.dot(normals_[at(f)]));
-        return {angle, whole > 0.0 ? sum.norm() / whole : 0.0};
+            std::atan2(sum.area.cross(normals_[at(f)]).norm(), sum.area.dot(normals_[at(f)]));
+        return {angle, sum.whole > 0.0 ? sum.area.norm() / sum.whole : 0.0};
     }
 
   private:
+    struct Sum {
+        Vec3 area = Vec3::Zero();
+        double whole = 0.0;
+    };
+
+    bool is_hub(Index v) const { return topology_.faces_around(v).size() > kHubFaces; }
+
+    void add(Sum& sum, Index face, double times) const {
+        sum.area += times * area_[at(face)] * normals_[at(face)];
+        sum.whole += times * area_[at(face)];
+    }
+
+    std::unordered_map<Index, Sum> hubs_;
     const Topology& topology_;
     std::span<const Vec3> normals_;
     std::vector<double> area_;

@@ -67,18 +67,19 @@ class Decimation {
         bool changed = true;
         // Collapses that were refused may be possible once their surroundings have changed.
         while (changed && editor_.face_count() > wanted) {
-            queue_all();
+            queue_all(context);
             changed = false;
             for (int n = 1; !queue_.empty() && editor_.face_count() > wanted; ++n) {
                 if (n % kCollapsesPerCheck == 0) {
                     progress.update((first - editor_.face_count()) / all);
                 }
+                context.checkpoint();
                 const Waiting next = queue_.top();
                 queue_.pop();
                 if (stamps_[at(next.a)] != next.stamp_a || stamps_[at(next.b)] != next.stamp_b) {
                     continue;
                 }
-                changed = collapse(best(next.a, next.b)) || changed;
+                changed = collapse(best(next.a, next.b), context) || changed;
             }
         }
     }
@@ -138,8 +139,9 @@ class Decimation {
         }
     }
 
-    void queue_all() {
+    void queue_all(const Context& context) {
         for (const TriangleEditor::Face& face : editor_.faces()) {
+            context.checkpoint();
             if (!face.alive()) continue;
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = face.vertices[k], b = face.vertices[(k + 1) % 3];
@@ -221,7 +223,7 @@ class Decimation {
         return of.sectors[at(TriangleEditor::place_of(of, v))];
     }
 
-    bool collapse(const Collapse& collapse) {
+    bool collapse(const Collapse& collapse, const Context& context) {
         const TriangleEditor::Edge& edge = collapse.edge;
         if (std::isnan(collapse.cost) || !editor_.can_collapse(edge)) return false;
         if (editor_.turns_faces(edge.b, edge.a, collapse.position)) return false;
@@ -241,7 +243,10 @@ class Decimation {
         ++stamps_[at(edge.a)];
         ++stamps_[at(edge.b)];
         editor_.neighbors(edge.a, ring_);
-        for (const Index u : ring_) queue(edge.a, u);
+        for (const Index u : ring_) {
+            context.checkpoint();
+            queue(edge.a, u);
+        }
         return true;
     }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "kernel/mesh/resample/disjoint_sets.h"
@@ -16,6 +17,36 @@ constexpr double kLeastShape = 0.02;
 
 Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
     return (b - a).cross(c - a);
+}
+
+// Faces around a vertex beyond which its neighbours are sorted, not searched one by one.
+constexpr std::size_t kHubFaces = 64;
+
+void keep_first_of_equals(std::vector<Index>& numbers) {
+    std::vector<std::pair<Index, std::size_t>> places;
+    for (std::size_t i = 0; i < numbers.size(); ++i) places.emplace_back(numbers[i], i);
+    std::sort(places.begin(), places.end());
+    const auto end = std::unique(places.begin(), places.end(),
+                                 [](const auto& a, const auto& b) { return a.first == b.first; });
+    places.erase(end, places.end());
+    std::sort(places.begin(), places.end(),
+              [](const auto& a, const auto& b) { return a.second < b.second; });
+    numbers.clear();
+    for (const auto& [number, place] : places) numbers.push_back(number);
+}
+
+// Returns how many numbers are in both lists, none of which has one twice. Changes their order if
+// they are long.
+std::size_t common_count(std::vector<Index>& a, std::vector<Index>& b) {
+    if (a.size() > kHubFaces || b.size() > kHubFaces) {
+        std::sort(a.begin(), a.end());
+        std::sort(b.begin(), b.end());
+        std::vector<Index> both;
+        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+        return both.size();
+    }
+    return at(std::count_if(b.begin(), b.end(),
+                            [&](Index u) { return std::find(a.begin(), a.end(), u) != a.end(); }));
 }
 
 double shape_of(const Vec3& area, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -114,6 +145,15 @@ Index TriangleEditor::place_of(const Face& face, Index v) {
 }
 
 TriangleEditor::Edge TriangleEditor::edge(Index a, Index b) const {
+    // A hub of very many faces is met from the other end.
+    if (fans_[at(b)].size() < fans_[at(a)].size()) {
+        const Edge back = edge_from(b, a);
+        return {a, b, back.right, back.left, back.on_line};
+    }
+    return edge_from(a, b);
+}
+
+TriangleEditor::Edge TriangleEditor::edge_from(Index a, Index b) const {
     Edge edge{a, b};
     for (const Index f : fans_[at(a)]) {
         const Face& face = faces_[at(f)];
@@ -130,15 +170,19 @@ TriangleEditor::Edge TriangleEditor::edge(Index a, Index b) const {
 }
 
 void TriangleEditor::neighbors(Index v, std::vector<Index>& result) const {
+    const bool is_hub = fans_[at(v)].size() > kHubFaces;
     result.clear();
     for (const Index f : fans_[at(v)]) {
         const Face& face = faces_[at(f)];
         const std::size_t k = at(place_of(face, v));
         for (const std::size_t step : {1u, 2u}) {
             const Index u = face.vertices[(k + step) % 3];
-            if (std::find(result.begin(), result.end(), u) == result.end()) result.push_back(u);
+            const bool is_new =
+                is_hub || std::find(result.begin(), result.end(), u) == result.end();
+            if (is_new) result.push_back(u);
         }
     }
+    if (is_hub) keep_first_of_equals(result);
 }
 
 Index TriangleEditor::opposite(Index face, const Edge& edge) const {
@@ -157,19 +201,17 @@ bool TriangleEditor::can_collapse(const Edge& edge) const {
     if (!is_inner(edge.b) && !(is_on_line(edge.b) && edge.on_line)) return false;
     neighbors(edge.a, scratch_a_);
     neighbors(edge.b, scratch_b_);
-    int common = 0;
-    for (const Index u : scratch_b_) {
-        common += std::find(scratch_a_.begin(), scratch_a_.end(), u) != scratch_a_.end() ? 1 : 0;
-    }
-    int sides = 0;
+    const std::size_t common = common_count(scratch_a_, scratch_b_);
+    std::size_t sides = 0;
     for (const Index f : {edge.left, edge.right}) {
         if (f == kNoIndex) continue;
         ++sides;
         const Face& face = faces_[at(f)];
         if (face.lines[0] && face.lines[1] && face.lines[2]) return false;
         const Index tip = opposite(f, edge);
-        neighbors(tip, scratch_a_);
         const std::size_t faces = fan(tip).size();
+        if (faces >= 4) continue;
+        neighbors(tip, scratch_a_);
         const bool open = faces < scratch_a_.size();
         if (faces < (open ? 2u : 4u)) return false;
     }

@@ -94,6 +94,7 @@ class TriangleEditor {
     Result result(const Mesh& source, const SurfaceSamples& samples, const Context& context) const;
 
   private:
+    Edge edge_from(Index a, Index b) const;
     Index sector_at(Index face, Index v) const;
     void make_sectors();
     void find_charts();

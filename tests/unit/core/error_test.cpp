@@ -102,3 +102,18 @@ TEST_CASE("memory that runs out is an error with a code") {
               context.parallel_for(0, 10, 1, [](Index, Index) { throw std::bad_alloc(); });
           }) == ErrorCode::memory_limit);
 }
+
+TEST_CASE("a long message keeps its beginning and its end, and its characters whole") {
+    for (const std::string before : {"", "a", "ab"}) {
+        std::string name;
+        for (int i = 0; i < 1'000'000; ++i) name += "\xe2\x82\xac";
+        const Error error(ErrorCode::out_of_range,
+                          before + "there is no '" + name + "'; look at the list");
+        CHECK(error.message().size() < 4200);
+        CHECK(error.message().find(before + "there is no '\xe2\x82\xac") == 0);
+        CHECK(error.message().ends_with("\xe2\x82\xac'; look at the list"));
+        CHECK(error.message().find("\xe2\x82\xac [...] \xe2\x82\xac") != std::string::npos);
+    }
+    const Error short_error(ErrorCode::out_of_range, std::string(4096, 'x'));
+    CHECK(short_error.message() == std::string(4096, 'x'));
+}
