@@ -222,7 +222,8 @@ bool fits_as_given(const FitSides& sides, const Join& join, Configuration config
 }
 
 // Marks the loops of parts that fit as given: they are not to be changed.
-void find_fits(std::span<const Join> joins, const MergeOptions& options, Sides& sides) {
+void find_fits(std::span<const Join> joins, const MergeOptions& options, Sides& sides,
+               const Context& context) {
     sides.source.fits.assign(joins.size(), 0);
     for (MergeSide& side : sides.targets) side.fits.assign(side.loops.size(), 0);
     if (options.thesis) return;
@@ -230,8 +231,9 @@ void find_fits(std::span<const Join> joins, const MergeOptions& options, Sides& 
         MergeSide& target = sides.targets[joins[j].target_mesh];
         const std::size_t place = sides.place[j];
         const std::vector<Index>& loop = sides.source.loops[j];
-        const Loop from(sides.source.mesh, {loop.rbegin(), loop.rend()});
-        const Loop to(target.mesh, target.loops[place]);
+        const Loop from(sides.source.mesh, {loop.rbegin(), loop.rend()}, LoopMeasure::robust,
+                        context);
+        const Loop to(target.mesh, target.loops[place], LoopMeasure::robust, context);
         const bool fits = fits_as_given({sides.source.mesh, target.mesh, from, to}, joins[j],
                                         options.configuration);
         sides.source.fits[j] = target.fits[place] = fits ? 1 : 0;
@@ -410,8 +412,9 @@ void open_targets(const OverlapTransition& transition, double width, Boundaries&
     boundaries.target_curves.clear();
     const OverlapTarget& whole = boundaries.overlap->target;
     for (std::size_t j = 0; j < whole.ends.size(); ++j) {
-        boundaries.target_curves.push_back(Loop(whole.mesh, whole.ends[j], LoopMeasure::raw)
-                                               .renumbered(boundaries.target_loops[j]));
+        boundaries.target_curves.push_back(
+            Loop(whole.mesh, whole.ends[j], LoopMeasure::raw, context)
+                .renumbered(boundaries.target_loops[j]));
     }
 }
 
@@ -559,7 +562,7 @@ Sides make_sides(const Mesh& source, std::span<const Mesh* const> targets,
     make_targets(targets, joins, paths, sides, context);
     note_flips(sides.found);
     note_morphs(sides);
-    find_fits(joins, options, sides);
+    find_fits(joins, options, sides, context);
     trim_sides(joins, options, sides, context);
     sides.given.target_topology = topologies_together(targets, context);
     return sides;

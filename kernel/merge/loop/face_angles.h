@@ -92,18 +92,23 @@ inline double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
         {angle_between(b - a, c - a), angle_between(c - b, a - b), angle_between(a - c, b - c)});
 }
 
-/// The face on the left of a directed edge, or kNoIndex.
+/// The face on the left of a directed edge, or kNoIndex. The time grows as the lesser valence of
+/// its ends, not as the corners of the face.
 inline Index face_left_of(const Topology& topology, Index from, Index to) {
-    // A hub of very many faces is met from the other end.
-    const Index around = topology.valence(from) <= topology.valence(to) ? from : to;
-    for (const Index f : topology.faces_around(around)) {
-        const std::span<const Index> face = topology.face(f);
-        const std::size_t n = face.size();
-        for (std::size_t k = 0; k < n; ++k) {
-            if (face[k] == from && face[(k + 1) % n] == to) return f;
-        }
+    const auto place_of = [](std::span<const Index> ring, Index v) {
+        return std::find(ring.begin(), ring.end(), v) - ring.begin();
+    };
+    // The i-th face around a vertex lies between its neighbours i and i + 1.
+    if (topology.valence(from) <= topology.valence(to)) {
+        const auto faces = topology.faces_around(from);
+        const auto i = at(place_of(topology.neighbors(from), to));
+        return i < faces.size() ? faces[i] : kNoIndex;
     }
-    return kNoIndex;
+    const auto faces = topology.faces_around(to);
+    const auto i = place_of(topology.neighbors(to), from);
+    if (i == topology.valence(to)) return kNoIndex;
+    if (i > 0) return faces[at(i - 1)];
+    return topology.is_boundary(to) ? kNoIndex : faces.back();
 }
 
 /// Adds the dihedral angle at the edge between two vertices: none at an open edge, and next to a

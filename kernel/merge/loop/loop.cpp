@@ -31,13 +31,27 @@ struct FanNormal {
     Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
 };
 
-// Mean normal of the triangles whose unit normals `counts` takes; zero without any.
+// The faces around a vertex; at a hub of very many those alone that lie nearest to its neighbour
+// `beside`.
+std::span<const Index> faces_beside(const Topology& topology, Index v, Index beside) {
+    constexpr std::ptrdiff_t kMostFaces = 256;
+    const std::span<const Index> faces = topology.faces_around(v);
+    const auto count = std::ssize(faces);
+    if (count <= kMostFaces) return faces;
+    const auto ring = topology.neighbors(v);
+    const auto place = std::find(ring.begin(), ring.end(), beside) - ring.begin();
+    const auto first = std::clamp<std::ptrdiff_t>(place - kMostFaces / 2, 0, count - kMostFaces);
+    return faces.subspan(static_cast<std::size_t>(first), kMostFaces);
+}
+
+// Mean normal of those triangles of some faces at `v` whose unit normals `counts` takes; zero
+// without any.
 template <typename Counts>
-FanNormal fan_normal_of(const Mesh& mesh, Index v, const Counts& counts) {
+FanNormal fan_normal_of(const Mesh& mesh, Index v, std::span<const Index> faces,
+                        const Counts& counts) {
     FanNormal fan;
     double total = 0.0;
-    const Triangulation around =
-        triangulate_faces(mesh.topology(), mesh.positions(), mesh.topology().faces_around(v));
+    const Triangulation around = triangulate_faces(mesh.topology(), mesh.positions(), faces);
     for (const Triangle& t : around.triangles) {
         for (int k = 0; k < 3; ++k) {
             if (t[k] != v) continue;
@@ -57,7 +71,8 @@ FanNormal fan_normal_of(const Mesh& mesh, Index v, const Counts& counts) {
 }
 
 FanNormal fan_normal(const Mesh& mesh, Index v) {
-    return fan_normal_of(mesh, v, [](const Vec3&) { return true; });
+    return fan_normal_of(mesh, v, mesh.topology().faces_around(v),
+                         [](const Vec3&) { return true; });
 }
 
 // Seen along `axis`.
@@ -79,7 +94,8 @@ Vec3 boundary_normal(const Mesh& mesh, Index v, const Vec3& tangent) {
     double count = 0.0;
     for (const Index n : mesh.topology().neighbors(v)) {
         if (mesh.topology().is_boundary(n)) continue;
-        const Vec3 normal = seen_along(fan_normal_of(mesh, n, goes_on).normal, tangent);
+        const auto faces = faces_beside(mesh.topology(), n, v);
+        const Vec3 normal = seen_along(fan_normal_of(mesh, n, faces, goes_on).normal, tangent);
         if (!(normal.norm() > 0.0)) continue;
         inner += normal.normalized();
         arm += mesh.position(n) - mesh.position(v);
@@ -93,11 +109,12 @@ Vec3 boundary_normal(const Mesh& mesh, Index v, const Vec3& tangent) {
     return (own + std::min(1.0, kMaxTurn / std::max(beyond.norm(), 1e-12)) * beyond).normalized();
 }
 
-std::vector<Vec3> normals_at(const Mesh& mesh, std::span<const Index> vertices,
-                             LoopMeasure measure) {
+std::vector<Vec3> normals_at(const Mesh& mesh, std::span<const Index> vertices, LoopMeasure measure,
+                             const Context& context) {
     std::vector<Vec3> normals;
     const std::size_t n = vertices.size();
     for (std::size_t k = 0; k < n; ++k) {
+        context.checkpoint();
         if (measure == LoopMeasure::raw) {
             normals.push_back(fan_normal(mesh, vertices[k]).normal);
             continue;
@@ -123,7 +140,8 @@ Vec3 across(const Vec3& v) {
 
 }  // namespace
 
-Loop::Loop(const Mesh& mesh, std::vector<Index> vertices, LoopMeasure measure)
+Loop::Loop(const Mesh& mesh, std::vector<Index> vertices, LoopMeasure measure,
+           const Context& context)
     : vertices_(std::move(vertices)) {
     const auto refuse = [&](const char* why) {
         Elements elements{ElementKind::vertex, 0, {}};
@@ -139,7 +157,7 @@ Loop::Loop(const Mesh& mesh, std::vector<Index> vertices, LoopMeasure measure)
         length_ += edges_.back();
     }
     if (!(length_ > 0.0)) refuse(" has no length; cut the mesh there");
-    normals_ = normals_at(mesh, vertices_, measure);
+    normals_ = normals_at(mesh, vertices_, measure, context);
     find_moments();
     find_parameters(measure);
     if (!(radius_ > 1e-9 * length_)) refuse(" encloses nothing; cut the mesh there");

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/core/context.h"
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
 #include "kernel/merge/loop/loop_pair.h"
@@ -21,7 +22,8 @@ class Loop {
   public:
     /// Takes the vertices in the given order.
     /// Errors: boundary_conflict if the loop has fewer than 3 vertices or no length.
-    Loop(const Mesh& mesh, std::vector<Index> vertices, LoopMeasure measure = LoopMeasure::robust);
+    Loop(const Mesh& mesh, std::vector<Index> vertices, LoopMeasure measure = LoopMeasure::robust,
+         const Context& context = {});
 
     /// The same loop with other ids of its vertices, in their order, as a part of the mesh has
     /// them.

@@ -19,7 +19,7 @@ namespace lissom {
 namespace {
 
 void lay_on_hole(const PartTrials& trials, LaidPart& laid, const Context& context) {
-    const Loop hole(laid.opened.mesh, laid.opened.loop);
+    const Loop hole(laid.opened.mesh, laid.opened.loop, LoopMeasure::robust, context);
     const std::size_t n = laid.trial.rim.size();
     for (std::size_t k = 0; k < n; ++k) {
         laid.trial.rim[k].image.position = point_of(hole.points(), laid.pair.on_target[n - 1 - k]);

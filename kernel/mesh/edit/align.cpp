@@ -95,10 +95,12 @@ class Alignment {
         std::vector<Match> result;
         for (const Vec3& p : mesh_samples_) {
             const Vec3 moved = map(p);
+            context_.checkpoint();
             const SurfacePoint hit = target_tree_.nearest(moved);
             result.push_back({moved, hit.position, hit.normal, hit.distance});
         }
         for (const Vec3& p : target_samples_) {
+            context_.checkpoint();
             const SurfacePoint hit = mesh_tree_.nearest(map.back(p));
             result.push_back(
                 {map(hit.position), p, map.turn * hit.normal, map.scale * hit.distance});

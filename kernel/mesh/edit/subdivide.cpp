@@ -20,6 +20,14 @@ namespace {
 
 // Bytes an element of the result takes while it is made, roughly.
 constexpr std::size_t kBytesPerCorner = 100;
+// Bytes of one source of an element of the result.
+constexpr std::size_t kBytesPerSource = 16;
+
+bool has_corner_values(const Mesh& mesh) {
+    const auto& all = mesh.attributes().all();
+    return std::any_of(all.begin(), all.end(),
+                       [](const Attribute& a) { return a.domain == Domain::corner; });
+}
 
 // One step of subdivision. New vertices: the old ones, one on every edge, and one in every face
 // that is divided into quads.
@@ -27,7 +35,11 @@ class Step {
   public:
     /// `split` tells for each face whether it is split.
     Step(const Mesh& mesh, SubdivisionScheme scheme, const std::vector<char>& split)
-        : mesh_(mesh), topology_(mesh.topology()), scheme_(scheme), split_(split) {
+        : mesh_(mesh),
+          topology_(mesh.topology()),
+          scheme_(scheme),
+          split_(split),
+          blends_corners_(has_corner_values(mesh)) {
         find_edges();
         number_edge_points();
         number_face_points();
@@ -35,8 +47,7 @@ class Step {
 
     Mesh subdivided(const Context& context) {
         require_room();
-        const auto charge =
-            context.charge(4 * corner_edge_.size() * kBytesPerCorner, "subdivision");
+        const auto charge = context.charge(room(), "subdivision");
         map_vertices();
         context.checkpoint();
         for (Index f = 0; f < topology_.face_count(); ++f) {
@@ -113,6 +124,16 @@ class Step {
         throw Error(ErrorCode::out_of_range,
                     "the subdivided mesh would have more elements than can be numbered; use fewer "
                     "levels");
+    }
+
+    // The corners in the middle of a polygon have all of its corners as sources, each of them.
+    std::size_t room() const {
+        std::size_t sources = 0;
+        for (Index f = 0; blends_corners_ && f < topology_.face_count(); ++f) {
+            const std::size_t n = topology_.face(f).size();
+            if (face_point_[at(f)] != kNoIndex) sources += n * n;
+        }
+        return 4 * corner_edge_.size() * kBytesPerCorner + sources * kBytesPerSource;
     }
 
     bool has_point(Index edge) const { return edge_point_[at(edge)] != kNoIndex; }
@@ -233,7 +254,12 @@ class Step {
             map_.faces.add_copy(f);
             map_.corners.add_copy(here);
             add_corner(here, next);
-            map_.corners.add_mean(corners);
+            // Many corners have many sources; without values at corners nobody asks for them.
+            if (blends_corners_) {
+                map_.corners.add_mean(corners);
+            } else {
+                map_.corners.add_copy(here);
+            }
             add_corner(before, here);
         }
     }
@@ -306,6 +332,7 @@ class Step {
     const Topology& topology_;
     SubdivisionScheme scheme_;
     const std::vector<char>& split_;
+    bool blends_corners_;
     std::vector<Index> corner_edge_;
     // Faces left and right of each edge.
     std::vector<Index> edge_faces_;
