@@ -1,7 +1,12 @@
 #include <array>
+#include <chrono>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include "kernel/mesh/cut/cut.h"
 #include "kernel/mesh/cut/trim.h"
@@ -12,9 +17,13 @@
 #include "kernel/mesh/edit/transform.h"
 #include "kernel/mesh/edit/triangulate.h"
 #include "kernel/mesh/fill/fill.h"
+#include "kernel/mesh/measure/distortion.h"
 #include "kernel/mesh/query/distances.h"
 #include "kernel/mesh/query/region_select.h"
+#include "kernel/mesh/query/self_intersections.h"
 #include "kernel/mesh/query/spatial_tree.h"
+#include "kernel/mesh/resample/decimate.h"
+#include "kernel/mesh/resample/remesh.h"
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
 
@@ -98,4 +107,71 @@ TEST_CASE("memory charged by an operation is given back") {
     // The mesh is one that the context has filled.
     CHECK(context.memory()->used() == mesh.memory_bytes());
     CHECK(context.memory()->peak() > mesh.memory_bytes());
+}
+
+namespace {
+
+// A cone of very many faces around its tip, with an open base.
+Mesh hub(Index n) {
+    std::vector<Vec3> points{{0.0, 0.0, 1.0}};
+    FaceList faces;
+    for (Index i = 0; i < n; ++i) {
+        const double angle = 2.0 * kPi * i / n;
+        points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+        faces.add({0, 1 + i, 1 + (i + 1) % n});
+    }
+    return {std::move(points), std::move(faces)};
+}
+
+}  // namespace
+
+TEST_CASE("a cancel is heard among very many faces around one vertex") {
+    const Mesh mesh = hub(60000);
+    const std::vector<std::pair<const char*, std::function<void(const Context&)>>> operations = {
+        {"crossings", [&](const Context& c) { self_intersections(mesh, {}, c); }},
+        {"distortion", [&](const Context& c) { distortion(mesh, mesh, c); }},
+        {"decimate", [&](const Context& c) { decimate(mesh, {.faces = 1000}, c); }},
+        {"remesh", [&](const Context& c) { remesh(mesh, {.edge = 0.05}, c); }},
+        {"subdivide", [&](const Context& c) { subdivide(mesh, {.levels = 5}, c); }},
+    };
+    for (const auto& [name, operation] : operations) {
+        CAPTURE(name);
+        const Context context;
+        std::jthread canceller([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            context.cancel();
+        });
+        try {
+            operation(context);
+        } catch (const Error& error) {
+            CHECK(error.code() == ErrorCode::cancelled);
+        }
+    }
+}
+
+TEST_CASE("polygons of very many corners are subdivided in the memory of their corners") {
+    std::vector<Vec3> points;
+    std::vector<Index> face;
+    for (Index i = 0; i < 60000; ++i) {
+        const double angle = 2.0 * kPi * i / 60000;
+        points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+        face.push_back(i);
+    }
+    FaceList faces;
+    faces.add(face);
+    const Mesh mesh(std::move(points), std::move(faces));
+    ContextOptions options;
+    options.memory_limit = std::size_t{400} << 20;
+    for (const auto scheme : {SubdivisionScheme::midpoint, SubdivisionScheme::catmull_clark}) {
+        const Mesh finer = subdivide(mesh, {.levels = 1, .scheme = scheme}, Context(options));
+        CHECK(finer.face_count() == 60000);
+        CHECK(finer.vertex_count() == 120001);
+    }
+    // Their middle has all corners as sources, once for each: that is told before it is made.
+    Mesh with_values = mesh;
+    with_values.attributes().add(
+        {"uv", Domain::corner, 2, ScalarType::float32, std::vector<double>(120000, 0.5)});
+    const Error error =
+        test::error_of([&] { subdivide(with_values, {.levels = 1}, Context(options)); });
+    CHECK(error.code() == ErrorCode::memory_limit);
 }
