@@ -1,6 +1,7 @@
 /// Points of a plane, each present or not, for searches in a part of it; private to the kernel.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
