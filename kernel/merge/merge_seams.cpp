@@ -11,6 +11,7 @@
 #include "kernel/merge/crossings.h"
 #include "kernel/merge/mend.h"
 #include "kernel/merge/merge_stages.h"
+#include "kernel/merge/provenance.h"
 #include "kernel/merge/sew/seam_collar.h"
 #include "kernel/merge/sew/seam_guard.h"
 
@@ -221,8 +222,10 @@ bool relax_sides(const Boundaries& boundaries, const MergeOptions& options,
                  const MergeReport& report, Index rings, MergedSides& merged,
                  const Context& context) {
     const std::vector<Index> firm = became_of(merged.sewn, creases_of(boundaries, true));
-    if (!relax_faults(merged.sewn, showing_faces(report.crossings), firm, rings, context))
-        return false;
+    const std::vector<Index> crossing = showing_faces(report.crossings);
+    const std::vector<Vec3> rest =
+        places_on_second(merged.sewn.map, boundaries.source.mesh, boundaries.target.vertex_count());
+    if (!relax_faults(merged.sewn, {crossing, firm, rest}, rings, context)) return false;
     if (options.find_intersections) find_crossings(boundaries, merged, context);
     return true;
 }

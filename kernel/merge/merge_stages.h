@@ -248,8 +248,9 @@ MergedSides sew_sides(const Boundaries& boundaries, const MergeOptions& options,
                       const Matching& matching, const DeformedSource& moved,
                       const Context& context);
 
-/// Smooths the places beside the seams at which the surface folds or crosses itself
-/// (relax_faults), with `rings` around them. Returns false, and changes nothing, if there are none.
+/// Smooths the places beside the seams at which the surface folds or crosses itself or has new
+/// thorns and pits (relax_faults), with `rings` around them. Returns false, and changes nothing, if
+/// there are none.
 bool relax_sides(const Boundaries& boundaries, const MergeOptions& options,
                  const MergeReport& report, Index rings, MergedSides& merged,
                  const Context& context);

@@ -41,6 +41,10 @@ constexpr double kFold = 0.15;
 // of 60 merges and pastes of real models with coarse or rugged sides good ones gained up to 1.1,
 // ones with a slit, a ridge or torn faces 1.5 and more.
 constexpr double kSharpened = 1.3;
+// Width of the vertices of the source that became thorns or pits, in radii: of 57 merges and pastes
+// of real models those that look right have up to .2, ones with a thorn or tatters at the rim .25
+// and more.
+constexpr double kThorns = 0.22;
 // A part that keeps less of its volume has visibly caved in. Of 62 merges of real models those that
 // look right keep .45 and more: heads on flat or long boundaries lose the most.
 constexpr double kVolumeKept = 0.4;
@@ -230,11 +234,23 @@ void judge_sides(const MergeReport& report, const OpenOptions& open, Reasons& re
     }
 }
 
+// Thorns and pits of a source that had none there.
+void judge_pinched(const MergeReport& report, Index j, const OpenOptions& open, Reasons& reasons) {
+    const JoinReport& join = report.joins[at(j)];
+    if (join.fits || !(join.band.pinched > kThorns)) return;
+    reasons.push_back({MergeFault::folds, j, join.band.pinched, kThorns,
+                       text_of("the source has thorns or pits beside the seam%s that it did not "
+                               "have, %.2f of its radius wide together",
+                               at_join(report, j).c_str(), join.band.pinched),
+                       remedy_of({{open.fair, kFair}, {open.moves, kMove}, {true, kCut}})});
+}
+
 // Edges that turn sharply and did not: slits, ridges and teeth.
 void judge_sharpened(const MergeReport& report, Index j, const OpenOptions& open,
                      Reasons& reasons) {
     const JoinReport& join = report.joins[at(j)];
-    if (join.fits || !(join.band.sharpened > kSharpened)) return;
+    if (join.fits || !(join.band.sharpened > kSharpened))
+        return judge_pinched(report, j, open, reasons);
     reasons.push_back({MergeFault::folds, j, join.band.sharpened, kSharpened,
                        text_of("the surface is creased beside the seam%s: its edges turn by more "
                                "than 60 degrees along %.1f of its radius more than before",

@@ -38,7 +38,8 @@ struct Verdict {
 /// - source and target do not lie on the same side of their boundary;
 /// - the surface does not fold back within one radius of the seam and did not before, but for .15
 ///   radii in all; edges of one side within half a radius do not turn by more than 60 degrees along
-///   1.3 radii more than before;
+///   1.3 radii more than before; and thorns and pits of the source within half a radius that it did
+///   not have are together at most .22 radii wide;
 /// - within half a radius it is at most 1.4 times as rough as both sides were, or turns by less
 ///   than 8 degrees an edge; the source by itself 1.6 times as rough as it was, or it turns by less
 ///   than 11 degrees, merged above 14 degrees 1.4 times; the target 1.3 times, or by 5 degrees;

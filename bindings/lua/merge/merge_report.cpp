@@ -74,7 +74,7 @@ void push_join_place(const Call& call, const JoinReport& join) {
 }
 
 void push_band_quality(const Call& call, const BandQuality& band) {
-    lua_createtable(call.lua(), 0, 19);
+    lua_createtable(call.lua(), 0, 20);
     call.set_field("roughness", call.push(kDegrees * band.roughness));
     call.set_field("rest_roughness", call.push(kDegrees * band.rest_roughness));
     call.set_field("source_roughness", call.push(kDegrees * band.source_roughness));
@@ -93,6 +93,7 @@ void push_band_quality(const Call& call, const BandQuality& band) {
     call.set_field("spike", call.push(kDegrees * band.spike));
     call.set_field("rest_spike", call.push(kDegrees * band.rest_spike));
     call.set_field("sharpened", call.push(band.sharpened));
+    call.set_field("pinched", call.push(band.pinched));
     call.set_field("source_volume", call.push(band.source_volume));
     call.set_field("target_volume", call.push(band.target_volume));
     call.set_field("radius", call.push(band.radius));
@@ -557,6 +558,10 @@ std::vector<Record> merge_records() {
           {"number", "sharpened",
            "Length of the edges within half a radius that turn by more than 60 degrees, in radii "
            "of the seam, beyond that of the same side before: of the side that gained most."},
+          {"number", "pinched",
+           "Sum of the widths, in radii of the seam, of the vertices of the source within half a "
+           "radius that became thorns or pits: their neighbours slope away from them by 30 degrees "
+           "more than at rest, to either side."},
           {"number", "source_volume",
            "Volume between source and seam, over that of the source at rest at its scale: 1 if "
            "it was kept, negative if it turned inside out."},

@@ -321,6 +321,7 @@
 ---@field spike number Sharpness of the sharpest tip or pit within half a radius of the seam: the greatest sum of angles missing to full turns around the vertices within .15 radii, in degrees. The corner of a cube has 90, a needle 360.
 ---@field rest_spike number The same of both sides before.
 ---@field sharpened number Length of the edges within half a radius that turn by more than 60 degrees, in radii of the seam, beyond that of the same side before: of the side that gained most.
+---@field pinched number Sum of the widths, in radii of the seam, of the vertices of the source within half a radius that became thorns or pits: their neighbours slope away from them by 30 degrees more than at rest, to either side.
 ---@field source_volume number Volume between source and seam, over that of the source at rest at its scale: 1 if it was kept, negative if it turned inside out.
 ---@field target_volume number The same of the target; 1 of a paste.
 ---@field radius number Radius of the seam.

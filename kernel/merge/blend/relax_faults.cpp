@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernel/merge/blend/seam_core.h"
+#include "kernel/merge/loop/band_pinch.h"
 #include "kernel/merge/loop/band_quality.h"
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/sew/seam_quality.h"
@@ -17,6 +18,8 @@ namespace {
 
 // The angle of a fold, as for the measure of a band (band_quality.cpp).
 constexpr double kRelaxFolded = 135.0 * kDegree;
+// The band whose thorns count, in radii, as for that measure.
+constexpr double kPinchBand = 0.5;
 // Steps that make a flap of some faces flat.
 constexpr Index kRelaxSteps = 30;
 // Rings beside a seam whose faces sewing changes.
@@ -64,6 +67,17 @@ void mark_faces(const Mesh& mesh, std::span<const Index> faces, std::span<const 
     }
 }
 
+void mark_pinches(const Sewn& sewn, std::span<const Vec3> rest, std::vector<char>& marks,
+                  const Context& context) {
+    for (const std::vector<Index>& seam : sewn.seams) {
+        const double reach = kPinchBand * loop_radius(sewn.mesh, seam);
+        const std::vector<double> distance = edge_distances(sewn.mesh, seam, reach, context);
+        for (const Pinch& pinch : pinches({sewn.mesh, rest, distance, reach})) {
+            marks[at(pinch.vertex)] = 1;
+        }
+    }
+}
+
 // Those of `firm` that are more than two rings from the seams, where sewing has changed no face.
 std::vector<Index> beyond_seams(const Sewn& sewn, std::span<const Index> firm) {
     const std::vector<Index> ring = seam_rings(sewn.mesh.topology(), sewn.seams, kSeamRings);
@@ -98,15 +112,15 @@ std::vector<Index> moving_of(const Topology& topology, std::span<const char> mar
 
 }  // namespace
 
-bool relax_faults(Sewn& sewn, std::span<const Index> crossing, std::span<const Index> firm,
-                  Index rings, const Context& context) {
+bool relax_faults(Sewn& sewn, const RelaxPlaces& places, Index rings, const Context& context) {
     const std::vector<char> near = band_of_seams(sewn, context);
     std::vector<char> marks(near.size(), 0);
     mark_folds(sewn.mesh, near, marks);
-    mark_faces(sewn.mesh, crossing, near, marks);
+    mark_faces(sewn.mesh, places.crossing, near, marks);
+    mark_pinches(sewn, places.rest, marks, context);
     grow(sewn.mesh.topology(), rings, marks);
     const std::vector<Index> moving =
-        moving_of(sewn.mesh.topology(), marks, beyond_seams(sewn, firm));
+        moving_of(sewn.mesh.topology(), marks, beyond_seams(sewn, places.firm));
     const auto band = static_cast<double>(std::count(near.begin(), near.end(), 1));
     if (moving.empty() || static_cast<double>(moving.size()) > kMaxRelaxed * band) return false;
     SmoothOptions how;

@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "kernel/merge/loop/band_pinch.h"
 #include "kernel/merge/loop/band_spike.h"
 #include "kernel/merge/loop/face_angles.h"
 #include "kernel/merge/loop/rim_flare.h"
@@ -173,6 +174,16 @@ class Side {
 
     double spike() const { return band_spike(mesh_, distance_, radius_); }
 
+    // Width of the vertices that became thorns or pits, in radii.
+    double pinched(std::span<const Vec3> rest) const {
+        if (!(radius_ > 0.0)) return 0.0;
+        double sum = 0.0;
+        for (const Pinch& pinch : pinches({mesh_, rest, distance_, kBand * radius_})) {
+            sum += pinch.width;
+        }
+        return sum / radius_;
+    }
+
     // Sum over the faces with a vertex within that many radii, without the seam's edges.
     EdgeSum edges(double radii) const {
         std::vector<Index> near;
@@ -337,7 +348,8 @@ BandQuality band_quality(const BandSide& made_target, const BandSide& made_sourc
         std::max({0.0, sharpened(on_target, old_target), sharpened(on_source, old_source)});
     result.spike = on_target.spike();
     result.rest_spike = std::max(old_target.spike(), old_source.spike());
-    if (!made_source.rest.empty()) {
+    if (!made_source.rest.empty()) result.pinched = on_source.pinched(made_source.rest);
+    if (!made_source.rest.empty() && !made_source.meets_at_crease) {
         const bool inside_out = old_source.volume(old_source.middle()) < 0.0;
         result.flare = rim_flare(on_source.rim(), made_source.rest, inside_out);
     }

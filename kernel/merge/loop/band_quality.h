@@ -37,9 +37,13 @@ struct BandQuality {
     /// seam, beyond that of the same side before: of the side that gained most, at least 0. A slit,
     /// a ridge or teeth show there on sides that are too rough for `roughness` to tell.
     double sharpened = 0.0;
+    /// Sum of the widths, in radii of the seam, of the vertices of the source within half a radius
+    /// that became thorns or pits: their neighbours slope away from them by 30 degrees more than at
+    /// rest, to either side (pinches). 0 if the origin of its vertices is unknown.
+    double pinched = 0.0;
     /// Outward turn of the source between neighbouring strips beside the seam, beyond that at rest,
     /// which shows as a flared rim: the RMS over the seam of the greatest gain; 0 if the origin of
-    /// its vertices is unknown.
+    /// its vertices is unknown, and of a paste, whose rim is tilted on purpose.
     double flare = 0.0;
     /// Sharpness of the sharpest tip or pit within half a radius of the seam: the greatest sum of
     /// angles missing to full turns around the vertices within .15 radii. The corner of a cube has
@@ -64,6 +68,8 @@ struct BandSide {
     /// For a source in a merged mesh: the place of each vertex of the mesh on the source at rest,
     /// NaN for a vertex that was not on it.
     std::span<const Vec3> rest = {};
+    /// It may meet the target at a crease, so that its rim is tilted on purpose.
+    bool meets_at_crease = false;
 };
 
 /// Measures the band around a seam that `target` and `source` were joined at; `scale` is how much

@@ -19,6 +19,7 @@
 #include "kernel/merge/paste/part/target_piece.h"
 #include "kernel/merge/paste/part_trial.h"
 #include "kernel/merge/paste/paste_state.h"
+#include "kernel/merge/provenance.h"
 #include "kernel/merge/sew/seam_collar.h"
 #include "kernel/merge/sew/seam_quality.h"
 #include "kernel/merge/sew/sew.h"
@@ -169,10 +170,12 @@ MergeReport merge_report(const Mesh& target, const Mesh& source, const SewnPart&
     if (!options.draft) {
         const std::vector<Index> of_target = faces_on(sewn.side_of_face, SeamSide::target);
         const std::vector<Index> of_source = faces_on(sewn.side_of_face, SeamSide::source);
-        report.joins[0].band = band_quality(
-            {&sewn.mesh, of_target, sewn.seams[0]}, {&sewn.mesh, of_source, sewn.seams[0]},
-            {&laid.opened.mesh, {}, laid.opened.loop, true}, {&part.mesh, {}, part.loop},
-            join.scale, false, context);
+        const std::vector<Vec3> rest = places_on_second(sewn.map, part.mesh, target.vertex_count());
+        report.joins[0].band =
+            band_quality({&sewn.mesh, of_target, sewn.seams[0]},
+                         {&sewn.mesh, of_source, sewn.seams[0], false, rest, true},
+                         {&laid.opened.mesh, {}, laid.opened.loop, true},
+                         {&part.mesh, {}, part.loop}, join.scale, false, context);
         note_source(source_rest(source, part, context), report);
     }
     OpenOptions open;
@@ -395,7 +398,7 @@ class PasteJudge {
         return better;
     }
 
-    // Smoothed at folds and crossings; nothing if it has none.
+    // Smoothed at folds, crossings, thorns and pits; nothing if it has none.
     std::optional<JudgedPart> relaxed(const JudgedPart& from, Index rings,
                                       const Context& context) const {
         SewnPart part = from.pasted;
@@ -404,8 +407,11 @@ class PasteJudge {
         const Crossings found =
             new_crossings(laid.opened.mesh, laid.trial.part().mesh, sewn, context);
         const std::vector<Index> firm = became_of(sewn, kept_creases(laid.opened));
-        const auto groups = crossing_groups(sewn, found.pairs, context);
-        if (!relax_faults(sewn, showing_faces(groups), firm, rings, context)) return std::nullopt;
+        const std::vector<Index> crossing =
+            showing_faces(crossing_groups(sewn, found.pairs, context));
+        const std::vector<Vec3> rest =
+            places_on_second(sewn.map, laid.trial.part().mesh, laid.opened.mesh.vertex_count());
+        if (!relax_faults(sewn, {crossing, firm, rest}, rings, context)) return std::nullopt;
         part.bite = bite_on(on_.trials, on_.piece, laid, sewn, context);
         return judged(std::move(part), context);
     }

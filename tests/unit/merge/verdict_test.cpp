@@ -233,6 +233,20 @@ TEST_CASE("edges beside the seam that became sharp are folds, unless the parts f
     CHECK(verdict_of(fits, {}).good);
 }
 
+TEST_CASE("thorns and pits of the source that it did not have are folds, unless the parts fit") {
+    BandQuality band = good_band();
+    band.pinched = 0.15;
+    CHECK(verdict_of(report_with(band), {}).good);
+    band.pinched = 0.3;
+    const MergeReason reason = only_reason(report_with(band));
+    CHECK(reason.fault == MergeFault::folds);
+    CHECK(reason.value == doctest::Approx(0.3));
+    CHECK(says(verdict_of(report_with(band), {}), "thorns or pits"));
+    MergeReport fits = report_with(band);
+    fits.joins.front().fits = true;
+    CHECK(verdict_of(fits, {}).good);
+}
+
 TEST_CASE("surfaces that only touch are told, and are no reason against a merge") {
     MergeReport report = report_with(good_band());
     report.intersections.resize(3);

@@ -174,6 +174,45 @@ TEST_CASE(
     CHECK(flare(rim_over, rest_over) == doctest::Approx(flare(rim, barrel.mesh)));
 }
 
+TEST_CASE("a thorn or pit that the source did not have is seen, one at rest and bends are not") {
+    const Barrel barrel;
+    const auto pinched = [&](const Mesh& made, const Mesh& rest) {
+        return band_quality({&made, barrel.below, barrel.seam},
+                            {&made, barrel.above, barrel.seam, false, rest.positions()},
+                            {&rest, barrel.below, barrel.seam}, {&rest, barrel.above, barrel.seam},
+                            1.0, false)
+            .pinched;
+    };
+    // One vertex of the third row above the seam, opposite vertices for two.
+    const auto thorny = [&](double out, bool two) {
+        return barrel.moved([out, two](Vec3& p) {
+            const bool here = p.z() > 0.999 || (two && p.z() < -0.999);
+            if (!here || std::lround(row_of(p)) != 3) return;
+            p.z() *= 1.0 + out;
+        });
+    };
+    const Mesh thorn = thorny(0.15, false), pit = thorny(-0.15, false),
+               flatter = thorny(0.1, false);
+    const double one = pinched(thorn, barrel.mesh);
+    CHECK(pinched(barrel.mesh, barrel.mesh) == 0.0);
+    CHECK(one > 0.05);
+    CHECK(one < 0.2);
+    CHECK(pinched(thorny(0.15, true), barrel.mesh) == doctest::Approx(2.0 * one).epsilon(0.01));
+    CHECK(pinched(pit, barrel.mesh) > 0.05);
+    CHECK(pinched(pit, thorn) > 0.05);
+    CHECK(pinched(thorn, thorn) == 0.0);
+    CHECK(pinched(flatter, thorn) == 0.0);
+    Mesh elsewhere = barrel.mesh;
+    for (Vec3& p : elsewhere.edit_positions()) p = 3.0 * Vec3(p.y(), p.z(), p.x());
+    CHECK(pinched(thorn, elsewhere) == doctest::Approx(one));
+    const Mesh waist = barrel.moved([](Vec3& p) {
+        if (p.y() <= 0.0 || p.y() >= 1.0) return;
+        p.x() *= 1.0 - 0.5 * p.y();
+        p.z() *= 1.0 - 0.5 * p.y();
+    });
+    CHECK(pinched(waist, barrel.mesh) == 0.0);
+}
+
 TEST_CASE("a straight tube of many sides on one of few has no flare, for all its slivers") {
     const auto lobed = [](double from) {
         return [from](double angle, double height) {
