@@ -5,6 +5,7 @@
 #include "kernel/merge/blend/relax_faults.h"
 #include "kernel/merge/mend.h"
 #include "kernel/merge/merge_stages.h"
+#include "kernel/merge/verdict.h"
 
 namespace lissom {
 namespace {
@@ -50,10 +51,17 @@ JudgedSides judged_sides(const PreparationReport& prepared, const Boundaries& bo
     JudgedSides best = sewn_judged(prepared, boundaries, asked, matching, moved, context);
     if (!may_mend(asked, best.report)) return best;
     const std::string faults = fault_names(best.report);
+    // The least change first.
+    const bool relaxed = has_only_thorns(best.report) &&
+                         relax_best(prepared, boundaries, asked, matching, moved, best, context);
+    if (relaxed && best.report.ok) {
+        note_mended(faults, "its thorns are smoothed", best.report);
+        return best;
+    }
     MergeOptions fair = asked, blended = asked;
     fair.seam = SeamKind::fair;
     blended.auto_transition = true;
-    std::string way;
+    std::string way = relaxed ? "its thorns are smoothed" : "";
     const MergeOptions* taken = &asked;
     for (const auto& [options, name] :
          {std::pair(&fair, "the seam is fair"), std::pair(&blended, "a transition is made")}) {

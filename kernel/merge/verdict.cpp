@@ -258,11 +258,18 @@ void judge_sharpened(const MergeReport& report, Index j, const OpenOptions& open
                        remedy_of({{open.fair, kFair}, {true, kCut}, {open.smooth, kSmooth}})});
 }
 
+double fold_limit(const BandQuality& band) {
+    return band.rest_folded + kFold;
+}
+
+bool folds_back(const BandQuality& band) {
+    return band.folded > fold_limit(band);
+}
+
 void judge_folds(const MergeReport& report, Index j, const OpenOptions& open, Reasons& reasons) {
     const BandQuality& band = report.joins[at(j)].band;
-    const double limit = band.rest_folded + kFold;
-    if (!(band.folded > limit)) return judge_sharpened(report, j, open, reasons);
-    reasons.push_back({MergeFault::folds, j, band.folded, limit,
+    if (!folds_back(band)) return judge_sharpened(report, j, open, reasons);
+    reasons.push_back({MergeFault::folds, j, band.folded, fold_limit(band),
                        text_of("the surface folds back beside the seam%s, along %.2f of its "
                                "radius (%.2f before)",
                                at_join(report, j).c_str(), band.folded, band.rest_folded),
@@ -545,6 +552,16 @@ Verdict verdict_of(const MergeReport& report, const OpenOptions& open) {
             "good: the surface turns by at most " + angle_text(report.seam.after.max_dihedral) +
                 " across the seam, " + beside_text(report) + "and " + crossings_text(report, open),
             {}};
+}
+
+bool has_only_thorns(const MergeReport& report) {
+    const auto is_thorn = [&](const MergeReason& reason) {
+        if (reason.fault != MergeFault::folds || reason.join == kNoIndex) return false;
+        const BandQuality& band = report.joins[at(reason.join)].band;
+        return !folds_back(band) && !(band.sharpened > kSharpened);
+    };
+    return !report.reasons.empty() &&
+           std::all_of(report.reasons.begin(), report.reasons.end(), is_thorn);
 }
 
 bool is_bitten(const TargetBite& bite) {

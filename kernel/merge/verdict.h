@@ -67,6 +67,9 @@ Verdict verdict_of(const MergeReport& report, const OpenOptions& open);
 /// Whether a paste takes more of the sharp edges of its target than a verdict lets pass.
 bool is_bitten(const TargetBite& bite);
 
+/// Whether thorns and pits are all that a report that was judged finds fault with.
+bool has_only_thorns(const MergeReport& report);
+
 /// Judges a report, and writes verdict and reasons into it.
 void judge(MergeReport& report, const OpenOptions& open);
 

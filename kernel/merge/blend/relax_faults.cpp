@@ -69,6 +69,7 @@ void mark_faces(const Mesh& mesh, std::span<const Index> faces, std::span<const 
 
 void mark_pinches(const Sewn& sewn, std::span<const Vec3> rest, std::vector<char>& marks,
                   const Context& context) {
+    if (rest.empty()) return;
     for (const std::vector<Index>& seam : sewn.seams) {
         const double reach = kPinchBand * loop_radius(sewn.mesh, seam);
         const std::vector<double> distance = edge_distances(sewn.mesh, seam, reach, context);

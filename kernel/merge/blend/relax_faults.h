@@ -17,11 +17,12 @@ inline constexpr Index kRelaxRings = 4;
 /// Faults that smoothing may take away, and vertices that it keeps.
 struct RelaxPlaces {
     /// Faces that run through others.
-    std::span<const Index> crossing;
+    std::span<const Index> crossing = {};
     /// Vertices, ascending, that stay if they are more than two rings from the seams.
-    std::span<const Index> firm;
-    /// Place of each vertex of the mesh on the source at rest, NaN for a vertex that was not on it.
-    std::span<const Vec3> rest;
+    std::span<const Index> firm = {};
+    /// Place of each vertex of the mesh on the source at rest, NaN for a vertex that was not on it;
+    /// empty if none is known.
+    std::span<const Vec3> rest = {};
 };
 
 /// Smooths, within one radius of the seams, the vertices of edges at which the surface folds back

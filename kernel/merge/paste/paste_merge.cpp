@@ -318,6 +318,8 @@ class PasteJudge {
         const std::string faults = fault_names(best.report);
         const SewnPart plain = best.pasted;
         std::string taken;
+        // The least change first.
+        if (has_only_thorns(best.report) && relax(best, context)) taken = "its thorns are smoothed";
         for (const auto& [way, name] : kWays) {
             if (best.report.ok) break;
             std::optional<JudgedPart> other = attempt(way, plain, context);

@@ -242,6 +242,18 @@ TEST_CASE("thorns and pits of the source that it did not have are folds, unless 
     CHECK(reason.fault == MergeFault::folds);
     CHECK(reason.value == doctest::Approx(0.3));
     CHECK(says(verdict_of(report_with(band), {}), "thorns or pits"));
+    const auto only_thorns = [](const BandQuality& measured) {
+        MergeReport report = report_with(measured);
+        judge(report, {});
+        return has_only_thorns(report);
+    };
+    CHECK(only_thorns(band));
+    CHECK(!only_thorns(good_band()));
+    BandQuality creased = band, bent = band;
+    creased.sharpened = 2.0;
+    bent.max_bend = bent.bend = 90.0 * kDegree;
+    CHECK(!only_thorns(creased));
+    CHECK(!only_thorns(bent));
     MergeReport fits = report_with(band);
     fits.joins.front().fits = true;
     CHECK(verdict_of(fits, {}).good);
