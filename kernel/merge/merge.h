@@ -118,8 +118,9 @@ struct MergeOptions {
     /// MergeReport::intersections.
     bool find_intersections = true;
     /// If the verdict finds fault with the surface around the seams, and a seam that conforms
-    /// without a transition is asked for, sews again with the seam fair and then with a transition
-    /// of suitable widths, and keeps the result with fewest faults; a warning says so.
+    /// without a transition is asked for, smooths thorns that the source did not have, if they are
+    /// all; else sews again with the seam fair and then with a transition of suitable widths, and
+    /// keeps the result with fewest faults; a warning says so.
     /// Takes the time of sewing up to three times. Not of the thesis's way, nor if `collar` is off
     /// or `smooth` is 0.
     bool mend = false;
