@@ -15,7 +15,7 @@ const largestFile = 400e6;
 // Within a page of the site: the picture, the values and the console alone.
 const embedded = new URLSearchParams(location.search).has('embed');
 
-// ---- What is open
+// ---- The open script
 
 const state = { name: 'script.lua', values: {}, inputs: [], parameters: [], reply: null, example: null, frame: true, changed: false };
 let worker = null, view = null, editor = null, examples = [];

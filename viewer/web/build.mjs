@@ -44,7 +44,7 @@ function putScripts() {
     put('examples.json', JSON.stringify(examples));
 }
 
-// ---- The reference, without what the editor does not show
+// ---- The reference, with the fields that the editor shows
 
 function shortReference() {
     const { functions } = JSON.parse(read('docs/lua/reference.json'));

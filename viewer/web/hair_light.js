@@ -36,7 +36,7 @@ function depths(grid, points, offsets, widths) {
     return depth.map(d => 1.4 * (1 - Math.exp(-d / 1.4)));
 }
 
-// What lies below a surface lets nothing through. `head` are corners of triangles in the points' unit.
+// Points below a surface let nothing through. `head` are corners of triangles in the points' unit.
 function addHead(grid, depth, head) {
     const { size, origin, step } = grid, fill = 6;
     for (let t = 0; t + 8 < head.length; t += 9) {

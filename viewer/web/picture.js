@@ -67,7 +67,7 @@ export class View {
         this.gl = canvas.getContext('webgl2', { antialias: true, alpha: true, powerPreference: 'high-performance' });
         if (!this.gl) throw new Error('this browser has no WebGL 2');
         this.settings = { wire: false, flat: false, colors: true };
-        // Pixels on the right that something else covers: what is fitted leaves them free.
+        // Pixels on the right under other things; a fitted view leaves them free.
         this.covered = () => 0;
         this.drawn = { meshes: [], strands: [], lines: null };
         this.resetCamera({});
@@ -88,7 +88,7 @@ export class View {
         this.noLight = this.texture3d([1, 1, 1], new Uint8Array([255, 128, 128, 128]));
     }
 
-    // ---- What is drawn
+    // ---- Drawing
 
     // A picture of worker.js. The camera stays, unless `frame`.
     show(picture, frame) {
@@ -345,7 +345,7 @@ export class View {
         const reach = cell.box ? length(minus(cell.box.high, cell.box.low)) + length(minus(target, cell.box.low)) : 1;
         const near = Math.max(this.distance - reach, 0.002 * this.distance);
         const projection = perspective(this.fov, w / h, near, this.distance + reach);
-        // The middle of the picture is that of what nothing covers.
+        // The middle of the picture is that of its free part.
         if (!centred) projection[8] += this.covered() / Math.max(this.canvas.clientWidth, 1);
         const light = cell.hair ? this.drawn.strands.find(one => one.light)?.light : null;
         const shared = { view, projection, light, h };

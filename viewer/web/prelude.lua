@@ -1,5 +1,5 @@
--- What scripts have in a page beside the library: the modules of scripts/, and lissom.render, whose pictures
--- the page draws. `playground.shown(...)` returns the pictures of a run and what it returned, as tables of
+-- Scripts in a page have, beside the library: the modules of scripts/, and lissom.render, whose pictures
+-- the page draws. `playground.shown(...)` returns the pictures and the results of a run, as tables of
 -- objects.
 local lissom = require "lissom"
 
@@ -105,7 +105,7 @@ local function picture_of(options)
     }
 end
 
--- ---- What a script returns
+-- ---- Results of a script
 
 local add_value
 

@@ -121,7 +121,7 @@ float lobe(vec2 mirror, float shift, float exponent) {
 }
 // A strand that light meets, and the loss of light in it.
 struct Strand { vec3 color, tangent, to_viewer; float lean; vec3 loss; };
-// By what is left of the light; through: the part that goes through strands, of a light behind them.
+// By the rest of the light; through: the part that goes through strands, of a light behind them.
 vec3 lit(Strand s, vec3 to_light, float left, float through) {
     float ls = dot(s.tangent, to_light), vs = dot(s.tangent, s.to_viewer), lc = cosine_of(ls), vc = cosine_of(vs);
     vec2 mirror = vec2(lc * vc - ls * vs, ls * vc + lc * vs);

@@ -274,7 +274,7 @@ function run(message) {
         let [pictures] = runLoaded();
         const saved = !pictures?.length && written(folder, known).map(file => file.name).filter(name => /\.(obj|glb|ply|off|stl)$/.test(name)).pop();
         if (saved) {
-            // A script that only saves shows what it has saved.
+            // A script that only saves shows its files.
             load(`return playground.shown(require("lissom").load(${JSON.stringify(saved)}))`, 'page');
             [pictures] = runLoaded();
         }

@@ -13,7 +13,7 @@ local p = lissom.params{
 local cactus = lissom.shapes.cactus{ vertices = 6000, thorns = p.thorns }
 local height = cactus:bounds().max[2]
 
--- A handle takes its vertices along; what is pinned stays; between them the surface keeps its details.
+-- A handle takes its vertices along; pinned ones stay; between them the surface keeps its details.
 local deformer = lissom.deformer(cactus)
 deformer:pin(cactus:region("base"))
 deformer:add_handle(cactus:region("tip"))

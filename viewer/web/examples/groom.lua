@@ -3,7 +3,7 @@ local lissom = require "lissom"
 
 local p = lissom.params{
     parting = { type = "number", default = -25, min = -50, max = 50, unit = "degrees",
-        help = "where hair parts" },
+        help = "the side of the parting" },
     length = { type = "number", default = 0.26, min = 0.05, max = 0.4, unit = "metres",
         help = "of a strand" },
     lift = { type = "number", default = 0.02, min = 0.005, max = 0.05, unit = "metres",

@@ -3,8 +3,9 @@ local lissom = require "lissom"
 
 local p = lissom.params{
     turn = { type = "number", default = 20, min = -90, max = 90, unit = "degrees",
-        help = "where the head looks" },
-    height = { type = "number", default = 1.7, min = 1.2, max = 2.2, help = "where the cactus is cut" },
+        help = "direction of the gaze" },
+    height = { type = "number", default = 1.7, min = 1.2, max = 2.2,
+        help = "height of the cut through the cactus" },
 }
 
 local head = lissom.shapes.head{ vertices = 8000 }

@@ -175,7 +175,7 @@ function makeStart(count) {
 <section class="strip"><h2>From the gallery</h2><div class="cards small">${strip.map(slideHtml).join('')}</div><p><a href="gallery.html">All ${count}</a></p></section>
 <section class="facts"><div><h3>One library</h3><p>C++20 with a C ABI; Lua 5.4 or the LuaJIT of your engine; <a href="guide/python.html">Python</a>, <a href="guide/blender.html">Blender</a>, <a href="guide/embed_lua.html">LÖVE</a>, <a href="guide/browser.html">browsers</a>.</p></div>
 <div><h3>The same everywhere</h3><p>A script gives the same result in <a href="guide/hosts.html">every host</a>. Errors have codes, ids and a remedy, and leave everything as it was.</p></div>
-<div><h3>Free</h3><p>The code is under the MIT licence. <a href="guide/licence.html">What a binary may contain</a>.</p></div></section>`;
+<div><h3>Free</h3><p>The code is under the MIT licence. <a href="guide/licence.html">Contents of a binary</a>.</p></div></section>`;
     put('index.html', pageHtml({ title: 'Lissom', body, up: '', here: 'index.html' }));
 }
 

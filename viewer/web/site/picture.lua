@@ -22,7 +22,7 @@ local function fitting(options)
     return { math.floor(width * scale + 0.5), math.floor(height * scale + 0.5) }
 end
 
--- As small as a card is, text cannot be read.
+-- Text cannot be read at the size of a card.
 local function for_card(options)
     local own = {}
     for key, value in pairs(options) do own[key] = value end
