@@ -6,6 +6,7 @@
 
 #include "kernel/core/clock.h"
 #include "kernel/deform/holds/boundary_refinement.h"
+#include "kernel/deform/patch/hubs.h"
 
 namespace lissom {
 namespace {
@@ -102,6 +103,7 @@ void factor(System& system, const Patch& patch, const Context& context) {
 
 void assemble(Preparation& next, ImplicitMethod& method, const Context& context) {
     const DeformOptions& options = next.rest->options();
+    const MemoryCharge charge = charge_hubs(next.patch(), next.rings(), context);
     method.gradients = make_gradients(next.patch(), next.rings(), next.work->geometry, next.known,
                                       start_of_sequence(*next.rest, *next.constraints), options);
     context.parallel_for(0, 2, 1, [&](Index begin, Index end) {

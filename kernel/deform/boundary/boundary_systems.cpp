@@ -6,6 +6,7 @@
 #include "kernel/core/clock.h"
 #include "kernel/core/error.h"
 #include "kernel/deform/holds/constraints.h"
+#include "kernel/deform/patch/hubs.h"
 
 namespace lissom {
 namespace {
@@ -149,6 +150,7 @@ BoundarySystems::BoundarySystems(const Mesh& mesh, const Region& given, const Re
 
 void BoundarySystems::assemble(const Context& context) {
     const auto start = Clock::now();
+    const MemoryCharge charge = charge_hubs(work.patch, work.rings, context);
     stencils =
         make_gradients(work.patch, work.rings, work.geometry, known, -work.patch.origin, options);
     first = std::make_unique<GradientSystem>(work, stencils, known, options, context);

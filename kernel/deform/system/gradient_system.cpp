@@ -65,7 +65,7 @@ class Assembler {
         const Index grain = assembly_grain(rings_.size());
         coherence_.resize(chunk_count(rings_.size()));
         context.parallel_for(0, rings_.size(), grain, [&](Index begin, Index end) {
-            coherence_[begin / grain] = coherence_rows(begin, end);
+            coherence_[begin / grain] = coherence_rows(begin, end, context);
         });
     }
 
@@ -75,7 +75,7 @@ class Assembler {
         const Index grain = assembly_grain(rows);
         std::vector<SystemRows> parts(chunk_count(rows));
         context.parallel_for(0, rows, grain, [&](Index begin, Index end) {
-            parts[begin / grain] = system_rows(free, begin, end);
+            parts[begin / grain] = system_rows(free, begin, end, context);
         });
         return parts;
     }
@@ -164,7 +164,7 @@ class Assembler {
         if (total > 0.0) add_gradient(a, total, row);
     }
 
-    CoherenceRows coherence_rows(Index begin, Index end) const {
+    CoherenceRows coherence_rows(Index begin, Index end, const Context& context) const {
         CoherenceRows rows;
         const std::size_t most = max_columns(begin, end);
         rows.column.reserve(most);
@@ -172,6 +172,7 @@ class Assembler {
         RowAccumulator<Vec3> row(rings_.size());
         RowAccumulator<double> known_row(rings_.size()), pairs(rings_.size());
         for (Index a = begin; a < end; ++a) {
+            context.checkpoint();
             if (gradients_.defined[a] && !known_.gradient[a]) {
                 add_coherence_row(a, row, known_row, pairs);
             }
@@ -229,7 +230,8 @@ class Assembler {
         }
     }
 
-    SystemRows system_rows(const std::vector<Index>& free, Index begin, Index end) const {
+    SystemRows system_rows(const std::vector<Index>& free, Index begin, Index end,
+                           const Context& context) const {
         SystemRows rows;
         RowAccumulator<double> row(rings_.size());
         RowAccumulator<Vec3> gradient_row(rings_.size());
@@ -244,6 +246,7 @@ class Assembler {
             add_coherence_term(i, a, g, row, gradient_row);
         };
         for (Index r = begin; r < end; ++r) {
+            context.checkpoint();
             const Index i = free[r];
             row.add(i, is_idle(i) ? 1.0 : 0.0);
             add_terms(i, i);

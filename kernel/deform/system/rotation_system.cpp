@@ -178,6 +178,7 @@ void RotationSystem::assemble(const std::vector<char>& position_known, const Con
             }
         };
         for (Index r = begin; r < end; ++r) {
+            context.checkpoint();
             const Index i = free_[r];
             row.add(i, 0.0);
             add_laplacian(i, coefficient_sum[i], i);
