@@ -78,8 +78,11 @@ Index HolePatch::triangle_at(Index from, Index to) const {
 bool HolePatch::has_edge(Index a, Index b) const {
     if (triangle_at(a, b) != kNoIndex || triangle_at(b, a) != kNoIndex) return true;
     if (a >= mesh_.vertex_count() || b >= mesh_.vertex_count()) return false;
-    const std::span<const Index> ring = mesh_.topology().neighbors(a);
-    return std::find(ring.begin(), ring.end(), b) != ring.end();
+    // A hub of very many neighbours is met from the other end.
+    const Topology& topology = mesh_.topology();
+    const bool from_a = topology.valence(a) <= topology.valence(b);
+    const std::span<const Index> ring = topology.neighbors(from_a ? a : b);
+    return std::find(ring.begin(), ring.end(), from_a ? b : a) != ring.end();
 }
 
 Vec3 HolePatch::normal(Index triangle) const {
@@ -107,8 +110,8 @@ bool HolePatch::refine(std::span<const Index> loop, double density, Index maximu
     for (const Triangle& t : triangles_) {
         for (int k = 0; k < 3; ++k) all.emplace_back(t[k], t[(k + 1) % 3]);
     }
-    relax(std::move(all));
-    while (split_large_triangles(maximum_vertices)) {
+    relax(std::move(all), context);
+    while (split_large_triangles(maximum_vertices, context)) {
         context.checkpoint();
         if (new_vertex_count() >= maximum_vertices) return false;
     }
@@ -116,7 +119,7 @@ bool HolePatch::refine(std::span<const Index> loop, double density, Index maximu
 }
 
 // One pass over the triangles; true if one was split.
-bool HolePatch::split_large_triangles(Index maximum_vertices) {
+bool HolePatch::split_large_triangles(Index maximum_vertices, const Context& context) {
     std::vector<std::pair<Index, Index>> dirty;
     const auto count = count_of(triangles_);
     bool any = false;
@@ -136,7 +139,7 @@ bool HolePatch::split_large_triangles(Index maximum_vertices) {
         any = true;
         for (int k = 0; k < 3; ++k) dirty.emplace_back(corners[k], corners[(k + 1) % 3]);
     }
-    relax(std::move(dirty));
+    relax(std::move(dirty), context);
     return any;
 }
 
@@ -150,9 +153,10 @@ void HolePatch::split(Index triangle) {
 }
 
 // Flips edges until none is better flipped.
-void HolePatch::relax(std::vector<std::pair<Index, Index>> edges) {
+void HolePatch::relax(std::vector<std::pair<Index, Index>> edges, const Context& context) {
     std::size_t flips_left = kFlipsPerEdge * triangles_.size();
     while (!edges.empty() && flips_left > 0) {
+        context.checkpoint();
         const auto [a, b] = edges.back();
         edges.pop_back();
         const Index t = triangle_at(a, b), u = triangle_at(b, a);

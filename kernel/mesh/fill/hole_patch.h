@@ -52,9 +52,9 @@ class HolePatch {
                 const Context& context);
 
   private:
-    bool split_large_triangles(Index maximum_vertices);
+    bool split_large_triangles(Index maximum_vertices, const Context& context);
     void split(Index triangle);
-    void relax(std::vector<std::pair<Index, Index>> edges);
+    void relax(std::vector<std::pair<Index, Index>> edges, const Context& context);
     bool flip_if_better(Index a, Index b);
     void set_triangle(Index triangle, const Triangle& vertices);
     Index triangle_at(Index from, Index to) const;

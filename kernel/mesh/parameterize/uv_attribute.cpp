@@ -63,7 +63,10 @@ void write_uv(Mesh& mesh, const Parameterization& map, std::string_view name,
     const std::vector<Vec2> points = placed_points(map, placement);
     std::vector<Index> place(at(mesh.vertex_count()), kNoIndex);
     for (Index i = 0; i < count_of(map.vertex); ++i) place[map.vertex[i]] = i;
+    Index last = kNoIndex;
     for (const Index f : map.face) {
+        // The triangles of a polygon follow one another.
+        if (std::exchange(last, f) == f) continue;
         const std::span<const Index> face = mesh.topology().face(f);
         for (std::size_t k = 0; k < face.size(); ++k) {
             const Index i = place[face[k]];
