@@ -1,5 +1,6 @@
 -- When to choose `pose_space`: shapes of one mesh that were posed, by deformers or by hand, and are to be
--- blended. A linear blend shortens what turns; a pose space turns it, together with its details.
+-- blended. A linear blend shortens what turns; a pose space turns it, together with its details. `transfer`
+-- gives a pose to another mesh.
 --
 --     lissom run examples/deform/poses.lua
 
@@ -43,16 +44,25 @@ local linear = arm:copy()
 local positions, goal = linear:positions(), bent:positions()
 for i = 1, #positions do positions[i] = (positions[i] + goal[i]) / 2 end
 
+-- Another mesh takes a pose, and an engine takes all of them as morph targets.
+local bar = lissom.shapes.bar{ width = 0.8, along = 60 }
+local bar_bent = lissom.transfer{ from = arm, from_posed = bent, to = bar, regions = { "top", "bottom" } }
+local _, report = space:targets{ correctives = { { bent = 0.5 }, { bent = 1, thick = 1 } } }
+
 figures.write{
-    name = "poses", out = params.out, columns = 6, fit = "all", view = "front",
+    name = "poses", out = params.out, columns = 8, fit = "all", view = "front",
     panels = {
         { arm, "rest" }, { bent, "pose \"bent\"" }, { linear, "half, linear" }, { half, "half" },
         { space:blend{ bent = 1.25 }, "bent = 1.25" },
         { space:blend{ bent = 1, thick = 1 }, "bent and thick" },
+        { bar, "another mesh" }, { bar_bent, "it takes \"bent\"" },
     },
-    size = { 6 * math.floor(0.62 * params.size), params.size },
+    size = { 8 * math.floor(0.62 * params.size), params.size },
 }
 print(("volume of the half: linear %.3f of the rest, pose space %.3f"):format(
     linear:volume() / arm:volume(), half:volume() / arm:volume()))
+print(("morph targets: greatest error %.3f of the size, with correctives %.3f"):format(
+    report.linear_error / arm:size(), report.error / arm:size()))
+assert(report.error < 0.5 * report.linear_error)
 assert(math.abs(half:volume() / arm:volume() - 1) < 0.08)
 assert(linear:volume() < half:volume())

@@ -127,7 +127,7 @@ const std::vector<Names>& room_orders() {
         {"kernel/sketch", "kernel/sketch/support"},
         {"kernel/io/stream", "kernel/io/record", "kernel/io/gltf/file", "kernel/io/gltf/mesh",
          "kernel/io/gltf", "kernel/io/obj", "kernel/io/off", "kernel/io/ply", "kernel/io/stl",
-         "kernel/io/usda", "kernel/io/hair", "kernel/io"},
+         "kernel/io/usda", "kernel/io/hair", "kernel/io/poses", "kernel/io"},
         {"bindings/lua/core", "bindings/lua/host", "bindings/lua/sandbox", "bindings/lua/mesh",
          "bindings/lua/deform", "bindings/lua/merge", "bindings/lua/hair", "bindings/lua/scene",
          "bindings/lua/sketch", "bindings/lua/tools", "bindings/lua/reference"},

@@ -235,3 +235,95 @@ test("pose_space: bad input is refused", function()
     expect.equal(code(blend, { bent = "much" }), "invalid_argument")
     expect.equal(code(blend, { 0.5 }), "invalid_argument")
 end)
+
+test("pose_space: morph targets with correctives give the blend at their weights", function()
+    local poses = { bent = { bent(45), bent(90) }, back = bent(-90) }
+    local space = lissom.pose_space{ rest = bar(), poses = poses }
+    local at = { { bent = 0.75 }, { back = 0.5 }, { back = 1, bent = 1 } }
+    local mesh, report = space:targets{ correctives = at }
+    expect.equal(#report.targets, 6)
+    expect.equal(report.targets[1].name, "back")
+    expect.falsy(report.targets[1].corrective)
+    expect.equal(report.targets[3].name, "bent=0.5")
+    expect.equal(report.targets[6].at.bent, 1)
+    expect.truthy(report.error < 0.5 * report.linear_error)
+    local path = os.tmpname() .. ".glb"
+    mesh:save(path)
+    local loaded = lissom.load(path)
+    os.remove(path)
+    local rest, half = loaded:positions(), space:blend{ bent = 0.5 }:positions()
+    -- Weights of "bent", "bent=0.5" and "bent=0.75" at 0.5.
+    local greatest, weights = 0, { [2] = 0.5, [3] = 1, [4] = 2 / 3 }
+    local sum = {}
+    for i = 1, #half do sum[i] = rest[i] end
+    for target, weight in pairs(weights) do
+        local changes = loaded:attribute("morph." .. target .. ".position")
+        for i = 1, #half do sum[i] = sum[i] + weight * changes[i] end
+    end
+    for i = 1, #half do greatest = math.max(greatest, math.abs(sum[i] - half[i])) end
+    expect.truthy(greatest < 1e-5)
+    for _, correctives in ipairs{ { {} }, { { bent = 1 } }, { { bent = 0.5 } }, { 1 } } do
+        local value, e = lissom.try(space.targets, space, { correctives = correctives })
+        expect.equal(value, nil)
+        expect.equal(e.code, "invalid_argument")
+    end
+end)
+
+-- ---- Poses of a deformer
+
+local function posed_bar()
+    local mesh = bar()
+    local deformer = lissom.deformer(mesh):pin(mesh:region("bottom"))
+    local top = deformer:add_handle(mesh:region("top"))
+    local straight = deformer:pose()
+    top:rotate("z", 120):rotate("z", 120):rotate("z", 120)
+    return mesh, deformer, top, straight, deformer:pose()
+end
+
+test("poses: they are values, and blend by the turns made", function()
+    local mesh, deformer, top, straight, wound = posed_bar()
+    expect.equal(tostring(wound), "lissom.Pose: 2 handles")
+    deformer:set_pose(straight:blend(wound, 0.25))
+    expect.near(top:matrix()[1][1], 0, 1e-9)
+    deformer:solve()
+    local quarter = mesh:copy()
+    top:translate(1, 0, 0)
+    deformer:set_pose(straight:blend(wound, 0.25)):solve()
+    expect.equal(greatest_distance(mesh, quarter), 0)
+    local _, other, _, foreign = posed_bar()
+    for _, bad in ipairs{ function() other:set_pose(wound) end, function() wound:blend(foreign, 0.5) end } do
+        local value, e = lissom.try(bad)
+        expect.equal(value, nil)
+        expect.equal(e.code, "invalid_argument")
+    end
+end)
+
+test("poses: key poses are baked as a function that sets them", function()
+    local mesh, deformer, top, straight, wound = posed_bar()
+    local before = mesh:copy()
+    local keys = { { time = 0, pose = straight }, { time = 1, pose = straight:blend(wound, 0.25) } }
+    local baked, report = deformer:bake{ keys = keys, easing = "smooth", fps = 4 }
+    expect.equal(report.keys, 5)
+    expect.equal(greatest_distance(mesh, before), 0)
+    local expected = deformer:bake{ duration = 1, fps = 4, pose = function(time)
+        deformer:set_pose(straight:blend(wound, 0.25 * time * time * (3 - 2 * time)))
+    end }
+    for target = 1, 4 do
+        local name = "morph." .. target .. ".position"
+        local a, b = baked:attribute(name), expected:attribute(name)
+        for i = 1, #a do expect.near(a[i], b[i], 1e-6) end
+    end
+    expect.near(top:matrix()[1][1], 1, 1e-9)
+    local _, stepped = deformer:bake{ keys = keys, easing = "step", fps = 4, duration = 0.5 }
+    expect.equal(stepped.targets, 0)
+    local function refused(options)
+        local value, e = lissom.try(deformer.bake, deformer, options)
+        expect.equal(value, nil)
+        expect.equal(e.code, "invalid_argument")
+    end
+    refused{ keys = {} }
+    refused{ keys = { keys[2], keys[1] } }
+    refused{ keys = keys, pose = function() end }
+    refused{ duration = 1 }
+    refused{ keys = keys, easing = "bouncy" }
+end)

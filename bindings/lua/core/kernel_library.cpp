@@ -14,8 +14,10 @@ namespace lissom::lua {
 // Of bindings/lua/mesh and bindings/lua/deform, rooms after this one.
 std::vector<Function> resample_methods();
 std::vector<Record> resample_records();
+Type pose_type();
 Type pose_space_type();
 std::vector<Function> pose_space_functions();
+std::vector<Function> transfer_functions();
 namespace {
 
 template <typename T>
@@ -84,6 +86,7 @@ Library kernel_library() {
     add(library.functions, shape_functions());
     add(library.functions, deform_functions());
     add(library.functions, pose_space_functions());
+    add(library.functions, transfer_functions());
     add(library.functions, merge_functions());
     add(library.functions, paste_functions());
     add(library.functions, scatter_functions());
@@ -102,12 +105,13 @@ Library kernel_library() {
     library.functions.push_back(listen_function());
     add(library.functions, error_functions());
     library.types = {
-        whole_mesh_type(),      region_type(),  whole_path_type(), buffer_type(),
-        deformer_type(),        handle_type(),  pose_space_type(), merger_type(),
-        provenance_type(),      paste_type(),   scalp_type(),      whole_hairstyle_type(),
-        whole_curve_type(),     strands_type(), guide_set_type(),  cards_type(),
-        strand_follower_type(), scene_type(),   polyline_type(),   whole_camera_type(),
-        gizmo_type(),           support_type(), tool_view_type(),  parameters_type()};
+        whole_mesh_type(),      region_type(),          whole_path_type(), buffer_type(),
+        deformer_type(),        handle_type(),          pose_space_type(), pose_type(),
+        merger_type(),          provenance_type(),      paste_type(),      scalp_type(),
+        whole_hairstyle_type(), whole_curve_type(),     strands_type(),    guide_set_type(),
+        cards_type(),           strand_follower_type(), scene_type(),      polyline_type(),
+        whole_camera_type(),    gizmo_type(),           support_type(),    tool_view_type(),
+        parameters_type()};
     library.records = kernel_records();
     add(library.records, error_records());
     add(library.records, cut_records());

@@ -5,6 +5,7 @@
 #include "bindings/lua/deform/deform_options.h"
 #include "bindings/lua/deform/deform_points.h"
 #include "bindings/lua/deform/deform_texts.h"
+#include "bindings/lua/deform/pose_object.h"
 #include "bindings/lua/mesh/buffer.h"
 #include "bindings/lua/mesh/path_object.h"
 #include "bindings/lua/mesh/transform_options.h"
@@ -725,6 +726,7 @@ deformer:solve())"},
     for (Function& method : solving_methods()) type.methods.push_back(std::move(method));
     for (Function& method : deform_engine_methods()) type.methods.push_back(std::move(method));
     for (Function& method : contact_methods()) type.methods.push_back(std::move(method));
+    for (Function& method : pose_methods()) type.methods.push_back(std::move(method));
     for (Function& method : attachment_methods()) type.methods.push_back(std::move(method));
     return type;
 }

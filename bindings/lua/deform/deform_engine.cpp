@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/deform/deform_object.h"
+#include "bindings/lua/deform/pose_object.h"
 #include "kernel/deform/deformed_surface.h"
 #include "kernel/io/basis_file.h"
 #include "kernel/io/morph_baker.h"
@@ -126,6 +128,10 @@ struct Baking {
         if (skin) skin->add(time, shape);
     }
 
+    void pose_at_time(double time, Easing easing) const {
+        set_pose(edit->deformer(), pose_at(path, time, easing));
+    }
+
     // Whatever the script did to the deformation in the meantime.
     void restore() const {
         if (edit->content) before.restore(*edit->content);
@@ -141,6 +147,8 @@ struct Baking {
     std::unique_ptr<SkinBaker> skin;
     std::unique_ptr<EngineBasis> basis;
     std::vector<BasisKey> keys;
+    // Key poses of the script, none if a function of its makes the poses.
+    std::vector<PoseKey> path;
 };
 
 // Arguments of a call of bake, as plain data.
@@ -151,10 +159,26 @@ struct BakeRequest {
     int count;
     bool is_preview;
     bool done;
+    std::span<const KeySpec> keys = {};
+    Easing easing = Easing::linear;
 
-    static BakeRequest read(Call& call, const char* function) {
+    // Reads `pose` or `keys` as well.
+    static BakeRequest read_path(Call& call, const char* function) {
+        if (call.has("pose") == call.has("keys")) {
+            call.raise(lua_pushfstring(call.lua(), "'%s' needs either 'pose' or 'keys'", function));
+        }
+        const auto keys = read_pose_keys(call);
+        BakeRequest request = read(call, function, keys.empty() ? kNone : keys.back().time);
+        request.keys = keys;
+        request.easing = call.choice<Easing>("easing");
+        return request;
+    }
+
+    // Without duration and times, the duration is `length` if that is a number.
+    static BakeRequest read(Call& call, const char* function, double length = kNone) {
         const bool has_times = call.has("times"), has_duration = call.has("duration");
-        if (has_times == has_duration) {
+        const bool has_length = !has_times && !has_duration && length >= 0.0;
+        if (has_times == has_duration && !has_length) {
             // Not a std::string: the error leaves its destructor out.
             call.raise(
                 lua_pushfstring(call.lua(), "'%s' needs either 'duration' or 'times'", function));
@@ -166,7 +190,8 @@ struct BakeRequest {
             request.count = count_of(times);
             return request;
         }
-        const double fps = call.number("fps"), frames = std::round(call.number("duration") * fps);
+        const double duration = has_length ? length : call.number("duration");
+        const double fps = call.number("fps"), frames = std::round(duration * fps);
         if (!(frames < kMaximumFrames)) call.reject("duration", "that is more than 10000 frames");
         request.count = static_cast<int>(frames) + 1;
         auto* times = call.scratch<double>(at(request.count));
@@ -187,10 +212,14 @@ int bake_frames(lua_State* L) {
         if (!call.attempt_quick([&] { baking->before.restore(baking->edit->deformer()); })) {
             return 0;
         }
-        lua_pushvalue(L, 2);
-        lua_pushnumber(L, time);
-        lua_pushinteger(L, i + 1);
-        lua_call(L, 2, 0);
+        if (request.keys.empty()) {
+            lua_pushvalue(L, 2);
+            lua_pushnumber(L, time);
+            lua_pushinteger(L, i + 1);
+            lua_call(L, 2, 0);
+        } else if (!call.attempt_quick([&] { baking->pose_at_time(time, request.easing); })) {
+            return 0;
+        }
         if (!call.attempt([&] { baking->add_pose(time, request.is_preview, call.context()); })) {
             return 0;
         }
@@ -205,7 +234,11 @@ bool run_frames(Call& call, BakeRequest& request) {
     lua_State* L = call.lua();
     lua_pushcfunction(L, bake_frames);
     lua_pushlightuserdata(L, &request);
-    lua_pushvalue(L, call.stack_index("pose"));
+    if (request.keys.empty()) {
+        lua_pushvalue(L, call.stack_index("pose"));
+    } else {
+        lua_pushnil(L);
+    }
     const int status = lua_pcall(L, 2, 0, 0);
     const bool restored = call.attempt_quick([&] { request.baking->restore(); });
     if (status != 0) lua_error(L);
@@ -250,7 +283,7 @@ int save_basis_file(Call& call) {
 
 int bake(Call& call) {
     const auto edit = call.self<DeformObject>();
-    BakeRequest request = BakeRequest::read(call, "bake");
+    BakeRequest request = BakeRequest::read_path(call, "bake");
     const char* name = call.string("name");
     const auto interpolation = call.choice<KeyInterpolation>("interpolation");
     const bool normals = call.boolean("normals");
@@ -260,6 +293,7 @@ int bake(Call& call) {
     const auto result = call.create<MeshObject>();
     const bool began = call.attempt([&] {
         baking = std::make_unique<Baking>(edit.share());
+        baking->path = pose_keys(request.keys);
         baking->bake_morphs(BakeOptions{name, interpolation, normals, tolerance}, call.context());
     });
     if (!began) return call.fail();
@@ -292,10 +326,11 @@ VertexTextureFiles files_beside(Call& call, const char* path) {
 int bake_texture(Call& call) {
     const auto edit = call.self<DeformObject>();
     const char* path = call.string("path");
-    BakeRequest request = BakeRequest::read(call, "bake_texture");
+    BakeRequest request = BakeRequest::read_path(call, "bake_texture");
     auto& baking = call.hold<std::unique_ptr<Baking>>();
     const bool began = call.attempt([&] {
         baking = std::make_unique<Baking>(edit.share());
+        baking->path = pose_keys(request.keys);
         baking->bake_texture(call.context());
     });
     if (!began) return call.fail();
@@ -396,7 +431,8 @@ Parameter duration_option() {
 const std::vector<ErrorCode> kPoseErrors = {
     ErrorCode::unconstrained,  ErrorCode::zero_area,         ErrorCode::not_positive_definite,
     ErrorCode::memory_limit,   ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
-    ErrorCode::handle_removed, ErrorCode::unsupported,       ErrorCode::cancelled};
+    ErrorCode::handle_removed, ErrorCode::unsupported,       ErrorCode::singular_transform,
+    ErrorCode::cancelled};
 
 }  // namespace
 
@@ -454,7 +490,9 @@ os.remove(path))"},
          .options =
              {function("pose", "fun(time: number, frame: integer)",
                        "Moves handles; called for each frame with its time and its number from "
-                       "1."),
+                       "1.")
+                  .optional("keys is given"),
+              keys_option(), easing_option(),
               number("duration",
                      "Length of the animation; it starts at 0 and has a frame at its "
                      "end.")
@@ -514,8 +552,9 @@ os.remove(path))"},
          .arguments = {string("path", "The files without their endings.")},
          .options = {function("pose", "fun(time: number, frame: integer)",
                               "Moves handles; called for each frame with its time and its number "
-                              "from 1."),
-                     duration_option().optional("times are given"),
+                              "from 1.")
+                         .optional("keys is given"),
+                     keys_option(), easing_option(), duration_option().optional("times are given"),
                      number("fps", "Frames a second.").above(0).defaults(24.0),
                      numbers("times",
                              "Time of each frame in seconds, ascending, instead of a duration.")
@@ -529,7 +568,8 @@ os.remove(path))"},
          .errors = {ErrorCode::unconstrained, ErrorCode::zero_area,
                     ErrorCode::not_positive_definite, ErrorCode::memory_limit,
                     ErrorCode::topology_mismatch, ErrorCode::invalid_argument,
-                    ErrorCode::handle_removed, ErrorCode::unsupported, ErrorCode::file_too_large,
+                    ErrorCode::handle_removed, ErrorCode::unsupported,
+                    ErrorCode::singular_transform, ErrorCode::file_too_large,
                     ErrorCode::file_write_failed, ErrorCode::file_is_directory,
                     ErrorCode::cancelled},
          .example = R"(local bar = lissom.shapes.bar{ across = 2, along = 10 }

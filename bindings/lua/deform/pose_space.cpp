@@ -13,6 +13,7 @@
 #include "bindings/lua/core/kernel_library.h"
 #include "bindings/lua/core/push_list.h"
 #include "bindings/lua/mesh/mesh_object.h"
+#include "kernel/io/poses/pose_targets.h"
 
 namespace lissom::lua {
 namespace {
@@ -155,6 +156,55 @@ int blend(Call& call) {
     return new_mesh(call, [&] { return self->space.blend(pose_weights(specs), call.context()); });
 }
 
+constexpr const char* kExpectedCorrectives =
+    "list of weights by name of pose expected: { { smile = 0.5 }, { smile = 1, bent = 1 } }";
+
+std::span<const std::span<const WeightSpec>> read_correctives(const Call& call) {
+    if (!call.has("correctives")) return {};
+    lua_State* L = call.lua();
+    const int list = call.stack_index("correctives");
+    const std::size_t count = raw_length(L, list);
+    auto* all = call.scratch<std::span<const WeightSpec>>(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        luaL_checkstack(L, 8, "too many correctives");
+        lua_rawgeti(L, list, index_of(i) + 1);
+        if (lua_type(L, -1) != LUA_TTABLE) call.reject("correctives", kExpectedCorrectives);
+        all[i] = read_weights(call, "correctives", lua_gettop(L));
+    }
+    return {all, count};
+}
+
+void push_target(Call& call, const PoseTarget& target) {
+    lua_createtable(call.lua(), 0, 3);
+    call.set_field("name", call.push(std::string_view(target.name)));
+    call.set_field("corrective", call.push(target.is_corrective));
+    lua_createtable(call.lua(), 0, 1);
+    for (const PoseWeight& weight : target.at) {
+        call.set_field(weight.name.c_str(), call.push(weight.weight));
+    }
+    lua_setfield(call.lua(), -2, "at");
+}
+
+int targets(Call& call) {
+    const auto self = call.self<PoseSpaceObject>();
+    const auto specs = read_correctives(call);
+    const bool normals = call.boolean("normals");
+    auto& report = call.hold<PoseTargetReport>();
+    const int results = new_mesh(call, [&] {
+        PoseTargetOptions options;
+        options.normals = normals;
+        for (const auto& at : specs) options.correctives.push_back(pose_weights(at));
+        return pose_targets(self->space, options, &report, call.context());
+    });
+    if (results != 1) return results;
+    lua_createtable(call.lua(), 0, 3);
+    push_list(call, report.targets, [&](const PoseTarget& target) { push_target(call, target); });
+    lua_setfield(call.lua(), -2, "targets");
+    call.set_field("linear_error", call.push(report.linear_error));
+    call.set_field("error", call.push(report.error));
+    return 2;
+}
+
 int names(Call& call) {
     const auto self = call.self<PoseSpaceObject>();
     auto& list = call.hold<std::vector<std::string>>();
@@ -228,6 +278,38 @@ Type pose_space_type() {
 local both = space:blend{ bent = 1, thick = 0.5 }
 local more = space:blend{ bent = 1.2 }
 assert(both:volume() > 1.2 * bar:volume() and more:volume() < 1.1 * bar:volume()))"},
+        {.name = "targets",
+         .body = targets,
+         .summary =
+             "The mesh at rest with a morph target for each pose, for engines that blend "
+             "linearly, and correctives, which take back the error of that at chosen weights and "
+             "at the meshes of a path. mesh:save writes them to .glb and .gltf. The weight of a "
+             "corrective is the product over its poses, with weight w and at a, of (w - 1) / (a - "
+             "1) if "
+             "a is above 1, or w above an a between 0 and 1, else of w / a; never below 0.",
+         .options = {table("correctives",
+                           "A list of weights by name of pose, as for blend: halves, pairs.")
+                         .optional("none"),
+                     boolean("normals",
+                             "Gives a mesh without normals those of its surface, so "
+                             "that light follows.")
+                         .defaults(true)},
+         .results = {{"lissom.Mesh", "mesh",
+                      "The rest shape with its targets. Morph targets that it had are left out."},
+                     {"table", "report",
+                      "`targets`, a list in the order of the mesh's targets: `name`, `corrective` "
+                      "and `at`, its weights; `linear_error` and `error`, the greatest distances "
+                      "of a vertex from the blend, without and with correctives, over tenths of "
+                      "the way from rest to each target."}},
+         .errors = {ErrorCode::invalid_argument, ErrorCode::unsupported, ErrorCode::not_finite,
+                    ErrorCode::out_of_range, ErrorCode::memory_limit, ErrorCode::cancelled},
+         .example =
+             kBentBar + R"(local space = lissom.pose_space{ rest = bar, poses = { bent = bent } }
+local mesh, report = space:targets{ correctives = { { bent = 0.5 } } }
+assert(report.targets[2].name == "bent=0.5" and report.error < 0.4 * report.linear_error)
+local path = os.tmpname() .. ".glb"
+mesh:save(path)
+os.remove(path))"},
         {.name = "names",
          .body = names,
          .summary = "The names of the poses, in alphabetical order.",

@@ -1665,8 +1665,14 @@ function Deformer:basis() end
 ---@return lissom.Deformer deformer # The deformer itself.
 function Deformer:save_basis(path, options) end
 
+---@class lissom.Deformer.BakeOptions.Keys
+---@field time number Its time in seconds; ascending.
+---@field pose lissom.Pose A pose of this deformer.
+
 ---@class lissom.Deformer.BakeOptions
----@field pose fun(time: number, frame: integer) Moves handles; called for each frame with its time and its number from 1.
+---@field pose? fun(time: number, frame: integer) Moves handles; called for each frame with its time and its number from 1. Default: keys is given.
+---@field keys? lissom.Deformer.BakeOptions.Keys[] Key poses, instead of a function: handles turn and shift between them as Pose:blend does. Before the first and after the last they keep still. Without duration and times the animation ends at the last. Default: pose is given.
+---@field easing? "linear"|"smooth"|"slow in"|"slow out"|"step" The pace between two key poses: even; slow at both, at the first, or at the second; or the first pose until the second key. Default: "linear".
 ---@field duration? number Length of the animation; it starts at 0 and has a frame at its end. In seconds. Default: times are given.
 ---@field fps? number Frames a second. Default: 24.
 ---@field times? number[] Time of each frame in seconds, ascending, instead of a duration. Default: duration is given.
@@ -1677,13 +1683,19 @@ function Deformer:save_basis(path, options) end
 ---@field name? string Name of the animation. Default: "deformation".
 
 ---Makes an animation of a sequence of poses: a new mesh with a morph target for each different shape, which mesh:save writes as .glb or .gltf and any viewer of such files plays. For each frame the handles start from their present place, the function moves them, and the deformation is solved. Handles, mesh and last result are restored afterwards, even if the function fails.
----@param options lissom.Deformer.BakeOptions
+---@param options? lissom.Deformer.BakeOptions
 ---@return lissom.Mesh mesh # The rest shape with its targets and the animation.
 ---@return table report # `keys` and `targets`, their numbers; `max_error`, the greatest distance of a vertex from its pose in mesh units; `max_direction_error`, that of a unit normal or tangent.
 function Deformer:bake(options) end
 
+---@class lissom.Deformer.Bake_textureOptions.Keys
+---@field time number Its time in seconds; ascending.
+---@field pose lissom.Pose A pose of this deformer.
+
 ---@class lissom.Deformer.Bake_textureOptions
----@field pose fun(time: number, frame: integer) Moves handles; called for each frame with its time and its number from 1.
+---@field pose? fun(time: number, frame: integer) Moves handles; called for each frame with its time and its number from 1. Default: keys is given.
+---@field keys? lissom.Deformer.Bake_textureOptions.Keys[] Key poses, instead of a function: handles turn and shift between them as Pose:blend does. Before the first and after the last they keep still. Without duration and times the animation ends at the last. Default: pose is given.
+---@field easing? "linear"|"smooth"|"slow in"|"slow out"|"step" The pace between two key poses: even; slow at both, at the first, or at the second; or the first pose until the second key. Default: "linear".
 ---@field duration? number Length of the animation; it starts at 0 and has a frame at its end. In seconds. Default: times are given.
 ---@field fps? number Frames a second. Default: 24.
 ---@field times? number[] Time of each frame in seconds, ascending, instead of a duration. Default: duration is given.
@@ -1691,7 +1703,7 @@ function Deformer:bake(options) end
 
 ---Writes a sequence of poses as a vertex animation texture: PATH_positions.png and PATH_normals.png with 16 bits a channel, a texel for each vertex and frame; PATH.glb, the mesh at rest, whose last texture coordinates are the texel of each vertex in the first frame; and PATH.json with the bounds, the times and `frame_step`, by which v goes on from frame to frame. The frames of a vertex stand below one another: a bilinear sampler blends between them. Pictures must be read as linear, without mip maps. Handles, mesh and last result are restored afterwards.
 ---@param path string The files without their endings.
----@param options lissom.Deformer.Bake_textureOptions
+---@param options? lissom.Deformer.Bake_textureOptions
 ---@return table report # `frames`; `width` and `height` of the pictures; `max_error`, the greatest distance of a vertex from its pose by 16 bits, in mesh units; `max_normal_error`, that of a unit normal.
 function Deformer:bake_texture(path, options) end
 
@@ -1715,6 +1727,15 @@ function Deformer:skin(options) end
 ---The pairs of faces that intersect in the last result, and did not at rest. Quick enough to follow a drag: boxes around the faces are made once, and fitted to each result.
 ---@return lissom.Contacts contacts # The pairs; none if the list is empty.
 function Deformer:contacts() end
+
+---The present transforms of all handles, and places of constraints, as a value.
+---@return lissom.Pose pose # It stays as it is when handles move on.
+function Deformer:pose() end
+
+---Moves all handles and constraints to a pose, for the next solve. Handles that were added since the pose was taken stay.
+---@param pose lissom.Pose A pose of this deformer, and of its present rest shape.
+---@return lissom.Deformer deformer # The deformer itself.
+function Deformer:set_pose(pose) end
 
 ---@class lissom.Deformer.AttachOptions
 ---@field mode? "components"|"vertices" Pieces that keep their shape: connected components, such as buttons and eyes; or none, each vertex follows the surface nearest to it, as clothes do. Default: "components".
@@ -1832,12 +1853,35 @@ local PoseSpace = {}
 ---@return lissom.Mesh mesh # A new mesh: rest with the blended shape. Custom normals, tangents and morph targets turn along.
 function PoseSpace:blend(weights) end
 
+---@class lissom.PoseSpace.TargetsOptions
+---@field correctives? table A list of weights by name of pose, as for blend: halves, pairs. Default: none.
+---@field normals? boolean Gives a mesh without normals those of its surface, so that light follows. Default: true.
+
+---The mesh at rest with a morph target for each pose, for engines that blend linearly, and correctives, which take back the error of that at chosen weights and at the meshes of a path. mesh:save writes them to .glb and .gltf. The weight of a corrective is the product over its poses, with weight w and at a, of (w - 1) / (a - 1) if a is above 1, or w above an a between 0 and 1, else of w / a; never below 0.
+---@param options? lissom.PoseSpace.TargetsOptions
+---@return lissom.Mesh mesh # The rest shape with its targets. Morph targets that it had are left out.
+---@return table report # `targets`, a list in the order of the mesh's targets: `name`, `corrective` and `at`, its weights; `linear_error` and `error`, the greatest distances of a vertex from the blend, without and with correctives, over tenths of the way from rest to each target.
+function PoseSpace:targets(options) end
+
 ---The names of the poses, in alphabetical order.
 ---@return string[] names # The names.
 function PoseSpace:names() end
 
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function PoseSpace:close() end
+
+---Transforms of the handles of a deformer at one time.
+---@class lissom.Pose
+local Pose = {}
+
+---The pose at a share of the way to another: handles turn and shift as screws, by the turns that they made, full ones too, and stretch evenly.
+---@param other lissom.Pose A pose of the same deformer.
+---@param share number 0 is this pose, 1 the other; others go beyond.
+---@return lissom.Pose pose # A new pose.
+function Pose:blend(other, share) end
+
+---Frees the contents of the object. It may be called again; any other use is an error then.
+function Pose:close() end
 
 ---A merge that is solved again, without factoring again, after its keys have moved: for a tool while the user drags a key.
 ---@class lissom.Merger
@@ -4097,6 +4141,22 @@ function lissom.deformer(mesh, options) end
 ---@param options lissom.Pose_spaceOptions
 ---@return lissom.PoseSpace space # Its poses are copies.
 function lissom.pose_space(options) end
+
+---@class lissom.TransferOptions.Pairs
+---@field from lissom.Region A part of the posed mesh.
+---@field to lissom.Region The part that corresponds.
+
+---@class lissom.TransferOptions
+---@field from lissom.Mesh The mesh at rest whose pose it is.
+---@field from_posed lissom.Mesh The same mesh posed.
+---@field to lissom.Mesh The mesh that takes the pose, at rest.
+---@field pairs? lissom.TransferOptions.Pairs[] Parts of both meshes that correspond, such as their heads. Default: none.
+---@field regions? string[] Names of regions that both meshes have and that correspond. Default: none.
+
+---Another mesh takes the pose of a mesh: each of its triangles deforms as the corresponding part of the posed mesh does (Sumner and Popovic 2004). Both meshes stand alike at rest; sizes and places may differ. Without pairs and regions their faces correspond one to one. Else points correspond by harmonic functions of the pairs: some at the ends of limbs and at the trunk serve best. Parts that the pose does not move stay.
+---@param options lissom.TransferOptions
+---@return lissom.Mesh mesh # A copy of `to` in the pose.
+function lissom.transfer(options) end
 
 ---@class lissom.MergeOptions.Transition
 ---@field source? number Width on the source. In units of the source. Default: 0.

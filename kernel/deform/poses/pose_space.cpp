@@ -12,24 +12,12 @@
 #include "kernel/core/nearest.h"
 #include "kernel/deform/poses/edge_surface.h"
 #include "kernel/deform/poses/posed_shape.h"
+#include "kernel/deform/poses/same_faces.h"
 #include "kernel/deform/rotation/rest_directions.h"
 #include "kernel/mesh/region.h"
 
 namespace lissom {
 namespace {
-
-void require_same_faces(const Mesh& rest, const Mesh& shape, const std::string& name) {
-    const Topology &a = rest.topology(), &b = shape.topology();
-    if (&a == &b) return;
-    const bool same = a.vertex_count() == b.vertex_count() &&
-                      a.faces().offsets == b.faces().offsets &&
-                      a.faces().vertices == b.faces().vertices;
-    require(same,
-            "the pose '" + name +
-                "' has other vertices or faces than the rest shape; pose a copy of the rest "
-                "shape, and load files with the same options",
-            ErrorCode::topology_mismatch);
-}
 
 void require_poses(const Mesh& rest, const std::vector<NamedPose>& poses) {
     require(rest.vertex_count() > 0, "the rest shape has no vertices", ErrorCode::mesh_empty);
@@ -41,7 +29,13 @@ void require_poses(const Mesh& rest, const std::vector<NamedPose>& poses) {
         for (std::size_t k = 0; k < i; ++k) {
             require(poses[k].name != name, "there are two poses called '" + name + "'");
         }
-        for (const Mesh& shape : poses[i].shapes) require_same_faces(rest, shape, name);
+        for (const Mesh& shape : poses[i].shapes) {
+            require(have_same_faces(rest, shape),
+                    "the pose '" + name +
+                        "' has other vertices or faces than the rest shape; pose a copy of the "
+                        "rest shape, and load files with the same options",
+                    ErrorCode::topology_mismatch);
+        }
     }
 }
 

@@ -172,6 +172,13 @@ TriangleEdges edges_of(const Triangle& triangle, std::span<const Vec3> positions
     return {positions[at(b)] - positions[at(a)], positions[at(c)] - positions[at(b)]};
 }
 
+Mat3 edge_frame(const TriangleEdges& edges) {
+    const Vec3 normal = edges.first.cross(edges.second);
+    Mat3 frame;
+    frame << edges.first, edges.second, normal / std::sqrt(normal.norm());
+    return frame;
+}
+
 bool is_flat(const TriangleEdges& edges) {
     const double lengths = edges.first.squaredNorm() + edges.second.squaredNorm();
     return !(edges.first.cross(edges.second).norm() > kFlatSine * lengths);

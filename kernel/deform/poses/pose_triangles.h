@@ -43,6 +43,9 @@ PoseTriangles pose_triangles(const Mesh& rest, const Context& context);
 /// The edges of a triangle in the shape `positions`.
 TriangleEdges edges_of(const Triangle& triangle, std::span<const Vec3> positions);
 
+/// The edges, and a normal as long as the root of their area, so that scaling scales it too.
+Mat3 edge_frame(const TriangleEdges& edges);
+
 /// Whether the edges of a triangle are parallel, or it has none, so that it has no normal.
 bool is_flat(const TriangleEdges& edges);
 

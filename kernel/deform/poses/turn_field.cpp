@@ -24,14 +24,6 @@ constexpr double kFlatCost = 100.0;
 
 constexpr Index kTriangleGrain = 1024;
 
-// The edges and a normal as long as the root of their area, so that scaling scales it too.
-Mat3 frame_of(const TriangleEdges& edges) {
-    const Vec3 normal = edges.first.cross(edges.second);
-    Mat3 frame;
-    frame << edges.first, edges.second, normal / std::sqrt(normal.norm());
-    return frame;
-}
-
 Vec3 least_turn(const Mat3& rotation) {
     return turn_near(rotation, Vec3::Zero());
 }
@@ -93,7 +85,7 @@ class TurnWalk {
         const TriangleEdges after = edges_of(triangles_.triangles[at(t)], posed);
         is_flat_[at(t)] = is_flat(before) || is_flat(after);
         if (is_flat_[at(t)]) return;
-        rotation_[at(t)] = nearest_rotation(frame_of(after) * frame_of(before).inverse());
+        rotation_[at(t)] = nearest_rotation(edge_frame(after) * edge_frame(before).inverse());
     }
 
     SurfaceTurn before(Index t) const { return before_.empty() ? SurfaceTurn{} : before_[at(t)]; }

@@ -76,6 +76,7 @@ TEST_CASE("sandbox: many objects of a kind end at the limit of memory") {
     check_kind(box, "l.pose_space{ rest = m, poses = { a = m } }");
     check_kind(box + " local d = l.deformer(m) d:add_handle(m:region{ vertices = { 1 } })",
                "d:handles()[1]");
+    check_kind(box + " local d = l.deformer(m)", "d:pose()");
 }
 
 // A number of /proc/self/status in bytes; 0 if there is none.
