@@ -1304,7 +1304,7 @@ LISSOM_API lissom_status lissom_hairstyle_begin_grow(lissom_context* context,
 LISSOM_API lissom_status lissom_strands_create(lissom_context* context, const lissom_input* points,
                                                const lissom_input* offsets,
                                                lissom_strands* strands);
-/// Load .hair, .data, .usda; save also .rib, .glb, .obj. Files are in metres.
+/// Load .hair, .data, .usda, .tfx, .ply; save also .rib, .glb, .obj. Files are in metres.
 LISSOM_API lissom_status lissom_strands_load(lissom_context* context, const char* path,
                                              lissom_strands* strands);
 LISSOM_API lissom_status lissom_strands_save(lissom_context* context, lissom_strands strands,

@@ -75,6 +75,7 @@ Content read_content(const fs::path& in, const fs::path& out, const ConversionOp
     if (is_scene_path(in)) return read_scene_content(in, out, context);
     if (is_hair_path(in)) return load_strands(in, options.hair_load, context);
     if (has_extension_of(out, hair_only_extensions())) {
+        if (may_hold_hair(in)) return load_strands(in, options.hair_load, context);
         throw Error(ErrorCode::unknown_format, display_name(out) + ": such files hold hair, and " +
                                                    display_name(in) +
                                                    " holds a mesh; take a format of meshes");

@@ -29,7 +29,8 @@ struct Request {
 
 const char* const kDescription =
     "Reads mesh files, hair files, or what is visible of a scene (.lissom), and writes them in "
-    "another format. Hair goes to .hair, .data, .usda and .rib, and as lines to .glb, .gltf and "
+    "another format. Hair goes to .hair, .data, .usda, .tfx, .ply and .rib, and as lines to .glb, "
+    ".gltf and "
     ".obj. Of a scene the meshes are written as one, or its hair where the format holds only hair "
     "or the scene has no mesh.\n\n"
     "  lissom convert IN OUT                                    one file\n"

@@ -424,7 +424,7 @@ struct InspectRequest {
 
 void declare_inspect(CLI::App& app, InspectRequest& request) {
     app.add_option("FILE", request.files,
-                   "Mesh files, hair files (.hair, .data, .usda) and scenes (.lissom)");
+                   "Mesh files, hair files (.hair, .data, .usda, .tfx) and scenes (.lissom)");
     app.add_option("--out", request.many.files.out_folder,
                    "Write the answer as JSON to this file; with --in a folder, which gets a file "
                    "NAME.json for each, and a table");

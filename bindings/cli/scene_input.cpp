@@ -85,6 +85,11 @@ void warn_of_left_out(const fs::path& path, const std::vector<SceneObject>& obje
                                        (any_of_kind ? remedy : "only scenes hold them"));
 }
 
+bool has_one_of(const fs::path& path, const std::vector<std::string>& known) {
+    const std::string extension = normalized_extension(display_name(path.extension()));
+    return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
 }  // namespace
 
 bool is_scene_path(const fs::path& path) {
@@ -94,10 +99,13 @@ bool is_scene_path(const fs::path& path) {
     return fs::is_directory(path, error) && fs::exists(path / "scene.json", error);
 }
 
+bool may_hold_hair(const fs::path& path) {
+    return has_one_of(path, readable_strand_extensions());
+}
+
+// A file of both kinds, .ply, counts as a mesh.
 bool is_hair_path(const fs::path& path) {
-    const std::vector<std::string>& known = readable_strand_extensions();
-    const std::string extension = normalized_extension(display_name(path.extension()));
-    return std::find(known.begin(), known.end(), extension) != known.end();
+    return may_hold_hair(path) && !has_one_of(path, readable_extensions());
 }
 
 std::vector<std::string> hair_only_extensions() {

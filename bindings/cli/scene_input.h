@@ -17,7 +17,11 @@ namespace lissom::cli {
 /// scene.json.
 bool is_scene_path(const std::filesystem::path& path);
 
-/// Returns whether the extension of a path is that of a hair file that can be read.
+/// Returns whether the extension of a path is that of a hair file that can be read, of meshes too.
+bool may_hold_hair(const std::filesystem::path& path);
+
+/// Returns whether the extension of a path is that of a hair file that can be read, and not one of
+/// meshes.
 bool is_hair_path(const std::filesystem::path& path);
 
 /// Returns the extensions of files that hold hair and no meshes.

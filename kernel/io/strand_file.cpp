@@ -15,7 +15,10 @@
 #include "kernel/io/hair/hair_salon.h"
 #include "kernel/io/hair/rib_curves.h"
 #include "kernel/io/hair/rib_scene.h"
+#include "kernel/io/hair/tressfx.h"
 #include "kernel/io/obj/strands.h"
+#include "kernel/io/ply/strands.h"
+#include "kernel/io/record/file_hair.h"
 #include "kernel/io/record/file_rules.h"
 #include "kernel/io/record/strand_check.h"
 #include "kernel/io/stream/byte_source.h"
@@ -25,16 +28,16 @@
 namespace lissom {
 namespace {
 
-// A format: its reader, of a source or a text, if any, its writer, and its limits.
+// A format: its reader, of a source or of all bytes, if any, its writer, and its limits.
 struct StrandFormat {
     std::string_view extension;
     Strands (*read)(ByteSource& source, const Context& context);
-    UsdaHair (*read_text)(std::string_view bytes, const Context& context);
+    FileHair (*read_whole)(std::string_view bytes, const Context& context);
     void (*write)(const Strands& strands, const StrandSaveOptions& options, const RibScene& scene,
                   std::string& bytes, const Context& context);
     StrandCapacity capacity;
 
-    bool readable() const { return read || read_text; }
+    bool readable() const { return read || read_whole; }
 };
 
 void write_hair_file(const Strands& strands, const StrandSaveOptions&, const RibScene&,
@@ -80,18 +83,34 @@ void write_plainly(const Strands& strands, const StrandSaveOptions&, const RibSc
     Write(strands, bytes, context);
 }
 
-constexpr StrandCapacity kCyHair{2, true, true, true, false, false, false};
+constexpr StrandCapacity kCyHair{.widths = true, .colors = true, .transparency = true};
 // A strand of one point says that there is no hair.
-constexpr StrandCapacity kHairSalon{1, false, false, false, false, false, false};
-constexpr StrandCapacity kUsda{2, true, true, true, true, true, true};
-constexpr StrandCapacity kRib{2, true, true, false, false, true, false};
-constexpr StrandCapacity kGltf{2, false, true, false, false, false, false};
-constexpr StrandCapacity kObj{2, false, false, false, false, true, false};
+constexpr StrandCapacity kHairSalon{.min_points = 1};
+constexpr StrandCapacity kUsda{.widths = true,
+                               .colors = true,
+                               .transparency = true,
+                               .root_uvs = true,
+                               .groups = true,
+                               .origins = true};
+constexpr StrandCapacity kPly = kUsda;
+// Transparency is the alpha of colours.
+constexpr StrandCapacity kTressFx{.widths = true,
+                                  .widths_along = false,
+                                  .colors = true,
+                                  .transparency = true,
+                                  .transparency_with_colors = true,
+                                  .root_uvs = true,
+                                  .point_count = tressfx_points};
+constexpr StrandCapacity kRib{.widths = true, .colors = true, .groups = true};
+constexpr StrandCapacity kGltf{.colors = true};
+constexpr StrandCapacity kObj{.groups = true};
 
-constexpr std::array<StrandFormat, 7> kStrandFormats{{
+constexpr std::array<StrandFormat, 9> kStrandFormats{{
     {"hair", read_cyhair, nullptr, write_hair_file, kCyHair},
     {"data", read_hair_salon, nullptr, write_data_file, kHairSalon},
     {"usda", nullptr, read_usda, write_usda_file, kUsda},
+    {"tfx", nullptr, read_tressfx, write_plainly<write_tressfx>, kTressFx},
+    {"ply", nullptr, read_ply_strands, write_plainly<write_ply_strands>, kPly},
     {"rib", nullptr, nullptr, write_rib_file, kRib},
     {"glb", nullptr, nullptr, write_plainly<write_glb_strands>, kGltf},
     {"gltf", nullptr, nullptr, write_plainly<write_gltf_strands>, kGltf},
@@ -164,7 +183,7 @@ void require_range(const Strands& strands) {
     }
 }
 
-Strands in_kernel_frame(UsdaHair hair, const StrandLoadOptions& options, const Context& context) {
+Strands in_kernel_frame(FileHair hair, const StrandLoadOptions& options, const Context& context) {
     const UpAxis up = options.up == UpAxis::none ? hair.up : options.up;
     const double unit = options.unit.value_or(hair.meters_per_unit.value_or(1.0));
     // If the file says nothing of widths, they are in metres as they are.
@@ -180,14 +199,14 @@ Strands decode_as(ByteSource* source, std::string_view text, const StrandFormat&
     if (options.unit) require_unit(*options.unit);
     Progress progress(context, "load strands");
     progress.step(0.9);
-    UsdaHair hair;
+    FileHair hair;
     if (source) {
         hair.strands = format.read(*source, context);
         hair.has_widths = format.capacity.widths;
     } else {
-        // Numbers in memory are no longer than those of a text, but lists grow by doubling.
+        // Numbers in memory are not much longer than those of a file, but lists grow by doubling.
         const MemoryCharge charge = context.charge(4 * text.size(), "reading strands");
-        hair = format.read_text(without_byte_order_mark(text), context);
+        hair = format.read_whole(without_byte_order_mark(text), context);
     }
     progress.step(0.1);
     return in_kernel_frame(std::move(hair), options, context);

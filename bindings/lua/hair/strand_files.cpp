@@ -84,7 +84,8 @@ Function strands_save_method() {
         .name = "save",
         .body = save_hair,
         .summary =
-            "Writes the strands to a .hair, .data, .usda, .rib, .glb, .gltf or .obj file, "
+            "Writes the strands to a .hair, .data, .usda, .tfx, .ply, .rib, .glb, .gltf or .obj "
+            "file, "
             "whole or not at all. They are checked before, and changed if they would break in "
             "other programs; the strands themselves stay as they are.",
         .arguments = {string("path", "The file; its extension names the format.")},
@@ -131,7 +132,10 @@ Function load_strands_function() {
     return {
         .name = "load_strands",
         .body = load_hair,
-        .summary = "Reads hair from a .hair, .data (HairSalon) or .usda (BasisCurves) file.",
+        .summary =
+            "Reads hair from a .hair, .data (HairSalon, HairNet), .usda (BasisCurves), .tfx "
+            "(TressFX) or .ply file (points with edges, as HairStep and Open3D write them, or "
+            "with an element 'strand').",
         .arguments = {string("path", "The file; its extension names the format.")},
         .options = {up_option("The file's up axis; z is turned to y, which is up here.",
                               "the file's own, else y"),

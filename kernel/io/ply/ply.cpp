@@ -11,6 +11,7 @@
 #include "kernel/core/geometry.h"
 #include "kernel/io/ply/header.h"
 #include "kernel/io/ply/layout.h"
+#include "kernel/io/ply/number_source.h"
 #include "kernel/io/record/finite_values.h"
 #include "kernel/io/record/index_check.h"
 #include "kernel/io/record/skipped_content.h"
@@ -21,37 +22,6 @@
 
 namespace lissom {
 namespace {
-
-// Numbers of a PLY file's text or binary data, one after the other.
-class TextSource {
-  public:
-    TextSource(std::string_view bytes, const PlyHeader& header)
-        : text_(bytes.substr(header.size), {}, header.lines) {}
-
-    Tally& tally() { return text_.tally; }
-    double number(ScalarType) { return text_.next_number(); }
-    std::size_t remaining() const { return text_.remaining(); }
-    double fraction() const { return text_.fraction(); }
-    FilePlace place(std::size_t) const { return text_.place(); }
-
-  private:
-    TextReader text_;
-};
-
-class BinarySource {
-  public:
-    BinarySource(std::string_view bytes, const PlyHeader& header)
-        : bytes_(bytes.substr(header.size), header.endianness) {}
-
-    Tally& tally() { return bytes_.tally; }
-    double number(ScalarType type) { return bytes_.read(type); }
-    std::size_t remaining() const { return bytes_.remaining(); }
-    double fraction() const { return bytes_.fraction(); }
-    FilePlace place(std::size_t row) const { return {ElementKind::face, row}; }
-
-  private:
-    ByteReader bytes_;
-};
 
 // The values of the corners of faces, which a list of each face holds.
 class CornerList {
@@ -183,7 +153,7 @@ class BodyReader {
         if (!(written >= 0.0) || written != std::floor(written)) {
             refuse(ErrorCode::file_syntax,
                    "the list " + in_quotes(property.name) + " has no valid length",
-                   source_.place(row));
+                   source_.place(ElementKind::face, row));
         }
         if (written > static_cast<double>(source_.remaining())) refuse_truncated(source_.tally());
         const auto count = static_cast<std::size_t>(written);
@@ -287,14 +257,14 @@ class BodyReader {
         constexpr double kLimit = 1e15;
         if (!(std::abs(value) < kLimit) || value != std::floor(value)) {
             refuse(ErrorCode::file_syntax, "a vertex index is not a whole number",
-                   source_.place(row));
+                   source_.place(ElementKind::face, row));
         }
         return static_cast<std::int64_t>(value);
     }
 
     void add_polygon(std::size_t row) {
         face_.clear();
-        const FilePlace place = source_.place(row);
+        const FilePlace place = source_.place(ElementKind::face, row);
         for (const double index : indices_) {
             face_.push_back(vertices_.checked(to_index(index, row), place));
         }
@@ -319,7 +289,8 @@ class BodyReader {
                 length = 0;
                 continue;
             }
-            last = {last[1], last[2], vertices_.checked(index, source_.place(row))};
+            last = {last[1], last[2],
+                    vertices_.checked(index, source_.place(ElementKind::face, row))};
             const bool joins = last[0] == last[1] || last[1] == last[2] || last[0] == last[2];
             if (++length < 3 || joins) continue;
             const bool turned = length % 2 == 0;
@@ -385,8 +356,8 @@ class BodyReader {
 
 MeshData read_ply(std::string_view bytes, const Context& context) {
     const PlyHeader header = read_ply_header(bytes);
-    if (header.binary) return BodyReader(BinarySource(bytes, header), header, context).read();
-    return BodyReader(TextSource(bytes, header), header, context).read();
+    if (header.binary) return BodyReader(PlyBinary(bytes, header), header, context).read();
+    return BodyReader(PlyText(bytes, header), header, context).read();
 }
 
 }  // namespace lissom

@@ -45,6 +45,7 @@ class Checker {
     CheckedStrands run() {
         check_finite();
         check_points();
+        if (capacity_.point_count) check_point_counts();
         if (capacity_.widths) check_widths();
         if (capacity_.groups) check_groups();
         if (capacity_.root_uvs) check_uvs();
@@ -134,6 +135,20 @@ class Checker {
             context_);
     }
 
+    void check_point_counts() {
+        Index most = 0;
+        for (Index s = 0; s < now().size(); ++s) most = std::max(most, now().point_count(s));
+        const Index count = capacity_.point_count(most);
+        const Elements other = find([&](Index s) { return now().point_count(s) != count; });
+        if (other.count == 0) return;
+        const std::string number = std::to_string(count);
+        mend(StrandFindingKind::points_resampled, other,
+             ": the format has " + number + " points in each strand",
+             "resampled to " + number + " points");
+        result_.changed =
+            with_point_counts(now(), std::vector<Index>(at(now().size()), count), context_);
+    }
+
     void check_widths() {
         std::vector<float> widths;
         const Elements bad = find([&](Index s) {
@@ -192,6 +207,18 @@ class Checker {
             ": the last point lies nearer to the head than the first, which should be the root");
     }
 
+    bool widths_change() const {
+        std::vector<float> widths;
+        for (Index s = 0; s < now().size(); ++s) {
+            widths_of(now(), s, widths);
+            if (std::any_of(widths.begin(), widths.end(),
+                            [&](float w) { return w != widths.front(); })) {
+                return true;
+            }
+        }
+        return false;
+    }
+
     void check_capacity() {
         const Strands& s = now();
         std::string lost;
@@ -203,8 +230,11 @@ class Checker {
         const bool opaque =
             s.transparency().domain == StrandDomain::all && s.transparency().common == 0.0f;
         drop(!plain_widths, capacity_.widths, "widths");
+        drop(capacity_.widths && widths_change(), capacity_.widths_along,
+             "widths along strands, whose roots count");
         drop(s.colors() != nullptr, capacity_.colors, "colours");
-        drop(!opaque, capacity_.transparency, "transparency");
+        const bool beside = !capacity_.transparency_with_colors || s.colors();
+        drop(!opaque, capacity_.transparency && beside, "transparency");
         drop(!s.roots().uvs.empty(), capacity_.root_uvs, "root uvs");
         drop(!s.groups().empty(), capacity_.groups, "groups");
         drop(!s.roots().faces.empty(), capacity_.origins, "root faces");

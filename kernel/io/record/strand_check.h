@@ -15,10 +15,17 @@ namespace lissom {
 struct StrandCapacity {
     /// Fewest points of a strand.
     Index min_points = 2;
-    bool widths = false, colors = false, transparency = false;
+    bool widths = false;
+    /// Widths that change along a strand, if there are widths.
+    bool widths_along = true;
+    bool colors = false, transparency = false;
+    /// Transparency is kept only beside colours.
+    bool transparency_with_colors = false;
     bool root_uvs = false, groups = false;
-    /// Ids, faces and barycentric coordinates of the roots.
+    /// Ids, faces and barycentric coordinates of the roots, and guides.
     bool origins = false;
+    /// The number of points that all strands must have, if the longest has `points`; null for any.
+    Index (*point_count)(Index points) = nullptr;
 };
 
 /// Strands that are fit to be written; nothing if they are as they were.

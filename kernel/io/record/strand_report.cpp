@@ -6,9 +6,10 @@
 namespace lissom {
 
 std::string_view strand_finding_name(StrandFindingKind kind) {
-    constexpr std::array<std::string_view, 8> kNames{
-        "strands_not_finite", "points_repeated", "strands_too_short", "widths_not_positive",
-        "groups_unnamed",     "content_dropped", "roots_last",        "root_uv_constant"};
+    constexpr std::array<std::string_view, 9> kNames{
+        "strands_not_finite",  "points_repeated",  "strands_too_short",
+        "widths_not_positive", "points_resampled", "groups_unnamed",
+        "content_dropped",     "roots_last",       "root_uv_constant"};
     return kNames[static_cast<std::size_t>(kind)];
 }
 

@@ -17,6 +17,7 @@ enum class StrandFindingKind {
     strands_too_short,    ///< left out: fewer points than the format needs, once repeats are gone
     widths_not_positive,  ///< strands with a width that is not above 0; replaced by the least that
                           ///< is
+    points_resampled,     ///< strands whose number of points the format does not have
     groups_unnamed,       ///< groups without a name or with one that is taken; named "group 3"
     content_dropped,      ///< content without a place in the format; the message names it
     // Written as they are.

@@ -21,7 +21,7 @@ class LayerReader {
   public:
     LayerReader(std::string_view bytes, const Context& context) : text_(bytes), context_(context) {}
 
-    UsdaHair read() {
+    FileHair read() {
         Progress progress(context_, "read strands");
         Ticker ticker(progress);
         if (text_.peek().is("(")) read_layer_metadata();
@@ -372,7 +372,7 @@ class LayerReader {
 
     UsdaText text_;
     const Context& context_;
-    UsdaHair hair_;
+    FileHair hair_;
     std::vector<OpenPrim> open_;
     std::vector<CurvesPrim> prims_;
     /// The prims of curves that are open, innermost last.
@@ -385,7 +385,7 @@ class LayerReader {
 
 }  // namespace
 
-UsdaHair read_usda(std::string_view bytes, const Context& context) {
+FileHair read_usda(std::string_view bytes, const Context& context) {
     if (!bytes.starts_with("#usda ")) {
         refuse(ErrorCode::file_syntax,
                bytes.starts_with("PXR-USDC")

@@ -7,25 +7,15 @@
 /// comment - are in attributes of the namespace "lissom", so that they come back unchanged.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "kernel/core/context.h"
 #include "kernel/hair/strands/strands.h"
+#include "kernel/io/record/file_hair.h"
 #include "kernel/io/record/options.h"
 
 namespace lissom {
-
-/// Contents of a layer.
-struct UsdaHair {
-    Strands strands;
-    /// Length of its unit in metres and its up axis, if it gives them.
-    std::optional<double> meters_per_unit;
-    UpAxis up = UpAxis::none;
-    /// False if it says nothing of widths.
-    bool has_widths = false;
-};
 
 /// Reads all BasisCurves of a layer that are drawn, in the order of the file; if there are several
 /// without groups, each is a group by its name. Transforms are applied, indexed primvars expanded,
@@ -33,7 +23,7 @@ struct UsdaHair {
 /// that are inactive or invisible, and the contents of a layer without curves. Errors: file_syntax,
 /// file_truncated, not_finite with the line; unsupported for periodic curves, curves or transforms
 /// that change over time, and transforms that flatten; cancelled, memory_limit.
-UsdaHair read_usda(std::string_view bytes, const Context& context);
+FileHair read_usda(std::string_view bytes, const Context& context);
 
 /// Writes one BasisCurves "Hair", linear, with a width for each point if they differ. Strands read
 /// back have the same hash in the same unit.

@@ -1,4 +1,5 @@
-// strands:follow and lissom.StrandFollower: hair that follows its head as it deforms.
+// strands:follow, lissom.StrandFollower and strands:transfer: hair that follows its head as it
+// deforms, or goes to another head.
 #include "kernel/hair/follow/strand_follow.h"
 
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include "bindings/lua/hair/engine/strand_check.h"
 #include "bindings/lua/hair/hair_object.h"
 #include "bindings/lua/hair/strands_methods.h"
+#include "kernel/hair/transfer/strand_transfer.h"
 
 namespace lissom::lua {
 namespace {
@@ -35,6 +37,12 @@ FollowOptions read_follow(const Call& call) {
     return options;
 }
 
+// The head of a scalp with the shape it had when the scalp was made.
+Mesh head_under(const Scalp& scalp, const Context& context) {
+    const SpatialTree& tree = scalp.tree();
+    return {{tree.positions().begin(), tree.positions().end()}, tree.shared_topology(), context};
+}
+
 // The head as it was under the strands: that of the call, or the one that they grew on.
 StrandFollower prepare_follower(const Call& call) {
     FollowOptions options = read_follow(call);
@@ -46,11 +54,8 @@ StrandFollower prepare_follower(const Call& call) {
             "the head that the strands grew on is not known, as of strands from a file; give "
             "rest = that head with the shape it has under them");
     if (!self->grown_on) return {self->strands, Mesh(), options, call.context()};
-    const SpatialTree& tree = self->grown_on->tree();
-    const Mesh rest({tree.positions().begin(), tree.positions().end()}, tree.shared_topology(),
-                    call.context());
     options.unit = self->grown_on->unit();
-    return {self->strands, rest, options, call.context()};
+    return {self->strands, head_under(*self->grown_on, call.context()), options, call.context()};
 }
 
 int follow_once(Call& call) {
@@ -58,6 +63,33 @@ int follow_once(Call& call) {
         StrandFollower follower = prepare_follower(call);
         return follower.follow(call.object<MeshObject>("head")->mesh, call.context());
     });
+}
+
+// The scalp of the head that strands come from.
+std::shared_ptr<const Scalp> scalp_under(const Call& call) {
+    if (call.has("from")) return call.object<ScalpObject>("from")->scalp;
+    const auto self = call.self<StrandsObject>();
+    require(self->grown_on != nullptr,
+            "the head that the strands grew on is not known, as of strands from a file; give from "
+            "= lissom.scalp(that head)");
+    return self->grown_on;
+}
+
+int transfer_strands(Call& call) {
+    const auto to = call.object<ScalpObject>("scalp");
+    return new_strands(
+        call,
+        [&] {
+            const std::shared_ptr<const Scalp> from = scalp_under(call);
+            const Mesh old_head = head_under(*from, call.context());
+            TransferOptions options;
+            if (call.has("scale")) options.scale = call.number("scale");
+            options.clearance.reset();
+            if (call.boolean("push_out")) options.clearance = call.number("clearance");
+            return transferred(strands_of(call), {old_head, *from}, {to->head->mesh, *to->scalp},
+                               options, call.context());
+        },
+        to->scalp);
 }
 
 int make_follower(Call& call) {
@@ -129,6 +161,19 @@ std::vector<Parameter> follow_fields() {
                 .at_least(0)};
 }
 
+std::vector<Parameter> transfer_fields() {
+    const TransferOptions d;
+    return {object("from", "lissom.Scalp", "The scalp of the head that the hair comes from.")
+                .optional("that of the head that they grew on or were attached to"),
+            number("scale", "Factor of the strands' lengths.")
+                .above(0)
+                .optional("the ratio of the heads' sizes"),
+            boolean("push_out", "Keeps the hair out of the other head.").defaults(true),
+            meters("clearance", "Distance that hair stays off the skin.")
+                .defaults(*d.clearance)
+                .at_least(0)};
+}
+
 const std::vector<ErrorCode> kFollowErrors = {ErrorCode::invalid_argument,
                                               ErrorCode::topology_mismatch, ErrorCode::not_finite,
                                               ErrorCode::memory_limit, ErrorCode::cancelled};
@@ -152,6 +197,22 @@ std::vector<Function> strand_follow_methods() {
              .results = {{"lissom.Strands", "strands", "New strands."}},
              .errors = kFollowErrors,
              .example = kBentHead + "assert(#hair:follow(bent) == 20)"},
+            {.name = "transfer",
+             .body = transfer_strands,
+             .summary =
+                 "Puts hair onto another head, of other faces, shape, size, place or unit. Places "
+                 "correspond by their directions from the middles of the heads; the hair follows "
+                 "its head as that takes the shape of the other, and is rooted there. Guides, "
+                 "groups, widths and colours are kept.",
+             .arguments = {object("scalp", "lissom.Scalp", "The scalp of the other head.")},
+             .options = transfer_fields(),
+             .results = {{"lissom.Strands", "strands", "New strands."}},
+             .errors = kFollowErrors,
+             .example = kStyle +
+                        "local hair = style:grow{ count = 20 }\n"
+                        "local other = lissom.shapes.head{ vertices = 2000 }:transform{ scale = 3 "
+                        "}\n"
+                        "assert(#hair:transfer(lissom.scalp(other)) == 20)"},
             {.name = "follower",
              .body = make_follower,
              .summary = "Prepares hair to follow its head for each frame of an animation.",

@@ -1,4 +1,5 @@
 // Damaged hair files, and those made to harm: read or refused, in memory bounded by their size.
+#include <array>
 #include <cstdint>
 
 #include "kernel/io/strand_file.h"
@@ -103,13 +104,24 @@ TEST_CASE("a hair file that is cut short anywhere is read or refused") {
 }
 
 TEST_CASE("a binary hair file that is cut short is refused") {
-    for (const char* extension : {"hair", "data"}) {
+    for (const char* extension : {"hair", "data", "tfx"}) {
         const std::string bytes = encode_strands(rich_hair(6), extension).bytes;
         for (std::size_t size = 4; size < bytes.size(); size += 5) {
             CAPTURE(size);
             const ErrorCode code = code_of(bytes.substr(0, size), extension);
             CHECK((code == ErrorCode::file_truncated || code == ErrorCode::file_too_large));
         }
+    }
+}
+
+TEST_CASE("a .ply file of hair that is cut short is refused") {
+    const std::string bytes = encode_strands(rich_hair(6), "ply").bytes;
+    const std::size_t header = bytes.find("end_header\n") + 11;
+    for (std::size_t size = 0; size < bytes.size(); size += 5) {
+        CAPTURE(size);
+        CHECK_FALSE(is_read(bytes.substr(0, size), "ply"));
+        if (size < header) continue;
+        CHECK(code_of(bytes.substr(0, size), "ply") == ErrorCode::file_truncated);
     }
 }
 
@@ -289,4 +301,114 @@ TEST_CASE("strands of no points in .data are left out, and the log counts them")
     for (std::size_t size = 0; size < gap.size(); ++size) {
         CHECK_FALSE(is_read(gap.substr(0, size), "data"));
     }
+}
+
+namespace {
+
+std::string tfx_file(std::uint32_t strands, std::uint32_t points,
+                     const std::array<std::uint32_t, 5>& offsets, const std::string& data) {
+    std::string bytes = Bytes().add(4.0f, strands, points, offsets[0], offsets[1], offsets[2],
+                                    offsets[3], offsets[4]);
+    bytes.resize(160, '\0');
+    return bytes + data;
+}
+
+std::string ply_text(const std::string& elements, const std::string& rows) {
+    return "ply\nformat ascii 1.0\n" + elements + "end_header\n" + rows;
+}
+
+constexpr const char* kThreeVertices =
+    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+constexpr const char* kRows = "0 0 0\n0 1 0\n0 2 0\n";
+
+}  // namespace
+
+TEST_CASE("counts and offsets of .tfx that the file does not hold are refused") {
+    const std::string data(64, '\0');
+    for (const std::uint32_t huge : {5u, 1000u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
+        CAPTURE(huge);
+        for (const auto& file :
+             {tfx_file(huge, 4, {160}, data), tfx_file(1, huge, {160}, data),
+              tfx_file(huge, huge, {160}, data), tfx_file(1, 4, {huge}, data),
+              tfx_file(1, 4, {160, huge}, data), tfx_file(1, 4, {160, 0, 0, 0, huge}, data)}) {
+            CHECK(is_handled(file, "tfx"));
+            CHECK_FALSE(is_read(file, "tfx"));
+        }
+    }
+    CHECK(is_read(tfx_file(1, 4, {160}, data), "tfx"));
+    CHECK(code_of(tfx_file(1, 4, {100}, data), "tfx") == ErrorCode::file_syntax);
+    CHECK(code_of(tfx_file(1, 4, {0}, data), "tfx") == ErrorCode::file_syntax);
+    CHECK(code_of(tfx_file(1, 4, {161}, data), "tfx") == ErrorCode::file_truncated);
+    CHECK(code_of(std::string(300, 'x'), "tfx") == ErrorCode::file_syntax);
+    CHECK(code_of(tfx_file(1, 4, {160}, data).substr(0, 100), "tfx") == ErrorCode::file_truncated);
+}
+
+TEST_CASE(".tfx with numbers that are not finite is refused with the strand") {
+    std::string points;
+    for (int p = 0; p < 8; ++p) {
+        points += Bytes().add(0.f, p == 6 ? std::nanf("") : 1.f * p, 0.f, std::nanf(""));
+    }
+    const Error error = error_of([&] { decode_strands(tfx_file(2, 4, {160}, points), "tfx"); });
+    CHECK(error.code() == ErrorCode::not_finite);
+    CHECK(error.elements().ids == std::vector<Index>{1});
+    // Whether a point moves may be any number.
+    points.replace(6 * 16 + 4, 4, Bytes().add(1.f));
+    CHECK(is_read(tfx_file(2, 4, {160}, points), "tfx"));
+    const std::string widths = Bytes().add(1.f, std::nanf(""));
+    const Error width = error_of([&] {
+        decode_strands(tfx_file(2, 4, {160, 0, 0, 288}, points + widths), "tfx");
+    });
+    CHECK(width.code() == ErrorCode::not_finite);
+    CHECK(width.elements().ids == std::vector<Index>{1});
+}
+
+TEST_CASE("edges of .ply become strands whatever their order; branches and rings are refused") {
+    const std::string elements = std::string(
+        "element vertex 6\nproperty double x\nproperty double "
+        "y\nproperty double z\nelement edge 3\nproperty int "
+        "vertex1\nproperty int vertex2\n");
+    const std::string points = "0 0 0\n0 1 0\n0 2 0\n5 0 0\n5 1 0\n9 9 9\n";
+    const LoggedContext logged;
+    const Strands strands =
+        decode_strands(ply_text(elements, points + "4 3\n2 1\n0 1\n"), "ply", {}, logged.context);
+    REQUIRE(strands.size() == 2);
+    CHECK(strands.point_count(0) == 3);
+    CHECK(strands.root(0) == Eigen::Vector3f(0, 0, 0));
+    CHECK(strands.root(1) == Eigen::Vector3f(5, 0, 0));
+    CHECK(logged.mentions("1 vertices without edges"));
+    for (const char* edges :
+         {"0 1\n1 2\n1 3\n", "0 1\n1 2\n2 0\n", "0 1\n0 1\n1 2\n", "0 0\n1 2\n2 3\n"}) {
+        CAPTURE(edges);
+        const Error error =
+            error_of([&] { decode_strands(ply_text(elements, points + edges), "ply"); });
+        CHECK(error.code() == ErrorCode::file_syntax);
+        CHECK(error.elements().kind == ElementKind::vertex);
+    }
+    for (const char* edges : {"0 1\n1 6\n3 4\n", "-1 0\n1 2\n3 4\n", "0 0.5\n1 2\n3 4\n"}) {
+        CHECK(code_of(ply_text(elements, points + edges), "ply") == ErrorCode::face_index);
+    }
+}
+
+TEST_CASE(".ply tells strands by lists or by numbers of segments") {
+    const std::string list = std::string(kThreeVertices) +
+                             "element polyline 2\nproperty list uchar int vertex_indices\n";
+    const Strands listed =
+        decode_strands(ply_text(list, std::string(kRows) + "2 2 1\n1 0\n"), "ply");
+    REQUIRE(listed.size() == 2);
+    CHECK(listed.root(0) == Eigen::Vector3f(0, 2, 0));
+    CHECK(listed.point_count(1) == 1);
+    CHECK(code_of(ply_text(list, std::string(kRows) + "2 2 3\n1 0\n"), "ply") ==
+          ErrorCode::face_index);
+    CHECK(code_of(ply_text(list, std::string(kRows) + "0\n1 0\n"), "ply") ==
+          ErrorCode::file_syntax);
+    CHECK(code_of(ply_text(list, std::string(kRows) + "2 2 1\n1"), "ply") ==
+          ErrorCode::file_truncated);
+    const std::string counts =
+        std::string(kThreeVertices) + "element strand 1\nproperty ushort nsegs\n";
+    CHECK(decode_strands(ply_text(counts, std::string(kRows) + "2\n"), "ply").point_count(0) == 3);
+    for (const char* bad : {"1\n", "3\n", "-1\n", "1.5\n", "1e30\n"}) {
+        CHECK(code_of(ply_text(counts, kRows + std::string(bad)), "ply") == ErrorCode::file_syntax);
+    }
+    CHECK(code_of(ply_text(kThreeVertices, kRows), "ply") == ErrorCode::unsupported);
+    CHECK(code_of(ply_text(counts, "0 0 0\n0 nan 0\n0 2 0\n2\n"), "ply") != ErrorCode::internal);
 }

@@ -1,4 +1,7 @@
 // Hair files that are read and written again.
+#include <utility>
+
+#include "kernel/hair/strands/strand_resample.h"
 #include "kernel/io/strand_file.h"
 #include "kernel/io/stream/file.h"
 #include "tests/unit/hair/strands/strand_support.h"
@@ -59,11 +62,25 @@ TEST_CASE("the .data sample files round trip to the bit") {
     }
 }
 
+TEST_CASE("the .tfx sample file is read, and written again with equal points") {
+    const auto path = data_file("hair/sintel_hair.tfx");
+    if (!path) return;
+    const Strands strands = load_strands(*path);
+    CHECK(strands.size() == 228);
+    CHECK(strands.point_count() == 228 * 32);
+    CHECK(strand_statistics(strands).not_finite == 0);
+    const EncodedStrands written = encode_strands(strands, "tfx");
+    const std::string original = read_bytes(*path);
+    CHECK(std::equal(original.begin(), original.begin() + 12, written.bytes.begin()));
+    // Points, and which of them do not move.
+    CHECK(written.bytes.substr(160, 228 * 32 * 16) == original.substr(160, 228 * 32 * 16));
+}
+
 TEST_CASE("real hair keeps its points through the other formats") {
     const auto path = data_file("hair/cstrands00001.data");
     if (!path) return;
     const Strands strands = load_strands(*path);
-    for (const char* extension : {"hair", "data", "usda"}) {
+    for (const char* extension : {"hair", "data", "usda", "ply"}) {
         CAPTURE(extension);
         check_same_points(back(strands, extension), strands);
     }
@@ -146,7 +163,7 @@ TEST_CASE(".data keeps strands of one point, which say that there is no hair") {
 
 TEST_CASE("unit and axes of a file come back, widths with them") {
     const Strands strands = rich_hair(20);
-    for (const char* extension : {"hair", "data", "usda"}) {
+    for (const char* extension : {"hair", "data", "usda", "ply"}) {
         CAPTURE(extension);
         StrandSaveOptions save;
         save.up = UpAxis::z;
@@ -214,4 +231,86 @@ TEST_CASE("what cannot be loaded or saved is told with the path") {
     CHECK(code([&] {
               encode_strands(random_hair(2), "hair", {UpAxis::none, 1e-60});
           }) == ErrorCode::not_finite);
+}
+
+TEST_CASE("PLY comes back with an equal hash, but for profiles of widths") {
+    Strands strands = rich_hair(40);
+    StrandWidths widths = strands.widths();
+    widths.profile.clear();
+    strands.set_widths(widths);
+    StrandGuides guides;
+    for (Index s = 0; s < strands.size(); ++s) {
+        guides.ids.push_back(s % 5 == 0 ? kNoGuide : 1000);
+        guides.arcs.push_back(0.01f * static_cast<float>(s));
+    }
+    strands.set_guides(guides);
+    strands.set_groups(std::vector<Index>(strands.groups()), {"a \"b\"", "back hair"});
+    strands.set_comment("grown here,\nand there");
+    const EncodedStrands written = encode_strands(strands, "ply");
+    CHECK(written.report.empty());
+    CHECK(hash(decode_strands(written.bytes, "ply")) == hash(strands));
+    const Strands plain = random_hair(10);
+    CHECK(hash(back(plain, "ply")) == hash(plain));
+    const Strands profiled = back(rich_hair(20), "ply");
+    std::vector<float> a, b;
+    for (Index s = 0; s < 20; ++s) {
+        widths_of(rich_hair(20), s, a);
+        widths_of(profiled, s, b);
+        CHECK(a == b);
+    }
+}
+
+TEST_CASE("PLY has colours as bytes if they are some, and as floats else") {
+    Strands strands = random_hair(3);
+    strands.set_colors({Eigen::Vector3f(1.0f, static_cast<float>(51 / 255.0), 0.0f)});
+    const std::string bytes = encode_strands(strands, "ply").bytes;
+    CHECK(bytes.find("property uchar red") != std::string::npos);
+    CHECK(hash(decode_strands(bytes, "ply")) == hash(strands));
+    strands.set_colors({Eigen::Vector3f(1.5f, 0.3f, 0.0f)});
+    CHECK(encode_strands(strands, "ply").bytes.find("property float red") != std::string::npos);
+    CHECK(hash(back(strands, "ply")) == hash(strands));
+}
+
+TEST_CASE("TressFX keeps colours, root uvs and widths of strands with the points it knows") {
+    Strands strands = resample(rich_hair(12), {.count = 16});
+    StrandWidths widths = strands.widths();
+    widths.profile.clear();
+    strands.set_widths(widths);
+    const EncodedStrands written = encode_strands(strands, "tfx");
+    const Strands read = decode_strands(written.bytes, "tfx");
+    check_same_points(read, strands);
+    CHECK(read.widths().values == strands.widths().values);
+    CHECK(read.roots().uvs == strands.roots().uvs);
+    for (Index p = 0; p < read.point_count(); ++p) {
+        CHECK(read.colors()->at(p / 16, p) == strands.colors()->at(p / 16, p));
+        CHECK(read.transparency().at(p / 16, p) == 0.25f);
+    }
+    const std::string& message = written.report.find(StrandFindingKind::content_dropped)->message;
+    for (const char* part : {"groups", "root faces", "ids"}) {
+        CHECK(message.find(part) != std::string::npos);
+    }
+    CHECK(message.find("widths") == std::string::npos);
+    const EncodedStrands profiled = encode_strands(rich_hair(12), "tfx");
+    CHECK(profiled.report.find(StrandFindingKind::content_dropped)
+              ->message.find("widths along strands") != std::string::npos);
+}
+
+TEST_CASE("TressFX has a power of two of points in each strand, from 4 to 64") {
+    for (const auto& [points, expected] : {std::pair{2, 4}, {4, 4}, {24, 32}, {64, 64}, {90, 64}}) {
+        CAPTURE(points);
+        const Strands strands = resample(random_hair(6), {.count = points});
+        const EncodedStrands written = encode_strands(strands, "tfx");
+        const Strands read = decode_strands(written.bytes, "tfx");
+        CHECK(read.point_count(0) == expected);
+        for (Index s = 0; s < 6; ++s) {
+            CHECK(read.root(s) == strands.root(s));
+            CHECK(read.strand(s).col(expected - 1) == strands.strand(s).col(points - 1));
+        }
+        const StrandFinding* const found = written.report.find(StrandFindingKind::points_resampled);
+        CHECK((found != nullptr) == (points != expected));
+        if (found) CHECK(found->elements.count == 6);
+    }
+    const Error error = error_of([] { encode_strands(random_hair(3), "tfx", {.mend = false}); });
+    CHECK(error.code() == ErrorCode::invalid_argument);
+    CHECK(error.elements().kind == ElementKind::strand);
 }

@@ -121,7 +121,8 @@ TEST_CASE("progress grows from 0 to 1 while strands are saved, and they can be c
         offsets.push_back(offsets.back() + 25);
     }
     const Strands strands(std::move(points), std::move(offsets));
-    for (const char* name : {"a.usda", "a.hair", "a.data", "a.rib", "a.glb", "a.obj"}) {
+    for (const char* name :
+         {"a.usda", "a.hair", "a.data", "a.tfx", "a.ply", "a.rib", "a.glb", "a.obj"}) {
         CAPTURE(name);
         std::vector<double> fractions;
         ContextOptions options;
