@@ -1,5 +1,8 @@
 --- Hair for an engine: a head and a preset in; a folder out, with strands, guides, cards and their pictures,
--- in levels of detail, one manifest that names them all, and a sheet of pictures to look at.
+-- and a shell, in levels of detail, one manifest that names them all, and a sheet of pictures to look at.
+--
+-- Each level has the error of its silhouette from all sides, as a part of that of the full hair, and the
+-- part of the picture's height (screen_size) up to which it shows as much as the finest does in full.
 --
 --     lissom run scripts/export_hair.lua --head head.obj --preset bob --out out/bob
 --     lissom batch scripts/export_hair.lua --over 'heads/*.obj' --out 'out/{name}' -- --preset bob
@@ -14,6 +17,10 @@ local params = hairdo.params{
         preset = { type = "string", default = "bob", help = "a hairstyle of scripts/presets" },
         color = { type = "string", default = "", help = "of the hair, \"#rrggbb\"; else the preset's" },
         guides = { type = "integer", default = 300, min = 3, help = "strands that an engine simulates" },
+        strand_levels = { type = "integer", default = 3, min = 1, max = 8,
+            help = "levels of strands, each of half as many as the one before" },
+        shell = { type = "integer", default = 2000, min = 20, max = 200000,
+            help = "triangles of the shell, the last level" },
         points = { type = "integer", default = 16, min = 2, max = 256, help = "of guided strands" },
         cards = { type = "integer", default = 200, min = 1, max = 100000, help = "of the finest cards" },
         slots = { type = "integer", default = 32, min = 1, max = 256, help = "pictures in an atlas" },
@@ -64,11 +71,18 @@ local function strand_level(hair, part, points)
     return level, #hair / count
 end
 
-local function save_strands(level, widen, number)
+-- Strands that cover so much of a picture that is half as high are half as many.
+local function save_strands(level, widen, number, error)
     local name = string.format("strands_%d.usda", number)
     level:save(path(name))
     return { kind = "strands", file = name, strands = #level, points = level:stats().points,
-        width_factor = widen }
+        width_factor = widen, screen_size = 1 / widen, silhouette = error }
+end
+
+-- The part of the height of a picture of 1080 lines in which hair of this height is off by a pixel at most.
+local function screen_size(hair, off)
+    local bounds = hair:bounds()
+    return math.min(1, (bounds.max[2] - bounds.min[2]) / (1080 * math.max(off, 1e-6)))
 end
 
 local function save_cards(strands, style, count, sections, number, color)
@@ -84,7 +98,18 @@ local function save_cards(strands, style, count, sections, number, color)
     local stats = cards:stats()
     return { kind = "cards", file = mesh, cards = stats.cards, triangles = stats.triangles,
         slots = stats.slots, atlas = names, atlas_size = size, covered = stats.covered,
-        off_card = stats.rms }, preview
+        off_card = stats.rms, screen_size = screen_size(strands, stats.rms),
+        silhouette = strands:silhouette_error{ cards = cards } }, preview
+end
+
+-- The shell in linear colours of vertices.
+local SHELL_CELL = 0.005
+local function save_shell(strands, style, unit)
+    local mesh = strands:shell{ style = style, triangles = params.shell, cell = SHELL_CELL }
+    mesh:save(path("shell.glb"))
+    return { kind = "shell", file = "shell.glb", triangles = mesh:face_count(),
+        screen_size = screen_size(strands, SHELL_CELL),
+        silhouette = strands:silhouette_error{ mesh = mesh, unit = unit } }, mesh
 end
 
 local head = hairdo.head(params)
@@ -101,17 +126,22 @@ local unit = style:scalp():unit()
 
 local manifest = {
     version = 1, generator = "Lissom " .. lissom.version, preset = params.preset, color = color,
-    units = { strands = "metres", guides = "metres", cards = "units of the head", head_unit = unit },
+    units = { strands = "metres", guides = "metres", cards = "units of the head",
+        shell = "units of the head", head_unit = unit },
     up = "y", levels = {},
 }
 
 -- Strands and guides.
 hair:set_colors{ color = styling.linear(color) }
-local shown = {}
-for number, level in ipairs{ { 1, 24 }, { 0.5, 16 }, { 0.25, 12 } } do
-    local strands, widen = strand_level(hair, level[1], level[2])
-    manifest.levels[#manifest.levels + 1] = save_strands(strands, widen, number)
-    shown[#shown + 1] = { strands = strands, caption = #strands .. " strands" }
+-- Levels after the first stand for full hair: strands of a natural width would leave holes in them.
+local full = styling.set_width(hair:copy(), 0.00026)
+local shown, POINTS = {}, { 24, 16, 12, 10, 8, 8, 6, 6 }
+for number = 1, params.strand_levels do
+    local part = 0.5 ^ (number - 1)
+    local strands, widen = strand_level(hair, part, POINTS[number])
+    local error = full:silhouette_error{ strands = strand_level(full, part, POINTS[number]), widen = widen }
+    manifest.levels[number] = save_strands(strands, widen, number, error)
+    shown[number] = { strands = strands, caption = #strands .. " strands" }
 end
 local set = hair:guide_set{ count = params.guides, points = params.points }
 set:save(path("hair.guides"))
@@ -119,14 +149,22 @@ local off = set:error()
 manifest.guides = { file = "hair.guides", guides = #set, strands = #hair, points = params.points,
     error_rms = off.rms, error_max = off.max }
 
--- Cards stand for full hair: strands of a natural width would leave holes in their pictures.
-local full = styling.set_width(hair:copy(), 0.00026)
 for number, level in ipairs{ { 1, 12 }, { 0.5, 8 }, { 0.25, 6 } } do
     local count = math.max(1, math.floor(params.cards * level[1] + 0.5))
     local entry, preview = save_cards(full, style, count, level[2], number, color)
     manifest.levels[#manifest.levels + 1] = entry
     shown[#shown + 1] = { mesh = preview,
         caption = entry.cards .. " cards, " .. entry.triangles .. " triangles" }
+end
+
+local shell, shell_mesh = save_shell(full, style, unit)
+manifest.levels[#manifest.levels + 1] = shell
+shown[#shown + 1] = { mesh = shell_mesh, caption = shell.triangles .. " triangles, shell" }
+
+print("level                        triangles  screen size  silhouette, worst")
+for _, level in ipairs(manifest.levels) do
+    print(string.format("%-28s %9s %12.3f %10.1f %%, %4.1f %%", level.file, level.triangles or "-",
+        level.screen_size, 100 * level.silhouette.mean, 100 * level.silhouette.worst))
 end
 
 -- ---- The sheet: each level from the front and from behind.

@@ -23,8 +23,8 @@ function hairdo.params(options)
             help = "width and height of each picture" },
         out = { type = "folder", default = "out", help = "folder that the files go to, made if missing" },
         format = { type = "choice", default = "usda",
-            choices = { "usda", "hair", "glb", "data", "rib", "obj" },
-            help = "of the hair's file; usda holds groups and roots too" },
+            choices = { "usda", "hair", "tfx", "ply", "glb", "data", "rib", "obj" },
+            help = "of the hair's file; usda and ply hold groups and roots too" },
         name = { type = "string", default = options.name, help = "name of the files" },
     }
     for key, value in pairs(options.more or {}) do list[key] = value end

@@ -102,8 +102,14 @@ test("guides stay with the strands, and files that hold ids hold them", function
     expect.near(hair:root(3).arc, hair:stats().min_length, 1e-3)
 
            hair:save(path ".usda")
-    local back = lissom.load_strands(path ".usda")
-    for _, s in ipairs{ 1, 77, 200 } do expect.equal(back:root(s).guide, hair:root(s).guide) end
+    for _, ending in ipairs{ ".usda", ".ply" } do
+        expect.equal(#select(2, hair:save(path(ending))), 0)
+        local back = lissom.load_strands(path(ending))
+        for _, s in ipairs{ 1, 77, 200 } do expect.equal(back:root(s).guide, hair:root(s).guide) end
+    end
+    local _, report = hair:save(path ".tfx")
+    expect.truthy(report[#report].message:find("guides", 1, true))
+    expect.equal(#lissom.load_strands(path ".tfx"), 200)
     expect.equal(#select(2, hair:save(path ".hair")), 1)
     expect.equal(lawn(20, 5):root(1).guide, nil)
 end)
@@ -382,3 +388,41 @@ do
         expect.error(function() hair:follow(head, { scale = 0 }) end, "scale")
     end)
 end
+
+-- ---- Other heads, levels
+
+local function grown_bob()
+    local head = lissom.shapes.head{ vertices = 4000 }
+    local style, hair = require("presets.bob").grow(head, {}, { count = 1500, resolution = 8000 })
+    return head, style, hair
+end
+
+test("hair goes to a head of other faces, size and place", function()
+    local _, _, hair = grown_bob()
+    local other = lissom.shapes.head{ vertices = 3000 }
+    other:transform{ scale = { 1.2, 1.1, 1.15 }, translate = { 1, 2, 3 } }
+    local scalp = lissom.scalp(other)
+    local moved = hair:transfer(scalp)
+    expect.equal(#moved, #hair)
+    for strand = 1, #moved, 50 do
+        local root, point = moved:root(strand), {}
+        expect.truthy(root.face and root.face <= other:face_count())
+        for k = 1, 3 do point[k] = root.position[k] / scalp:unit() end
+        expect.near(other:nearest(point).distance, 0, 1e-5)
+    end
+end)
+
+test("a shell and fewer strands have the silhouette of the hair, nearly", function()
+    local _, style, hair = grown_bob()
+    hair:set_widths{ width = 0.002 }:set_colors{ color = { 0.5, 0.3, 0.1 } }
+    local shell = hair:shell{ style = style, triangles = 800 }
+    expect.truthy(shell:face_count() <= 850)
+    expect.truthy(shell:attribute("color"))
+    local unit = style:scalp():unit()
+    local error = hair:silhouette_error{ mesh = shell, unit = unit }
+    expect.truthy(error.mean < 0.3, "the shell is off by " .. error.mean)
+    local half = hair:select{ first = math.floor(#hair / 2) }
+    local wide = hair:silhouette_error{ strands = half, widen = 2 }
+    expect.truthy(wide.mean < hair:silhouette_error{ strands = half }.mean)
+    expect.error(function() hair:silhouette_error{} end, "give one level")
+end)

@@ -15,6 +15,8 @@ std::vector<Record> cards_records();
 
 std::vector<Record> strand_check_records();
 
+std::vector<Record> strand_level_records();
+
 Type strand_follower_type();
 
 }  // namespace lissom::lua

@@ -127,6 +127,7 @@ Library kernel_library() {
     add(library.records, strand_records());
     add(library.records, guide_set_records());
     add(library.records, cards_records());
+    add(library.records, strand_level_records());
     add(library.records, strand_check_records());
     add(library.records, groom_records());
     add(library.records, scene_records());

@@ -96,6 +96,7 @@ Type strands_type() {
     type.methods.push_back(cards_method());
     type.methods.push_back(strand_check_method());
     for (Function& method : strand_follow_methods()) type.methods.push_back(std::move(method));
+    for (Function& method : strand_level_methods()) type.methods.push_back(std::move(method));
     return type;
 }
 

@@ -5,20 +5,20 @@
 #include <vector>
 
 #include "kernel/core/error.h"
-#include "kernel/hair/follow/skin_contact.h"
+#include "kernel/hair/field/distance_grid.h"
+#include "kernel/hair/field/grid_layout.h"
 #include "kernel/hair/follow/strand_follow.h"
 #include "kernel/hair/operators/strand_attach.h"
 #include "kernel/hair/operators/strand_collision.h"
+#include "kernel/hair/scalp/surface_distance.h"
 #include "kernel/hair/strands/strand_place.h"
 #include "kernel/hair/transfer/head_fit.h"
-#include "kernel/mesh/measure/measures.h"
-#include "kernel/mesh/measure/triangulation.h"
 
 namespace lissom {
 namespace {
 
-// Metres under the skin within which points are seen to be inside.
-constexpr double kDeepest = 0.1;
+// Points of the grid of distances to the head.
+constexpr Index kBodyResolution = 100000;
 
 void require_transfer_options(const TransferOptions& options) {
     require(!options.scale || (*options.scale > 0.0 && std::isfinite(*options.scale)),
@@ -42,20 +42,26 @@ double size_of(const Scalp& scalp) {
     return scalp.scale() * scalp.unit();
 }
 
+// The head in metres of its scalp's frame.
+Mesh framed(const ScalpedHead& head, const Context& context) {
+    std::vector<Vec3> places;
+    places.reserve(at(head.head.vertex_count()));
+    for (const Vec3& p : head.head.positions()) places.push_back(head.scalp.to_metres(p));
+    return {std::move(places), head.head.shared_topology(), context};
+}
+
 void push_out_of(const ScalpedHead& to, double clearance, Strands& strands,
                  const Context& context) {
-    const double unit = to.scalp.unit();
-    std::vector<Vec3> places(to.head.positions().begin(), to.head.positions().end());
-    for (Vec3& place : places) place *= unit;
-    const double sign = volume(to.head) < 0.0 ? -1.0 : 1.0;
-    const SkinSurface skin(std::move(places),
-                           triangulate_faces(to.head.topology(), to.head.positions()),
-                           to.head.topology(), sign, context);
+    const Scalp& scalp = to.scalp;
+    const double metre = size_of(scalp);
+    const Mesh head = framed(to, context);
+    const DistanceGrid grid(head, fit_grid(Scalp::default_volume(), kBodyResolution), {}, context);
+    const SurfaceDistance surface(scalp, grid, head);
+    const auto frame = [&](const Vec3& p) { return scalp.to_metres(p / scalp.unit()); };
     PushOutOptions options;
-    options.distance = [&](const Vec3& point) {
-        const std::optional<SkinHeight> height = skin.height(point, kDeepest);
-        return height ? height->height : kDeepest;
-    };
+    options.distance = [&](const Vec3& p) { return metre * surface(frame(p)); };
+    options.rough = [&](const Vec3& p) { return metre * grid.value(frame(p)); };
+    options.rough_error = metre * grid.layout().step;
     options.clearance = clearance;
     push_out(strands, options, context);
 }

@@ -4,7 +4,9 @@
 /// primvars:displayOpacity; groups are the indexed primvar "group", ids, root faces and their
 /// weights the primvars "strandId", "guideId", "guideArc", "rootFace" and "rootBarycentrics", for
 /// which USD has no names of its own. Other data of strands - the profile of the widths, the
-/// comment - are in attributes of the namespace "lissom", so that they come back unchanged.
+/// comment - are in attributes of the namespace "lissom", so that they come back unchanged. Ids,
+/// guides, groups and root uvs are there once more as groom_id, groom_guide, groom_group_id,
+/// groom_group_name and groom_root_uv of the schema GroomAPI, which Unreal Engine reads.
 #pragma once
 
 #include <string>

@@ -20,8 +20,10 @@ class LayerWriter {
         Progress progress(context_, "write strands");
         text_ += "#usda 1.0\n(\n    defaultPrim = \"Hair\"\n    metersPerUnit = ";
         append_number(text_, meters_per_unit);
-        text_ += std::string("\n    upAxis = \"") + (up == UpAxis::z ? "Z" : "Y") +
-                 "\"\n)\n\ndef BasisCurves \"Hair\"\n{\n    uniform token type = \"linear\"\n";
+        text_ +=
+            std::string("\n    upAxis = \"") + (up == UpAxis::z ? "Z" : "Y") +
+            "\"\n)\n\ndef BasisCurves \"Hair\" (\n    prepend apiSchemas = [\"GroomAPI\"]\n)\n{\n"
+            "    uniform token type = \"linear\"\n";
         progress.update(0.05);
         list("int[] curveVertexCounts", strands_.size(),
              [&](Index s) { append_number(text_, strands_.point_count(s)); });
@@ -34,6 +36,7 @@ class LayerWriter {
         write_roots();
         write_guides();
         write_groups();
+        write_groom();
         write_comment();
         text_ += "}\n";
     }
@@ -195,6 +198,46 @@ class LayerWriter {
             "uniform");
         list("int[] primvars:group:indices", strands_.size(),
              [&](Index s) { append_number(text_, strands_.group(s)); });
+    }
+
+    // The same once more by the names that Unreal Engine's import of grooms reads.
+    void write_groom() {
+        text_ +=
+            "    int primvars:groom_version_major = 1\n    int primvars:groom_version_minor = 5\n";
+        list(
+            "int[] primvars:groom_id", strands_.size(), [&](Index s) { append_number(text_, s); },
+            "uniform");
+        write_groom_guides();
+        const StrandRoots& roots = strands_.roots();
+        if (!roots.uvs.empty()) {
+            list(
+                "float2[] primvars:groom_root_uv", strands_.size(),
+                [&](Index s) { tuple(roots.uvs[at(s)].data(), 2); }, "uniform");
+        }
+        if (strands_.groups().empty()) return;
+        // The strands of no group are one of their own.
+        const std::vector<std::string>& names = strands_.group_names();
+        const auto number = [&](Index s) {
+            return strands_.group(s) == kNoIndex ? count_of(names) : strands_.group(s);
+        };
+        list(
+            "int[] primvars:groom_group_id", strands_.size(),
+            [&](Index s) { append_number(text_, number(s)); }, "uniform");
+        list(
+            "string[] primvars:groom_group_name", strands_.size(),
+            [&](Index s) {
+                append_text(strands_.group(s) == kNoIndex ? "" : names[at(number(s))]);
+            },
+            "uniform");
+    }
+
+    void write_groom_guides() {
+        const StrandGuides& guides = strands_.guides();
+        if (guides.ids.empty()) return;
+        list(
+            "int[] primvars:groom_guide", strands_.size(),
+            [&](Index s) { append_number(text_, guides.ids[at(s)] == strands_.id(s) ? 1 : 0); },
+            "uniform");
     }
 
     void write_comment() {

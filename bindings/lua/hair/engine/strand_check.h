@@ -1,4 +1,4 @@
-/// strands:check and strands:follow; private to the binding.
+/// strands:check, strands:follow, strands:shell; private to the binding.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,9 @@ namespace lissom::lua {
 
 /// strand_check.cpp.
 Function strand_check_method();
-/// strand_follow.cpp: follow, follower.
+/// strand_follow.cpp: follow, follower, transfer.
 std::vector<Function> strand_follow_methods();
+/// levels.cpp: shell, silhouette_error.
+std::vector<Function> strand_level_methods();
 
 }  // namespace lissom::lua

@@ -320,3 +320,24 @@ TEST_CASE("the log says what a layer without curves holds") {
     CHECK(logged.mentions("1 Xform"));
     CHECK(logged.mentions("@./hair.usda@"));
 }
+
+TEST_CASE("USDA has what Unreal Engine reads of grooms by its names too") {
+    Strands strands =
+        strands_of({{{0, 0, 0}, {0, 1, 0}}, {{1, 0, 0}, {1, 1, 0}}, {{2, 0, 0}, {2, 1, 0}}});
+    strands.set_groups({0, kNoIndex, 1}, {"fringe", "back"});
+    strands.set_ids({10, 11, 12});
+    strands.set_guides({{11, 11, kNoGuide}, {0.5f, 1.0f, 0.0f}});
+    strands.set_roots({{}, {}, {{0.25f, 0.5f}, {0.5f, 0.5f}, {0.75f, 1.0f}}});
+    const std::string text = encode_strands(strands, "usda").bytes;
+    for (const char* part :
+         {"prepend apiSchemas = [\"GroomAPI\"]", "int primvars:groom_version_major = 1",
+          "int[] primvars:groom_id = [0, 1, 2]", "int[] primvars:groom_guide = [0, 1, 0]",
+          "int[] primvars:groom_group_id = [0, 2, 1]",
+          "string[] primvars:groom_group_name = [\"fringe\", \"\", \"back\"]",
+          "float2[] primvars:groom_root_uv = [(0.25, 0.5), (0.5, 0.5), (0.75, 1)]"}) {
+        CAPTURE(part);
+        CHECK(text.find(part) != std::string::npos);
+    }
+    CHECK(hash(decode_strands(text, "usda")) == hash(strands));
+    CHECK(encode_strands(random_hair(2), "usda").bytes.find("groom_guide") == std::string::npos);
+}
