@@ -102,7 +102,19 @@ local function save_cards(strands, style, count, sections, number, color)
         silhouette = strands:silhouette_error{ cards = cards } }, preview
 end
 
--- The shell in linear colours of vertices.
+-- Its colours as pictures show them; in the file they are linear.
+local function for_pictures(mesh)
+    local shown = lissom.mesh{ positions = mesh:positions(), faces = mesh:faces() }
+    local linear, values = mesh:attribute("color"), {}
+    for i = 1, linear:count() do
+        for _, c in ipairs{ linear:get(i) } do
+            values[#values + 1] = c <= 0.0031308 and 12.92 * c or 1.055 * c ^ (1 / 2.4) - 0.055
+        end
+    end
+    shown:add_attribute{ name = "color", domain = "vertex", width = 3, values = values }
+    return shown
+end
+
 local SHELL_CELL = 0.005
 local function save_shell(strands, style, unit)
     local mesh = strands:shell{ style = style, triangles = params.shell, cell = SHELL_CELL }
@@ -159,7 +171,7 @@ end
 
 local shell, shell_mesh = save_shell(full, style, unit)
 manifest.levels[#manifest.levels + 1] = shell
-shown[#shown + 1] = { mesh = shell_mesh, caption = shell.triangles .. " triangles, shell" }
+shown[#shown + 1] = { mesh = for_pictures(shell_mesh), caption = shell.triangles .. " triangles, shell" }
 
 print("level                        triangles  screen size  silhouette, worst")
 for _, level in ipairs(manifest.levels) do

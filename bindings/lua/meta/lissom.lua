@@ -607,6 +607,11 @@
 ---@field covered number Part of the strands' points that lie on their cards.
 ---@field rms number Distance of strands from the plane of their card, in metres.
 
+---Difference of silhouettes, as a part of the silhouette of all hair.
+---@class lissom.SilhouetteError
+---@field mean number Over all views.
+---@field worst number In one view.
+
 ---Faults of hair.
 ---@class lissom.StrandCheck
 ---@field ok boolean Whether there are no errors; warnings may remain.
@@ -2554,7 +2559,7 @@ function Strands:stats(options) end
 ---@field camera? lissom.Strands.SaveOptions.Camera For .rib: the camera of the picture. Default: hair and head whole, from the front, a little aside.
 ---@field archive? boolean For .rib: the curves alone, for other RIB files to read; else a scene with camera, lights and shaders, of which a RenderMan renderer makes the picture. Default: false.
 
----Writes the strands to a .hair, .data, .usda, .rib, .glb, .gltf or .obj file, whole or not at all. They are checked before, and changed if they would break in other programs; the strands themselves stay as they are.
+---Writes the strands to a .hair, .data, .usda, .tfx, .ply, .rib, .glb, .gltf or .obj file, whole or not at all. They are checked before, and changed if they would break in other programs; the strands themselves stay as they are.
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.Strands.SaveOptions
 ---@return lissom.Strands strands # The strands themselves.
@@ -3211,6 +3216,18 @@ function Strands:check(options) end
 ---@return lissom.Strands strands # New strands.
 function Strands:follow(head, options) end
 
+---@class lissom.Strands.TransferOptions
+---@field from? lissom.Scalp The scalp of the head that the hair comes from. Default: that of the head that they grew on or were attached to.
+---@field scale? number Factor of the strands' lengths. Default: the ratio of the heads' sizes.
+---@field push_out? boolean Keeps the hair out of the other head. Default: true.
+---@field clearance? number Distance that hair stays off the skin. In metres. Default: 0.0005.
+
+---Puts hair onto another head, of other faces, shape, size, place or unit. Places correspond by their directions from the middles of the heads; the hair follows its head as that takes the shape of the other, and is rooted there. Guides, groups, widths and colours are kept.
+---@param scalp lissom.Scalp The scalp of the other head.
+---@param options? lissom.Strands.TransferOptions
+---@return lissom.Strands strands # New strands.
+function Strands:transfer(scalp, options) end
+
 ---@class lissom.Strands.FollowerOptions
 ---@field rest? lissom.Mesh The head with the shape it has under the strands. Default: the head that they grew on or were attached to, as it was then.
 ---@field scale? number Factor of the strands' lengths. Default: that of the head if it was scaled as a whole, else 1.
@@ -3223,6 +3240,32 @@ function Strands:follow(head, options) end
 ---@param options? lissom.Strands.FollowerOptions
 ---@return lissom.StrandFollower follower # The prepared strands, a copy.
 function Strands:follower(options) end
+
+---@class lissom.Strands.ShellOptions
+---@field triangles? integer Triangles wanted. Default: 2000.
+---@field cell? number Distance of the places at which the density of hair is measured; smaller details vanish. In metres. Default: 0.005.
+---@field level? number The shell runs where hair is this part as dense as most of it is. Default: 0.2.
+---@field clearance? number Least distance from the head of `style`. In metres. Default: 0.001.
+---@field style? lissom.Hairstyle A style on the head of the strands: there is no surface below hair on the skin, and the mesh is in the unit of the head. Default: none: the surface is closed, in metres.
+
+---Makes one surface around the hair, its coarsest level of detail, with the attributes "normal" and, if the strands have colours, "color", in which the light from all around is. Strands apart from the others are outside of it.
+---@param options? lissom.Strands.ShellOptions
+---@return lissom.Mesh mesh # The surface.
+function Strands:shell(options) end
+
+---@class lissom.Strands.Silhouette_errorOptions
+---@field strands? lissom.Strands A level of fewer strands or points. Default: none.
+---@field widen? number Factor of the widths of `strands`. Default: 1.
+---@field cards? lissom.Cards A level of cards, with the strands drawn on them. Default: none.
+---@field mesh? lissom.Mesh A level that is a surface, as `strands:shell` makes. Default: none.
+---@field unit? number Length of a unit of `mesh`. In metres. Default: 1.
+---@field views? integer Directions around the hair, and as many again from 30 degrees above. Default: 8.
+---@field pixel? number Size of a pixel. In metres. Default: 0.002.
+
+---Compares the silhouette of a level of detail with that of the hair, from all sides: the part of the hair's silhouette that only one of the two covers.
+---@param options? lissom.Strands.Silhouette_errorOptions
+---@return lissom.SilhouetteError error # 0 for equal silhouettes.
+function Strands:silhouette_error(options) end
 
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Strands:close() end
@@ -4396,7 +4439,7 @@ function lissom.save_groom(groom, path) end
 ---@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: the file's own, else y.
 ---@field unit? number Length of the file's unit in metres. In metres. Default: the file's own, else 1.
 
----Reads hair from a .hair, .data (HairSalon) or .usda (BasisCurves) file.
+---Reads hair from a .hair, .data (HairSalon, HairNet), .usda (BasisCurves), .tfx (TressFX) or .ply file (points with edges, as HairStep and Open3D write them, or with an element 'strand').
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.Load_strandsOptions
 ---@return lissom.Strands strands # The strands.

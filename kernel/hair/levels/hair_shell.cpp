@@ -1,5 +1,6 @@
 #include "kernel/hair/levels/hair_shell.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,6 +30,8 @@ constexpr double kLeastPart = 0.02;
 // Pieces of a segment a cell.
 constexpr double kPiecesPerCell = 2.0;
 constexpr Index kShellGrain = 1;
+// Cells over the shell at which its light is measured.
+constexpr double kLightLift = 2.0;
 
 void require_shell_options(const Strands& strands, const ShellOptions& options) {
     require(options.triangles >= 20, "a shell has at least 20 triangles");
@@ -260,7 +263,8 @@ void keep_off_head(Mesh& mesh, const ShellOptions& options) {
 void add_shell_attributes(const Strands& strands, const NodeGrid& grid, const HairMatter& matter,
                           Mesh& mesh) {
     Attribute normal{"normal", Domain::vertex, 3, ScalarType::float32, {}};
-    for (const Vec3& n : vertex_normals(mesh)) {
+    const std::vector<Vec3> normals = vertex_normals(mesh);
+    for (const Vec3& n : normals) {
         normal.values.insert(normal.values.end(), n.begin(), n.end());
     }
     mesh.attributes().add(std::move(normal));
@@ -270,7 +274,8 @@ void add_shell_attributes(const Strands& strands, const NodeGrid& grid, const Ha
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
         const Vec3& p = mesh.position(v);
         const double length = std::max(grid.interpolated(matter.length, p), 1e-30);
-        const double light = density.openness(p);
+        // Above the hair, whose own depth would darken it.
+        const double light = density.openness(p + kLightLift * grid.step * normals[at(v)]);
         for (const std::vector<float>& channel : matter.color) {
             color.values.push_back(
                 std::clamp(light * grid.interpolated(channel, p) / length, 0.0, 1.0));

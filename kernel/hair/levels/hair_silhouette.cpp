@@ -1,5 +1,6 @@
 #include "kernel/hair/levels/hair_silhouette.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

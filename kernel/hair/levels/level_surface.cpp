@@ -1,5 +1,6 @@
 #include "kernel/hair/levels/level_surface.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

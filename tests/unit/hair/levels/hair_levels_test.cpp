@@ -201,7 +201,7 @@ TEST_CASE("silhouette: bad options and hair that covers nothing are refused") {
         CHECK(code_of_level([&] { HairSilhouette(board(0.0), bad); }) ==
               ErrorCode::invalid_argument);
     }
-    CHECK(code_of_level([] { HairSilhouette(Strands()); }) == ErrorCode::invalid_argument);
+    CHECK(code_of_level([] { HairSilhouette(strands_of({})); }) == ErrorCode::invalid_argument);
     CHECK(code_of_level([] { HairSilhouette(board(0.0, 3, 1e-6f)); }) ==
           ErrorCode::invalid_argument);
     const HairSilhouette all(board(0.0), {.views = 1});
