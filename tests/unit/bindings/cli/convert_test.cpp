@@ -103,9 +103,14 @@ TEST_CASE("convert writes hair as hair, in every format that holds hair") {
         last = out;
     }
     CHECK(run_program({"convert", in, folder.path("lines.glb")}).status == cli::kSuccess);
-    const Ended mesh = run_program({"convert", in, folder.path("no.ply")});
+    // A .ply file may hold either: it is read as hair where only hair can be written.
+    const std::string ply = folder.path("curls.ply");
+    CHECK(run_program({"convert", in, ply}).status == cli::kSuccess);
+    const Ended back = run_program({"convert", ply, folder.path("back.hair"), "--json"});
+    CHECK(ConvertJson::parse(back.out)["strands"] == 2);
+    const Ended mesh = run_program({"convert", in, folder.path("no.stl")});
     CHECK(mesh.status == cli::kFailure);
-    CHECK(mesh.err.find("hair cannot be written to '.ply' files; known are") != std::string::npos);
+    CHECK(mesh.err.find("hair cannot be written to '.stl' files; known are") != std::string::npos);
     const Ended text = run_program({"convert", in, folder.path("no.data"), "--text"});
     CHECK(text.status == cli::kFailure);
     CHECK(text.err.find("--text is for meshes") != std::string::npos);
@@ -133,9 +138,9 @@ TEST_CASE("convert finds hair by patterns and in folders, and says why a pattern
     CHECK(folder.has("outhair/curls.hair"));
     CHECK(converted("in", "data").size() == 1);
     CHECK(converted("in", "").size() == 2);
-    // Hair cannot become a .ply file: a folder passes over it, its own extension does not.
-    CHECK(converted("in", "ply").size() == 1);
-    CHECK(converted("in/*.usda", "ply").at("curls.usda")["error"]["code"] == "unknown_format");
+    // Hair cannot become a .stl file: a folder passes over it, its own extension does not.
+    CHECK(converted("in", "stl").size() == 1);
+    CHECK(converted("in/*.usda", "stl").at("curls.usda")["error"]["code"] == "unknown_format");
     const auto nothing = converted("in/*.txt", "").at("*.txt");
     CHECK(nothing["error"]["message"].get<std::string>().find("none of its 1 files") !=
           std::string::npos);

@@ -181,17 +181,30 @@ TEST_CASE("silhouette: a surface as large as the hair has a small error") {
     CHECK(HairSilhouette(wide).compare(make_shell(wide)).mean < 0.15);
 }
 
-TEST_CASE("silhouette: cards show the strands of their slots") {
-    Strands hair = board(0.0, 201);
-    const HairCards cards = make_cards(hair, {.count = 5, .slots = 5});
+TEST_CASE("silhouette: cards show the strands of their slots, flat on the card") {
+    const Strands hair = radial_hair(2000);
+    const HairCards cards = make_cards(hair, {.count = 60, .slots = 20});
     const Strands shown = shown_by(cards, hair);
-    CHECK(shown.size() > 150);
-    for (Index p = 0; p < shown.point_count(); ++p) {
-        CHECK(std::abs(shown.points()[3 * static_cast<std::size_t>(p) + 2]) < 1e-3f);
+    Index s = 0;
+    for (const Card& card : cards.cards) {
+        const Card& drawn = cards.cards[at(cards.slots[at(card.slot)].card)];
+        for (std::size_t i = 0; i < drawn.strands.size(); ++i, ++s) {
+            REQUIRE(s < shown.size());
+            CHECK(shown.point_count(s) == hair.point_count(drawn.strands[i]));
+            for (Index k = 0; k < shown.point_count(s); ++k) {
+                const CardPoint place = place_on_card(card, point_of(shown.strand(s), k));
+                CHECK(std::abs(place.out) < 1e-3);
+                CHECK(std::abs(place.u) < 1.01);
+            }
+        }
     }
-    const HairSilhouette all(hair, {.views = 1});
-    const SilhouetteError error = all.compare(cards, hair);
-    CHECK(error.mean < 0.15);
+    CHECK(s == shown.size());
+    Strands wide = hair;
+    StrandWidths widths;
+    widths.common = 0.002f;
+    wide.set_widths(widths);
+    const HairSilhouette all(wide, {.views = 2});
+    CHECK(all.compare(cards, wide).mean == all.compare(shown_by(cards, wide)).mean);
 }
 
 TEST_CASE("silhouette: bad options and hair that covers nothing are refused") {
