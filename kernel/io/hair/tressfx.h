@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "kernel/core/context.h"
+#include "kernel/core/index.h"
 #include "kernel/hair/strands/strands.h"
 #include "kernel/io/record/file_hair.h"
 

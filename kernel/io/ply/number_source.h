@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <string_view>
 
+#include "kernel/core/error.h"
 #include "kernel/io/ply/header.h"
 #include "kernel/io/stream/byte_reader.h"
+#include "kernel/io/stream/read_error.h"
 #include "kernel/io/stream/text_reader.h"
+#include "kernel/mesh/attributes.h"
 
 namespace lissom {
 

@@ -1,6 +1,7 @@
 /// Lines of edges as strands; private to kernel/io.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "kernel/core/index.h"
