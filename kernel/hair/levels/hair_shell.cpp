@@ -20,7 +20,7 @@
 namespace lissom {
 namespace {
 
-constexpr double kMostNodes = 4e6;
+constexpr double kMostShellNodes = 4e6;
 // Cells of room around the hair.
 constexpr int kShellMargin = 4;
 // Passes of the weights 1 2 1 over densities.
@@ -61,7 +61,7 @@ NodeGrid grid_around(const Strands& strands, double cell) {
     grid.step = cell;
     for (;;) {
         grid.counts = (size.array() / grid.step).min(1e6).ceil().cast<int>() + 1 + 2 * kShellMargin;
-        if (grid.counts.cast<double>().prod() <= kMostNodes) break;
+        if (grid.counts.cast<double>().prod() <= kMostShellNodes) break;
         grid.step *= 1.1;
     }
     grid.origin = box.min - Vec3::Constant(kShellMargin * grid.step);

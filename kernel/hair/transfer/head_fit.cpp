@@ -14,16 +14,16 @@ constexpr double kFitStep = kPi / 36.0;
 constexpr double kLowestFit = -kPi / 4.0;
 constexpr int kFitPasses = 4;
 
-std::size_t place_of(Index row, Index column) {
+std::size_t fit_cell(Index row, Index column) {
     return at(row * kFitColumns + (column + kFitColumns) % kFitColumns);
 }
 
-ScalpDirection direction_at(Index row, Index column) {
+ScalpDirection fit_direction(Index row, Index column) {
     return {column * kFitStep - kPi, row * kFitStep - 0.5 * kPi};
 }
 
 // Distance of the skin from the center in metres of the frame; NaN if there is none.
-double skin_distance(const Scalp& scalp, const ScalpDirection& direction) {
+double fit_distance(const Scalp& scalp, const ScalpDirection& direction) {
     const std::optional<SurfacePoint> skin = scalp.surface_in(direction);
     const double distance = skin ? scalp.to_metres(skin->position).norm() : 0.0;
     return distance > 0.0 ? distance : std::numeric_limits<double>::quiet_NaN();
@@ -36,7 +36,7 @@ void visit_neighbours(Index row, Index column, const Visit& visit) {
         for (Index j = -1; j <= 1; ++j) {
             const Index r = row + i;
             if ((i == 0 && j == 0) || r < 0 || r >= kFitRows) continue;
-            visit(place_of(r, column + j));
+            visit(fit_cell(r, column + j));
         }
     }
 }
@@ -68,10 +68,10 @@ void HeadFit::measure(const Context& context) {
     context.parallel_for(0, kFitRows, 1, [&](Index begin, Index end) {
         for (Index row = begin; row < end; ++row) {
             for (Index column = 0; column < kFitColumns; ++column) {
-                const ScalpDirection direction = direction_at(row, column);
+                const ScalpDirection direction = fit_direction(row, column);
                 if (direction.elevation < kLowestFit) continue;
-                log_ratios_[place_of(row, column)] =
-                    std::log(skin_distance(to_, direction) / skin_distance(from_, direction));
+                log_ratios_[fit_cell(row, column)] =
+                    std::log(fit_distance(to_, direction) / fit_distance(from_, direction));
             }
         }
     });
@@ -83,8 +83,8 @@ void HeadFit::fill() {
         std::vector<double> next = log_ratios_;
         for (Index row = 0; row < kFitRows; ++row) {
             for (Index column = 0; column < kFitColumns; ++column) {
-                if (!std::isnan(log_ratios_[place_of(row, column)])) continue;
-                next[place_of(row, column)] = mean_around(log_ratios_, row, column);
+                if (!std::isnan(log_ratios_[fit_cell(row, column)])) continue;
+                next[fit_cell(row, column)] = mean_around(log_ratios_, row, column);
             }
         }
         log_ratios_ = std::move(next);
@@ -97,7 +97,7 @@ void HeadFit::smooth() {
         std::vector<double> next = log_ratios_;
         for (Index row = 0; row < kFitRows; ++row) {
             for (Index column = 0; column < kFitColumns; ++column) {
-                next[place_of(row, column)] = 0.5 * log_ratios_[place_of(row, column)] +
+                next[fit_cell(row, column)] = 0.5 * log_ratios_[fit_cell(row, column)] +
                                               0.5 * mean_around(log_ratios_, row, column);
             }
         }
@@ -107,10 +107,10 @@ void HeadFit::smooth() {
     for (const Index row : {Index{0}, kFitRows - 1}) {
         double mean = 0.0;
         for (Index column = 0; column < kFitColumns; ++column) {
-            mean += log_ratios_[place_of(row, column)] / kFitColumns;
+            mean += log_ratios_[fit_cell(row, column)] / kFitColumns;
         }
         for (Index column = 0; column < kFitColumns; ++column) {
-            log_ratios_[place_of(row, column)] = mean;
+            log_ratios_[fit_cell(row, column)] = mean;
         }
     }
 }
@@ -122,7 +122,7 @@ double HeadFit::ratio(const ScalpDirection& direction) const {
     const auto column = static_cast<Index>(std::floor(x));
     const Index row = std::min(static_cast<Index>(y), kFitRows - 2);
     const double u = x - column, v = y - row;
-    const auto value = [&](Index i, Index j) { return log_ratios_[place_of(row + i, column + j)]; };
+    const auto value = [&](Index i, Index j) { return log_ratios_[fit_cell(row + i, column + j)]; };
     return std::exp((1.0 - v) * ((1.0 - u) * value(0, 0) + u * value(0, 1)) +
                     v * ((1.0 - u) * value(1, 0) + u * value(1, 1)));
 }

@@ -19,7 +19,7 @@ constexpr std::size_t kTfxHeaderBytes = 160, kTfxReserved = 32;
 constexpr float kTfxVersion = 4.0f, kFirstTfxVersion = 3.0f, kLastTfxVersion = 6.0f;
 
 // Arrays in the order of their offsets.
-enum TfxArray : std::size_t { points, root_uvs, point_uvs, thickness, colors };
+enum TfxArray : std::size_t { tfx_points, tfx_root_uvs, tfx_point_uvs, tfx_thickness, tfx_colors };
 
 struct TfxHeader {
     std::uint32_t strands = 0, points = 0;
@@ -30,7 +30,7 @@ struct TfxHeader {
 };
 
 std::size_t tfx_count_of(const TfxHeader& header, TfxArray array) {
-    return array == root_uvs || array == thickness ? header.strands : header.point_count();
+    return array == tfx_root_uvs || array == tfx_thickness ? header.strands : header.point_count();
 }
 
 constexpr std::array<std::size_t, 5> kTfxWidths{4, 2, 2, 1, 4};
@@ -60,10 +60,11 @@ void require_tfx_arrays(const TfxHeader& header, std::size_t size) {
     checked_count(header.strands, size, "strands", {});
     checked_count(header.points, size, "points of a strand", {});
     checked_count(static_cast<std::int64_t>(header.point_count()), size, "points", {});
-    if (header.strands > 0 && (header.points == 0 || !header.has(points))) {
+    if (header.strands > 0 && (header.points == 0 || !header.has(tfx_points))) {
         refuse(ErrorCode::file_syntax, "the file has strands but no points");
     }
-    for (const TfxArray array : {points, root_uvs, point_uvs, thickness, colors}) {
+    for (const TfxArray array :
+         {tfx_points, tfx_root_uvs, tfx_point_uvs, tfx_thickness, tfx_colors}) {
         if (!header.has(array)) continue;
         const std::string name(kNames[array]);
         const std::uint64_t begin = header.offsets[array];
@@ -100,7 +101,7 @@ class TfxReader {
         set_uvs(hair.strands);
         set_tfx_widths(hair);
         set_tfx_colors(hair.strands);
-        if (header_.has(point_uvs)) {
+        if (header_.has(tfx_point_uvs)) {
             context_.log(LogLevel::warning, "texture coordinates of points were left out");
         }
         return hair;
@@ -116,7 +117,7 @@ class TfxReader {
 
     // Without the fourth number, which may be anything.
     std::vector<float> read_places() const {
-        const std::vector<float> rows = numbers(points);
+        const std::vector<float> rows = numbers(tfx_points);
         std::vector<float> places;
         places.reserve(3 * header_.point_count());
         for (std::size_t i = 0; i < rows.size(); i += 4) {
@@ -136,8 +137,8 @@ class TfxReader {
     }
 
     void set_uvs(Strands& strands) const {
-        if (!header_.has(root_uvs)) return;
-        const std::vector<float> values = of_strands(root_uvs);
+        if (!header_.has(tfx_root_uvs)) return;
+        const std::vector<float> values = of_strands(tfx_root_uvs);
         StrandRoots roots;
         for (std::size_t i = 0; i < values.size(); i += 2) {
             roots.uvs.emplace_back(values[i], values[i + 1]);
@@ -146,10 +147,10 @@ class TfxReader {
     }
 
     void set_tfx_widths(FileHair& hair) const {
-        if (!header_.has(thickness)) return;
+        if (!header_.has(tfx_thickness)) return;
         StrandWidths widths;
         widths.domain = StrandDomain::strand;
-        widths.values = of_strands(thickness);
+        widths.values = of_strands(tfx_thickness);
         const float first = widths.values.front();
         if (std::all_of(widths.values.begin(), widths.values.end(),
                         [&](float w) { return w == first; })) {
@@ -162,8 +163,8 @@ class TfxReader {
     }
 
     void set_tfx_colors(Strands& strands) const {
-        if (!header_.has(colors)) return;
-        const std::vector<float> rows = numbers(colors);
+        if (!header_.has(tfx_colors)) return;
+        const std::vector<float> rows = numbers(tfx_colors);
         require_finite(rows, 4, 0, offsets_);
         StrandValues<Eigen::Vector3f> list{Eigen::Vector3f::Zero(), StrandDomain::point};
         StrandValues<float> transparency{0.0f, StrandDomain::point};
@@ -191,7 +192,7 @@ class TfxWriter {
         Progress progress(context, "write strands");
         Ticker ticker(progress);
         bytes_.assign(kTfxHeaderBytes, '\0');
-        begin_array(points);
+        begin_array(tfx_points);
         for (Index s = 0; s < strands_.size(); ++s) {
             ticker.tick([&] { return 0.6 * s / strands_.size(); });
             const StrandView strand = strands_.strand(s);
@@ -214,14 +215,14 @@ class TfxWriter {
 
     void write_uvs() {
         if (strands_.roots().uvs.empty()) return;
-        begin_array(root_uvs);
+        begin_array(tfx_root_uvs);
         for (const Eigen::Vector2f& uv : strands_.roots().uvs) {
             append_little_endian(bytes_, std::span<const float>(uv.data(), 2));
         }
     }
 
     void write_thickness() {
-        begin_array(thickness);
+        begin_array(tfx_thickness);
         std::vector<float> widths;
         for (Index s = 0; s < strands_.size(); ++s) {
             widths_of(strands_, s, widths);
@@ -232,7 +233,7 @@ class TfxWriter {
     void write_colors() {
         const StrandValues<Eigen::Vector3f>* const list = strands_.colors();
         if (!list) return;
-        begin_array(colors);
+        begin_array(tfx_colors);
         for (Index s = 0; s < strands_.size(); ++s) {
             const Index first = strands_.first_point(s);
             for (Index p = first; p < first + strands_.point_count(s); ++p) {

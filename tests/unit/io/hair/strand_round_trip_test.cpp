@@ -296,7 +296,8 @@ TEST_CASE("TressFX keeps colours, root uvs and widths of strands with the points
 }
 
 TEST_CASE("TressFX has a power of two of points in each strand, from 4 to 64") {
-    for (const auto& [points, expected] : {std::pair{2, 4}, {4, 4}, {24, 32}, {64, 64}, {90, 64}}) {
+    for (const auto& pair : {std::pair{2, 4}, {4, 4}, {24, 32}, {64, 64}, {90, 64}}) {
+        const int points = pair.first, expected = pair.second;
         CAPTURE(points);
         const Strands strands = resample(random_hair(6), {.count = points});
         const EncodedStrands written = encode_strands(strands, "tfx");
