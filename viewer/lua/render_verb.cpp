@@ -234,8 +234,9 @@ void add_files(Program& program, Request& request) {
 }
 
 void declare(CLI::App& app, Request& request) {
-    app.add_option("FILE", request.files,
-                   "Mesh files, hair files (.hair, .data, .usda, .tfx) and scenes (.lissom) to draw");
+    app.add_option(
+        "FILE", request.files,
+        "Mesh files, hair files (.hair, .data, .usda, .tfx) and scenes (.lissom) to draw");
     app.add_option("-o,--out", request.out,
                    "The picture to write, a .png file; with --in a folder, which gets a picture "
                    "NAME.png of each file, and a page of all")
