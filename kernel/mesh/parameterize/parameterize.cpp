@@ -22,11 +22,7 @@ class ChartLayout {
     Parameterization run() {
         Progress progress(context_, "parameterize");
         progress.step(0.5);
-        if (options_.method == ParameterizeMethod::tutte) {
-            result_.uv = convex_map(chart_, shapes_, context_);
-        } else {
-            result_.uv = conformal_map(chart_, shapes_, context_);
-        }
+        result_.uv = first_map();
         scale_to_area(chart_, shapes_, result_.uv);
         result_.method = options_.method;
         progress.step(0.5);
@@ -37,6 +33,17 @@ class ChartLayout {
     }
 
   private:
+    std::vector<Vec2> first_map() const try {
+        return options_.method == ParameterizeMethod::tutte
+                   ? convex_map(chart_, shapes_, context_)
+                   : conformal_map(chart_, shapes_, context_);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::not_positive_definite) throw;
+        throw Error(ErrorCode::not_positive_definite,
+                    "the triangles of these faces are too thin to be laid out; remesh them, or "
+                    "use the method tutte");
+    }
+
     // Whole iterations; if they end with flips, also iterations that stop short of flips.
     RigidMap best_rigid_map() const {
         const auto with = [&](RigidSteps steps) {

@@ -1,7 +1,9 @@
 #include "kernel/mesh/parameterize/parameterize.h"
 
+#include <cmath>
 #include <numeric>
 
+#include "kernel/mesh/parameterize/uv_attribute.h"
 #include "tests/unit/mesh/parameterize/parameterize_support.h"
 
 using namespace lissom;
@@ -218,4 +220,30 @@ TEST_CASE("the map is the same every time and for any number of threads") {
         CHECK(laid_out(mesh, method).uv == map.uv);
         CHECK(parameterize(mesh, all, {.method = method}, Context(options)).uv == map.uv);
     }
+}
+
+TEST_CASE("faces too thin to be laid out are told, with a remedy") {
+    // The triangles of a polygon of very many corners are slivers.
+    const Index n = 20000;
+    std::vector<Vec3> points;
+    std::vector<Index> face;
+    for (Index i = 0; i < n; ++i) {
+        const double angle = 2.0 * kPi * i / n;
+        points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+        face.push_back(i);
+    }
+    FaceList faces;
+    faces.add(face);
+    Mesh mesh(std::move(points), std::move(faces));
+    const std::vector<Index> all{0};
+    try {
+        parameterize(mesh, all, {.method = ParameterizeMethod::lscm});
+    } catch (const Error& error) {
+        CHECK(error.code() == ErrorCode::not_positive_definite);
+        CHECK(error.message().find("remesh") != std::string::npos);
+    }
+    const Parameterization map = parameterize(mesh, all, {.method = ParameterizeMethod::tutte});
+    CHECK(map.uv.size() == at(n));
+    write_uv(mesh, map);
+    CHECK(mesh.attributes().find("uv") != nullptr);
 }
