@@ -10,6 +10,7 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/core/index.h"
+#include "kernel/mesh/edges.h"
 #include "kernel/mesh/mesh.h"
 #include "kernel/mesh/topology.h"
 
@@ -90,25 +91,6 @@ inline double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
     if (angle > kClearAngle) return angle;
     return std::min(
         {angle_between(b - a, c - a), angle_between(c - b, a - b), angle_between(a - c, b - c)});
-}
-
-/// The face on the left of a directed edge, or kNoIndex. The time grows as the lesser valence of
-/// its ends, not as the corners of the face.
-inline Index face_left_of(const Topology& topology, Index from, Index to) {
-    const auto place_of = [](std::span<const Index> ring, Index v) {
-        return std::find(ring.begin(), ring.end(), v) - ring.begin();
-    };
-    // The i-th face around a vertex lies between its neighbours i and i + 1.
-    if (topology.valence(from) <= topology.valence(to)) {
-        const auto faces = topology.faces_around(from);
-        const auto i = at(place_of(topology.neighbors(from), to));
-        return i < faces.size() ? faces[i] : kNoIndex;
-    }
-    const auto faces = topology.faces_around(to);
-    const auto i = place_of(topology.neighbors(to), from);
-    if (i == topology.valence(to)) return kNoIndex;
-    if (i > 0) return faces[at(i - 1)];
-    return topology.is_boundary(to) ? kNoIndex : faces.back();
 }
 
 /// Adds the dihedral angle at the edge between two vertices: none at an open edge, and next to a

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/mesh/edges.h"
 #include "kernel/mesh/fill/minimum_area.h"
 
 namespace lissom {
@@ -161,6 +162,7 @@ void close_by_fan(HolePatch& patch, const Polygon& polygon) {
 // Closes a polygon and returns the normal of the triangle at its last edge, and the number of
 // parts.
 std::pair<Vec3, Index> close(HolePatch& patch, const Polygon& polygon, const Context& context) {
+    context.checkpoint();
     const Index n = polygon.size();
     if (n > kMaximumLoop) {
         const auto [i, j] = best_chord(patch, polygon);
@@ -189,30 +191,32 @@ std::pair<Vec3, Index> close(HolePatch& patch, const Polygon& polygon, const Con
     return {patch.normal(count_of(patch.triangles()) - 1), 1};
 }
 
-// Vector area of the face on the other side of the edge from `a` to `b`.
-Vec3 normal_behind(const Mesh& mesh, Index a, Index b) {
-    for (const Index f : mesh.topology().faces_around(a)) {
-        const std::span<const Index> face = mesh.topology().face(f);
-        for (std::size_t k = 0; k < face.size(); ++k) {
-            if (face[k] != b || face[(k + 1) % face.size()] != a) continue;
-            Vec3 normal = Vec3::Zero();
-            for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-                normal += (mesh.position(face[i]) - mesh.position(face[0]))
-                              .cross(mesh.position(face[i + 1]) - mesh.position(face[0]));
-            }
-            return normal;
-        }
+// Vector area of a face.
+Vec3 area_of(const Mesh& mesh, Index f) {
+    const std::span<const Index> face = mesh.topology().face(f);
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+        area += (mesh.position(face[i]) - mesh.position(face[0]))
+                    .cross(mesh.position(face[i + 1]) - mesh.position(face[0]));
     }
-    return Vec3::Zero();
+    return area;
 }
 
 }  // namespace
 
 Index triangulate_hole(HolePatch& patch, std::span<const Index> loop, const Context& context) {
     Polygon polygon{{loop.begin(), loop.end()}, {}};
+    // A polygon of many corners may lie behind many edges that follow one another.
+    Index last = kNoIndex;
+    Vec3 area = Vec3::Zero();
     for (Index i = 0; i < polygon.size(); ++i) {
-        polygon.normals.push_back(normal_behind(patch.mesh(), polygon.vertices[i],
-                                                polygon.vertices[(i + 1) % polygon.size()]));
+        const Index behind =
+            face_left_of(patch.mesh().topology(), polygon.vertices[(i + 1) % polygon.size()],
+                         polygon.vertices[i]);
+        if (behind == kNoIndex) area = Vec3::Zero();
+        if (behind != kNoIndex && behind != last) area = area_of(patch.mesh(), behind);
+        last = behind;
+        polygon.normals.push_back(area);
     }
     return close(patch, polygon, context).second;
 }
