@@ -119,6 +119,8 @@ double HeadFit::ratio(const ScalpDirection& direction) const {
     const double x = (direction.azimuth + kPi) / kFitStep,
                  y = std::clamp((direction.elevation + 0.5 * kPi) / kFitStep, 0.0,
                                 double(kFitRows - 1));
+    // A point too far away has no direction.
+    if (!std::isfinite(x) || !std::isfinite(y)) return 1.0;
     const auto column = static_cast<Index>(std::floor(x));
     const Index row = std::min(static_cast<Index>(y), kFitRows - 2);
     const double u = x - column, v = y - row;

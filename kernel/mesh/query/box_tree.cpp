@@ -89,9 +89,10 @@ Index BoxTree::split(const Node& node, std::span<const Box> boxes, bool halve) {
     for (auto i = begin; i != end; ++i) centers.extend(boxes[at(*i)].center());
     int axis = 0;
     const double extent = (centers.max - centers.min).maxCoeff(&axis);
+    // Distances of coordinates near the greatest number are infinite, and their ratios no number.
     const auto bin_of = [&](Index item) {
-        const double where = (boxes[at(item)].center()[axis] - centers.min[axis]) / extent;
-        return std::min(kBins - 1, static_cast<int>(where * kBins));
+        const double where = (boxes[at(item)].center()[axis] - centers.min[axis]) / extent * kBins;
+        return where >= kBins ? kBins - 1 : where > 0.0 ? static_cast<int>(where) : 0;
     };
     if (extent > 0.0 && !halve) {
         Bins bins;

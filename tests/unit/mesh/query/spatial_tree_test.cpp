@@ -1,6 +1,7 @@
 #include "kernel/mesh/query/spatial_tree.h"
 
 #include <algorithm>
+#include <random>
 
 #include "kernel/mesh/shapes/shapes.h"
 #include "tests/unit/mesh/mesh_support.h"
@@ -437,4 +438,25 @@ TEST_CASE("a point is hidden by what lies between it and the eye, and by nothing
     CHECK(tree.hides(above, -up));
     CHECK(!tree.hides(above, -up, {.back_faces = false}));
     CHECK(!tree.hides(above, up));
+}
+
+TEST_CASE("trees of surfaces as far apart as numbers reach are built") {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (const double far : {1e150, 1e300, 1.7e308}) {
+        std::vector<Vec3> points;
+        FaceList faces;
+        for (Index f = 0; f < 500; ++f) {
+            for (int k = 0; k < 3; ++k) {
+                points.emplace_back(far * uniform(random), far * uniform(random), uniform(random));
+            }
+            faces.add({3 * f, 3 * f + 1, 3 * f + 2});
+        }
+        const Mesh mesh(std::move(points), std::move(faces));
+        const SpatialTree tree(mesh);
+        CHECK(tree.boxes().bounds().max.x() > 0.5 * far);
+        Index items = 0;
+        tree.boxes().visit([](const Box&) { return true; }, [&](Index) { ++items; });
+        CHECK(items == 500);
+    }
 }
