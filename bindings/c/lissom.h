@@ -1448,7 +1448,7 @@ LISSOM_API lissom_status lissom_script_begin_run(lissom_context* context, lissom
                                                  const char* arguments, lissom_job* job);
 
 /// Calls any function of the Lua reference. `name` is "shapes.box", or "Mesh.smooth" for a method.
-/// `arguments` is a JSON list: first the object of a method, then the arguments by position and the
+/// `arguments` is a JSON list of at most 250: first the object of a method, then others, then the
 /// table of options, as in the reference. An object is {"object": ID} with the `id` of a handle,
 /// which is the object itself and no copy. `json` receives the list of results in the same format,
 /// objects with "type": "lissom.Mesh", ...: lissom.Mesh, Region, Deformer, Hairstyle and Strands

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
 
 #include "kernel/core/error.h"
 #include "kernel/core/numbers/number_text.h"
@@ -22,6 +24,8 @@ using Json = nlohmann::json;
 // Takes what nlohmann's parser tells of; errors are thrown through it.
 class Reader final : public Json::json_sax_t {
   public:
+    explicit Reader(const Context& context) : context_(context) {}
+
     List take() {
         auto* list = std::get_if<List>(&root_.content);
         if (!list) refuse_arguments("they are not a JSON list");
@@ -48,13 +52,18 @@ class Reader final : public Json::json_sax_t {
     bool start_array(std::size_t) override { return open(List()); }
     bool start_object(std::size_t) override { return open(Fields()); }
     bool end_array() override { return close(); }
-    bool end_object() override { return close(); }
-    bool key(std::string& name) override {
-        auto& fields = std::get<Fields>(open_.back()->content);
-        if (std::find(fields.names.begin(), fields.names.end(), name) != fields.names.end()) {
-            refuse_arguments("a table has the name '" + name + "' twice");
+    bool end_object() override {
+        const auto& fields = std::get<Fields>(open_.back()->content);
+        std::vector<std::string_view> names(fields.names.begin(), fields.names.end());
+        std::sort(names.begin(), names.end());
+        const auto twice = std::adjacent_find(names.begin(), names.end());
+        if (twice != names.end()) {
+            refuse_arguments("a table has the name '" + std::string(*twice) + "' twice");
         }
-        fields.add(std::move(name), {});
+        return close();
+    }
+    bool key(std::string& name) override {
+        std::get<Fields>(open_.back()->content).add(std::move(name), {});
         return true;
     }
 
@@ -73,6 +82,7 @@ class Reader final : public Json::json_sax_t {
 
     // The place of a value that comes now.
     Value& place(Value value) {
+        if (++placed_ % kValuesPerCheckpoint == 0) context_.checkpoint();
         if (open_.empty()) return root_ = std::move(value);
         if (auto* list = std::get_if<List>(&open_.back()->content)) {
             return list->emplace_back(std::move(value));
@@ -93,6 +103,10 @@ class Reader final : public Json::json_sax_t {
         return true;
     }
 
+    static constexpr std::size_t kValuesPerCheckpoint = 1024;
+
+    const Context& context_;
+    std::size_t placed_ = 0;
     Value root_;
     // The lists and tables that are open. What they stand in does not grow before they are closed.
     std::vector<Value*> open_;
@@ -169,8 +183,8 @@ void Fields::add(std::string name, Value value) {
     names.push_back(std::move(name));
 }
 
-List list_of_json(std::string_view text) {
-    Reader reader;
+List list_of_json(std::string_view text, const Context& context) {
+    Reader reader(context);
     Json::sax_parse(text.begin(), text.end(), &reader);
     return reader.take();
 }

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "kernel/core/context.h"
+
 namespace lissom::c {
 
 struct Value;
@@ -43,7 +45,7 @@ constexpr int kDepth = 100;
 /// Returns the list that `text` holds. Errors: invalid_argument, naming the byte, if it is no JSON,
 /// no list, nested too deeply, or has a number that neither an integer of 64 bits nor a double
 /// holds, or a name twice.
-List list_of_json(std::string_view text);
+List list_of_json(std::string_view text, const Context& context);
 
 /// Returns the JSON of a list, on one line. Errors: invalid_argument for a
 /// text that is not UTF-8.

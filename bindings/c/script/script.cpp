@@ -26,8 +26,13 @@ class StackGuard {
     int top_;
 };
 
-List list_of(const char* text) {
-    return text ? list_of_json(text) : List();
+// Arguments of a call or script. Lua's stack has room for more, and no function takes as many.
+List list_of(const char* text, const lissom_context& context) {
+    constexpr std::size_t kMaxArguments = 250;
+    List list = text ? list_of_json(text, context.kernel) : List();
+    require(list.size() <= kMaxArguments,
+            "arguments: there are more than 250; put many values into a list among them");
+    return list;
 }
 
 void give(lissom_context& context, const List& list, lissom_bytes* bytes) {
@@ -370,7 +375,7 @@ lissom_status lissom_script_run(lissom_context* context, lissom_script script,
     return run(context, [&] {
         ScriptHost& host = scripts_of(*context);
         const StackGuard guard(host.lua());
-        const List values = list_of(arguments);
+        const List values = list_of(arguments, *context);
         Script& own = script_of(*context, script);
         run_script(host, own, values, false);
         give_results(*context, host, guard.top() + 1, json);
@@ -383,7 +388,7 @@ lissom_status lissom_call(lissom_context* context, const char* name, const char*
         ScriptHost& host = scripts_of(*context);
         const std::string text = given_text(name, "name");
         const StackGuard guard(host.lua());
-        call_by_name(host, entry_of(*host.binding().registry, text), list_of(arguments));
+        call_by_name(host, entry_of(*host.binding().registry, text), list_of(arguments, *context));
         give_results(*context, host, guard.top() + 1, json);
     });
 }
@@ -394,7 +399,7 @@ lissom_status lissom_script_begin_run(lissom_context* context, lissom_script scr
         ScriptHost& host = scripts_of(*context);
         host.lua();
         const auto own = context->share<Script>(script.id, Kind::script);
-        const auto values = std::make_shared<List>(list_of(arguments));
+        const auto values = std::make_shared<List>(list_of(arguments, *context));
         host.check_values(*values);
         begin_script(
             *context, host, {{script.id, Kind::script}},
@@ -408,7 +413,7 @@ lissom_status lissom_begin_call(lissom_context* context, const char* name, const
         ScriptHost& host = scripts_of(*context);
         host.lua();
         const lua::Entry* entry = &entry_of(*host.binding().registry, given_text(name, "name"));
-        const auto values = std::make_shared<List>(list_of(arguments));
+        const auto values = std::make_shared<List>(list_of(arguments, *context));
         host.check_values(*values);
         begin_script(
             *context, host, {}, [&host, entry, values] { call_checked(host, *entry, *values); },

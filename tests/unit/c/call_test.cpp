@@ -193,4 +193,29 @@ TEST_CASE("numbers that no enumeration has are refused") {
     }
 }
 
+TEST_CASE("arguments of very many names are read soon, and hear a cancel") {
+    if (!lissom_has_scripts()) return;
+    const Host host;
+    std::string names = "[{";
+    for (int i = 0; i < 300000; ++i) names += "\"k" + std::to_string(i) + "\": 0, ";
+    lissom_bytes bytes{};
+    const std::string unknown = names + "\"z\": 0}]", twice = names + "\"k7\": 0}]";
+    CHECK(lissom_call(host, "shapes.box", unknown.c_str(), &bytes) == LISSOM_INVALID_ARGUMENT);
+    CHECK(lissom_call(host, "shapes.box", twice.c_str(), &bytes) == LISSOM_INVALID_ARGUMENT);
+    CHECK(std::string(lissom_last_error(host)->message).find("'k7' twice") != std::string::npos);
+    lissom_cancel(host);
+    CHECK(lissom_call(host, "shapes.box", unknown.c_str(), &bytes) == LISSOM_CANCELLED);
+    lissom_clear_cancel(host);
+}
+
+TEST_CASE("a call has at most 250 arguments") {
+    if (!lissom_has_scripts()) return;
+    const Host host;
+    std::string list = "[0";
+    for (int i = 0; i < 250; ++i) list += ", 0";
+    lissom_bytes bytes{};
+    CHECK(lissom_call(host, "shapes.box", (list + "]").c_str(), &bytes) == LISSOM_INVALID_ARGUMENT);
+    CHECK(std::string(lissom_last_error(host)->message).find("250") != std::string::npos);
+}
+
 }  // namespace lissom::test
