@@ -84,7 +84,7 @@ constexpr double kFlipped = 30.0 * kPi / 180.0;
 constexpr double kCoherent = 0.25;
 
 // Faces around a vertex beyond which they are summed once for all of them.
-constexpr std::size_t kHubFaces = 256;
+constexpr std::size_t kSummedFaces = 256;
 
 // How a face lies beside the faces that it shares vertices with, each counting by its area.
 struct Facing {
@@ -129,7 +129,7 @@ class Neighborhood {
         double whole = 0.0;
     };
 
-    bool is_hub(Index v) const { return topology_.faces_around(v).size() > kHubFaces; }
+    bool is_hub(Index v) const { return topology_.faces_around(v).size() > kSummedFaces; }
 
     void add(Sum& sum, Index face, double times) const {
         sum.area += times * area_[at(face)] * normals_[at(face)];

@@ -9,14 +9,14 @@ namespace lissom {
 namespace {
 
 // Errors of coordinates in the plane, as a fraction of the polygon's extent.
-constexpr double kPlaneRounding = 1e-14;
+constexpr double kFlatRounding = 1e-14;
 
 // A triangle to search points of the plane in. Points beyond its sides, by a triangle of twice the
 // area `beyond`, still count as inside.
 class SearchedTriangle {
   public:
     SearchedTriangle(const std::array<Vec2, 3>& corners, double beyond, double extent)
-        : corners_(corners), beyond_(beyond + kPlaneRounding * extent * extent) {
+        : corners_(corners), beyond_(beyond + kFlatRounding * extent * extent) {
         const Vec2 ab = corners[1] - corners[0], ac = corners[2] - corners[0];
         const double area = ab.x() * ac.y() - ab.y() * ac.x();
         // Barycentric coordinates of all that counts as inside are above this share, negative.
@@ -28,8 +28,8 @@ class SearchedTriangle {
             min_ = min_.cwiseMin(farther);
             max_ = max_.cwiseMax(farther);
         }
-        min_.array() -= kPlaneRounding * extent;
-        max_.array() += kPlaneRounding * extent;
+        min_.array() -= kFlatRounding * extent;
+        max_.array() += kFlatRounding * extent;
     }
 
     // Returns false only if no point of the box counts as inside.
