@@ -51,25 +51,11 @@ class BakedState {
     explicit BakedState(DeformObject& edit)
         : mesh_(edit.mesh->mesh),
           revision_(edit.mesh->mesh.revision()),
-          handles_(edit.deformer().handles()),
           snapshot_(edit.deformer().snapshot()) {}
 
     const Mesh& mesh() const { return mesh_; }
 
-    // Errors: invalid_argument if the script added or removed handles.
-    void require_handles(const Deformer& deformer) const {
-        require(deformer.handles() == handles_,
-                "the function added or removed handles; it may move them alone");
-    }
-
-    void restore(Deformer& deformer) const {
-        for (const HandleId handle : deformer.handles()) {
-            if (std::find(handles_.begin(), handles_.end(), handle) == handles_.end()) {
-                deformer.remove_handle(handle);
-            }
-        }
-        deformer.restore(snapshot_);
-    }
+    void restore(Deformer& deformer) const { deformer.restore(snapshot_); }
 
     void restore_mesh(MeshObject& object) const {
         Mesh& mesh = object.mesh;
@@ -86,7 +72,6 @@ class BakedState {
   private:
     Mesh mesh_;
     std::uint64_t revision_;
-    std::vector<HandleId> handles_;
     DeformSnapshot snapshot_;
 };
 
@@ -116,7 +101,6 @@ struct Baking {
 
     void add_pose(double time, bool is_preview, const Context& context) {
         Deformer& deformer = edit->deformer();
-        before.require_handles(deformer);
         if (basis) {
             keys.push_back(make_basis_key(deformer, context));
             return;
