@@ -44,7 +44,7 @@ void stop_where_cancelled(lua_State* L, lua_Debug*) {
     luaL_error(L, "cancelled [cancelled]");
 }
 
-// Ends finalizers that run on while the state is closed: nobody can cancel them any more.
+// Ends finalizers that run on while no script runs, or the state is closed: nobody can cancel them.
 void end_finalizer(lua_State* L, lua_Debug*) {
     lua_sethook(L, end_finalizer, LUA_MASKCALL | LUA_MASKCOUNT, 1);
     lua::drop_handlers(L);
@@ -143,8 +143,12 @@ int ScriptHost::call(int arguments, int results) {
     lua_State* L = lua();
     look_for_cancel(L);
     const int status = lua_pcall(L, arguments, results, 0);
-    // The host reads results and messages by calls that nothing protects.
-    lua_sethook(L, nullptr, 0, 0);
+    // While the cancel lasts, it ends the finalizers of what the script leaves over too.
+    look_for_cancel(L);
+    if (working().cancelled()) lua_gc(L, LUA_GCCOLLECT, 0);
+    // The host reads results and messages by calls that nothing protects, and that run no code of
+    // Lua but finalizers.
+    lua_sethook(L, end_finalizer, LUA_MASKCOUNT, kFinalInstructions);
     return status;
 }
 

@@ -16,7 +16,7 @@ constexpr std::string_view kGuideMagic = "LSMHAIRG";
 constexpr std::uint32_t kGuideVersion = 1, kHasDetails = 1;
 constexpr std::size_t kGuideHeader = 48, kGuidedBytes = 48;
 
-void require_finite(const GuideSet& set) {
+void require_finite_guides(const GuideSet& set) {
     bool finite = std::isfinite(set.detail_step);
     for (const Eigen::Vector3f& p : set.curves) finite = finite && p.allFinite();
     for (const GuidedStrand& s : set.guided) {
@@ -58,7 +58,7 @@ void add_strand(const GuidedStrand& strand, std::string& bytes) {
 }  // namespace
 
 std::string encode_guides(const GuideSet& set, const GuideFileOptions& options) {
-    require_finite(set);
+    require_finite_guides(set);
     const std::size_t strands = kGuideHeader + kGuidedBytes * set.guided.size();
     const std::size_t curves = padded_size(strands + 12 * set.curves.size());
     const std::size_t size =

@@ -18,27 +18,27 @@
 namespace lissom {
 namespace {
 
-using Weights = std::map<std::string, double>;
+using NamedWeights = std::map<std::string, double>;
 
 constexpr int kSampleSteps = 10;
 
 // Rows of correctives are dependent if a pivot is smaller.
 constexpr double kLeastPivot = 1e-9;
 
-Weights summed(const std::vector<PoseWeight>& weights) {
-    Weights sums;
+NamedWeights summed(const std::vector<PoseWeight>& weights) {
+    NamedWeights sums;
     for (const PoseWeight& given : weights) sums[given.name] += given.weight;
     std::erase_if(sums, [](const auto& entry) { return entry.second == 0.0; });
     return sums;
 }
 
-std::vector<PoseWeight> listed(const Weights& weights) {
+std::vector<PoseWeight> listed(const NamedWeights& weights) {
     std::vector<PoseWeight> list;
     for (const auto& [name, weight] : weights) list.push_back({name, weight});
     return list;
 }
 
-double weight_in(const Weights& weights, const std::string& name) {
+double weight_in(const NamedWeights& weights, const std::string& name) {
     const auto found = weights.find(name);
     return found == weights.end() ? 0.0 : found->second;
 }
@@ -50,7 +50,7 @@ double hat(double weight, double peak) {
     return std::max(from_pose ? (weight - 1.0) / (peak - 1.0) : weight / peak, 0.0);
 }
 
-double drive(const PoseTarget& target, const Weights& weights) {
+double drive(const PoseTarget& target, const NamedWeights& weights) {
     if (!target.is_corrective) return weight_in(weights, target.name);
     double product = 1.0;
     for (const PoseWeight& peak : target.at) {
@@ -65,7 +65,7 @@ std::string text_of(double number) {
     return {text.data(), end};
 }
 
-std::string corrective_name(const Weights& at) {
+std::string corrective_name(const NamedWeights& at) {
     std::string name;
     for (const auto& [pose, weight] : at) {
         name += (name.empty() ? "" : ",") + pose + "=" + text_of(weight);
@@ -154,12 +154,12 @@ class TargetMaker {
             {"normal", Domain::vertex, 3, ScalarType::float32, std::move(numbers)});
     }
 
-    TargetShape shape_at(const Weights& weights) const {
+    TargetShape shape_at(const NamedWeights& weights) const {
         return shape_of(space_.blend(listed(weights), context_));
     }
 
     // The poses' targets with weights, and the correctives so far.
-    TargetShape sum_at(const Weights& weights, std::size_t count) const {
+    TargetShape sum_at(const NamedWeights& weights, std::size_t count) const {
         TargetShape sum = rest_shape_;
         for (std::size_t t = 0; t < count; ++t) {
             add_scaled(sum, drive(targets_[t], weights), changes_[t]);
@@ -176,7 +176,7 @@ class TargetMaker {
         }
     }
 
-    void add_corrective(const Weights& at) {
+    void add_corrective(const NamedWeights& at) {
         require(!at.empty(), "a corrective needs a weight other than 0");
         const std::string name = corrective_name(at);
         require(at.size() > 1 || at.begin()->second != 1.0,
@@ -195,7 +195,7 @@ class TargetMaker {
         Eigen::MatrixXd drives(count, count);
         std::vector<TargetShape> errors;
         for (std::size_t i = 0; i < count; ++i) {
-            const Weights at = summed(targets_[pose_count_ + i].at);
+            const NamedWeights at = summed(targets_[pose_count_ + i].at);
             errors.push_back(shape_at(at) - sum_at(at, pose_count_));
             for (std::size_t k = 0; k < count; ++k) {
                 drives(index_of(i), index_of(k)) = drive(targets_[pose_count_ + k], at);
@@ -238,7 +238,7 @@ class TargetMaker {
     void measure(PoseTargetReport& report) const {
         for (const PoseTarget& target : targets_) {
             for (int k = 1; k <= kSampleSteps; ++k) {
-                Weights at = summed(target.at);
+                NamedWeights at = summed(target.at);
                 for (auto& [name, weight] : at) weight *= static_cast<double>(k) / kSampleSteps;
                 const std::vector<Vec3> goal = space_.positions(listed(at), context_);
                 report.linear_error =
@@ -249,7 +249,7 @@ class TargetMaker {
         report.targets = targets_;
     }
 
-    double distance(const std::vector<Vec3>& goal, const Weights& weights,
+    double distance(const std::vector<Vec3>& goal, const NamedWeights& weights,
                     std::size_t count) const {
         const TargetShape sum = sum_at(weights, count);
         double greatest = 0.0;
@@ -281,7 +281,7 @@ Mesh pose_targets(const PoseSpace& space, const PoseTargetOptions& options,
 
 std::vector<double> target_weights(const std::vector<PoseTarget>& targets,
                                    const std::vector<PoseWeight>& weights) {
-    const Weights sums = summed(weights);
+    const NamedWeights sums = summed(weights);
     std::vector<double> result;
     for (const PoseTarget& target : targets) result.push_back(drive(target, sums));
     return result;
