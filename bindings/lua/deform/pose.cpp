@@ -100,7 +100,6 @@ std::vector<Function> pose_methods() {
              .summary = "The present transforms of all handles, and places of constraints, as a "
                         "value.",
              .results = {{"lissom.Pose", "pose", "It stays as it is when handles move on."}},
-             .effect = Effect::unheard,
              .errors = {ErrorCode::handle_removed, ErrorCode::topology_mismatch},
              .example = kPosedBar + R"(top:reset()
 deformer:set_pose(wound)
@@ -131,7 +130,6 @@ Type pose_type() {
          .arguments = {object("other", "lissom.Pose", "A pose of the same deformer."),
                        number("share", "0 is this pose, 1 the other; others go beyond.")},
          .results = {{"lissom.Pose", "pose", "A new pose."}},
-         .effect = Effect::unheard,
          .errors = {ErrorCode::invalid_argument, ErrorCode::not_finite,
                     ErrorCode::singular_transform},
          .example = kPosedBar + R"(local third = straight:blend(wound, 1 / 3)

@@ -314,7 +314,6 @@ os.remove(path))"},
          .body = names,
          .summary = "The names of the poses, in alphabetical order.",
          .results = {{"string[]", "names", "The names."}},
-         .effect = Effect::unheard,
          .example =
              kBentBar + R"(local space = lissom.pose_space{ rest = bar, poses = { bent = bent } }
 assert(space:names()[1] == "bent"))"}};

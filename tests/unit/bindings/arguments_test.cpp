@@ -63,6 +63,8 @@ curve = lissom.hairstyle(head, { scalp = scalp, resolution = 1000 }):add_stream{
 support = curve:support{ camera = lissom.camera{ eye = { 0, 0, 5 } } }
 ball = lissom.shapes.sphere{ segments = 2 }
 cap, rest = ball:cut{ plane = { point = { 0, 0.1, 0 }, normal = { 0, 1, 0 } } }
+pose_space = lissom.pose_space{ rest = ball, poses = {
+    grown = ball:copy():transform{ scale = 2 } } }
 merger = lissom.merger{
     joins = { { source = cap:boundaries()[1], target = rest:boundaries()[1] } } }
 provenance = select(2, merger:solve()).provenance
@@ -95,6 +97,7 @@ function fresh()
         ["lissom.Curve"] = curve, ["lissom.Merger"] = merger, ["lissom.Provenance"] = provenance,
         ["lissom.Paste"] = paste, ["lissom.GuideSet"] = guides, ["lissom.Cards"] = cards,
         ["lissom.StrandFollower"] = follower,
+        ["lissom.Pose"] = deformer:pose(), ["lissom.PoseSpace"] = pose_space,
         ["lissom.Scene"] = scene, ["lissom.Camera"] = camera, ["lissom.Gizmo"] = gizmo,
         ["lissom.Support"] = support, ["lissom.ToolView"] = view,
         ["lissom.Polyline"] = lissom.polyline{ points = { { 0, 0, 0 }, { 0, 1, 0 } } } }

@@ -210,7 +210,7 @@ std::vector<Function> strand_follow_methods() {
              .errors = kFollowErrors,
              .example = kStyle +
                         "local hair = style:grow{ count = 20 }\n"
-                        "local other = lissom.shapes.head{ vertices = 2000 }:transform{ scale = 3 "
+                        "local other = lissom.shapes.head{ vertices = 3000 }:transform{ scale = 3 "
                         "}\n"
                         "assert(#hair:transfer(lissom.scalp(other)) == 20)"},
             {.name = "follower",
