@@ -36,7 +36,7 @@ int set_pose(Call& call) {
     return done ? call.push_argument() : call.fail();
 }
 
-int blend(Call& call) {
+int blend_pose(Call& call) {
     const auto from = call.self<PoseObject>();
     const auto to = call.object<PoseObject>("other");
     const double share = call.number("share");
@@ -124,7 +124,7 @@ Type pose_type() {
     type.operators = {{"__tostring", pose_text, "tostring(pose)", "its size"}};
     type.methods = {
         {.name = "blend",
-         .body = blend,
+         .body = blend_pose,
          .summary = "The pose at a share of the way to another: handles turn and shift as screws, "
                     "by the turns that they made, full ones too, and stretch evenly.",
          .arguments = {object("other", "lissom.Pose", "A pose of the same deformer."),
