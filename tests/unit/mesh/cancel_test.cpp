@@ -127,22 +127,26 @@ Mesh hub(Index n) {
 
 TEST_CASE("a cancel is heard among very many faces around one vertex") {
     const Mesh mesh = hub(60000);
-    const std::vector<std::pair<const char*, std::function<void(const Context&)>>> operations = {
+    struct Cancelled {
+        const char* name;
+        std::function<void(const Context&)> run;
+    };
+    const std::vector<Cancelled> operations = {
         {"crossings", [&](const Context& c) { self_intersections(mesh, {}, c); }},
         {"distortion", [&](const Context& c) { distortion(mesh, mesh, c); }},
         {"decimate", [&](const Context& c) { decimate(mesh, {.faces = 1000}, c); }},
         {"remesh", [&](const Context& c) { remesh(mesh, {.edge = 0.05}, c); }},
         {"subdivide", [&](const Context& c) { subdivide(mesh, {.levels = 5}, c); }},
     };
-    for (const auto& [name, operation] : operations) {
-        CAPTURE(name);
+    for (const Cancelled& operation : operations) {
+        CAPTURE(operation.name);
         const Context context;
         std::jthread canceller([&] {
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
             context.cancel();
         });
         try {
-            operation(context);
+            operation.run(context);
         } catch (const Error& error) {
             CHECK(error.code() == ErrorCode::cancelled);
         }
