@@ -3244,11 +3244,11 @@ function Strands:follower(options) end
 ---@class lissom.Strands.ShellOptions
 ---@field triangles? integer Triangles wanted. Default: 2000.
 ---@field cell? number Distance of the places at which the density of hair is measured; smaller details vanish. In metres. Default: 0.005.
----@field level? number The shell runs where hair is this part as dense as most of it is. Default: 0.2.
+---@field level? number The shell runs where hair is this part, below 1, as dense as most of it is. Default: 0.2.
 ---@field clearance? number Least distance from the head of `style`. In metres. Default: 0.001.
 ---@field style? lissom.Hairstyle A style on the head of the strands: there is no surface below hair on the skin, and the mesh is in the unit of the head. Default: none: the surface is closed, in metres.
 
----Makes one surface around the hair, its coarsest level of detail, with the attributes "normal" and, if the strands have colours, "color", in which the light from all around is. Strands apart from the others are outside of it.
+---Makes one surface around the hair, its coarsest level of detail, with the attributes "normal" and, if the strands have colours, "color", darker where less light arrives. Strands apart from the others are outside of it.
 ---@param options? lissom.Strands.ShellOptions
 ---@return lissom.Mesh mesh # The surface.
 function Strands:shell(options) end

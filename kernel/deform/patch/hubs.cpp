@@ -10,7 +10,7 @@ namespace {
 
 // The systems count vertices of fewer neighbours by themselves.
 constexpr Index kHubNeighbors = 256;
-// Entries of matrices are numbered by Index, and this many take a day.
+// Entries of matrices are numbered by Index, with room for fill.
 constexpr std::size_t kMaxPairs = std::size_t{1} << 28;
 // An entry of either system, and its copy in the part of one thread.
 constexpr std::size_t kBytesPerPair = 64;

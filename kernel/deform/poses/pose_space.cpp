@@ -12,8 +12,8 @@
 #include "kernel/core/nearest.h"
 #include "kernel/deform/poses/edge_surface.h"
 #include "kernel/deform/poses/posed_shape.h"
-#include "kernel/deform/poses/same_faces.h"
 #include "kernel/deform/rotation/rest_directions.h"
+#include "kernel/mesh/measure/same_faces.h"
 #include "kernel/mesh/region.h"
 
 namespace lissom {

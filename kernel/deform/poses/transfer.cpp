@@ -11,10 +11,10 @@
 #include "kernel/deform/poses/correspondence_space.h"
 #include "kernel/deform/poses/edge_surface.h"
 #include "kernel/deform/poses/pose_triangles.h"
-#include "kernel/deform/poses/same_faces.h"
 #include "kernel/deform/poses/turn_field.h"
 #include "kernel/deform/rotation/rest_directions.h"
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/same_faces.h"
 
 namespace lissom {
 namespace {

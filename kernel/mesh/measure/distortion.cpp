@@ -10,15 +10,13 @@
 
 #include "kernel/core/geometry.h"
 #include "kernel/mesh/measure/measures.h"
+#include "kernel/mesh/measure/same_faces.h"
 
 namespace lissom {
 namespace {
 
 void require_same_faces(const Mesh& mesh, const Mesh& rest) {
-    const FaceList &a = mesh.topology().faces(), &b = rest.topology().faces();
-    const bool same = mesh.vertex_count() == rest.vertex_count() && a.offsets == b.offsets &&
-                      a.vertices == b.vertices;
-    if (same) return;
+    if (have_same_faces(mesh, rest)) return;
     throw Error(ErrorCode::topology_mismatch,
                 "the two meshes have different faces; compare a mesh with a copy of itself in "
                 "another shape");

@@ -82,26 +82,27 @@ Function shell_method() {
         .body = make_hair_shell,
         .summary =
             "Makes one surface around the hair, its coarsest level of detail, with the "
-            "attributes \"normal\" and, if the strands have colours, \"color\", in which the "
-            "light from all around is. Strands apart from the others are outside of it.",
-        .options = {integer("triangles", "Triangles wanted.").defaults(d.triangles).at_least(20),
-                    meters("cell",
-                           "Distance of the places at which the density of hair is "
-                           "measured; smaller details vanish.")
-                        .defaults(d.cell)
-                        .between(0.001, 0.1),
-                    number("level",
-                           "The shell runs where hair is this part as dense as most of it is.")
-                        .defaults(d.level)
-                        .above(0)
-                        .between(0, 1),
-                    meters("clearance", "Least distance from the head of `style`.")
-                        .defaults(d.clearance)
-                        .at_least(0),
-                    object("style", "lissom.Hairstyle",
-                           "A style on the head of the strands: there is no surface below "
-                           "hair on the skin, and the mesh is in the unit of the head.")
-                        .optional("none: the surface is closed, in metres")},
+            "attributes \"normal\" and, if the strands have colours, \"color\", darker where less "
+            "light arrives. Strands apart from the others are outside of it.",
+        .options =
+            {integer("triangles", "Triangles wanted.").defaults(d.triangles).at_least(20),
+             meters("cell",
+                    "Distance of the places at which the density of hair is "
+                    "measured; smaller details vanish.")
+                 .defaults(d.cell)
+                 .between(0.001, 0.1),
+             number("level",
+                    "The shell runs where hair is this part, below 1, as dense as most of it is.")
+                 .defaults(d.level)
+                 .above(0)
+                 .between(0, 1),
+             meters("clearance", "Least distance from the head of `style`.")
+                 .defaults(d.clearance)
+                 .at_least(0),
+             object("style", "lissom.Hairstyle",
+                    "A style on the head of the strands: there is no surface below "
+                    "hair on the skin, and the mesh is in the unit of the head.")
+                 .optional("none: the surface is closed, in metres")},
         .results = {{"lissom.Mesh", "mesh", "The surface."}},
         .errors = {ErrorCode::invalid_argument, ErrorCode::not_finite, ErrorCode::memory_limit,
                    ErrorCode::cancelled},

@@ -1,4 +1,4 @@
-/// Whether meshes have the same faces; private to kernel/deform.
+/// Whether meshes have the same faces; private to the kernel.
 #pragma once
 
 #include "kernel/mesh/mesh.h"
