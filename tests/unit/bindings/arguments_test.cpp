@@ -51,7 +51,7 @@ const char* const kValues[] = {"nil",
 
 // Objects of each type to call methods on.
 const char* const kSetup = R"(
-box, grid, closed = lissom.shapes.box(), lissom.shapes.grid(), lissom.shapes.box()
+grid, closed = lissom.shapes.grid(), lissom.shapes.box()
 closed:close()
 params = lissom.params{ length = { type = "number", default = 1 } }
 head = lissom.shapes.sphere{ segments = 8 }
@@ -80,27 +80,59 @@ follower = planted:grow{ count = 3, length = 0.1 }:follower{}
 local eye = lissom.camera{ eye = { 0, 0, 5 } }
 lissom.tool_host{ scene = lissom.scene{}, camera = eye, tool = lissom.tool{ name = "draws",
     draw = function(_, given) view = given end } }:draw()
+-- What calls may change is made anew after fresh(), when it is first asked for.
+local makers = {
+    box = lissom.shapes.box,
+    deformer = function() return lissom.deformer(box) end,
+    handle = function() return deformer:add_handle(box:region("top")) end,
+    strands = function() return lissom.strands{ points = { { 0, 0, 0 }, { 0, 1, 0 } }, counts = { 2 } } end,
+    scene = function()
+        local scene = lissom.scene{}
+        scene:add("box", box)
+        return scene
+    end,
+    camera = function() return lissom.camera{ eye = { 0, 0, 5 } } end,
+    gizmo = function()
+        local gizmo = lissom.gizmo{}
+        gizmo:begin("move-x", camera, 100, 50, 50)
+        return gizmo
+    end,
+}
+local function made(table, key)
+    local maker = makers[key]
+    if not maker then return nil end
+    rawset(table, key, maker())
+    return rawget(table, key)
+end
+local named = {
+    ["lissom.Mesh"] = function() return box end,
+    ["lissom.Region"] = function() return box:region("top") end,
+    ["lissom.Path"] = function() return grid:boundaries()[1] end,
+    ["lissom.Buffer"] = function() return box:positions() end,
+    ["lissom.Deformer"] = function() return deformer end,
+    ["lissom.Handle"] = function() return handle end,
+    ["lissom.Strands"] = function() return strands end,
+    ["lissom.Pose"] = function() return deformer:pose() end,
+    ["lissom.Scene"] = function() return scene end,
+    ["lissom.Camera"] = function() return camera end,
+    ["lissom.Gizmo"] = function() return gizmo end,
+    ["lissom.Polyline"] = function()
+        return lissom.polyline{ points = { { 0, 0, 0 }, { 0, 1, 0 } } }
+    end,
+}
+local lasting = {
+    ["lissom.Params"] = params, ["lissom.Scalp"] = scalp, ["lissom.Hairstyle"] = style,
+    ["lissom.Curve"] = curve, ["lissom.Merger"] = merger, ["lissom.Provenance"] = provenance,
+    ["lissom.Paste"] = paste, ["lissom.GuideSet"] = guides, ["lissom.Cards"] = cards,
+    ["lissom.StrandFollower"] = follower, ["lissom.PoseSpace"] = pose_space,
+    ["lissom.Support"] = support, ["lissom.ToolView"] = view,
+}
+objects = setmetatable({}, { __index = function(_, name)
+    return named[name] and named[name]() or lasting[name]
+end })
+setmetatable(_G, { __index = made })
 function fresh()
-    box = lissom.shapes.box()
-    deformer = lissom.deformer(box)
-    handle = deformer:add_handle(box:region("top"))
-    strands = lissom.strands{ points = { { 0, 0, 0 }, { 0, 1, 0 } }, counts = { 2 } }
-    scene = lissom.scene{}
-    scene:add("box", box)
-    camera = lissom.camera{ eye = { 0, 0, 5 } }
-    gizmo = lissom.gizmo{}
-    gizmo:begin("move-x", camera, 100, 50, 50)
-    objects = { ["lissom.Mesh"] = box, ["lissom.Region"] = box:region("top"),
-        ["lissom.Path"] = grid:boundaries()[1], ["lissom.Buffer"] = box:positions(),
-        ["lissom.Deformer"] = deformer, ["lissom.Handle"] = handle, ["lissom.Params"] = params,
-        ["lissom.Strands"] = strands, ["lissom.Scalp"] = scalp, ["lissom.Hairstyle"] = style,
-        ["lissom.Curve"] = curve, ["lissom.Merger"] = merger, ["lissom.Provenance"] = provenance,
-        ["lissom.Paste"] = paste, ["lissom.GuideSet"] = guides, ["lissom.Cards"] = cards,
-        ["lissom.StrandFollower"] = follower,
-        ["lissom.Pose"] = deformer:pose(), ["lissom.PoseSpace"] = pose_space,
-        ["lissom.Scene"] = scene, ["lissom.Camera"] = camera, ["lissom.Gizmo"] = gizmo,
-        ["lissom.Support"] = support, ["lissom.ToolView"] = view,
-        ["lissom.Polyline"] = lissom.polyline{ points = { { 0, 0, 0 }, { 0, 1, 0 } } } }
+    for name in pairs(makers) do rawset(_G, name, nil) end
 end
 )";
 
