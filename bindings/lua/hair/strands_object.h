@@ -33,13 +33,15 @@ struct StrandsObject {
     }
 };
 
-/// Returns the new strands that work() makes; they grew on the head `grown_on`.
+/// Returns the new strands that work() makes; they grew on the head `grown_on`, which somebody else
+/// holds: an error jumps over the destructor of an argument by value.
 template <typename Work>
-int new_strands(Call& call, const Work& work, std::shared_ptr<const Scalp> grown_on = nullptr) {
+int new_strands(Call& call, const Work& work,
+                const std::shared_ptr<const Scalp>& grown_on = nullptr) {
     const auto result = call.create<StrandsObject>();
     const bool done = call.attempt([&] {
         auto made = std::make_shared<StrandsObject>(work());
-        made->grown_on = std::move(grown_on);
+        made->grown_on = grown_on;
         result.set(std::move(made));
     });
     if (!done) return call.fail();
