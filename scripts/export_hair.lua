@@ -19,6 +19,8 @@ local params = hairdo.params{
         guides = { type = "integer", default = 300, min = 3, help = "strands that an engine simulates" },
         strand_levels = { type = "integer", default = 3, min = 1, max = 8,
             help = "levels of strands, each of half as many as the one before" },
+        of = { type = "choice", default = "all", choices = { "all", "groups" },
+            help = "levels of all hair, or of each group, which has its part of each count" },
         shell = { type = "integer", default = 2000, min = 20, max = 200000,
             help = "triangles of the shell, the last level" },
         points = { type = "integer", default = 16, min = 2, max = 256, help = "of guided strands" },
@@ -62,44 +64,21 @@ end
 
 local function path(name) return params.out .. "/" .. name end
 
--- The hair as so large a part of its strands, each with so many points; the second result is how much wider
--- an engine draws them to cover as much.
-local function strand_level(hair, part, points)
-    local count = math.max(1, math.floor(#hair * part + 0.5))
-    local level = hair:select{ first = count }
-    level:resample{ count = points }
-    return level, #hair / count
-end
-
--- Strands that cover so much of a picture that is half as high are half as many.
-local function save_strands(level, widen, number, error)
-    local name = string.format("strands_%d.usda", number)
-    level:save(path(name))
-    return { kind = "strands", file = name, strands = #level, points = level:stats().points,
-        width_factor = widen, screen_size = 1 / widen, silhouette = error }
-end
-
--- The part of the height of a picture of 1080 lines in which hair of this height is off by a pixel at most.
-local function screen_size(hair, off)
-    local bounds = hair:bounds()
-    return math.min(1, (bounds.max[2] - bounds.min[2]) / (1080 * math.max(off, 1e-6)))
-end
-
-local function save_cards(strands, style, count, sections, number, color)
-    local cards = strands:cards{ count = count, style = style, sections = sections, slots = params.slots }
-    local names = {}
-    for _, kind in ipairs{ "color", "flow", "data" } do
-        names[kind] = string.format("cards_%d_%s.png", number, kind)
+-- Each level of strands has half as many as the one before: what covers as much of a picture half as high.
+local function strand_levels()
+    local levels, points = {}, { 24, 16, 12, 10, 8, 8, 6, 6 }
+    for i = 1, params.strand_levels do
+        levels[i] = { screen_size = 0.5 ^ (i - 1), points = points[i] }
     end
-    local mesh = string.format("cards_%d.glb", number)
-    local size = math.max(64, math.floor(params.atlas / 2 ^ (number - 1)))
-    local preview = lissom.bake_cards{ cards = cards, color = color, size = size, mesh = path(mesh),
-        file = path(names.color), flow = path(names.flow), data = path(names.data), strand_tone = 0.12 }
-    local stats = cards:stats()
-    return { kind = "cards", file = mesh, cards = stats.cards, triangles = stats.triangles,
-        slots = stats.slots, atlas = names, atlas_size = size, covered = stats.covered,
-        off_card = stats.rms, screen_size = screen_size(strands, stats.rms),
-        silhouette = strands:silhouette_error{ cards = cards } }, preview
+    return levels
+end
+
+local function card_levels()
+    local levels = {}
+    for i, level in ipairs{ { 1, 12 }, { 0.5, 8 }, { 0.25, 6 } } do
+        levels[i] = { count = math.max(1, math.floor(params.cards * level[1] + 0.5)), sections = level[2] }
+    end
+    return levels
 end
 
 -- Its colours as pictures show them; in the file they are linear.
@@ -115,13 +94,56 @@ local function for_pictures(mesh)
     return shown
 end
 
-local SHELL_CELL = 0.005
-local function save_shell(strands, style, unit)
-    local mesh = strands:shell{ style = style, triangles = params.shell, cell = SHELL_CELL }
-    mesh:save(path("shell.glb"))
-    return { kind = "shell", file = "shell.glb", triangles = mesh:face_count(),
-        screen_size = screen_size(strands, SHELL_CELL),
-        silhouette = strands:silhouette_error{ mesh = mesh, unit = unit } }, mesh
+-- Writers of the files of a level, by kind. Each returns what the manifest says of it beside its measures,
+-- and what the sheet shows of it.
+local save = {}
+
+function save.strands(level, name)
+    level.strands:save(path(name .. ".usda"))
+    local count = #level.strands
+    return { file = name .. ".usda", strands = count, points = level.strands:stats().points,
+        widened = level.widen }, { strands = level.strands, caption = count .. " strands" }
+end
+
+function save.cards(level, name, number, color)
+    local atlas = {}
+    for _, kind in ipairs{ "color", "flow", "data" } do atlas[kind] = name .. "_" .. kind .. ".png" end
+    local size = math.max(64, math.floor(params.atlas / 2 ^ (number - 1)))
+    local preview = lissom.bake_cards{ cards = level.cards, color = color, size = size,
+        mesh = path(name .. ".glb"), file = path(atlas.color), flow = path(atlas.flow),
+        data = path(atlas.data), strand_tone = 0.12 }
+    local stats = level.cards:stats()
+    return { file = name .. ".glb", cards = stats.cards, triangles = stats.triangles, slots = stats.slots,
+        atlas = atlas, atlas_size = size, covered = stats.covered, off_card = stats.rms },
+        { mesh = preview, caption = stats.cards .. " cards, " .. stats.triangles .. " triangles" }
+end
+
+function save.shell(level, name)
+    level.mesh:save(path(name .. ".glb"))
+    local triangles = level.mesh:face_count()
+    return { file = name .. ".glb", triangles = triangles },
+        { mesh = for_pictures(level.mesh), caption = triangles .. " triangles, shell" }
+end
+
+-- Writes all levels; returns their entries in the manifest and the pictures of the sheet.
+local function save_levels(levels, color)
+    local entries, shown, numbers, groups = {}, {}, {}, 0
+    for i, level in ipairs(levels) do
+        local group = level.group or ""
+        if not numbers[group] then
+            groups = groups + 1
+            numbers[group] = { strands = 0, cards = 0, shell = 0, place = groups }
+        end
+        local of = numbers[group]
+        of[level.kind] = of[level.kind] + 1
+        local name = level.kind == "shell" and "shell" or level.kind .. "_" .. of[level.kind]
+        if params.of == "groups" then name = "group" .. of.place .. "_" .. name end
+        entries[i], shown[i] = save[level.kind](level, name, of[level.kind], color)
+        entries[i].kind, entries[i].group = level.kind, level.group
+        entries[i].screen_size, entries[i].silhouette = level.screen_size, level.silhouette
+        if level.group then shown[i].caption = level.group .. ": " .. shown[i].caption end
+    end
+    return entries, shown
 end
 
 local head = hairdo.head(params)
@@ -137,41 +159,25 @@ local color = params.color ~= "" and params.color or look.color or "#8a6a4a"
 local unit = style:scalp():unit()
 
 local manifest = {
-    version = 1, generator = "Lissom " .. lissom.version, preset = params.preset, color = color,
+    version = 2, generator = "Lissom " .. lissom.version, preset = params.preset, color = color,
     units = { strands = "metres", guides = "metres", cards = "units of the head",
         shell = "units of the head", head_unit = unit },
-    up = "y", levels = {},
+    up = "y",
 }
 
 -- Strands and guides.
 hair:set_colors{ color = styling.linear(color) }
--- Levels after the first stand for full hair: strands of a natural width would leave holes in them.
-local full = styling.set_width(hair:copy(), 0.00026)
-local shown, POINTS = {}, { 24, 16, 12, 10, 8, 8, 6, 6 }
-for number = 1, params.strand_levels do
-    local part = 0.5 ^ (number - 1)
-    local strands, widen = strand_level(hair, part, POINTS[number])
-    local error = full:silhouette_error{ strands = strand_level(full, part, POINTS[number]), widen = widen }
-    manifest.levels[number] = save_strands(strands, widen, number, error)
-    shown[number] = { strands = strands, caption = #strands .. " strands" }
-end
 local set = hair:guide_set{ count = params.guides, points = params.points }
 set:save(path("hair.guides"))
 local off = set:error()
 manifest.guides = { file = "hair.guides", guides = #set, strands = #hair, points = params.points,
     error_rms = off.rms, error_max = off.max }
 
-for number, level in ipairs{ { 1, 12 }, { 0.5, 8 }, { 0.25, 6 } } do
-    local count = math.max(1, math.floor(params.cards * level[1] + 0.5))
-    local entry, preview = save_cards(full, style, count, level[2], number, color)
-    manifest.levels[#manifest.levels + 1] = entry
-    shown[#shown + 1] = { mesh = preview,
-        caption = entry.cards .. " cards, " .. entry.triangles .. " triangles" }
-end
-
-local shell, shell_mesh = save_shell(full, style, unit)
-manifest.levels[#manifest.levels + 1] = shell
-shown[#shown + 1] = { mesh = for_pictures(shell_mesh), caption = shell.triangles .. " triangles, shell" }
+-- Levels stand for full hair: strands of a natural width would leave holes.
+local shown
+manifest.levels, shown = save_levels(hair:levels{ style = style, of = params.of, slots = params.slots,
+    strands = strand_levels(), cards = card_levels(), shell = { triangles = params.shell },
+    width = styling.width_for(0.00026, #hair) }, color)
 
 print("level                        triangles  screen size  silhouette, worst")
 for _, level in ipairs(manifest.levels) do

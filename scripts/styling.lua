@@ -249,13 +249,17 @@ function styling.over_face(scalp, hair)
     return mask
 end
 
---- Gives strands a width in metres that holds for 20,000 to 30,000 of a preset; fewer are up to three times
--- as wide, more down to a third, so that they cover as much of the head. `all` is the number of strands of
--- the preset, else of `hair`.
-function styling.set_width(hair, width, all)
-    local count = math.max(all or #hair, 1)
+--- A width in metres that holds for 20,000 to 30,000 strands of a preset, for `count` of them: fewer are
+-- up to three times as wide, more down to a third, so that they cover as much of the head.
+function styling.width_for(width, count)
+    count = math.max(count, 1)
     local few, many = math.min(20000 / count, 3), math.max(30000 / count, 1 / 3)
-    return hair:set_widths{ width = width * math.max(few, math.min(many, 1)) }
+    return width * math.max(few, math.min(many, 1))
+end
+
+--- Gives strands that width; `all` is the number of strands of the preset, else of `hair`.
+function styling.set_width(hair, width, all)
+    return hair:set_widths{ width = styling.width_for(width, all or #hair) }
 end
 
 --- Thin tips, and the waves of single hairs; `width` in metres, and `all` as in styling.set_width.

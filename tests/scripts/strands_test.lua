@@ -426,3 +426,52 @@ test("a shell and fewer strands have the silhouette of the hair, nearly", functi
     expect.truthy(wide.mean < hair:silhouette_error{ strands = half }.mean)
     expect.error(function() hair:silhouette_error{} end, "give one level")
 end)
+
+test("levels of strands, cards and a shell come in one call, each with its error", function()
+    local _, style, hair = grown_bob()
+    hair:set_colors{ color = { 0.5, 0.3, 0.1 } }
+    local levels = hair:levels{ style = style, width = 0.002, slots = 8,
+        cards = { { count = 40, sections = 6 } },
+        strands = { { screen_size = 1, points = 12 }, { count = 500 } },
+        shell = { triangles = 600 } }
+    expect.equal(#levels, 4)
+    local kinds = { "strands", "strands", "cards", "shell" }
+    for i, level in ipairs(levels) do
+        expect.equal(level.kind, kinds[i])
+        expect.truthy(level.silhouette.mean <= level.silhouette.worst and level.silhouette.mean < 0.35)
+        expect.truthy(level.screen_size > 0 and level.screen_size <= 1)
+        expect.equal(level.group, nil)
+    end
+    expect.equal(#levels[1].strands, #hair)
+    expect.equal(#levels[2].strands, 500)
+    expect.near(levels[2].widen, #hair / 500, 1e-9)
+    expect.truthy(levels[2].strands:root(1).face)
+    expect.equal(#levels[3].cards, 40)
+    expect.truthy(levels[3].cards:mesh():attribute("uv"))
+    expect.truthy(levels[4].mesh:attribute("color"))
+    -- Cards and shell are in the unit of the head, and around it.
+    local size = style:scalp():head():size()
+    expect.truthy(levels[4].mesh:size() < 2 * size and levels[4].mesh:size() > 0.3 * size)
+    expect.truthy(levels[3].cards:mesh():size() < 2 * size)
+end)
+
+test("levels by groups, the usual ones, and misuse", function()
+    local _, _, hair = grown_bob()
+    expect.equal(#hair:select{ first = 300 }:levels{ width = 0.004 }, 7)
+    local head = lissom.shapes.head{ vertices = 4000 }
+    local _, tails = require("presets.pigtails").grow(head, {}, { count = 800, resolution = 8000 })
+    local levels = tails:levels{ width = 0.003, of = "groups", strands = { { count = 80, points = 6 } } }
+    expect.equal(#levels, 2)
+    for i, level in ipairs(levels) do
+        expect.equal(level.group, "tail " .. i)
+        expect.near(#level.strands, #tails:select{ group = level.group } / 10, 1)
+    end
+    expect.error(function() hair:levels{ strands = { { count = 0 } } } end, "count")
+    expect.error(function() hair:levels{ strands = { { count = 10000000 } } } end, "the hair has " .. #hair)
+    expect.error(function() hair:levels{ cards = { { count = 10000000 } } } end, "count")
+    expect.error(function() hair:levels{ shell = { triangles = 10000000 } } end, "triangles")
+    expect.error(function() hair:levels{ strands = { {} } } end, "count")
+    expect.error(function() hair:levels{ cap = true } end, "style")
+    expect.error(function() hair:levels{ strands = { { counts = 3 } } } end, "counts")
+    expect.error(function() hair:select{ first = 0 }:levels{} end, "no strands")
+end)

@@ -34,7 +34,8 @@ constexpr Index kShellGrain = 1;
 constexpr double kLightLift = 2.0;
 
 void require_shell_options(const Strands& strands, const ShellOptions& options) {
-    require(options.triangles >= 20, "a shell has at least 20 triangles");
+    require(options.triangles >= 20 && options.triangles <= kMaxShellTriangles,
+            "a shell has 20 to " + std::to_string(kMaxShellTriangles) + " triangles");
     require(options.cell >= 0.001 && options.cell <= 0.1,
             "the cell of a shell must be 0.001 to 0.1 metres");
     require(options.level > 0.0 && options.level < 1.0,

@@ -10,8 +10,10 @@
 
 namespace lissom {
 
+inline constexpr Index kMaxShellTriangles = 1'000'000;
+
 struct ShellOptions {
-    /// Triangles wanted, at least 20.
+    /// Triangles wanted, 20 to kMaxShellTriangles.
     Index triangles = 2000;
     /// Metres between the places at which the density of hair is measured; details smaller than
     /// about twice as much vanish. 0.001 to 0.1; larger if the grid would have more than four

@@ -60,20 +60,8 @@ int measure_silhouette(Call& call) {
         error = silhouette_error_of(call, all);
     });
     if (!done) return call.fail();
-    lua_createtable(call.lua(), 0, 2);
-    call.set_field("mean", call.push(error.mean));
-    call.set_field("worst", call.push(error.worst));
-    return 1;
+    return push_silhouette(call, error);
 }
-
-const std::string kLock = R"(local points, counts = {}, {}
-for i = 0, 199 do
-    local x, z = 0.002 * (i % 20), 0.002 * math.floor(i / 20)
-    for k = 0, 5 do points[#points + 1] = { x, 0.02 * k, z } end
-    counts[#counts + 1] = 6
-end
-local hair = lissom.strands{ points = points, counts = counts }
-)";
 
 Function shell_method() {
     const ShellOptions d;
@@ -85,7 +73,9 @@ Function shell_method() {
             "attributes \"normal\" and, if the strands have colours, \"color\", darker where less "
             "light arrives. Strands apart from the others are outside of it.",
         .options =
-            {integer("triangles", "Triangles wanted.").defaults(d.triangles).at_least(20),
+            {integer("triangles", "Triangles wanted.")
+                 .defaults(d.triangles)
+                 .between(20, kMaxShellTriangles),
              meters("cell",
                     "Distance of the places at which the density of hair is "
                     "measured; smaller details vanish.")
@@ -144,14 +134,24 @@ Function silhouette_method() {
 
 }  // namespace
 
+int push_silhouette(const Call& call, const SilhouetteError& error) {
+    lua_createtable(call.lua(), 0, 2);
+    call.set_field("mean", call.push(error.mean));
+    call.set_field("worst", call.push(error.worst));
+    return 1;
+}
+
 std::vector<Function> strand_level_methods() {
-    return {shell_method(), silhouette_method()};
+    return {shell_method(), silhouette_method(), hair_levels_method()};
 }
 
 std::vector<Record> strand_level_records() {
-    return {{"lissom.SilhouetteError",
-             "Difference of silhouettes, as a part of the silhouette of all hair.",
-             {{"number", "mean", "Over all views."}, {"number", "worst", "In one view."}}}};
+    std::vector<Record> records = hair_level_records();
+    records.push_back(
+        {"lissom.SilhouetteError",
+         "Difference of silhouettes, as a part of the silhouette of all hair.",
+         {{"number", "mean", "Over all views."}, {"number", "worst", "In one view."}}});
+    return records;
 }
 
 }  // namespace lissom::lua
