@@ -607,6 +607,17 @@
 ---@field covered number Part of the strands' points that lie on their cards.
 ---@field rms number Distance of strands from the plane of their card, in metres.
 
+---A level of detail.
+---@class lissom.HairLevel
+---@field kind string "strands", "cards" or "shell".
+---@field group string|nil The group whose level it is.
+---@field screen_size number Part of a picture's height up to which it suffices.
+---@field silhouette lissom.SilhouetteError Its difference from all hair, from all sides.
+---@field strands lissom.Strands|nil The strands, as wide as they cover the head.
+---@field widen number|nil The factor by which they are wider.
+---@field cards lissom.Cards|nil The cards.
+---@field mesh lissom.Mesh|nil The shell.
+
 ---Difference of silhouettes, as a part of the silhouette of all hair.
 ---@class lissom.SilhouetteError
 ---@field mean number Over all views.
@@ -3266,6 +3277,38 @@ function Strands:shell(options) end
 ---@param options? lissom.Strands.Silhouette_errorOptions
 ---@return lissom.SilhouetteError error # 0 for equal silhouettes.
 function Strands:silhouette_error(options) end
+
+---@class lissom.Strands.LevelsOptions.Strands
+---@field count? integer Number of strands, at most those of the hair; else give `screen_size`. Default: as `screen_size` says.
+---@field screen_size? number Part of a picture's height that the level is for: so large a part of the strands is kept. Default: as `count` says.
+---@field points? integer Points of each strand. Default: they stay.
+---@field widen? number Factor of the widths. Default: all strands / kept strands, which keeps the thickness.
+
+---@class lissom.Strands.LevelsOptions.Cards
+---@field count? integer Number of cards. Default: 200.
+---@field triangles? integer Triangles of all cards, instead of `sections`. Default: as sections say.
+---@field sections? integer Points along each card. Default: 12.
+
+---@class lissom.Strands.LevelsOptions.Shell
+---@field triangles? integer Triangles wanted. Default: 2000.
+---@field cell? number Distance of the places at which the density of hair is measured. In metres. Default: 0.005.
+
+---@class lissom.Strands.LevelsOptions
+---@field strands? lissom.Strands.LevelsOptions.Strands[] Up to eight levels of strands, finest first. Default: none; with neither strands, cards nor shell: three of each, and a shell.
+---@field cards? lissom.Strands.LevelsOptions.Cards[] Up to eight levels of cards, finest first. Default: none.
+---@field shell? lissom.Strands.LevelsOptions.Shell The last level, one surface; {} for the defaults. Default: none.
+---@field of? "all"|"groups" Levels of all hair, or of each group, which then has its part of each count; groups that cover no pixel have none. Default: "all".
+---@field slots? integer Pictures in the atlas of each level of cards. Default: 32.
+---@field style? lissom.Hairstyle A style on the head of the strands: cards and shell stay out of it, and are in the unit of the head. Default: none: cards may go through the head, and the shell is closed.
+---@field cap? boolean Adds the skin below the hair to cards, in its colour. Default: true with `style`.
+---@field width? number Diameter that stands for full hair in silhouettes and on cards: a few thousand strands of a natural one leave holes. In metres. Default: their own.
+---@field views? integer Directions around the hair, and as many again from 30 degrees above. Default: 8.
+---@field pixel? number Size of a pixel of silhouettes. In metres. Default: 0.002.
+
+---Makes levels of detail, finest first: fewer and wider strands, then cards, then a shell. Each tells the error of its silhouette, and up to what part of a picture's height it suffices. Strands of a level are those of the first n, for every n, spread over the head.
+---@param options? lissom.Strands.LevelsOptions
+---@return lissom.HairLevel[] levels # The levels, group by group.
+function Strands:levels(options) end
 
 ---Frees the contents of the object. It may be called again; any other use is an error then.
 function Strands:close() end

@@ -49,7 +49,8 @@ struct HairLevelOptions {
     CardCapOptions cap = {};
 };
 
-/// Levels of 1, 1/2 and 1/4 of the strands, 200, 100 and 50 cards, and a shell of 2000 triangles.
+/// Returns levels of 1, 1/2 and 1/4 of the strands, 200, 100 and 50 cards, and a shell of 2000
+/// triangles.
 HairLevelOptions usual_hair_levels();
 
 enum class HairLevelKind { strands, cards, shell };
