@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::uint64_t kCopyStream = 41;
 constexpr Index kFillGrain = 64;
+constexpr std::size_t kCopyStep = 4096;
 // Metres: nearer guides weigh no more.
 constexpr double kNearRoot = 5e-4;
 
@@ -203,9 +204,10 @@ void duplicate(Strands& strands, const DuplicateOptions& options, const Context&
             "the radius and the factor at the tip of copies must be finite and not negative");
     const std::vector<Index> hair = all_hair(strands);
     const Index before = strands.size();
-    require(count_of(hair) == 0 ||
+    require(hair.empty() ||
                 options.copies <= (std::numeric_limits<Index>::max() - before) / count_of(hair),
             "there are more strands than can be numbered; ask for fewer copies");
+    if (hair.empty()) return;
     // Of the list, and of ids and guides in the making.
     const std::size_t after = at(before) + at(options.copies) * hair.size();
     const MemoryCharge charge = context.charge(16 * after, "copies of strands");
@@ -223,6 +225,7 @@ void duplicate(Strands& strands, const DuplicateOptions& options, const Context&
     for (const std::uint32_t id : ids) next = std::max(next, id + 1);
     StrandGuides guides = made.guides();
     for (std::size_t i = at(before); i < list.size(); ++i) {
+        if (i % kCopyStep == 0) context.checkpoint();
         const std::uint32_t original = strands.id(list[i]);
         const auto copy = (i - at(before)) / hair.size();
         ids.push_back(next++);

@@ -1,6 +1,7 @@
 // Interpolated, copied and blended hair.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "kernel/core/error.h"
@@ -90,6 +91,13 @@ TEST_CASE("copies lie around their strand and have ids of their own") {
     CHECK(error_of([&] { duplicate(strands, {.copies = -1}); }).code() ==
           ErrorCode::invalid_argument);
     CHECK(strands.size() == 24);
+}
+
+TEST_CASE("strands without length have no copies, however many are asked for") {
+    const Strands before = strands_of({{{0, 0, 0}}, {{1, 0, 0}, {1, 0, 0}}});
+    Strands strands = before;
+    duplicate(strands, {.copies = std::numeric_limits<Index>::max()});
+    CHECK(hash(strands) == hash(before));
 }
 
 TEST_CASE("blending makes neighbours alike, and a factor of 0 changes nothing") {
