@@ -139,6 +139,8 @@ Strands interpolate(const Strands& guides, std::span<const Root> roots,
     context.parallel_for(0, count, kFillGrain, [&](Index begin, Index end) {
         std::vector<GuideCourses::Share> shares;
         for (Index s = begin; s < end; ++s) {
+            // A strand among very many guides takes long.
+            context.checkpoint();
             const Vec3& root = roots[at(s)].position;
             courses.find(root, options.near, min_cosine, shares);
             nearest[at(s)] = courses.strand_of(shares.front().guide);
@@ -260,6 +262,7 @@ void blend(Strands& strands, const BlendOptions& options, const Context& context
     Progress progress(context, "blend strands");
     const auto change = [&](StrandWork& work) {
         std::vector<GuideCourses::Share> shares;
+        context.checkpoint();
         const Vec3 root = work.old_point(0);
         courses.find(root, options.near, std::cos(usual.apart), shares);
         for (Index k = 1; k < work.count(); ++k) {
