@@ -37,6 +37,8 @@ enum class Kind : std::uint8_t {
     script,
     object,
     render_map,
+    pose,
+    pose_space,
 };
 
 /// A callable of the caller, for the time of a call: unlike a std::function it takes no memory.

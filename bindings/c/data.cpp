@@ -100,11 +100,16 @@ std::size_t stride_of(std::size_t stride, std::size_t element, std::size_t count
     return step;
 }
 
+// The message takes memory: it is made for an error only.
+void require_of(bool condition, const char* name, const char* text) {
+    if (!condition) throw Error(ErrorCode::invalid_argument, std::string(name) + text);
+}
+
 void require_list(const lissom_input* input, const char* name) {
     require_given(input, name);
-    require(input->data || input->count == 0, std::string(name) + " has no data");
-    require(input->count <= std::size_t{std::numeric_limits<Index>::max()},
-            std::string(name) + " has too many elements");
+    require_of(input->data || input->count == 0, name, " has no data");
+    require_of(input->count <= std::size_t{std::numeric_limits<Index>::max()}, name,
+               " has too many elements");
     if (!is_known(input->format)) refuse_format(name, "of a lissom_format");
 }
 
@@ -284,13 +289,14 @@ std::vector<Index> read_any_ids(const lissom_input* input, const char* name) {
     return values;
 }
 
-std::vector<double> read_numbers(const lissom_input* input, Index width, const char* name) {
+void read_numbers_into(const lissom_input* input, Index width, const char* name,
+                       std::vector<double>& values) {
     require_list(input, name);
-    require(width >= 1 && width <= 1024, std::string(name) + ": an element has 1 to 1024 numbers");
+    require_of(width >= 1 && width <= 1024, name, ": an element has 1 to 1024 numbers");
     const std::size_t size = size_of(input->format);
     const std::size_t stride = stride_of(input->stride, at(width) * size, input->count, name);
     const auto* place = static_cast<const unsigned char*>(input->data);
-    std::vector<double> values;
+    values.clear();
     values.reserve(input->count * at(width));
     for (std::size_t i = 0; i < input->count; ++i, place += stride) {
         for (std::size_t k = 0; k < at(width); ++k) {
@@ -300,6 +306,11 @@ std::vector<double> read_numbers(const lissom_input* input, Index width, const c
                                                    std::to_string(i) + " is NaN or infinite");
         }
     }
+}
+
+std::vector<double> read_numbers(const lissom_input* input, Index width, const char* name) {
+    std::vector<double> values;
+    read_numbers_into(input, width, name, values);
     return values;
 }
 

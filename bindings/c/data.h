@@ -31,6 +31,9 @@ std::vector<Index> read_any_ids(const lissom_input* input, const char* name);
 /// Returns the numbers of a host's list of any format, `width` an element. Errors:
 /// INVALID_ARGUMENT; NOT_FINITE.
 std::vector<double> read_numbers(const lissom_input* input, Index width, const char* name);
+/// Puts them into `values`, whose memory is used again.
+void read_numbers_into(const lissom_input* input, Index width, const char* name,
+                       std::vector<double>& values);
 
 /// Throws OUT_OF_RANGE if a host's list has no room for `count` elements of `width` numbers, and
 /// INVALID_ARGUMENT if elements overlap or the format is unknown.

@@ -361,6 +361,12 @@ typedef struct lissom_region {
 typedef struct lissom_deformer {
     uint64_t id;
 } lissom_deformer;
+typedef struct lissom_pose {
+    uint64_t id;
+} lissom_pose;
+typedef struct lissom_pose_space {
+    uint64_t id;
+} lissom_pose_space;
 typedef struct lissom_merger {
     uint64_t id;
 } lissom_merger;
@@ -391,6 +397,8 @@ typedef struct lissom_object {
 LISSOM_API bool lissom_mesh_is_valid(const lissom_context* context, lissom_mesh mesh);
 LISSOM_API bool lissom_region_is_valid(const lissom_context* context, lissom_region region);
 LISSOM_API bool lissom_deformer_is_valid(const lissom_context* context, lissom_deformer deformer);
+LISSOM_API bool lissom_pose_is_valid(const lissom_context* context, lissom_pose pose);
+LISSOM_API bool lissom_pose_space_is_valid(const lissom_context* context, lissom_pose_space space);
 LISSOM_API bool lissom_merger_is_valid(const lissom_context* context, lissom_merger merger);
 LISSOM_API bool lissom_paste_is_valid(const lissom_context* context, lissom_paste paste);
 LISSOM_API bool lissom_hairstyle_is_valid(const lissom_context* context, lissom_hairstyle style);
@@ -404,6 +412,9 @@ LISSOM_API bool lissom_object_is_valid(const lissom_context* context, lissom_obj
 LISSOM_API lissom_status lissom_mesh_release(lissom_context* context, lissom_mesh mesh);
 LISSOM_API lissom_status lissom_region_release(lissom_context* context, lissom_region region);
 LISSOM_API lissom_status lissom_deformer_release(lissom_context* context, lissom_deformer deformer);
+LISSOM_API lissom_status lissom_pose_release(lissom_context* context, lissom_pose pose);
+LISSOM_API lissom_status lissom_pose_space_release(lissom_context* context,
+                                                   lissom_pose_space space);
 LISSOM_API lissom_status lissom_merger_release(lissom_context* context, lissom_merger merger);
 LISSOM_API lissom_status lissom_paste_release(lissom_context* context, lissom_paste paste);
 LISSOM_API lissom_status lissom_hairstyle_release(lissom_context* context, lissom_hairstyle style);
@@ -1019,6 +1030,96 @@ LISSOM_API lissom_status lissom_deformer_encode_keyed_basis(lissom_context* cont
                                                             const lissom_transform* transforms,
                                                             size_t transform_count,
                                                             size_t key_count, lissom_bytes* bytes);
+
+// ---- Poses
+
+/// Makes a value of the present transforms of all handles and of the points that vertices are
+/// constrained to. Handles may move on afterwards.
+LISSOM_API lissom_status lissom_deformer_get_pose(lissom_context* context, lissom_deformer deformer,
+                                                  lissom_pose* pose);
+/// Moves the handles to a pose, for the next solve. Handles that were added since stay, and those
+/// that were removed are passed over. Errors: INVALID_ARGUMENT for a pose of another deformer, or
+/// of its rest shape before lissom_deformer_rebase.
+LISSOM_API lissom_status lissom_deformer_set_pose(lissom_context* context, lissom_deformer deformer,
+                                                  lissom_pose pose);
+/// Makes the pose at `t` on the way from one pose, at 0, to another, at 1: handles turn and shift
+/// as screws by the turns that they made, full ones too. Beyond 0 and 1 they go on. Errors:
+/// INVALID_ARGUMENT for poses of other handles; NOT_FINITE; SINGULAR_TRANSFORM if a handle is
+/// scaled by zero on the way.
+LISSOM_API lissom_status lissom_pose_blend(lissom_context* context, lissom_pose start,
+                                           lissom_pose end, double t, lissom_pose* pose);
+/// Moves the handles to the pose at `t` on the way between two poses, as lissom_pose_blend and
+/// lissom_deformer_set_pose do, for a frame between two keys: takes no memory once two frames were
+/// made. Errors: as these.
+LISSOM_API lissom_status lissom_deformer_set_blended_pose(lissom_context* context,
+                                                          lissom_deformer deformer,
+                                                          lissom_pose start, lissom_pose end,
+                                                          double t);
+
+/// A pose of a mesh by name. Several shapes are a path from rest: of n shapes, shape k, counted
+/// from 1, is at weight k / n.
+typedef struct lissom_named_pose {
+    const char* name;
+    const lissom_mesh* shapes;
+    int32_t shape_count;
+} lissom_named_pose;
+
+/// Makes a space of poses: meshes with the vertices and faces of `rest` that blend by rotations, so
+/// that half of a bent arm is an arm bent by half. The meshes stay as they are and may be released.
+/// Errors: MESH_EMPTY; INVALID_ARGUMENT without poses, for a pose without shapes, and for a name
+/// that is empty or there twice; TOPOLOGY_MISMATCH, naming the pose; MEMORY_LIMIT; CANCELLED.
+LISSOM_API lissom_status lissom_pose_space_create(lissom_context* context, lissom_mesh rest,
+                                                  const lissom_named_pose* poses,
+                                                  int32_t pose_count, lissom_pose_space* space);
+/// Starts to make a space as a job, whose result it is.
+LISSOM_API lissom_status lissom_pose_space_begin_create(lissom_context* context, lissom_mesh rest,
+                                                        const lissom_named_pose* poses,
+                                                        int32_t pose_count, lissom_job* job);
+/// Return the number of poses and the number of vertices, or -1 for an invalid handle.
+LISSOM_API int32_t lissom_pose_space_pose_count(lissom_context* context, lissom_pose_space space);
+LISSOM_API int32_t lissom_pose_space_vertex_count(lissom_context* context, lissom_pose_space space);
+/// Receives the name of a pose; it lives until the next call. Poses keep the order in which they
+/// were given. Errors: OUT_OF_RANGE.
+LISSOM_API lissom_status lissom_pose_space_pose_name(lissom_context* context,
+                                                     lissom_pose_space space, int32_t pose,
+                                                     const char** name);
+/// Writes the positions of a blend, with a weight for each pose in their order: 0 is rest, 1 the
+/// pose, others go beyond. All weights 0 give the rest shape to the bit, and a pose alone its last
+/// shape. A frame of an animation: takes no memory once two frames were made. Errors:
+/// INVALID_ARGUMENT for another number of weights; NOT_FINITE; CANCELLED.
+LISSOM_API lissom_status lissom_pose_space_read_positions(lissom_context* context,
+                                                          lissom_pose_space space,
+                                                          const lissom_input* weights,
+                                                          const lissom_output* positions);
+/// Makes the rest mesh in the blended shape; custom normals, tangents and morph targets turn along.
+/// Errors: as lissom_pose_space_read_positions; MEMORY_LIMIT.
+LISSOM_API lissom_status lissom_pose_space_blend(lissom_context* context, lissom_pose_space space,
+                                                 const lissom_input* weights, lissom_mesh* mesh);
+
+/// Morph targets of a space beside its blends. Lengths are in the units of the mesh.
+typedef struct lissom_pose_targets_report {
+    size_t struct_size;
+    /// Number of targets of poses, which come first, and of correctives behind them.
+    int32_t pose_targets;
+    int32_t correctives;
+    /// Greatest distance of a vertex from the blend, over tenths of the way from rest to every pose
+    /// and to every corrective: by the poses' targets alone, and with correctives.
+    double linear_error;
+    double error;
+} lissom_pose_targets_report;
+
+LISSOM_API lissom_pose_targets_report lissom_default_pose_targets_report(void);
+/// Makes the rest mesh with a morph target for each pose, for engines that blend linearly, and with
+/// correctives that take back the error of that: at the weights in `correctives`, one number for
+/// each pose, corrective after corrective (NULL: none), and at the shapes of paths. A mesh without
+/// normals is given those of its surface. `report` may be NULL. Errors: INVALID_ARGUMENT for a
+/// number of weights that is no multiple of the poses, for a corrective without weights other than
+/// 0, at a pose alone, or there twice; NOT_FINITE; UNSUPPORTED for a mesh without faces;
+/// MEMORY_LIMIT; CANCELLED.
+LISSOM_API lissom_status lissom_pose_space_targets(lissom_context* context, lissom_pose_space space,
+                                                   const lissom_input* correctives,
+                                                   lissom_mesh* mesh,
+                                                   lissom_pose_targets_report* report);
 
 // ---- Cutting
 

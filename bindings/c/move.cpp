@@ -37,9 +37,9 @@ Strands moved_strands(const Strands& strands, const Context& other) {
 }
 
 Kind kind_of(lissom_context& context, std::uint64_t id) {
-    for (const Kind kind :
-         {Kind::mesh, Kind::region, Kind::deformer, Kind::merger, Kind::paste, Kind::hairstyle,
-          Kind::strands, Kind::script, Kind::object, Kind::render_map}) {
+    for (const Kind kind : {Kind::mesh, Kind::region, Kind::deformer, Kind::merger, Kind::paste,
+                            Kind::hairstyle, Kind::strands, Kind::script, Kind::object,
+                            Kind::render_map, Kind::pose, Kind::pose_space}) {
         if (context.objects.find(id, kind)) return kind;
     }
     throw StatusError(LISSOM_INVALID_HANDLE,
@@ -62,6 +62,8 @@ Kind kind_of(lissom_context& context, std::uint64_t id) {
         remedy =
             "a render map belongs to a mesh: move the mesh, and make its map there by "
             "lissom_render_map_create";
+    } else if (kind == Kind::pose) {
+        remedy = "a pose belongs to a deformer: make both in the other context";
     } else if (kind != Kind::region) {
         remedy = "the object keeps the systems of its meshes: move these, and make it there";
     }

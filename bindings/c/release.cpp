@@ -39,6 +39,12 @@ bool lissom_region_is_valid(const lissom_context* context, lissom_region region)
 bool lissom_deformer_is_valid(const lissom_context* context, lissom_deformer deformer) {
     return is_valid(context, deformer.id, Kind::deformer);
 }
+bool lissom_pose_is_valid(const lissom_context* context, lissom_pose pose) {
+    return is_valid(context, pose.id, Kind::pose);
+}
+bool lissom_pose_space_is_valid(const lissom_context* context, lissom_pose_space space) {
+    return is_valid(context, space.id, Kind::pose_space);
+}
 bool lissom_merger_is_valid(const lissom_context* context, lissom_merger merger) {
     return is_valid(context, merger.id, Kind::merger);
 }
@@ -69,6 +75,12 @@ lissom_status lissom_region_release(lissom_context* context, lissom_region regio
 }
 lissom_status lissom_deformer_release(lissom_context* context, lissom_deformer deformer) {
     return release(context, deformer.id, Kind::deformer);
+}
+lissom_status lissom_pose_release(lissom_context* context, lissom_pose pose) {
+    return release(context, pose.id, Kind::pose);
+}
+lissom_status lissom_pose_space_release(lissom_context* context, lissom_pose_space space) {
+    return release(context, space.id, Kind::pose_space);
 }
 lissom_status lissom_merger_release(lissom_context* context, lissom_merger merger) {
     return release(context, merger.id, Kind::merger);

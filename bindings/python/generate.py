@@ -13,8 +13,11 @@ BASE = {"void": "None", "bool": "C.c_bool", "char": "C.c_char", "double": "C.c_d
         "int64_t": "C.c_int64"}
 
 # Classes of objects, in the order in which they are written.
-KINDS = {"mesh": "Mesh", "region": "Region", "deformer": "Deformer", "merger": "Merger", "paste": "Paste",
-         "hairstyle": "Hairstyle", "strands": "Strands", "render_map": "RenderMap", "script": "Script", "object": "Object"}
+KINDS = {"mesh": "Mesh", "region": "Region", "deformer": "Deformer", "pose": "Pose", "pose_space": "PoseSpace",
+         "merger": "Merger", "paste": "Paste", "hairstyle": "Hairstyle", "strands": "Strands", "render_map": "RenderMap",
+         "script": "Script", "object": "Object"}
+# The longest first: "pose_space" begins with "pose".
+ANY_KIND = "|".join(sorted(KINDS, key=len, reverse=True))
 # Functions whose names begin with other words.
 METHODS = {"lissom_curve_": "hairstyle", "lissom_numbers_": "object", "lissom_merge": "mesh", "lissom_begin_merge": "mesh",
            "lissom_cut_": "mesh", "lissom_erase": "mesh", "lissom_begin_erase": "mesh"}
@@ -37,6 +40,7 @@ OUTPUTS = {
     "render_map_read_attribute": ("self.size", "mesh.attribute_named(name).width", "d"),
     "region_read_vertices": ("self.size", 1, "i"), "deformer_read_rows": ("self.row_count", 1, "i"),
     "deformer_read_positions": ("self.row_count", 3, "d"), "deformer_read_normals": ("self.row_count", 3, "d"),
+    "pose_space_read_positions": ("self.vertex_count", 3, "d"),
     "hairstyle_read_curves": ("self.curve_count", 1, "i"),
     "strands_read_points": ("self.point_count", 3, "d"), "strands_read_offsets": ("self.size + 1", 1, "i"),
     "strands_read": ("self.size", "_strand_width(value)", "_strand_format(value)"),
@@ -45,7 +49,7 @@ OUTPUTS = {
 }
 # Numbers in an element of a list that is read.
 INPUTS = {"positions": 3, "points": 3, "spine": 3, "normals": 3, "corners": 1, "sizes": 1, "vertices": 1, "labels": 1,
-          "offsets": 1, "uvs": 2}
+          "offsets": 1, "uvs": 2, "weights": 1, "correctives": 1}
 # Names of methods that are other than those of C.
 NAMES = {"mesh_attribute": "attribute_at", "mesh_find_attribute": "attribute_named", "object_numbers_create": "of_numbers"}
 # Help for functions whose comments in C are those of a group.
@@ -73,6 +77,13 @@ DOCS = {
     "region_size": "The number of vertices.",
     "deformer_row_count": "The number of vertices of the region: the rows of `positions` and `normals`.",
     "deformer_read_rows": "Returns the ascending ids of the vertices of the region.",
+    "pose_space_pose_count": "The number of poses.",
+    "pose_space_vertex_count": "The number of vertices of the rest mesh.",
+    "pose_space_pose_name": "Returns the name of a pose. Poses keep the order in which they were given. Errors: out_of_range.",
+    "pose_space_targets": "Returns the rest mesh with a morph target for each pose, for engines that blend linearly, and with "
+                          "correctives that take back the error of that: at the weights in `correctives`, one for each pose, "
+                          "corrective after corrective, and at the meshes of paths. Returns a report too. Errors: "
+                          "invalid_argument; not_finite; unsupported for a mesh without faces; memory_limit; cancelled.",
     "merger_create": "Prepares a merge of `source` onto targets, to be solved again with other keys. Without joins each target "
                      "meets the source at their nearest boundaries. The meshes stay as they are. Errors: invalid_argument; "
                      "out_of_range for a boundary; boundary_conflict; unconstrained; zero_area; memory_limit; cancelled.",
@@ -149,8 +160,7 @@ def plain(doc, returns_list=False):
     for c, python in words:
         doc = re.sub(rf"^{c}", python, doc)
     doc = re.sub(r"^(Return|Start|Load|Write|Replace|Add|Find|Make|Save)(?= )", r"\1s", doc)
-    doc = re.sub(r"lissom_(\w+?)_(read_)?(\w+)\b", lambda m: f"`{KINDS[m.group(1)]}.{m.group(3)}`"
-                 if m.group(1) in KINDS else m.group(), doc)
+    doc = re.sub(rf"lissom_({ANY_KIND})_(read_)?(\w+)\b", lambda m: f"`{KINDS[m.group(1)]}.{m.group(3)}`", doc)
     doc = re.sub(r"\blissom_(\w+)\b(?!\.h)", r"`\1`", doc)
     return re.sub(r"\s+", " ", doc).strip()
 
@@ -262,7 +272,8 @@ class Method:
             width = INPUTS.get(parameter.name)
             if parameter.name == "values":
                 width = "width" if any(p.name == "width" for p in self.function.parameters) else "_strand_width(value)"
-            optional = self.function.name == "lissom_mesh_create" and parameter.name == "sizes"
+            optional = self.function.name == "lissom_mesh_create" and parameter.name == "sizes" \
+                or parameter.name == "correctives"
             self.parameters.append((parameter.name, f"Optional[{ARRAY}]" if optional else ARRAY, "None" if optional else None))
             self.arguments.append(f"_arrays.given({parameter.name}, {width})")
             return 1
@@ -291,11 +302,12 @@ class Method:
 
     def take_many(self, parameter):
         hints = {"lissom_join": "Sequence[Join]", "char": "Sequence[str]", "void": "bytes", "lissom_mesh": "Sequence[Mesh]",
-                 "lissom_transform": "Sequence[Transform]"}
+                 "lissom_transform": "Sequence[Transform]",
+                 "lissom_named_pose": "Mapping[str, Union[Mesh, Sequence[Mesh]]]"}
         optional = parameter.type.base == "lissom_join"
         self.parameters.append((parameter.name, hints[parameter.type.base], "()" if optional else None))
         helper = {"lissom_join": "_joins", "char": "_texts", "void": "_bytes", "lissom_mesh": "_handles",
-                  "lissom_transform": "_transforms"}[parameter.type.base]
+                  "lissom_transform": "_transforms", "lissom_named_pose": "_named_poses"}[parameter.type.base]
         if parameter.type.base == "char" and parameter.type.stars == 1:
             self.parameters[-1] = (parameter.name, "str", None)
             helper = "_utf8"
@@ -469,11 +481,11 @@ class Objects:
                 continue
             methods[self.kind_of(function)].append(Method(self, function, self.kind_of(function)))
         lines = ['"""The objects of the C interface. Generated from lissom.h."""', "from __future__ import annotations", "",
-                 "import ctypes as C", "from typing import Any, Optional, Sequence, Tuple, Union", "",
+                 "import ctypes as C", "from typing import Any, Mapping, Optional, Sequence, Tuple, Union", "",
                  "from . import _abi, _arrays", "from ._arrays import Array",
                  "from ._convert import (Join, Record, Transform, _bytes, _choice, _encoded, _handle_of, _handles, _joins,"
-                 " _numbers,", "                       _points, _record, _strand_format, _strand_width, _taken_bytes, _text, "
-                 "_texts, _transform,", "                       _transforms, _utf8)",
+                 " _named_poses,", "                       _numbers, _points, _record, _strand_format, _strand_width, "
+                 "_taken_bytes, _text, _texts,", "                       _transform, _transforms, _utf8)",
                  "from ._context import Context, Handle, _boundary_size, default_context", "from ._jobs import Job",
                  "from ._scripts import ScriptMethods", ""]
         structs = {s.name: s for s in self.header.structs}
@@ -488,7 +500,10 @@ class Objects:
     @staticmethod
     def class_doc(kind, structs):
         docs = {"mesh": "A mesh: positions, polygons, attributes.", "region": "A set of vertices of a mesh.",
-                "deformer": "A deformation of a mesh by handles.", "merger": "A merge that is solved again with other keys.",
+                "deformer": "A deformation of a mesh by handles.",
+                "pose": "The transforms of a deformer's handles, as a value.",
+                "pose_space": "Posed meshes of one topology, and their blends.",
+                "merger": "A merge that is solved again with other keys.",
                 "paste": "A feature on its way onto a mesh.", "hairstyle": "Curves that hair of a head follows.",
                 "strands": "Hair: lines of points.", "render_map": "The vertices that an engine draws of a mesh.",
                 "script": "A script with parameters; `lissom.run` runs one in a line."}

@@ -56,8 +56,8 @@ class Interface(unittest.TestCase):
 
     def test_each_function_is_a_method_with_help_and_hints(self):
         count = 0
-        for kind in (lissom.Mesh, lissom.Region, lissom.Deformer, lissom.Merger, lissom.Paste, lissom.Hairstyle,
-                     lissom.Strands, lissom.RenderMap, lissom.Script, lissom.Object):
+        for kind in (lissom.Mesh, lissom.Region, lissom.Deformer, lissom.Pose, lissom.PoseSpace, lissom.Merger,
+                     lissom.Paste, lissom.Hairstyle, lissom.Strands, lissom.RenderMap, lissom.Script, lissom.Object):
             self.assertTrue(kind.__doc__)
             for name, method in vars(kind).items():
                 method = method.fget if isinstance(method, property) else getattr(method, "__func__", method)
@@ -245,6 +245,37 @@ class Work(unittest.TestCase):
         self.assertEqual(lissom.Deformer.create(mesh, second="laplacian").row_count, mesh.vertex_count)
         with self.assertRaises(ValueError):
             lissom.Deformer.create(mesh, second="none")
+
+    def test_poses_blend(self):
+        mesh = sphere()
+        deformer = lissom.Deformer.create(mesh)
+        top = deformer.add_handle(lissom.Region.plane(mesh, (0, 0.8, 0), (0, 1, 0)))
+        deformer.pin(lissom.Region.plane(mesh, (0, -0.5, 0), (0, -1, 0)))
+        rest = deformer.get_pose()
+        deformer.set_transform(top, [[1, 0, 0, 0.5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+        moved = deformer.get_pose()
+        deformer.set_pose(rest.blend(moved, 0.4))
+        self.assertAlmostEqual(deformer.get_transform(top)[3], 0.2)
+        deformer.set_blended_pose(rest, moved, 0.6)
+        self.assertAlmostEqual(deformer.get_transform(top)[3], 0.3)
+
+    def test_meshes_blend_in_a_space_of_poses(self):
+        mesh, posed, half = sphere(), sphere(), sphere()
+        half.transform([[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+        posed.transform([[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 1], [0, 0, 0, 1]])
+        space = lissom.PoseSpace.create(mesh, {"away": [half, posed], "moved": half})
+        self.assertEqual((space.pose_count, space.pose_name(1)), (2, "moved"))
+        self.assertEqual(space.positions([0.5, 0]).tolist(), half.positions().tolist())
+        self.assertEqual(space.blend([1, 0]).positions().tolist(), posed.positions().tolist())
+        made, report = space.targets([0.5, 0.5])
+        self.assertEqual((report.pose_targets, report.correctives), (2, 2))
+        self.assertEqual(made.vertex_count, mesh.vertex_count)
+        self.assertEqual(space.targets()[1].correctives, 1)
+        with self.assertRaises(lissom.Error) as raised:
+            space.blend([1])
+        self.assertEqual(raised.exception.code, "invalid_argument")
+        job = lissom.PoseSpace.begin_create(mesh, {"moved": posed})
+        self.assertEqual(job.finish().pose_count, 1)
 
     def test_a_merge_has_a_report(self):
         upper = sphere().cut_by_plane((0, 0, 0), (0, 1, 0))[0]

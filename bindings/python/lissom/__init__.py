@@ -21,11 +21,12 @@ from ._convert import Join, Record
 from ._error import Error
 from ._jobs import Job
 from ._library import library as _library
-from ._objects import (Deformer, Hairstyle, Merger, Mesh, Object, Paste, Region, RenderMap, Script, Strands)
+from ._objects import (Deformer, Hairstyle, Merger, Mesh, Object, Paste, Pose, PoseSpace, Region, RenderMap,
+                       Script, Strands)
 from ._scripts import load_script, run
 
 __all__ = ["ABI_VERSION", "Context", "Deformer", "Error", "Hairstyle", "Job", "Join", "Merger", "Mesh", "Object", "Paste",
-           "Record", "Region", "RenderMap", "Script", "Strands", "call", "default_context", "licence",
+           "Pose", "PoseSpace", "Record", "Region", "RenderMap", "Script", "Strands", "call", "default_context", "licence",
            "load_script", "run"]
 __version__ = _library.lissom_version_text().decode()
 

@@ -84,6 +84,14 @@ def _handles(values):
     return (_abi.lissom_mesh * max(1, len(values)))(*[_handle_of(v, _abi.lissom_mesh) for v in values]), len(values)
 
 
+def _named_poses(poses):
+    made = []
+    for name, shapes in poses.items():
+        shapes, count = _handles(shapes if isinstance(shapes, (list, tuple)) else [shapes])
+        made.append(_abi.lissom_named_pose(name.encode(), shapes, count))
+    return (_abi.lissom_named_pose * max(1, len(made)))(*made), len(made)
+
+
 def _short_names(kind):
     """Names of a choice without what they have in common: "all" for WELD_ALL."""
     names = [member.name.lower() for member in kind]

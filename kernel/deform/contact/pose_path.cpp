@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "kernel/deform/rotation/polar.h"
@@ -41,6 +42,29 @@ double HandlePath::length() const {
     return way_.norm() + screw_.velocity.norm() + turning + stretching;
 }
 
+namespace {
+
+void put_targets_between(const Poses& from, double share, Poses& poses) {
+    for (std::size_t t = 0; t < poses.targets.size(); ++t) {
+        const TargetPose &a = from.targets[t], &b = poses.targets[t];
+        poses.targets[t] = {a.position + share * (b.position - a.position),
+                            a.gradient + share * (b.gradient - a.gradient)};
+    }
+}
+
+}  // namespace
+
+void put_between(const RestShape& rest, const ConstraintSet& constraints, const Poses& from,
+                 double share, Poses& poses) {
+    if (share == 1.0) return;
+    for (std::size_t h = 0; h < poses.handles.size(); ++h) {
+        const std::shared_ptr<const Handle>& handle = constraints.handles[h];
+        if (!handle || from.handles[h] == poses.handles[h]) continue;
+        poses.handles[h] = HandlePath(rest, *handle, from.handles[h], poses.handles[h]).at(share);
+    }
+    put_targets_between(from, share, poses);
+}
+
 PosePath::PosePath(const RestShape& rest, const ConstraintSet& constraints, Poses from, Poses to)
     : from_(std::move(from)), to_(std::move(to)), paths_(to_.handles.size()) {
     from_.handles.resize(to_.handles.size());
@@ -56,11 +80,7 @@ Poses PosePath::at(double share) const {
     for (std::size_t h = 0; h < paths_.size(); ++h) {
         if (paths_[h]) poses.handles[h] = paths_[h]->at(share);
     }
-    for (std::size_t t = 0; t < poses.targets.size(); ++t) {
-        const TargetPose &a = from_.targets[t], &b = to_.targets[t];
-        poses.targets[t] = {a.position + share * (b.position - a.position),
-                            a.gradient + share * (b.gradient - a.gradient)};
-    }
+    put_targets_between(from_, share, poses);
     return poses;
 }
 

@@ -33,6 +33,11 @@ class HandlePath {
     Screw screw_;
 };
 
+/// Replaces poses by those at a `share` of the way to them from others of the same constraint set,
+/// without allocations; at 1 they stay to the bit.
+void put_between(const RestShape& rest, const ConstraintSet& constraints, const Poses& from,
+                 double share, Poses& poses);
+
 /// The way of all handles and targets of a constraint set.
 class PosePath {
   public:

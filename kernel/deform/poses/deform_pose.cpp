@@ -1,5 +1,6 @@
 #include "kernel/deform/poses/deform_pose.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -58,6 +59,12 @@ DeformPose pose_of(const Deformer& deformer) {
 }
 
 DeformPose blended(const DeformPose& a, const DeformPose& b, double t) {
+    DeformPose result;
+    blend_into(result, a, b, t);
+    return result;
+}
+
+void blend_into(DeformPose& result, const DeformPose& a, const DeformPose& b, double t) {
     require(std::isfinite(t), "the share of a blend must be finite", ErrorCode::not_finite);
     const bool same = a.rest && a.rest == b.rest &&
                       a.constraints->targets == b.constraints->targets &&
@@ -65,27 +72,25 @@ DeformPose blended(const DeformPose& a, const DeformPose& b, double t) {
     require(same,
             "the poses are of other handles; take both from one deformer after its last change of "
             "handles and constraints");
-    if (t == 0.0) return a;
-    DeformPose result = b;
-    result.poses = PosePath(*b.rest, *b.constraints, a.poses, b.poses).at(t);
+    result = t == 0.0 ? a : b;
+    if (t == 0.0) return;
+    put_between(*b.rest, *b.constraints, a.poses, t, result.poses);
     if (a.poses.volume && b.poses.volume) {
         const double sum = (1.0 - t) * *a.poses.volume + t * *b.poses.volume;
         result.poses.volume = std::clamp(sum, 0.0, 1.0);
     }
     require_regular(result.poses);
-    return result;
 }
 
 void set_pose(Deformer& deformer, const DeformPose& pose) {
     auto& state = DeformerAccess::state(deformer);
     require(pose.rest == state.rest && pose.poses.handles.size() <= state.poses.handles.size(),
             "the pose is of another deformer, or of its rest shape before rebase");
-    Poses next = state.poses;
     for (std::size_t h = 0; h < pose.poses.handles.size(); ++h) {
-        if (state.constraints->handles[h]) next.handles[h] = pose.poses.handles[h];
+        if (state.constraints->handles[h]) state.poses.handles[h] = pose.poses.handles[h];
     }
-    if (pose.constraints->targets == state.constraints->targets) next.targets = pose.poses.targets;
-    state.poses = std::move(next);
+    if (pose.constraints->targets != state.constraints->targets) return;
+    std::copy(pose.poses.targets.begin(), pose.poses.targets.end(), state.poses.targets.begin());
 }
 
 DeformPose pose_at(std::span<const PoseKey> keys, double time, Easing easing) {

@@ -32,6 +32,9 @@ DeformPose pose_of(const Deformer& deformer);
 /// straight. Beyond 0 and 1 they go on. Errors: invalid_argument for poses of other handles;
 /// not_finite; singular_transform if a stretch goes through zero.
 DeformPose blended(const DeformPose& a, const DeformPose& b, double t);
+/// Puts that into `result`, which is neither of both and whose memory is used again. After an error
+/// `result` is undefined.
+void blend_into(DeformPose& result, const DeformPose& a, const DeformPose& b, double t);
 
 /// Moves the handles and constraints of a deformer to a pose, for the next solve. Those that were
 /// added since stay, and those that were removed are passed over. Errors: invalid_argument for a

@@ -61,10 +61,11 @@ void EdgeSurface::assemble(const PoseTriangles& triangles,
     system_.factor(matrix, context);
 }
 
-std::vector<Vec3> EdgeSurface::solve(const PoseTriangles& triangles,
-                                     std::span<const TriangleEdges> edges) const {
-    if (rows_ == 0) return rest_;
-    std::vector<double> values(3 * at(rows_), 0.0);
+void EdgeSurface::solve(const PoseTriangles& triangles, std::span<const TriangleEdges> edges,
+                        std::vector<double>& values, std::vector<Vec3>& positions) const {
+    positions = rest_;
+    if (rows_ == 0) return;
+    values.assign(3 * at(rows_), 0.0);
     const auto add = [&](Index row, const Vec3& value) {
         for (Index c = 0; c < 3; ++c) values[at(c * rows_ + row)] += value[c];
     };
@@ -79,14 +80,12 @@ std::vector<Vec3> EdgeSurface::solve(const PoseTriangles& triangles,
                       });
     }
     system_.solve(values, values, 3);
-    std::vector<Vec3> positions = rest_;
     for (std::size_t v = 0; v < positions.size(); ++v) {
         if (row_[v] == kNoIndex) continue;
         for (Index c = 0; c < 3; ++c) {
             positions[v][c] = origin_[c] + values[at(c * rows_ + row_[v])];
         }
     }
-    return positions;
 }
 
 std::size_t EdgeSurface::memory_bytes() const {

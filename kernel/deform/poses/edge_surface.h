@@ -23,10 +23,11 @@ class EdgeSurface {
     EdgeSurface(const Mesh& rest, const PoseTriangles& triangles, std::vector<char> holds,
                 const Context& context);
 
-    /// Returns the positions whose edges differ least from those given, by weighted squares; edges
-    /// of one surface give that surface. A floating component is anywhere.
-    std::vector<Vec3> solve(const PoseTriangles& triangles,
-                            std::span<const TriangleEdges> edges) const;
+    /// Finds the positions whose edges differ least from those given, by weighted squares; edges
+    /// of one surface give that surface. A floating component is anywhere. The memory of
+    /// `positions` and of `values`, which are the unknowns, is used again.
+    void solve(const PoseTriangles& triangles, std::span<const TriangleEdges> edges,
+               std::vector<double>& values, std::vector<Vec3>& positions) const;
 
     /// Flags of components that float.
     const std::vector<char>& floats() const { return floats_; }

@@ -64,7 +64,20 @@ PathPlace place_on_path(double weight, std::size_t count) {
     return {static_cast<std::size_t>(before), along - before};
 }
 
+// Memory of a blend.
+struct BlendRoom {
+    std::vector<double> values;
+    std::vector<TriangleEdges> edges;
+    std::vector<FloatingSum> sums;
+    std::vector<Vec3> positions;
+};
+
 }  // namespace
+
+struct PoseFrames::Room {
+    std::vector<ShapeShare> shares;
+    BlendRoom blend;
+};
 
 struct PoseSpace::State {
     Mesh rest;
@@ -115,35 +128,49 @@ struct PoseSpace::State {
                                                  name_hint(name, {names.begin(), names.end()}));
     }
 
-    std::vector<ShapeShare> shares_of(const std::vector<PoseWeight>& weights) const {
+    std::vector<double> in_order(const std::vector<PoseWeight>& weights) const {
         std::vector<double> sums(names.size(), 0.0);
-        for (const PoseWeight& given : weights) {
-            double& sum = sums[pose_number(given.name)];
-            sum += given.weight;
-            require(std::isfinite(sum), "the weight of the pose '" + given.name + "' is not finite",
-                    ErrorCode::not_finite);
-        }
-        std::vector<ShapeShare> shares;
+        for (const PoseWeight& given : weights) sums[pose_number(given.name)] += given.weight;
+        return sums;
+    }
+
+    // Of a weight for each pose.
+    void find_shares(std::span<const double> weights, std::vector<ShapeShare>& shares) const {
+        shares.clear();
+        shares.reserve(2 * poses.size());
         for (std::size_t p = 0; p < poses.size(); ++p) {
-            const auto [before, fraction] = place_on_path(sums[p], poses[p].size());
+            if (!std::isfinite(weights[p])) {
+                throw Error(ErrorCode::not_finite,
+                            "the weight of the pose '" + names[p] + "' is not finite");
+            }
+            const auto [before, fraction] = place_on_path(weights[p], poses[p].size());
             if (before > 0 && fraction != 1.0) {
                 shares.push_back({&poses[p][before - 1], 1.0 - fraction});
             }
             if (fraction != 0.0) shares.push_back({&poses[p][before], fraction});
         }
-        return shares;
     }
 
-    std::vector<Vec3> positions(std::span<const ShapeShare> shares, const Context& context) const {
-        if (shares.empty()) return {rest.positions().begin(), rest.positions().end()};
-        if (shares.size() == 1 && shares[0].share == 1.0) return shares[0].shape->positions;
-        const auto edges = blended_edges(triangles, rest.positions(), shares, context);
+    // Leaves the positions in `room`.
+    void blend(std::span<const ShapeShare> shares, BlendRoom& room, const Context& context) const {
+        std::vector<Vec3>& result = room.positions;
+        const bool is_pose = shares.size() == 1 && shares[0].share == 1.0;
+        if (shares.empty() || is_pose) {
+            const std::span<const Vec3> known =
+                is_pose ? std::span<const Vec3>(shares[0].shape->positions) : rest.positions();
+            result.assign(known.begin(), known.end());
+            return;
+        }
+        blend_edges(triangles, rest.positions(), shares, room.edges, context);
         context.checkpoint();
-        std::vector<Vec3> result = surface->solve(triangles, edges);
+        surface->solve(triangles, room.edges, room.values, result);
         place_floating(triangles, rest.topology().components(), surface->floats(), rest.positions(),
-                       shares, result);
+                       shares, room.sums, result);
         move_isolated(shares, result);
-        return result;
+        const bool is_finite =
+            std::all_of(result.begin(), result.end(), [](const Vec3& p) { return p.allFinite(); });
+        require(is_finite, "the weights are so large that the surface is not finite",
+                ErrorCode::not_finite);
     }
 
     // Vertices without faces go along straight lines.
@@ -165,7 +192,11 @@ PoseSpace::PoseSpace(const Mesh& rest, const std::vector<NamedPose>& poses,
 
 std::vector<Vec3> PoseSpace::positions(const std::vector<PoseWeight>& weights,
                                        const Context& context) const {
-    return state_->positions(state_->shares_of(weights), context);
+    std::vector<ShapeShare> shares;
+    state_->find_shares(state_->in_order(weights), shares);
+    BlendRoom room;
+    state_->blend(shares, room, context);
+    return std::move(room.positions);
 }
 
 Mesh PoseSpace::blend(const std::vector<PoseWeight>& weights, const Context& context) const {
@@ -191,6 +222,29 @@ Index PoseSpace::shape_count(const std::string& name) const {
 
 std::size_t PoseSpace::memory_bytes() const {
     return state_->hold.bytes() + state_->surface->memory_bytes();
+}
+
+PoseFrames::PoseFrames(PoseSpace space)
+    : space_(std::move(space)), room_(std::make_unique<Room>()) {}
+
+PoseFrames::~PoseFrames() = default;
+PoseFrames::PoseFrames(PoseFrames&&) noexcept = default;
+PoseFrames& PoseFrames::operator=(PoseFrames&&) noexcept = default;
+
+std::span<const Vec3> PoseFrames::positions(std::span<const double> weights,
+                                            const Context& context) {
+    const PoseSpace::State& state = *space_.state_;
+    if (weights.size() != state.names.size()) {
+        throw Error(ErrorCode::invalid_argument, "there must be a weight for each of the " +
+                                                     std::to_string(state.names.size()) + " poses");
+    }
+    state.find_shares(weights, room_->shares);
+    state.blend(room_->shares, room_->blend, context);
+    return room_->blend.positions;
+}
+
+Index PoseFrames::pose_count() const {
+    return count_of(space_.state_->names);
 }
 
 }  // namespace lissom

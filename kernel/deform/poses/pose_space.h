@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,8 +61,31 @@ class PoseSpace {
     std::size_t memory_bytes() const;
 
   private:
+    friend class PoseFrames;
     struct State;
     std::shared_ptr<const State> state_;
+};
+
+/// Blends of a space one after another, as an animation needs them. From the third blend on they
+/// allocate nothing, if the context has one thread. One thread at a time may use it.
+class PoseFrames {
+  public:
+    explicit PoseFrames(PoseSpace space);
+    ~PoseFrames();
+    PoseFrames(PoseFrames&&) noexcept;
+    PoseFrames& operator=(PoseFrames&&) noexcept;
+
+    /// Returns the positions of a blend, which are those of PoseSpace::positions to the bit and
+    /// stay until the next one. `weights` has one for each pose, in the order of PoseSpace::names.
+    /// Errors: invalid_argument for another number of weights; not_finite; cancelled.
+    std::span<const Vec3> positions(std::span<const double> weights, const Context& context = {});
+
+    Index pose_count() const;
+
+  private:
+    struct Room;
+    PoseSpace space_;
+    std::unique_ptr<Room> room_;
 };
 
 }  // namespace lissom

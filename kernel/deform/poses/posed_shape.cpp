@@ -75,11 +75,6 @@ double area_of(const TriangleEdges& edges) {
     return edges.first.cross(edges.second).norm();
 }
 
-struct FloatingSum {
-    double area = 0.0, motion = 0.0, weight = 0.0;
-    Vec3 shift = Vec3::Zero();
-};
-
 }  // namespace
 
 std::size_t PosedShape::memory_bytes() const {
@@ -105,10 +100,10 @@ PosedShape posed_shape(const PoseTriangles& triangles, std::span<const Vec3> res
     return shape;
 }
 
-std::vector<TriangleEdges> blended_edges(const PoseTriangles& triangles, std::span<const Vec3> rest,
-                                         std::span<const ShapeShare> shares,
-                                         const Context& context) {
-    std::vector<TriangleEdges> edges(triangles.triangles.size());
+void blend_edges(const PoseTriangles& triangles, std::span<const Vec3> rest,
+                 std::span<const ShapeShare> shares, std::vector<TriangleEdges>& edges,
+                 const Context& context) {
+    edges.resize(triangles.triangles.size());
     const auto blend = [&](Index t) {
         TriangleEdges sum = edges_of(triangles.triangles[at(t)], rest);
         SurfaceTurn turn;
@@ -124,13 +119,13 @@ std::vector<TriangleEdges> blended_edges(const PoseTriangles& triangles, std::sp
     context.parallel_for(0, count_of(edges), kEdgeGrain, [&](Index begin, Index end) {
         for (Index t = begin; t < end; ++t) blend(t);
     });
-    return edges;
 }
 
 void place_floating(const PoseTriangles& triangles, std::span<const Index> component_of_vertex,
                     std::span<const char> floats, std::span<const Vec3> rest,
-                    std::span<const ShapeShare> shares, std::span<Vec3> positions) {
-    std::vector<FloatingSum> sums(floats.size());
+                    std::span<const ShapeShare> shares, std::vector<FloatingSum>& sums,
+                    std::span<Vec3> positions) {
+    sums.assign(floats.size(), {});
     const auto for_each_triangle = [&](const auto& use) {
         for (Index t = 0; t < triangles.surface_count(); ++t) {
             const Triangle& triangle = triangles.triangles[at(t)];

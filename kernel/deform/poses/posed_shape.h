@@ -32,16 +32,23 @@ struct ShapeShare {
     double share;
 };
 
-/// Returns the edges of all triangles in the sum of shapes.
-std::vector<TriangleEdges> blended_edges(const PoseTriangles& triangles, std::span<const Vec3> rest,
-                                         std::span<const ShapeShare> shares,
-                                         const Context& context);
+/// Puts the edges of all triangles in the sum of shapes into `edges`, whose memory is used again.
+void blend_edges(const PoseTriangles& triangles, std::span<const Vec3> rest,
+                 std::span<const ShapeShare> shares, std::vector<TriangleEdges>& edges,
+                 const Context& context);
+
+/// Sums over the triangles of a floating component.
+struct FloatingSum {
+    double area = 0.0, motion = 0.0, weight = 0.0;
+    Vec3 shift = Vec3::Zero();
+};
 
 /// Moves each floating component of `positions`, which is right but for a shift, to its place in
 /// the sum of shapes: that to which the screws of its triangles lead, those of little motion above
-/// all.
+/// all. The memory of `sums` is used again.
 void place_floating(const PoseTriangles& triangles, std::span<const Index> component_of_vertex,
                     std::span<const char> floats, std::span<const Vec3> rest,
-                    std::span<const ShapeShare> shares, std::span<Vec3> positions);
+                    std::span<const ShapeShare> shares, std::vector<FloatingSum>& sums,
+                    std::span<Vec3> positions);
 
 }  // namespace lissom

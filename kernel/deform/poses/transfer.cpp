@@ -133,7 +133,9 @@ class Transfer {
             const TriangleEdges rest = edges_of(triangles_.triangles[t], to_.positions());
             edges.push_back({gradients[t] * rest.first, gradients[t] * rest.second});
         }
-        std::vector<Vec3> positions = surface.solve(triangles_, edges);
+        std::vector<double> values;
+        std::vector<Vec3> positions;
+        surface.solve(triangles_, edges, values, positions);
         place(surface.floats(), positions);
         move_isolated(positions);
         return positions;

@@ -256,6 +256,37 @@ std::vector<Given> deform_cases() {
     };
 }
 
+std::vector<Given> pose_cases() {
+    return {
+        {"lissom_pose_blend", 1,
+         [](World& world, int, double bad) {
+             return lissom_pose_blend(world, world.pose, world.pose, bad, &world.made_pose);
+         }},
+        {"lissom_deformer_set_blended_pose", 1,
+         [](World& world, int, double bad) {
+             return lissom_deformer_set_blended_pose(world, world.deformer, world.pose, world.pose,
+                                                     bad);
+         }},
+        {"lissom_pose_space_read_positions", 1,
+         [](World& world, int, double bad) {
+             std::vector<double> room(3 * at(lissom_mesh_vertex_count(world, world.bar)));
+             const lissom_input weights{&bad, 1, 0, LISSOM_FLOAT64};
+             const lissom_output out{room.data(), room.size() / 3, 0, LISSOM_FLOAT64};
+             return lissom_pose_space_read_positions(world, world.space, &weights, &out);
+         }},
+        {"lissom_pose_space_blend", 1,
+         [](World& world, int, double bad) {
+             const lissom_input weights{&bad, 1, 0, LISSOM_FLOAT64};
+             return lissom_pose_space_blend(world, world.space, &weights, &world.made_mesh);
+         }},
+        {"lissom_pose_space_targets", 1,
+         [](World& world, int, double bad) {
+             const lissom_input at{&bad, 1, 0, LISSOM_FLOAT64};
+             return lissom_pose_space_targets(world, world.space, &at, &world.made_mesh, nullptr);
+         }},
+    };
+}
+
 std::vector<Given> merge_cases() {
     return {
         {"lissom_cut_by_plane", 7,
@@ -450,8 +481,8 @@ std::vector<Given> script_cases() {
 
 std::vector<Given> all_cases() {
     std::vector<Given> all;
-    for (auto* cases :
-         {mesh_cases, region_cases, deform_cases, merge_cases, hair_cases, script_cases}) {
+    for (auto* cases : {mesh_cases, region_cases, deform_cases, pose_cases, merge_cases, hair_cases,
+                        script_cases}) {
         for (Given& given : cases()) all.push_back(std::move(given));
     }
     return all;
@@ -473,7 +504,7 @@ bool takes_numbers(const std::string& parameters) {
         R"((const double\b|, double \w+[,)]|const lissom_transform\*|const lissom_placement\*|)"
         R"(const lissom_join\*|const lissom_(mesh_load|mesh_save|deformer|handle|cut|hairstyle|)"
         R"(grow|sandbox)_options\*|const lissom_buffer\*|)"
-        R"(lissom_input\* (points|positions|spine|values)))");
+        R"(lissom_input\* (points|positions|spine|values|weights|correctives)))");
     return std::regex_search(parameters, numbers);
 }
 
@@ -499,6 +530,7 @@ TEST_CASE("no function takes a number that is not finite, and nothing changes by
     options.write_file = [](void*, const char*, const void*, std::size_t) { return true; };
     World world(options);
     world.make_deformer();
+    world.make_poses();
     world.make_halves();
     world.make_paste();
     world.make_style();

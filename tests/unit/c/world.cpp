@@ -66,6 +66,21 @@ void World::make_deformer() {
     REQUIRE(lissom_deformer_add_handle(context, deformer, bottom, nullptr, &handle) == LISSOM_OK);
 }
 
+void World::make_poses() {
+    drop_one(context, pose, lissom_pose_release);
+    drop_one(context, space, lissom_pose_space_release);
+    if (deformer.id == 0) make_deformer();
+    REQUIRE(lissom_deformer_get_pose(context, deformer, &pose) == LISSOM_OK);
+    lissom_mesh longer{};
+    REQUIRE(lissom_mesh_copy(context, bar, &longer) == LISSOM_OK);
+    lissom_transform stretch = lissom_identity();
+    stretch.m[5] = 1.5;
+    REQUIRE(lissom_mesh_transform(context, longer, &stretch) == LISSOM_OK);
+    const lissom_named_pose longer_pose{"longer", &longer, 1};
+    REQUIRE(lissom_pose_space_create(context, bar, &longer_pose, 1, &space) == LISSOM_OK);
+    REQUIRE(lissom_mesh_release(context, longer) == LISSOM_OK);
+}
+
 void World::make_halves() {
     if (half.id == 0) half = open_half(context, 1.0, 1.0);
     if (other_half.id == 0) other_half = open_half(context, 1.5, -1.0);
@@ -133,6 +148,8 @@ void World::drop() {
     drop_one(context, made_rest, lissom_mesh_release);
     drop_one(context, made_region, lissom_region_release);
     drop_one(context, made_deformer, lissom_deformer_release);
+    drop_one(context, made_pose, lissom_pose_release);
+    drop_one(context, made_space, lissom_pose_space_release);
     drop_one(context, made_merger, lissom_merger_release);
     drop_one(context, made_paste, lissom_paste_release);
     drop_one(context, made_style, lissom_hairstyle_release);

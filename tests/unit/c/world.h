@@ -20,6 +20,8 @@ class World {
     /// Make objects anew, the former ones released.
     void make_deformer();
     void make_halves();
+    /// A pose of the deformer at rest, and a space of the bar and a longer one.
+    void make_poses();
     void make_paste();
     void make_style();
     void make_strands();
@@ -38,6 +40,8 @@ class World {
     lissom_region all{}, bottom{}, top{};
     lissom_deformer deformer{};
     std::int32_t handle = -1;
+    lissom_pose pose{};
+    lissom_pose_space space{};
     lissom_render_map map{};
     /// Two open halves of balls.
     lissom_mesh half{}, other_half{};
@@ -55,6 +59,8 @@ class World {
     lissom_mesh made_mesh{}, made_rest{};
     lissom_region made_region{};
     lissom_deformer made_deformer{};
+    lissom_pose made_pose{};
+    lissom_pose_space made_space{};
     lissom_merger made_merger{};
     lissom_paste made_paste{};
     lissom_hairstyle made_style{};

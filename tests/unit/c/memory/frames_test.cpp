@@ -212,6 +212,70 @@ TEST_CASE("functions of a frame take no memory after an error of one") {
     CHECK(bar.takers_of_frame(3.2, LISSOM_FULL) == "");
 }
 
+TEST_CASE("frames between two poses take no memory after two frames") {
+    DraggedBar bar(frame_cases()[0]);
+    lissom_pose poses[3]{};
+    for (int k = 0; k < 3; ++k) {
+        REQUIRE(bar.set_transform(1.9 * k) == LISSOM_OK);
+        REQUIRE(lissom_deformer_get_pose(bar.context(), bar.deformer(), poses + k) == LISSOM_OK);
+    }
+    for (int frame = 0; frame < 40; ++frame) {
+        CAPTURE(frame);
+        const int key = frame / 20;
+        const long before = allocations();
+        const lissom_status status = lissom_deformer_set_blended_pose(
+            bar.context(), bar.deformer(), poses[key], poses[key + 1], frame % 20 / 20.0);
+        const long taken = allocations() - before;
+        CHECK(status == LISSOM_OK);
+        CHECK((frame % 20 < 2 || taken == 0));
+    }
+}
+
+namespace {
+
+// A bar that turns, one that grows, and a path of two; with loose parts that float if `floats`.
+lissom_pose_space turning_space(const Host& host, bool floats) {
+    const Mesh bar = make_bar({.across = 4, .along = 16});
+    const auto shape = [&](double turn, double size) {
+        Mesh mesh = bar;
+        for (Vec3& p : mesh.edit_positions()) {
+            if (!floats && p.y() < 0.0) continue;
+            const double angle = floats ? turn : turn * p.y();
+            p = size * Vec3(std::cos(angle) * p.x() + std::sin(angle) * p.z(), p.y(),
+                            std::cos(angle) * p.z() - std::sin(angle) * p.x());
+        }
+        return host.add(mesh);
+    };
+    const lissom_mesh rest = host.add(bar);
+    const lissom_mesh turned[] = {shape(0.8, 1.0), shape(1.6, 1.0)}, grown[] = {shape(0.0, 1.2)};
+    const lissom_named_pose poses[] = {{"turned", turned, 2}, {"grown", grown, 1}};
+    lissom_pose_space space{};
+    REQUIRE(lissom_pose_space_create(host, rest, poses, 2, &space) == LISSOM_OK);
+    return space;
+}
+
+}  // namespace
+
+TEST_CASE("blends of a space of poses take no memory after two frames") {
+    for (const bool floats : {false, true}) {
+        CAPTURE(floats);
+        const Host host;
+        const lissom_pose_space space = turning_space(host, floats);
+        std::vector<float> room(3 * at(lissom_pose_space_vertex_count(host, space)));
+        const lissom_output out{room.data(), room.size() / 3, 0, LISSOM_FLOAT32};
+        for (int frame = 0; frame < 30; ++frame) {
+            CAPTURE(frame);
+            const double t = 0.3 + 0.05 * frame, weights[] = {t, frame < 20 ? 0.4 : 0.0};
+            const lissom_input list{weights, 2, 0, LISSOM_FLOAT64};
+            const long before = allocations();
+            const lissom_status status = lissom_pose_space_read_positions(host, space, &list, &out);
+            const long taken = allocations() - before;
+            CHECK(status == LISSOM_OK);
+            CHECK((frame < 2 || taken == 0));
+        }
+    }
+}
+
 TEST_CASE("a basis is opened and evaluated without memory") {
     const DraggedBar bar(frame_cases()[0]);
     REQUIRE(bar.set_transform(0.2) == LISSOM_OK);

@@ -536,6 +536,57 @@ void add_deform_cases(std::vector<MemoryCase>& all) {
     });
 }
 
+void fresh_poses(World& world) {
+    world.make_poses();
+}
+
+void add_pose_cases(std::vector<MemoryCase>& all) {
+    const auto add = [&](const char* name, std::function<lissom_status(World&)> call) {
+        all.push_back({name, fresh_poses, std::move(call)});
+    };
+    static const double kHalf = 0.5;
+    static const lissom_input kWeights{&kHalf, 1, 0, LISSOM_FLOAT64};
+    add("lissom_deformer_get_pose", [](World& world) {
+        return lissom_deformer_get_pose(world, world.deformer, &world.made_pose);
+    });
+    add("lissom_deformer_set_pose",
+        [](World& world) { return lissom_deformer_set_pose(world, world.deformer, world.pose); });
+    add("lissom_deformer_set_blended_pose", [](World& world) {
+        return lissom_deformer_set_blended_pose(world, world.deformer, world.pose, world.pose, 0.5);
+    });
+    add("lissom_pose_blend", [](World& world) {
+        return lissom_pose_blend(world, world.pose, world.pose, 0.5, &world.made_pose);
+    });
+    add("lissom_pose_space_create", [](World& world) {
+        const lissom_named_pose pose{"same", &world.bar, 1};
+        return lissom_pose_space_create(world, world.bar, &pose, 1, &world.made_space);
+    });
+    add("lissom_pose_space_begin_create", [](World& world) {
+        const lissom_named_pose pose{"same", &world.bar, 1};
+        return lissom_pose_space_begin_create(world, world.bar, &pose, 1, &world.made_job);
+    });
+    add("lissom_pose_space_pose_count", [](World& world) {
+        return status_of_count(world, lissom_pose_space_pose_count(world, world.space));
+    });
+    add("lissom_pose_space_vertex_count", [](World& world) {
+        return status_of_count(world, lissom_pose_space_vertex_count(world, world.space));
+    });
+    add("lissom_pose_space_pose_name", [](World& world) {
+        const char* name = nullptr;
+        return lissom_pose_space_pose_name(world, world.space, 0, &name);
+    });
+    add("lissom_pose_space_read_positions", [](World& world) {
+        const lissom_output out = doubles_out();
+        return lissom_pose_space_read_positions(world, world.space, &kWeights, &out);
+    });
+    add("lissom_pose_space_blend", [](World& world) {
+        return lissom_pose_space_blend(world, world.space, &kWeights, &world.made_mesh);
+    });
+    add("lissom_pose_space_targets", [](World& world) {
+        return lissom_pose_space_targets(world, world.space, &kWeights, &world.made_mesh, nullptr);
+    });
+}
+
 void add_merge_cases(std::vector<MemoryCase>& all) {
     const auto add = [&](const char* name, void (*prepare)(World&),
                          std::function<lissom_status(World&)> call) {
@@ -956,6 +1007,9 @@ TEST_CASE("memory that runs out in calls of regions is a status") {
 TEST_CASE("memory that runs out in deformations is a status") {
     check_cases(add_deform_cases, 1);
 }
+TEST_CASE("memory that runs out in poses is a status") {
+    check_cases(add_pose_cases, 1);
+}
 TEST_CASE("memory that runs out in cuts, merges and pastes is a status") {
     check_cases(add_merge_cases, 1);
 }
@@ -1046,8 +1100,9 @@ TEST_CASE("those tests have every function of the header that may take memory") 
     REQUIRE(file);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     std::vector<MemoryCase> all;
-    for (Add* add : {add_mesh_cases, add_buffer_cases, add_job_cases, add_region_cases,
-                     add_deform_cases, add_merge_cases, add_hair_cases, add_script_cases}) {
+    for (Add* add :
+         {add_mesh_cases, add_buffer_cases, add_job_cases, add_region_cases, add_deform_cases,
+          add_pose_cases, add_merge_cases, add_hair_cases, add_script_cases}) {
         add(all);
     }
     std::set<std::string> tested{"lissom_context_create", "lissom_sandbox_scripts",
