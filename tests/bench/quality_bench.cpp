@@ -1,13 +1,14 @@
 /// Quality of deformation: what each of our methods and each of CGAL's energies does to the shape
-/// of a bar and of the armadillo.
+/// of a bar and of the armadillo; parts that run through one another; blends of poses.
 ///
-///     bench_quality [--case=TEXT] [--full] [--pictures=FOLDER] [--json]
+///     bench_quality [--part=shape|contacts|poses] [--case=TEXT] [--full] [--pictures=FOLDER]
+///                   [--json]
 ///
-/// --case: only cases whose name contains TEXT. --full: smaller regions of the armadillo,
-/// CGAL with 50 iterations on it, and the thesis's comparison methods. --pictures: saves every
-/// result as FOLDER/CASE__METHOD.ply; quality/pictures.lua renders them. Rotations beyond 180
-/// degrees are dragged there in steps, by all methods; all others are asked for at once, from the
-/// rest shape.
+/// --part: one of the three. --case: only cases of shape whose name contains TEXT. --full: smaller
+/// regions of the armadillo, CGAL with 50 iterations on it, and the thesis's comparison methods.
+/// --pictures: saves every result as FOLDER/CASE__METHOD.ply; quality/pictures.lua renders them.
+/// Rotations beyond 180 degrees are dragged there in steps, by all methods; all others are asked
+/// for at once, from the rest shape.
 
 #include <algorithm>
 #include <cstdio>
@@ -16,11 +17,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kernel/deform/deformer.h"
 #include "kernel/io/mesh_file.h"
 #include "kernel/thesis/comparison/methods.h"
+#include "tests/bench/quality/contact_rows.h"
 #include "tests/bench/quality/measure.h"
+#include "tests/bench/quality/pose_rows.h"
 #include "tests/bench/quality/scenes.h"
 #include "tests/bench/report.h"
 #ifdef LISSOM_BENCH_CGAL
@@ -258,6 +262,36 @@ void compare(const Results& results, Report& report) {
                 static_cast<double>(lower), "of 5", 4.0, Better::more});
 }
 
+void add_shape_rows(const Arguments& arguments, Report& report, const Mesh* armadillo) {
+    Harness harness(arguments, report);
+    harness.run(bar_scene());
+    if (armadillo) {
+        harness.run(arm_scene(*armadillo));
+        harness.run(body_scene(*armadillo));
+    }
+    if (armadillo && arguments.full) {
+        harness.run(small_arm_scene(*armadillo));
+        harness.run(waist_scene(*armadillo));
+    }
+    compare(harness.results(), report);
+}
+
+std::vector<QualityScene> posed_scenes(const Mesh* armadillo) {
+    std::vector<QualityScene> scenes{bar_scene()};
+    if (armadillo) {
+        scenes.push_back(arm_scene(*armadillo));
+        scenes.push_back(body_scene(*armadillo));
+    }
+    return scenes;
+}
+
+std::optional<Mesh> load_armadillo(const Report& report) {
+    const auto path = std::filesystem::path(LISSOM_BENCH_DATA) / "models" / "armadillo_43k.obj";
+    if (std::filesystem::exists(path)) return load_mesh(path);
+    report.title("Armadillo: skipped, models/armadillo_43k.obj is absent");
+    return std::nullopt;
+}
+
 }  // namespace
 }  // namespace lissom::bench
 
@@ -265,21 +299,10 @@ int main(int argc, char** argv) {
     using namespace lissom::bench;
     const Arguments arguments(argc, argv);
     Report report(argc, argv);
-    Harness harness(arguments, report);
-    harness.run(bar_scene());
-    const auto armadillo =
-        std::filesystem::path(LISSOM_BENCH_DATA) / "models" / "armadillo_43k.obj";
-    if (std::filesystem::exists(armadillo)) {
-        const lissom::Mesh mesh = lissom::load_mesh(armadillo);
-        harness.run(arm_scene(mesh));
-        harness.run(body_scene(mesh));
-        if (arguments.full) {
-            harness.run(small_arm_scene(mesh));
-            harness.run(waist_scene(mesh));
-        }
-    } else {
-        report.title("Armadillo: skipped, models/armadillo_43k.obj is absent");
-    }
-    compare(harness.results(), report);
+    const std::optional<lissom::Mesh> loaded = load_armadillo(report);
+    const lissom::Mesh* const armadillo = loaded ? &*loaded : nullptr;
+    if (report.wants("shape")) add_shape_rows(arguments, report, armadillo);
+    if (report.wants("contacts")) add_contact_rows(report, armadillo);
+    if (report.wants("poses")) add_pose_rows(report, posed_scenes(armadillo));
     return 0;
 }
