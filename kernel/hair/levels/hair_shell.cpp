@@ -30,6 +30,8 @@ constexpr double kLeastPart = 0.02;
 // Pieces of a segment a cell.
 constexpr double kPiecesPerCell = 2.0;
 constexpr Index kShellGrain = 1;
+// Of the parts of a surface in the making, a triangle.
+constexpr std::size_t kBytesPerShellTriangle = 300;
 // Cells over the shell at which its light is measured.
 constexpr double kLightLift = 2.0;
 
@@ -104,6 +106,7 @@ HairMatter matter_of(const Strands& strands, const NodeGrid& grid, const Context
         if (s % 1024 == 0) progress.update(double(s) / strands.size());
         const StrandView strand = strands.strand(s);
         for (Index k = 0; k + 1 < strand.cols(); ++k) {
+            context.checkpoint();
             const Vec3 a = point_of(strand, k), b = point_of(strand, k + 1);
             const double length = (b - a).norm();
             if (!(length > 0.0)) continue;
@@ -223,6 +226,8 @@ std::vector<Vec3> used_positions(LevelSurface& surface) {
 
 // The large parts of a surface, as a mesh.
 Mesh mesh_of_surface(LevelSurface surface, const Context& context) {
+    const MemoryCharge charge =
+        context.charge(surface.triangles.size() * kBytesPerShellTriangle, "a shell of hair");
     Soup soup;
     soup.positions = used_positions(surface);
     for (const Triangle& t : surface.triangles) soup.faces.add({t[0], t[1], t[2]});

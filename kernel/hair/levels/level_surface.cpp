@@ -18,6 +18,9 @@ constexpr std::array<std::array<int, 4>, 6> kTetrahedra{
 // Cuts keep this far from nodes, as a part of the edge, so that no triangle has no area.
 constexpr double kCutMargin = 0.02;
 
+// Of a vertex in a hash table.
+constexpr std::size_t kBytesPerEntry = 40;
+
 class SurfaceCutter {
   public:
     SurfaceCutter(const NodeGrid& grid, const std::vector<float>& values)
@@ -38,6 +41,12 @@ class SurfaceCutter {
     }
 
     LevelSurface take() { return std::move(surface_); }
+
+    std::size_t memory_bytes() const {
+        return surface_.positions.capacity() * sizeof(Vec3) +
+               surface_.triangles.capacity() * sizeof(Triangle) +
+               vertices_.size() * kBytesPerEntry + vertices_.bucket_count() * sizeof(void*);
+    }
 
   private:
     using Corners = std::array<Eigen::Array3i, 4>;
@@ -117,9 +126,15 @@ LevelSurface level_surface(const NodeGrid& grid, const std::vector<float>& value
                            const Context& context) {
     Progress progress(context, "surface of hair");
     SurfaceCutter cutter(grid, values);
+    MemoryCharge charge;
     for (int z = 0; z + 1 < grid.counts[2]; ++z) {
         progress.update(double(z) / grid.counts[2]);
         for (int y = 0; y + 1 < grid.counts[1]; ++y) {
+            if (cutter.memory_bytes() > charge.bytes()) {
+                charge = {};
+                charge = context.charge(2 * cutter.memory_bytes(), "a surface of hair");
+            }
+            context.checkpoint();
             for (int x = 0; x + 1 < grid.counts[0]; ++x) cutter.cut_cell({x, y, z});
         }
     }

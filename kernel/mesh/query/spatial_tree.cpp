@@ -218,7 +218,13 @@ std::optional<SpatialTree::Hit> SpatialTree::nearest_triangle(const Vec3& point,
 }
 
 SurfacePoint SpatialTree::nearest(const Vec3& point) const {
-    return surface_point(*nearest_triangle(point, std::numeric_limits<double>::infinity()));
+    const auto hit = nearest_triangle(point, std::numeric_limits<double>::infinity());
+    if (!hit || !std::isfinite(hit->distance)) {
+        throw Error(ErrorCode::not_finite,
+                    "squares of distances between the point and the surface are beyond the range "
+                    "of numbers; bring both to a size below 1e150");
+    }
+    return surface_point(*hit);
 }
 
 std::optional<SurfacePoint> SpatialTree::nearest_within(const Vec3& point, double limit) const {

@@ -32,7 +32,8 @@ TEST_CASE("fidelity = thesis works in builds with kernel/thesis, and is refused 
     const std::string shape = "local m = lissom.shapes.grid{} ";
     for (const char* use : {"lissom.deformer(m, { fidelity = 'thesis' })",
                             "lissom.merge(m, m:copy(), { fidelity = 'thesis' })",
-                            "lissom.paste{ source = m, target = m:copy(), region = m:region{ 1 }, "
+                            "lissom.paste{ source = m, target = m:copy(), region = "
+                            "m:region{ vertices = { 1, 2, 3 } }, placement = { at = { 0, 0, 0 } }, "
                             "fidelity = 'thesis' }"}) {
         CAPTURE(use);
         const std::string error = lua.run(shape + use);

@@ -154,6 +154,15 @@ TEST_CASE("shell: bad options and hair without length are refused") {
     CHECK(make_shell(strands_of({{Vec3(0, 0, 0), Vec3(100, 90, 80)}})).face_count() > 0);
 }
 
+TEST_CASE("shell: one very long strand takes the memory that it is charged, and no more") {
+    const Strands hair =
+        strands_of({{{0, 0, 0}, {0, 0.1, 0}, {0, 0.2, 0}}, {{0.02, 0, 0}, {0.02, 0.3, -4691663}}});
+    ContextOptions options;
+    options.memory_limit = 100'000'000;
+    CHECK(error_of([&] { make_shell(hair, {}, Context(options)); }).code() ==
+          ErrorCode::memory_limit);
+}
+
 TEST_CASE("silhouette: equal hair has no error, and half of it one of a half") {
     Strands both = board(-0.15);
     append(both, board(0.05));

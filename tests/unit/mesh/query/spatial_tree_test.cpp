@@ -440,6 +440,21 @@ TEST_CASE("a point is hidden by what lies between it and the eye, and by nothing
     CHECK(!tree.hides(above, up));
 }
 
+TEST_CASE("a nearest point whose distance has no square is an error, not a triangle") {
+    for (const double size : {1e155, 1e300}) {
+        CAPTURE(size);
+        Mesh ball = make_sphere({.segments = 3});
+        for (Vec3& p : ball.edit_positions()) p *= size;
+        const SpatialTree tree(ball);
+        CHECK(test::error_of([&] { tree.nearest(3.0 * size * Vec3::UnitX()); }).code() ==
+              ErrorCode::not_finite);
+    }
+    const SpatialTree tree(make_sphere({.segments = 3}));
+    CHECK(test::error_of([&] { tree.nearest(1e160 * Vec3::UnitX()); }).code() ==
+          ErrorCode::not_finite);
+    CHECK(tree.nearest(1e150 * Vec3::UnitX()).distance == doctest::Approx(1e150));
+}
+
 TEST_CASE("trees of surfaces as far apart as numbers reach are built") {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
