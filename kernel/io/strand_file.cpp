@@ -102,7 +102,7 @@ constexpr StrandCapacity kTressFx{.widths = true,
                                   .root_uvs = true,
                                   .point_count = tressfx_points};
 constexpr StrandCapacity kRib{.widths = true, .colors = true, .groups = true};
-constexpr StrandCapacity kGltf{.colors = true};
+constexpr StrandCapacity kGltf = kUsda;
 constexpr StrandCapacity kObj{.groups = true};
 
 constexpr std::array<StrandFormat, 9> kStrandFormats{{
@@ -112,8 +112,8 @@ constexpr std::array<StrandFormat, 9> kStrandFormats{{
     {"tfx", nullptr, read_tressfx, write_plainly<write_tressfx>, kTressFx},
     {"ply", nullptr, read_ply_strands, write_plainly<write_ply_strands>, kPly},
     {"rib", nullptr, nullptr, write_rib_file, kRib},
-    {"glb", nullptr, nullptr, write_plainly<write_glb_strands>, kGltf},
-    {"gltf", nullptr, nullptr, write_plainly<write_gltf_strands>, kGltf},
+    {"glb", nullptr, read_gltf_strands, write_plainly<write_glb_strands>, kGltf},
+    {"gltf", nullptr, read_gltf_strands, write_plainly<write_gltf_strands>, kGltf},
     {"obj", nullptr, nullptr, write_plainly<write_obj_strands>, kObj},
 }};
 

@@ -1,7 +1,7 @@
 /// Hair files: loading and saving strands by extension. .hair (Cem Yuksel), .data (HairSalon,
-/// HairNet), .usda (BasisCurves), .tfx (TressFX) and .ply (points and edges, as HairStep's) are
-/// read and written; .rib (a scene for RenderMan), .glb and .gltf (one LINES primitive) and .obj
-/// (lines) are written. Each format has a file of its own, which documents its contents.
+/// HairNet), .usda (BasisCurves), .tfx (TressFX), .ply (points and edges, as HairStep's), .glb and
+/// .gltf (lines) are read and written; .rib (a scene for RenderMan) and .obj (lines) are written.
+/// Each format has a file of its own, which documents its contents.
 ///
 /// In the kernel hair is in metres, y up, widths are diameters. Strands are checked before they are
 /// written: the report names the findings, the changes for the file, and the omissions; so does the

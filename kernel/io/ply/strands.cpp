@@ -10,8 +10,9 @@
 
 #include "kernel/io/ply/header.h"
 #include "kernel/io/ply/number_source.h"
-#include "kernel/io/ply/strand_links.h"
 #include "kernel/io/record/index_check.h"
+#include "kernel/io/record/strand_links.h"
+#include "kernel/io/record/strand_values.h"
 #include "kernel/io/stream/byte_source.h"
 #include "kernel/io/stream/scalar.h"
 #include "kernel/io/stream/ticker.h"
@@ -288,36 +289,11 @@ class HairBuilder {
         return values;
     }
 
-    // The fewest values: one of all, one a strand, or one a point.
-    template <typename Value>
-    void take(StrandValues<Value>& values, const std::vector<Value>& of_points) const {
-        bool each_strand = true;
-        for (Index s = 0; s < size(); ++s) {
-            for (Index p = order_.offsets[at(s)]; p < order_.offsets[at(s) + 1]; ++p) {
-                each_strand =
-                    each_strand && of_points[at(p)] == of_points[at(order_.offsets[at(s)])];
-            }
-        }
-        values.domain = each_strand ? StrandDomain::strand : StrandDomain::point;
-        values.values = of_points;
-        if (!each_strand) return;
-        values.values.clear();
-        bool one = true;
-        for (Index s = 0; s < size(); ++s) {
-            values.values.push_back(of_points[at(order_.offsets[at(s)])]);
-            one = one && values.values.back() == values.values.front();
-        }
-        if (!one || values.values.empty()) return;
-        values.common = values.values.front();
-        values.domain = StrandDomain::all;
-        values.values.clear();
-    }
-
     void set_point_values(Strands& strands) const {
         if (strands.empty()) return;
         if (points_.find("thickness")) {
             StrandWidths widths;
-            take(widths, gathered({"thickness"}));
+            take_fewest(order_.offsets, gathered({"thickness"}), widths);
             strands.set_widths(std::move(widths));
         }
         if (points_.find("red") && points_.find("green") && points_.find("blue")) {
@@ -325,7 +301,7 @@ class HairBuilder {
             std::vector<Eigen::Vector3f> list;
             for (std::size_t i = 0; i < numbers.size(); i += 3) list.emplace_back(&numbers[i]);
             StrandValues<Eigen::Vector3f> colors{Eigen::Vector3f::Zero()};
-            take(colors, list);
+            take_fewest(order_.offsets, std::move(list), colors);
             strands.set_colors(std::move(colors));
         }
         const bool exact = points_.find("transparency") != nullptr;
@@ -335,7 +311,7 @@ class HairBuilder {
             std::transform(list.begin(), list.end(), list.begin(),
                            [](float a) { return 1.0f - a; });
         StrandValues<float> transparency{0.0f};
-        take(transparency, list);
+        take_fewest(order_.offsets, std::move(list), transparency);
         strands.set_transparency(std::move(transparency));
     }
 

@@ -71,7 +71,14 @@ std::string in_quotes(std::string_view text) {
 std::string without_tag(std::string_view message) {
     const std::size_t end = message.find("] ");
     const bool tagged = message.starts_with('[') && end != std::string_view::npos;
-    return std::string(tagged ? message.substr(end + 2) : message);
+    const std::string text(tagged ? message.substr(end + 2) : message);
+    // The last token may be all data of a file.
+    constexpr std::string_view kLastRead = "last read: ";
+    constexpr std::size_t kMostRead = 120;
+    const std::size_t read = text.find(kLastRead);
+    if (read == std::string::npos || text.size() - read < kMostRead) return text;
+    const std::size_t token = read + kLastRead.size();
+    return text.substr(0, token) + in_quotes(std::string_view(text).substr(token + 1));
 }
 
 }  // namespace lissom

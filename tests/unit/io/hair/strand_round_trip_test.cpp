@@ -80,7 +80,7 @@ TEST_CASE("real hair keeps its points through the other formats") {
     const auto path = data_file("hair/cstrands00001.data");
     if (!path) return;
     const Strands strands = load_strands(*path);
-    for (const char* extension : {"hair", "data", "usda", "ply"}) {
+    for (const char* extension : {"hair", "data", "usda", "ply", "glb", "gltf"}) {
         CAPTURE(extension);
         check_same_points(back(strands, extension), strands);
     }
@@ -163,7 +163,7 @@ TEST_CASE(".data keeps strands of one point, which say that there is no hair") {
 
 TEST_CASE("unit and axes of a file come back, widths with them") {
     const Strands strands = rich_hair(20);
-    for (const char* extension : {"hair", "data", "usda", "ply"}) {
+    for (const char* extension : {"hair", "data", "usda", "ply", "glb", "gltf"}) {
         CAPTURE(extension);
         StrandSaveOptions save;
         save.up = UpAxis::z;
@@ -233,7 +233,7 @@ TEST_CASE("what cannot be loaded or saved is told with the path") {
           }) == ErrorCode::not_finite);
 }
 
-TEST_CASE("PLY comes back with an equal hash, but for profiles of widths") {
+TEST_CASE("PLY and glTF come back with an equal hash, but for profiles of widths") {
     Strands strands = rich_hair(40);
     StrandWidths widths = strands.widths();
     widths.profile.clear();
@@ -246,17 +246,20 @@ TEST_CASE("PLY comes back with an equal hash, but for profiles of widths") {
     strands.set_guides(guides);
     strands.set_groups(std::vector<Index>(strands.groups()), {"a \"b\"", "back hair"});
     strands.set_comment("grown here,\nand there");
-    const EncodedStrands written = encode_strands(strands, "ply");
-    CHECK(written.report.empty());
-    CHECK(hash(decode_strands(written.bytes, "ply")) == hash(strands));
-    const Strands plain = random_hair(10);
-    CHECK(hash(back(plain, "ply")) == hash(plain));
-    const Strands profiled = back(rich_hair(20), "ply");
-    std::vector<float> a, b;
-    for (Index s = 0; s < 20; ++s) {
-        widths_of(rich_hair(20), s, a);
-        widths_of(profiled, s, b);
-        CHECK(a == b);
+    for (const char* format : {"ply", "glb", "gltf"}) {
+        CAPTURE(format);
+        const EncodedStrands written = encode_strands(strands, format);
+        CHECK(written.report.empty());
+        CHECK(hash(decode_strands(written.bytes, format)) == hash(strands));
+        const Strands plain = random_hair(10);
+        CHECK(hash(back(plain, format)) == hash(plain));
+        const Strands profiled = back(rich_hair(20), format);
+        std::vector<float> a, b;
+        for (Index s = 0; s < 20; ++s) {
+            widths_of(rich_hair(20), s, a);
+            widths_of(profiled, s, b);
+            CHECK(a == b);
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-#include "kernel/io/ply/strand_links.h"
+#include "kernel/io/record/strand_links.h"
 
 #include <array>
 #include <string>
