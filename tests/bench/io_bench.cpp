@@ -12,7 +12,7 @@
 
 #include "kernel/io/mesh_file.h"
 #include "kernel/mesh/shapes/shapes.h"
-#include "tests/bench/heap.h"
+#include "tests/bench/peers/heap.h"
 #include "tests/bench/peers/io_rivals.h"
 #include "tests/bench/report.h"
 

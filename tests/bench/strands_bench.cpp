@@ -3,16 +3,10 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "bindings/engine/lissom_hair.h"
-#include "kernel/core/error.h"
-#include "kernel/hair/follow/strand_follow.h"
-#include "kernel/hair/follow/strand_roots.h"
-#include "kernel/hair/guides/guide_set.h"
 #include "kernel/hair/operators/strand_bend.h"
 #include "kernel/hair/operators/strand_braid.h"
 #include "kernel/hair/operators/strand_collision.h"
@@ -21,15 +15,11 @@
 #include "kernel/hair/operators/strand_detail.h"
 #include "kernel/hair/operators/strand_frizz.h"
 #include "kernel/hair/operators/strand_gather.h"
-#include "kernel/hair/scalp/roots.h"
-#include "kernel/hair/scalp/scalp.h"
 #include "kernel/hair/strands/strand_clump.h"
 #include "kernel/hair/strands/strand_guides.h"
 #include "kernel/hair/strands/strand_noise.h"
 #include "kernel/hair/strands/strand_operators.h"
 #include "kernel/hair/strands/strand_trim.h"
-#include "kernel/io/hair/guide_file.h"
-#include "kernel/mesh/shapes/head.h"
 #include "tests/bench/report.h"
 
 namespace lissom::bench {
@@ -121,115 +111,6 @@ std::vector<Operator> operators() {
     };
 }
 
-// 100K strands of 16 points rebuilt by the engine's header, on two threads, against writing them.
-void run_guides(Report& report, const Strands& hair, const Context& context) {
-    const std::string name = "rebuild from guides";
-    if (!report.wants(name)) return;
-    const GuideSet set = make_guide_set(hair, {.count = 400, .points = 16}, context);
-    const std::string bytes = encode_guides(set);
-    std::vector<std::uint32_t> memory((bytes.size() + 3) / 4);
-    std::memcpy(memory.data(), bytes.data(), bytes.size());
-    lissom_hair open;
-    require(lissom_hair_open(&open, memory.data(), bytes.size()) == LISSOM_HAIR_OK,
-            "the guide file does not open");
-    const std::size_t numbers = 3 * std::size_t{open.point_count};
-    std::vector<float> guides(open.guides, open.guides + numbers * open.guide_count);
-    std::vector<float> turns(3 * guides.size()), out(numbers * open.strand_count);
-    for (std::size_t i = 0; i < guides.size(); ++i) guides[i] += 1e-3f * static_cast<float>(i % 7);
-    lissom_hair_turns(&open, guides.data(), turns.data());
-    const auto over_strands = [&](const auto& work) {
-        return seconds([&] { context.parallel_for(0, kStrands, 512, work); });
-    };
-    const auto rebuild = [&](const float* turned) {
-        return over_strands([&](Index begin, Index end) {
-            lissom_hair_rebuild(&open, guides.data(), turned, static_cast<std::uint32_t>(begin),
-                                static_cast<std::uint32_t>(end - begin),
-                                out.data() + numbers * at(begin));
-        });
-    };
-    const auto write = [&] {
-        return over_strands([&](Index begin, Index end) {
-            std::memset(out.data() + numbers * at(begin), 1,
-                        numbers * at(end - begin) * sizeof(float));
-        });
-    };
-    const auto add = [&](const std::string& row, const float* turned, double target) {
-        const Quotient quotient = quotient_of(
-            9, [&] { return rebuild(turned); }, write);
-        report.add({row, 1e3 * quotient.above, "ms"});
-        report.add_ratio(row + " / writing its points", "memory on two threads", quotient, target);
-    };
-    const int16_t* const details = open.details;
-    open.details = nullptr;
-    add(name, nullptr, 3.0);
-    open.details = details;
-    add(name + ", with details", nullptr, -1.0);
-    add(name + ", with turned details", turns.data(), -1.0);
-}
-
-// 100K strands of 16 points, which lie over the scalp for a part of their way.
-Strands hair_on_head(const Mesh& head, const Scalp& scalp, const Context& context) {
-    constexpr Index kFollowPoints = 16;
-    const std::vector<Root> roots = make_roots(head, scalp, {.count = kStrands}, context);
-    std::vector<float> points;
-    std::vector<Index> offsets = {0};
-    for (const Root& root : roots) {
-        for (Index k = 0; k < kFollowPoints; ++k) {
-            const double a = 0.25 * k / (kFollowPoints - 1);
-            const Vec3 p =
-                root.position + std::min(a, 0.03) * root.normal - Vec3(0, 2.0 * a * a, 0);
-            for (const double x : p) points.push_back(static_cast<float>(x));
-        }
-        offsets.push_back(offsets.back() + kFollowPoints);
-    }
-    Strands hair(std::move(points), std::move(offsets));
-    hair.set_roots(roots_on(head, roots));
-    return hair;
-}
-
-Mesh leaning(Mesh head) {
-    for (Vec3& p : head.edit_positions()) {
-        const double up = std::clamp((p.y() + 0.14) / 0.14, 0.0, 1.0), angle = 0.4 * up * up;
-        p = Vec3(p.x() * std::cos(angle) - p.y() * std::sin(angle),
-                 p.x() * std::sin(angle) + p.y() * std::cos(angle), p.z());
-    }
-    return head;
-}
-
-// One frame of hair that follows its head, against writing its points.
-void run_follow(Report& report, const Context& context) {
-    const std::string name = "follow the head";
-    if (!report.wants(name)) return;
-    const Mesh head = make_head(), bent = leaning(head);
-    const Strands hair = hair_on_head(head, Scalp(head), context);
-    std::vector<float> out(hair.points().size());
-    const auto write = [&] {
-        return seconds([&] {
-            context.parallel_for(0, kStrands, 512, [&](Index begin, Index end) {
-                const std::size_t first = 3 * at(hair.first_point(begin));
-                const std::size_t last = 3 * at(hair.offsets()[at(end)]);
-                std::memset(&out[first], 1, (last - first) * sizeof(float));
-            });
-        });
-    };
-    const auto add = [&](const std::string& row, FollowCollision collision, double target) {
-        FollowOptions options;
-        options.collision = collision;
-        std::optional<StrandFollower> follower;
-        report.add({row + ", prepared",
-                    1e3 * seconds([&] { follower.emplace(hair, head, options, context); }), "ms"});
-        const Quotient quotient = quotient_of(
-            5, [&] { return seconds([&] { follower->move(bent.positions(), out, context); }); },
-            write);
-        report.add({row, 1e3 * quotient.above, "ms"});
-        report.add_ratio(row + " / writing its points", "memory on two threads", quotient, target);
-    };
-    report.title("100K strands of 16 points on a head of 10K vertices");
-    add(name, FollowCollision::near, 8.0);
-    add(name + ", free", FollowCollision::none, -1.0);
-    add(name + ", exact", FollowCollision::all, -1.0);
-}
-
 void run(Report& report) {
     ContextOptions options;
     options.threads = 2;
@@ -258,8 +139,6 @@ void run(Report& report) {
         report.add_ratio(one.name + " / reading and writing its points", "memory on two threads",
                          quotient, one.target);
     }
-    run_guides(report, grown, context);
-    run_follow(report, context);
 }
 
 }  // namespace

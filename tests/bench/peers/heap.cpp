@@ -1,4 +1,4 @@
-#include "tests/bench/heap.h"
+#include "tests/bench/peers/heap.h"
 
 #include <atomic>
 #include <cstdlib>
