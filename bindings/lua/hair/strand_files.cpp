@@ -134,7 +134,8 @@ Function load_strands_function() {
         .body = load_hair,
         .summary =
             "Reads hair from a .hair, .data (HairSalon, HairNet), .usda (BasisCurves), .tfx "
-            "(TressFX) or .ply file (points with edges, as HairStep and Open3D write them, or "
+            "(TressFX), .glb, .gltf (lines) or .ply file (points with edges, as HairStep and "
+            "Open3D write them, or "
             "with an element 'strand').",
         .arguments = {string("path", "The file; its extension names the format.")},
         .options = {up_option("The file's up axis; z is turned to y, which is up here.",

@@ -4482,7 +4482,7 @@ function lissom.save_groom(groom, path) end
 ---@field up? "y"|"z" The file's up axis; z is turned to y, which is up here. Default: the file's own, else y.
 ---@field unit? number Length of the file's unit in metres. In metres. Default: the file's own, else 1.
 
----Reads hair from a .hair, .data (HairSalon, HairNet), .usda (BasisCurves), .tfx (TressFX) or .ply file (points with edges, as HairStep and Open3D write them, or with an element 'strand').
+---Reads hair from a .hair, .data (HairSalon, HairNet), .usda (BasisCurves), .tfx (TressFX), .glb, .gltf (lines) or .ply file (points with edges, as HairStep and Open3D write them, or with an element 'strand').
 ---@param path string The file; its extension names the format.
 ---@param options? lissom.Load_strandsOptions
 ---@return lissom.Strands strands # The strands.
