@@ -104,7 +104,7 @@ double greatest_turn(const Mesh& mesh) {
     return angle.value();
 }
 
-bool has_fault(const MergeReport& report, MergeFault fault) {
+bool is_told(const MergeReport& report, MergeFault fault) {
     return std::any_of(report.reasons.begin(), report.reasons.end(),
                        [&](const MergeReason& reason) { return reason.fault == fault; });
 }
@@ -140,7 +140,7 @@ TEST_CASE("paste: drags over coarse and technical shapes refuse no frame and tur
             const PasteResult made = paste.merge();
             check_frame(made, drag.scale);
             CHECK(greatest_turn(made.merged.mesh) < kTurnedOver);
-            CHECK_FALSE(has_fault(made.merged.report, MergeFault::crossings));
+            CHECK_FALSE(is_told(made.merged.report, MergeFault::crossings));
         }
     }
 }
