@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "bindings/lua/core/push_list.h"
@@ -119,6 +120,8 @@ template <typename Object>
 int push_made(const Call& call, const std::shared_ptr<Object>& object) {
     const auto ref = call.create<Object>();
     ref.set(object);
+    // An object that returns its mesh then returns this one.
+    if constexpr (std::is_same_v<Object, MeshObject>) call.remember(ref.get());
     call.charge(ref);
     return 1;
 }
