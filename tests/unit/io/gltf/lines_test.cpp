@@ -21,7 +21,7 @@ Error error_of_lines(const std::string& text) {
 }
 
 // Four points in a row, and two numbers more for each.
-GltfFile four_points(int mode, const Json& more = Json::object()) {
+GltfFile four_line_points(int mode, const Json& more = Json::object()) {
     GltfFile file;
     Json primitive{
         {"mode", mode},
@@ -34,13 +34,13 @@ GltfFile four_points(int mode, const Json& more = Json::object()) {
 }  // namespace
 
 TEST_CASE("glTF hair: lines are pairs, strips are one strand, loops are opened") {
-    const Strands pairs = lines_of(four_points(1));
+    const Strands pairs = lines_of(four_line_points(1));
     REQUIRE(pairs.size() == 2);
     CHECK(pairs.root(1) == Eigen::Vector3f(2, 0, 0));
     CHECK(pairs.widths().common == kHairWidth);
     CHECK(pairs.colors() == nullptr);
     for (const int mode : {2, 3}) {
-        const Strands strip = lines_of(four_points(mode));
+        const Strands strip = lines_of(four_line_points(mode));
         REQUIRE(strip.size() == 1);
         CHECK(strip.point_count(0) == 4);
         CHECK(point_of(strip.strand(0), 3) == Vec3(2, 1, 0));
@@ -48,7 +48,7 @@ TEST_CASE("glTF hair: lines are pairs, strips are one strand, loops are opened")
 }
 
 TEST_CASE("glTF hair: indices in any order make strands, and points without lines are left out") {
-    GltfFile file = four_points(1);
+    GltfFile file = four_line_points(1);
     file.json["meshes"][0]["primitives"][0]["indices"] = file.indices({3, 2, 2, 1});
     const Strands strands = lines_of(file);
     REQUIRE(strands.size() == 1);
@@ -57,7 +57,7 @@ TEST_CASE("glTF hair: indices in any order make strands, and points without line
 }
 
 TEST_CASE("glTF hair: transforms of nodes move points and scale widths; nodes are groups") {
-    GltfFile file = four_points(1);
+    GltfFile file = four_line_points(1);
     file.json["meshes"][0]["primitives"][0]["attributes"]["_WIDTH"] =
         file.floats({1, 2, 3, 4}, "SCALAR");
     file.json["nodes"][0]["name"] = "left";
@@ -75,7 +75,7 @@ TEST_CASE("glTF hair: transforms of nodes move points and scale widths; nodes ar
 }
 
 TEST_CASE("glTF hair: colours of bytes, their alpha, and surfaces beside lines") {
-    GltfFile file = four_points(1);
+    GltfFile file = four_line_points(1);
     const std::vector<std::uint8_t> colors{255, 0, 51, 255, 255, 0, 51, 255,
                                            255, 0, 51, 51,  255, 0, 51, 51};
     file.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
@@ -95,14 +95,14 @@ TEST_CASE("glTF hair: what is no hair, and numbers that do not fit, are refused"
     GltfFile surface;
     surface.add_mesh(surface.square_primitive());
     CHECK(error_of_lines(surface.text()).code() == ErrorCode::unsupported);
-    GltfFile branch = four_points(1);
+    GltfFile branch = four_line_points(1);
     branch.json["meshes"][0]["primitives"][0]["indices"] = branch.indices({0, 1, 0, 2, 0, 3});
     CHECK(error_of_lines(branch.text()).code() == ErrorCode::file_syntax);
-    GltfFile loose = four_points(1);
+    GltfFile loose = four_line_points(1);
     loose.json["meshes"][0]["primitives"][0]["attributes"]["_WIDTH"] =
         loose.floats({1, 2}, "SCALAR");
     CHECK(error_of_lines(loose.text()).code() == ErrorCode::file_syntax);
-    GltfFile flat = four_points(1);
+    GltfFile flat = four_line_points(1);
     flat.json["meshes"][0]["primitives"][0]["attributes"]["_ROOT_UV"] =
         flat.floats({1, 2, 3, 4}, "SCALAR");
     CHECK(error_of_lines(flat.text()).code() == ErrorCode::file_syntax);
