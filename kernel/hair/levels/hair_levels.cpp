@@ -155,16 +155,23 @@ class LevelMaker {
 };
 
 // Strands of each group in turn, then those of none; all in one if they are not asked for.
-std::vector<std::pair<Index, Strands>> parts_of(const Strands& strands, bool by_group) {
+std::vector<std::pair<Index, Strands>> parts_of(const Strands& strands, bool by_group,
+                                                const Context& context) {
     std::vector<std::pair<Index, Strands>> parts;
     if (!by_group || strands.groups().empty()) {
         parts.emplace_back(kNoIndex, strands);
         return parts;
     }
-    for (Index group = 0; group <= count_of(strands.group_names()); ++group) {
-        const Index wanted = group < count_of(strands.group_names()) ? group : kNoIndex;
-        Strands part = select(strands, [&](Index s) { return strands.group(s) == wanted; });
-        if (!part.empty()) parts.emplace_back(wanted, std::move(part));
+    const Index groups = count_of(strands.group_names());
+    std::vector<std::vector<Index>> lists(at(groups) + 1);
+    for (Index s = 0; s < strands.size(); ++s) {
+        const Index group = strands.group(s);
+        lists[at(group == kNoIndex ? groups : group)].push_back(s);
+    }
+    for (Index group = 0; group <= groups; ++group) {
+        context.checkpoint();
+        if (lists[at(group)].empty()) continue;
+        parts.emplace_back(group < groups ? group : kNoIndex, select(strands, lists[at(group)]));
     }
     return parts;
 }
@@ -227,7 +234,7 @@ std::vector<HairLevel> make_hair_levels(const Strands& strands, const HairLevelO
     require_level_options(strands, options);
     Progress progress(context, "levels of hair");
     std::vector<HairLevel> levels;
-    for (const auto& part : parts_of(strands, options.by_group)) {
+    for (const auto& part : parts_of(strands, options.by_group, context)) {
         try {
             add_levels(strands, part, options, context, progress, levels);
         } catch (const Error& error) {
