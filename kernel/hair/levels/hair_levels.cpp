@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kPictureLines = 1080.0;
 constexpr Index kLeastShellTriangles = 20;
+constexpr std::size_t kMaxLevelGroups = 1000;
 
 void require_strand_level(const StrandLevelOptions& level, Index all) {
     const std::string have = "; the hair has " + std::to_string(all);
@@ -34,6 +35,9 @@ void require_strand_level(const StrandLevelOptions& level, Index all) {
 
 void require_level_options(const Strands& strands, const HairLevelOptions& options) {
     require(!strands.empty(), "levels need hair; there are no strands");
+    require(!options.by_group || strands.group_names().size() <= kMaxLevelGroups,
+            "levels of groups are made of at most 1000 groups; this hair has " +
+                std::to_string(strands.group_names().size()));
     require(!options.strands.empty() || !options.cards.empty() || options.shell,
             "there are no levels; give some of strands, cards or a shell");
     require(options.strands.size() <= kMaxHairLevels && options.cards.size() <= kMaxHairLevels,

@@ -74,9 +74,9 @@ struct HairLevel {
 };
 
 /// Makes levels of detail, by groups, and measures each against all hair (of its group). Errors:
-/// invalid_argument for options out of range, no levels, no strands, if all hair covers no pixel,
-/// and as make_cards, add_cap and make_shell; of a group they begin with its name; not_finite
-/// naming strands; memory_limit; cancelled.
+/// invalid_argument for options out of range, no levels, no strands, more than 1000 groups, if all
+/// hair covers no pixel, and as make_cards, add_cap and make_shell; of a group they begin with its
+/// name; not_finite naming strands; memory_limit; cancelled.
 std::vector<HairLevel> make_hair_levels(const Strands& strands,
                                         const HairLevelOptions& options = usual_hair_levels(),
                                         const Context& context = {});

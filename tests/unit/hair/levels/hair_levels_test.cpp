@@ -415,6 +415,10 @@ TEST_CASE("levels: budgets of 0 and of ten million, no levels and no hair are re
               ErrorCode::invalid_argument);
     }
     CHECK(message_of_levels(hair, bad[2]).find("the hair has 101") != std::string::npos);
+    Strands many = board(0.0);
+    many.set_groups(std::vector<Index>(at(many.size()), 0), std::vector<std::string>(1001, "lock"));
+    CHECK(message_of_levels(many, {.strands = {{.count = 1}}, .by_group = true}).find("has 1001") !=
+          std::string::npos);
     CHECK(code_of_level([] { make_hair_levels({}, {.strands = {{.count = 1}}}); }) ==
           ErrorCode::invalid_argument);
     CHECK(message_of_levels(two_groups(), {.cards = {{.sections = 1}}, .by_group = true})
