@@ -127,7 +127,7 @@ test("no function returns nil and a message", function()
         for _, name in ipairs{ "save", "load", "region", "attribute", "get", "info", "remove", "select",
             "solve", "preview", "basis", "bake", "cut", "fill", "trim", "save_basis", "hash" } do
             local found, method = pcall(function() return object[name] end)
-            for _, value in ipairs{ "no/such/x.obj", "nothing", -1, 1e300, {}, true } do
+            for _, value in ipairs{ "no/such/x.obj", test.file("nothing"), -1, 1e300, {}, true } do
                 if found and method then
                     expect.truthy(not returned(method, object, value))
                     expect.truthy(not returned(method, object))
