@@ -102,8 +102,9 @@ TEST_CASE("blends of a space of poses are those of the kernel, to the bit") {
     const char* name = nullptr;
     REQUIRE(lissom_pose_space_pose_name(host, own.space, 1, &name) == LISSOM_OK);
     CHECK(std::string(name) == "bent");
-    for (const auto& [wide, bent] :
+    for (const auto& pair :
          {std::pair(0.0, 0.0), {1.0, 0.0}, {0.0, 1.0}, {0.0, 0.5}, {0.3, 0.7}, {-0.2, 1.4}}) {
+        const double wide = pair.first, bent = pair.second;
         CAPTURE(wide);
         CAPTURE(bent);
         const auto expected = space.positions({{"wide", wide}, {"bent", bent}});
