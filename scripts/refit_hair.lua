@@ -10,7 +10,7 @@ local params = hairdo.params{
     name = "refit",
     count = 0,
     more = {
-        hair = { type = "file", default = "", help = "strands: .usda, .hair, .data, .tfx, .ply; else a bob" },
+        hair = { type = "file", default = "", help = "strands: usda, ply, glb, hair, data, tfx; else a bob" },
         guides = { type = "integer", default = 150, min = 3, max = 2000, help = "streams of the style" },
         place = { type = "boolean", default = true,
             help = "finds the unit and place of the strands; no: they lie on the head, in metres" },
