@@ -11,6 +11,8 @@ local UNITS = { 1, 0.01, 0.001, 0.1, 0.0254, 0.00254 }
 local ON_HEAD = 0.012
 -- So many strands fill the hair: others have no place far from all of them.
 local ENOUGH = 3000
+-- Strays are away with more than this part of their length.
+local STRAYS = 0.3
 -- Roots of hair of a head are spread by so much about their mean, in metres.
 local LEAST_SPREAD, GREATEST_SPREAD = 0.03, 0.13
 
@@ -308,18 +310,20 @@ local function without_short(strands, least)
     if any then strands:cull{ mask = mask } end
 end
 
---- Removes strands that run farther than `reach` metres from all of the others, as they do from a parting,
--- where the field is a mean of both sides. Returns the number of removed strands.
+--- Removes strands that mostly run farther than `reach` metres from all of the others, as they do from a
+-- parting, where the field is a mean of both sides. Returns the number of removed strands.
 function refit.remove_strays(hair, others, reach)
     local places, points = {}, others:copy():resample{ step = 0.7 * reach }:points()
     for i = 1, #points / 3 do places[i] = { points[3 * i - 2], points[3 * i - 1], points[3 * i] } end
     local cells, mask, count, grown, first = Cells.of(places, reach), {}, 0, hair:points(), 1
     for s, size in ipairs(hair:point_counts()) do
-        mask[s] = 0
+        local away, all = 0, 0
         for i = first, first + size - 1, 3 do
             local p = { grown[3 * i - 2], grown[3 * i - 1], grown[3 * i] }
-            if not cells:near(p, function() return true end) then mask[s] = 1 end
+            all = all + 1
+            if not cells:near(p, function() return true end) then away = away + 1 end
         end
+        mask[s] = away > STRAYS * all and 1 or 0
         count, first = count + mask[s], first + size
     end
     if count > 0 then hair:cull{ mask = mask } end

@@ -690,6 +690,15 @@ test("a style of given hair flows as that does, as long, and is edited like one'
     expect.truthy(again:grow(made.grow):hash() ~= made.style:grow(made.grow):hash())
 end)
 
+test("strands that mostly run apart from all others are strays, and no others", function()
+    local hair = given()
+    local all = hair:copy()
+    expect.equal(refit.remove_strays(all, hair, 0.01), 0)
+    all:append(hair:select{ first = 5 }:transform{ translate = { 0, 0.3, 0 } })
+    expect.equal(refit.remove_strays(all, hair, 0.01), 5)
+    expect.equal(#all, #hair)
+end)
+
 test("hair grows where there was hair, and nowhere else", function()
     local hair = given()
     local left = hair:select{ where = function(_, x) return x > 0 end }
