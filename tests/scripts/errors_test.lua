@@ -169,4 +169,8 @@ test("a name of version 0.1 is an error that says what to write instead", functi
         expect.error(call, advice)
     end
     expect.error(function() cup:fill(cup:boundaries()[1], { ["refine"] = true }) end, "subdivide")
+    expect.error(function()
+        lissom.paste{ source = mesh, target = mesh:copy(), region = mesh:region{ all = true },
+            placement = { at = { 0, 0, 0 } }, ["fidelity"] = "lissom" }
+    end, "fidelity = \"default\"")
 end)

@@ -24,6 +24,7 @@ constexpr OldName kOldNames[] = {
     {OldKind::option, "fill", "refine", "subdivide", "subdivide = false"},
     {OldKind::value, "merge.fidelity", "lissom", "default", "fidelity = \"default\""},
     {OldKind::value, "merger.fidelity", "lissom", "default", "fidelity = \"default\""},
+    {OldKind::value, "paste.fidelity", "lissom", "default", "fidelity = \"default\""},
     {OldKind::field, "lissom.DeformStats", "refined_vertices", "subdivided_vertices",
      "deformer:stats().subdivided_vertices"},
     {OldKind::field, "lissom.JoinReport", "refined", "subdivided", "report.joins[1].subdivided"},

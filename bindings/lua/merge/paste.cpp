@@ -346,10 +346,10 @@ std::vector<Parameter> paste_parameters() {
             .in("degrees")
             .between(0, 180)
             .defaults(30.0),
-        choice("fidelity", {"lissom", "thesis"},
+        choice("fidelity", {"default", "thesis"},
                "thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, a "
                "boundary along edges, and its deformation, for comparison.")
-            .defaults("lissom")};
+            .defaults("default")};
 }
 
 std::vector<ErrorCode> paste_errors() {

@@ -4342,7 +4342,7 @@ function lissom.merger(source, target, options) end
 ---@field loop? "smooth"|"mesh" smooth: the boundary runs through faces, near the best loop of edges, so that the seam has no teeth. mesh: it is that loop. Default: "smooth".
 ---@field normals? number Weight of the normals in the energy of a boundary; .1 to .3 help features that overhang. Default: 0.
 ---@field crease? number About the greatest angle at which part and target may meet, instead of the part's boundary turning until its surface goes on in the target's: the more it turns, the more the part is distorted beside it. 0: no crease, as with fidelity = "thesis". In degrees. Default: 30.
----@field fidelity? "lissom"|"thesis" thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, a boundary along edges, and its deformation, for comparison. Default: "lissom".
+---@field fidelity? "default"|"thesis" thesis: maps that keep angles alone, the energy of Eq 3.1 with its similarity, a boundary along edges, and its deformation, for comparison. Default: "default".
 
 ---Puts a feature of one mesh onto another, wherever that is and however it is curved (thesis section 3.4): a nose, an ear, a horn, a handle. Lays the surface around the feature and the target out in one plane; `optimize` then finds the best boundary and `merge` makes the new mesh.
 ---@param options lissom.PasteOptions
