@@ -20,7 +20,7 @@ int give_strand_details(Call& call) {
         options.span = call.number("span");
         options.scale = call.number("scale");
         options.turn = call.number("turn");
-        options.refine = call.boolean("refine");
+        options.resample = call.boolean("resample");
         add_detail(strands, examples_of(call), options, call.context());
     });
 }
@@ -78,8 +78,9 @@ std::vector<Function> strand_detail_methods() {
                      "turn, at random.")
                   .defaults(d.turn)
                   .between(0, 1),
-              boolean("refine", "Strands with longer segments than their example get more points.")
-                  .defaults(d.refine)},
+              boolean("resample",
+                      "Strands with longer segments than their example get more points.")
+                  .defaults(d.resample)},
              effect_fields(d)),
          .results = kSelfStrands,
          .errors = errors_of_files(),

@@ -3079,7 +3079,7 @@ function Strands:attach(options) end
 ---@field span? number Bends shorter than this are details, longer ones the course of a strand. In metres. Default: 0.06.
 ---@field scale? number Size of the details, as a multiple of that of the examples. Default: 1.
 ---@field turn? number Details of each guide are turned about the strand by up to this part of a turn, at random. Default: 0.
----@field refine? boolean Strands with longer segments than their example get more points. Default: true.
+---@field resample? boolean Strands with longer segments than their example get more points. Default: true.
 ---@field factor? number Part of the effect; 0 changes nothing. Default: 1.
 ---@field mask? number[]|string|lissom.Region|(fun(strand: integer, x: number, y: number, z: number): number|boolean) Part of the effect on each strand, 0 to 1. Default: all strands.
 ---@field shape? number|number[] Course of the effect along the strand. Default: 0.

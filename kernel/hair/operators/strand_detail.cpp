@@ -486,7 +486,7 @@ void add_detail(Strands& strands, const Strands& examples, const DetailOptions& 
     const std::vector<Example> list = examples_of(examples, options.span);
     if (options.factor == 0.0) return;
     Progress progress(context, "give details to strands");
-    if (!options.refine) return give_details(strands, list, options, {}, context);
+    if (!options.resample) return give_details(strands, list, options, {}, context);
     std::vector<double> lengths;
     for (Index s = 0; s < strands.size(); ++s) lengths.push_back(length(strands.strand(s)));
     Strands made = refined(strands, list, options, context);

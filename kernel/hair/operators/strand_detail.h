@@ -17,7 +17,7 @@ struct DetailOptions : StrandOperatorOptions {
     /// to 1.
     double turn = 0.0;
     /// Strands with longer segments than their example get more points.
-    bool refine = true;
+    bool resample = true;
 };
 
 /// Gives strands the details of examples in place of their own: the course of a strand stays. A

@@ -195,7 +195,7 @@ TEST_CASE("details alone hang straight, and give the same hair as their example"
     CHECK(double(-way.y()) > 0.95 * double(way.norm()));
     Strands a = smooth_hair(3, 0.2, 161), b = a;
     DetailOptions options;
-    options.refine = false;
+    options.resample = false;
     add_detail(a, example, options);
     add_detail(b, wisps, options);
     CHECK(turning(a.strand(1)) == doctest::Approx(turning(b.strand(1))).epsilon(0.1));
