@@ -85,7 +85,7 @@ std::vector<Operator> operators() {
     BunOptions buns;
     buns.tie = {.center = {0, -0.05, 0}, .direction = -Vec3::UnitY(), .reach = 1.0};
     DetailOptions kinks;
-    kinks.refine = false;
+    kinks.resample = false;
     const Strands kinked = kinked_strand();
     return {
         {"gather", kTarget, [](Strands& s, const Context& c) { gather(s, {}, c); }},
