@@ -113,7 +113,7 @@ struct MergeOptions {
     /// long as those it meets. A boundary with edges more than 3 times as long as edges inside the
     /// source is coarse (section 2.5): its faces are split until it is not, 4 times at most, and
     /// those of the target with them, until its edges are at most 1.5 times as long.
-    bool refine = true;
+    bool subdivide = true;
     /// Looks for faces that run through others and did not before; see
     /// MergeReport::intersections.
     bool find_intersections = true;
@@ -160,7 +160,7 @@ struct JoinReport {
     double source_turn = 0.0, target_turn = 0.0;
     bool source_trimmed = false, target_trimmed = false;
     /// Whether faces of the source, and of the target, were split for it.
-    bool refined = false, target_refined = false;
+    bool subdivided = false, target_subdivided = false;
     /// Whether the parts fit: both boundaries are one curve, as they lie or, in the free
     /// configuration, up to a similarity, and the surface goes on across it. All vertices are kept
     /// there, the target's in place and the source's under that similarity, and nothing is

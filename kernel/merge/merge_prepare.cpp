@@ -578,7 +578,7 @@ Boundaries find_boundaries(Sides sides, std::span<const Join> joins, const Merge
     result.source = std::move(sides.source);
     const MergeMethod method = method_of(options);
     make_loops(result, method.loops);
-    if (options.refine) refine_coarse(result, method.loops, context);
+    if (options.subdivide) refine_coarse(result, method.loops, context);
     if (method.overlap) open_targets(*method.overlap, options.target_transition, result, context);
     return result;
 }

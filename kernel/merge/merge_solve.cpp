@@ -314,8 +314,8 @@ MatchedKeys matched_keys(const Boundaries& from, const MergeOptions& options, st
 LoopPair matched_loops(const Boundaries& from, LoopMeasure measure, std::size_t j,
                        const MatchedKeys& matched, JoinReport& join) {
     const Loop &source = from.source_curves[j], &target = from.target_curves[j];
-    join.refined = from.refined[j] != 0;
-    join.target_refined = from.target_refined[j] != 0;
+    join.subdivided = from.refined[j] != 0;
+    join.target_subdivided = from.target_refined[j] != 0;
     join.source_size = source.size();
     join.target_size = target.size();
     join.fits = matched.fit.has_value();

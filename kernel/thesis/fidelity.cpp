@@ -42,7 +42,7 @@ MergeOptions thesis_merge_options(Configuration configuration) {
     options.turn_frames = configuration == Configuration::free;
     options.feature_motion = FeatureMotion::common;
     options.seam = SeamKind::band;
-    options.collar = options.trim = options.refine = false;
+    options.collar = options.trim = options.subdivide = false;
     options.thesis = &thesis_formulas();
     return options;
 }

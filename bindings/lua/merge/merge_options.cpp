@@ -191,7 +191,7 @@ std::vector<OptionRow> option_rows(bool slow) {
              .optional("true")
              .thesis("2.5", "false, as which boundaries have too few vertices is not said"),
          Bridge::refused,
-         [](const Call& call, MergeOptions& to) { to.refine = call.boolean("subdivide"); }},
+         [](const Call& call, MergeOptions& to) { to.subdivide = call.boolean("subdivide"); }},
         {boolean("intersections",
                  "Looks for faces that run through one another and did not before, for the report.")
              .defaults(slow),

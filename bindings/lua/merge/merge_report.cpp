@@ -162,8 +162,8 @@ void push_join(const Call& call, const JoinReport& join) {
     call.set_field("target_turn", call.push(kDegrees * join.target_turn));
     call.set_field("source_trimmed", call.push(join.source_trimmed));
     call.set_field("target_trimmed", call.push(join.target_trimmed));
-    call.set_field("subdivided", call.push(join.refined));
-    call.set_field("target_subdivided", call.push(join.target_refined));
+    call.set_field("subdivided", call.push(join.subdivided));
+    call.set_field("target_subdivided", call.push(join.target_subdivided));
     call.set_field("fits", call.push(join.fits));
     call.set_field("same_side", call.push(join.same_side));
     push_band_quality(call, join.band);

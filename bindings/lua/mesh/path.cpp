@@ -74,7 +74,7 @@ int fill_boundary(Call& call) {
     const auto boundary = call.object<PathObject>("boundary");
     FillOptions options;
     options.method = call.choice<FillMethod>("method");
-    options.refine = call.boolean("subdivide");
+    options.subdivide = call.boolean("subdivide");
     options.density = call.number("density");
     options.fair = call.boolean("fair");
     options.continuity = call.choice<FairContinuity>("continuity");
@@ -330,7 +330,7 @@ assert(#path == 11))"},
                      "to the mesh is least, or with those of the least area, a lid.")
                   .defaults("angle"),
               boolean("subdivide", "Makes the patch as dense as the mesh around it.")
-                  .defaults(fill_defaults.refine),
+                  .defaults(fill_defaults.subdivide),
               number("density",
                      "Its density over that of the mesh around it; more than 1 lets a patch bend "
                      "whose rim has few vertices.")

@@ -101,7 +101,7 @@ FillReport fill(Mesh& mesh, const Path& boundary, const FillOptions& options,
         report.parts = triangulate_hole(patch, outline, context);
     }
     progress.step(0.3);
-    if (options.refine) {
+    if (options.subdivide) {
         report.limit_reached =
             !patch.refine(outline, options.density, options.maximum_vertices, context);
     }

@@ -22,7 +22,7 @@ enum class FillMethod {
 struct FillOptions {
     FillMethod method = FillMethod::angle;
     /// Inserts vertices until the patch is as dense as the mesh around the hole.
-    bool refine = true;
+    bool subdivide = true;
     /// Density relative to the mesh around the hole; above 0. More than 1 lets a patch bend
     /// whose rim has few vertices.
     double density = 1.0;

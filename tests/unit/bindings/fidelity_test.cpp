@@ -71,7 +71,7 @@ Names of_merge() {
     note(names, "weight", weight != t.transition_weight);
     note(names, "trim", trim != t.trim);
     note(names, "max_turn", turn != t.max_turn);
-    note(names, "subdivide", refine != t.refine);
+    note(names, "subdivide", refine != t.subdivide);
     note(names, "intersections", intersections != t.find_intersections);
     CHECK(mend == t.mend);
     CHECK(directions.size() == t.directions.size());

@@ -141,7 +141,7 @@ MergeOptions any_options(std::mt19937& random) {
     MergeOptions options;
     options.smooth = one_of(2) * 3;
     options.collar = one_of(2) == 0;
-    options.refine = one_of(2) == 0;
+    options.subdivide = one_of(2) == 0;
     options.seam = one_of(3) == 0   ? SeamKind::fair
                    : one_of(3) == 0 ? SeamKind::band
                                     : SeamKind::conform;
@@ -155,8 +155,8 @@ MergeOptions any_options(std::mt19937& random) {
 std::string text_of(const MergeOptions& options) {
     return std::string(options.configuration == Configuration::free ? "free" : "fixed") +
            " smooth " + std::to_string(options.smooth) + " collar " +
-           std::to_string(options.collar) + " refine " + std::to_string(options.refine) + " seam " +
-           std::to_string(static_cast<int>(options.seam)) + " transition " +
+           std::to_string(options.collar) + " subdivide " + std::to_string(options.subdivide) +
+           " seam " + std::to_string(static_cast<int>(options.seam)) + " transition " +
            std::to_string(options.auto_transition) + " " +
            std::to_string(options.target_transition);
 }

@@ -100,7 +100,7 @@ MergeOptions random_options(Random& random, const Mesh& source, const Mesh& targ
         options.source_transition = random.uniform(0, 0.3) * surface_radius(source);
         options.target_transition = random.uniform(0, 0.3) * surface_radius(target);
     }
-    options.refine = random.index(2) == 0;
+    options.subdivide = random.index(2) == 0;
     options.trim = random.index(2) == 0;
     if (random.index(5) == 0) options.thesis = test::thesis();
     options.turn_frames = options.configuration == Configuration::free || random.index(3) != 0;

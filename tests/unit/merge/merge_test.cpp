@@ -430,7 +430,7 @@ TEST_CASE("section 3.3 to the letter: raw loops and a band, and nothing is mende
     CHECK(result.report.seam.collar_added == 0);
     CHECK(result.report.seam.flipped == 0);
     CHECK(!result.report.joins[0].source_trimmed);
-    CHECK(!result.report.joins[0].refined);
+    CHECK(!result.report.joins[0].subdivided);
     CHECK(result.mesh.topology().is_closed());
     // The seam is the source's loop, each vertex where arc length has it on the target's.
     REQUIRE(result.seams[0].size() == boundary.vertices().size());
@@ -496,9 +496,9 @@ TEST_CASE("two coarse loops beside a dense source are split on both sides, and i
     const auto top = [&](const Mesh& below, const MergeOptions& options) {
         const MergeResult result = merged(source, below, options, keys);
         CHECK(result.mesh.topology().is_closed());
-        CHECK(result.report.joins[0].refined == options.refine);
-        CHECK(result.report.joins[0].target_refined == options.refine);
-        if (options.refine) {
+        CHECK(result.report.joins[0].subdivided == options.subdivide);
+        CHECK(result.report.joins[0].target_subdivided == options.subdivide);
+        if (options.subdivide) {
             CHECK(result.report.joins[0].source_size >= 24);
             CHECK(result.report.joins[0].target_size >= 24);
         }
@@ -507,7 +507,7 @@ TEST_CASE("two coarse loops beside a dense source are split on both sides, and i
     };
     MergeOptions options;
     const double refined = (top(shaken, options) - top(target, options)).norm();
-    options.refine = false;
+    options.subdivide = false;
     const double plain = (top(shaken, options) - top(target, options)).norm();
     MESSAGE("the top moves by " << refined << ", and by " << plain << " without");
     CHECK(refined < 0.8 * plain);

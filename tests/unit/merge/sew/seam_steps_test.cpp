@@ -216,7 +216,7 @@ TEST_CASE("with collars a merge is the same wherever its source lies, symmetric 
                 });
             };
             MergeOptions options;
-            options.refine = false;
+            options.subdivide = false;
             const Mesh* targets[] = {&scene.target};
             return Merger(source, targets,
                           {Join{boundaries(source)[boundary_towards(scene.source, -1.0)],

@@ -36,7 +36,8 @@ Path rim_at(const Mesh& mesh, double height) {
 }
 
 void cap(Mesh& mesh, double height) {
-    fill(mesh, rim_at(mesh, height), {.method = FillMethod::area, .refine = false, .fair = false});
+    fill(mesh, rim_at(mesh, height),
+         {.method = FillMethod::area, .subdivide = false, .fair = false});
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ TEST_CASE("a flat hole is filled flat, whatever its outline") {
 TEST_CASE("without refinement the patch has no new vertices") {
     const Mesh open = open_sphere(8, 0.4);
     Mesh mesh = open;
-    const FillReport report = fill(mesh, boundaries(mesh)[0], {.refine = false});
+    const FillReport report = fill(mesh, boundaries(mesh)[0], {.subdivide = false});
     check_closed(mesh, open, report);
     CHECK(report.vertex_count == 0);
     CHECK(report.face_count == report.loop_size - 2);
@@ -118,13 +118,13 @@ TEST_CASE("a single triangle and a pair of them are closed by their other sides"
     FaceList faces;
     faces.add({0, 1, 2});
     Mesh triangle({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, faces);
-    fill(triangle, boundaries(triangle)[0], {.refine = false});
+    fill(triangle, boundaries(triangle)[0], {.subdivide = false});
     CHECK(triangle.topology().is_closed());
     CHECK(triangle.face_count() == 2);
     // Of the square's two diagonals one is an edge already.
     faces.add({0, 2, 3});
     Mesh square({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, faces);
-    fill(square, boundaries(square)[0], {.refine = false});
+    fill(square, boundaries(square)[0], {.subdivide = false});
     CHECK(square.topology().is_closed());
     CHECK(square.face_count() == 4);
 }
@@ -148,7 +148,7 @@ TEST_CASE("a hole whose diagonals are all edges already gets a vertex in its mid
     }
     const Mesh open = extract_faces(torus, kept).mesh;
     Mesh mesh = open;
-    const FillReport report = fill(mesh, boundaries(mesh)[0], {.refine = false});
+    const FillReport report = fill(mesh, boundaries(mesh)[0], {.subdivide = false});
     check_closed(mesh, open, report);
     CHECK(report.loop_size == 6);
     CHECK(report.vertex_count == 1);

@@ -155,8 +155,8 @@ TEST_CASE("a hole is filled with the least area, and refined if wanted") {
     Mesh by_area = open, by_angle = open, refined = open;
     const Path hole = boundaries(open)[0];
     const FillReport report =
-        fill(by_area, hole, {.method = FillMethod::area, .refine = false, .fair = false});
-    fill(by_angle, hole, {.refine = false, .fair = false});
+        fill(by_area, hole, {.method = FillMethod::area, .subdivide = false, .fair = false});
+    fill(by_angle, hole, {.subdivide = false, .fair = false});
     CHECK(by_area.topology().is_closed());
     CHECK(report.face_count == report.loop_size - 2);
     CHECK(report.vertex_count == 0);
@@ -175,7 +175,8 @@ TEST_CASE("a hole is not filled by an edge that the mesh has") {
     faces.add({0, 2, 3});
     Mesh mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}}, std::move(faces));
     REQUIRE(boundaries(mesh)[0].size() == 4);
-    fill(mesh, boundaries(mesh)[0], {.method = FillMethod::area, .refine = false, .fair = false});
+    fill(mesh, boundaries(mesh)[0],
+         {.method = FillMethod::area, .subdivide = false, .fair = false});
     CHECK(mesh.topology().is_closed());
     CHECK(mesh.face_count() == 6);
 }
