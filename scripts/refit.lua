@@ -220,7 +220,7 @@ local function blended(unit, cells, values, outside)
     end
 end
 
--- A function of vertices for style:grow: how many roots are near, as a part of the most.
+-- A number for each vertex, for style:grow: how many roots are near, as a part of the most.
 local function crowded(head, unit, cells)
     local positions, counts, most = head:positions(), {}, 1
     for v = 1, #head do
@@ -333,11 +333,11 @@ end
 --- Makes a style of strands, which it moves onto a head. Options: `scalp` (else guessed), `guides` (150),
 -- `count` of the hair that grows (as many as are given), `seed` (1), `resolution` (50,000), `place` (true:
 -- finds unit and place; false: the strands lie on the head, in metres), `min_length` in metres, below which
--- strands do not count (0.002). Returns a table: `style`; `grow`, the options of style:grow; `hair`, grown
--- with them; `guides`; `motion`, as refit.place returns it; `height`, the median distance in metres of the
--- roots from the head before they were put onto it; `angle`, the mean error of directions in degrees;
--- `length`, the mean error of lengths, as a part of them. Of 3,000 strands and more, hair that runs farther
--- than `stray` (0.01 metres) from all of them is left out.
+-- strands are removed (0.002), `stray` in metres (0.01): if there are 3,000 strands or more, grown hair
+-- that mostly runs farther than this from all of them is left out. Returns a table: `style`; `grow`, the
+-- options of style:grow; `hair`, grown with them; `guides`; `motion`, as refit.place returns it; `height`,
+-- the median distance in metres of the roots from the head before they were put onto it; `angle`, the mean
+-- error of directions in degrees; `length`, the mean error of lengths, as a part of them.
 function refit.style(strands, head, options)
     options = options or {}
     local scalp = options.scalp or lissom.scalp(head)
