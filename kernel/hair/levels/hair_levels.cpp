@@ -21,11 +21,11 @@ constexpr Index kLeastShellTriangles = 20;
 constexpr std::size_t kMaxLevelGroups = 1000;
 
 void require_strand_level(const StrandLevelOptions& level, Index all) {
-    const std::string have = "; the hair has " + std::to_string(all);
     require((level.count != 0) != (level.screen_size != 0.0),
             "a level of strands needs either a count of 1 or more, or a screen size");
     require(level.count >= 0 && level.count <= all,
-            "a level of " + std::to_string(level.count) + " strands is none" + have);
+            "a level of " + std::to_string(level.count) + " strands cannot be made: the hair has " +
+                std::to_string(all) + "; give a count of at most that");
     require(level.screen_size >= 0.0 && level.screen_size <= 1.0,
             "the screen size of a level must be above 0, at most 1");
     require(level.points == 0 || level.points >= 2, "strands of a level have at least 2 points");
@@ -52,7 +52,7 @@ void require_level_options(const Strands& strands, const HairLevelOptions& optio
     }
     for (const CardOptions& level : options.cards) {
         require(level.count >= 1 && level.count <= kMaxCards,
-                "a level of cards has 1 to " + std::to_string(kMaxCards));
+                "a level has 1 to " + std::to_string(kMaxCards) + " cards");
     }
     require(!options.shell || (options.shell->triangles >= kLeastShellTriangles &&
                                options.shell->triangles <= kMaxShellTriangles),
