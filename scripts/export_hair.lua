@@ -94,15 +94,24 @@ local function for_pictures(mesh)
     return shown
 end
 
+-- Strands of a head with a skin are bound to its joints.
+local function has_skin(mesh)
+    for _, attribute in ipairs(mesh:attributes()) do
+        if attribute.name == "joints" then return true end
+    end
+    return false
+end
+
 -- Writers of the files of a level, by kind. Each returns what the manifest says of it beside its measures,
 -- and what the sheet shows of it.
 local save = {}
 
-function save.strands(level, name)
-    level.strands:save(path(name .. ".usda"))
+function save.strands(level, name, _, _, skinned)
+    level.strands:save(path(name .. ".usda"), { head = skinned })
     local count = #level.strands
     return { file = name .. ".usda", strands = count, points = level.strands:stats().points,
-        widened = level.widen }, { strands = level.strands, caption = count .. " strands" }
+        widened = level.widen, skeleton = skinned ~= nil },
+        { strands = level.strands, caption = count .. " strands" }
 end
 
 function save.cards(level, name, number, color)
@@ -126,7 +135,7 @@ function save.shell(level, name)
 end
 
 -- Writes all levels; returns their entries in the manifest and the pictures of the sheet.
-local function save_levels(levels, color)
+local function save_levels(levels, color, skinned)
     local entries, shown, numbers, groups = {}, {}, {}, 0
     for i, level in ipairs(levels) do
         local group = level.group or ""
@@ -138,7 +147,7 @@ local function save_levels(levels, color)
         of[level.kind] = of[level.kind] + 1
         local name = level.kind == "shell" and "shell" or level.kind .. "_" .. of[level.kind]
         if params.of == "groups" then name = "group" .. of.place .. "_" .. name end
-        entries[i], shown[i] = save[level.kind](level, name, of[level.kind], color)
+        entries[i], shown[i] = save[level.kind](level, name, of[level.kind], color, skinned)
         entries[i].kind, entries[i].group = level.kind, level.group
         entries[i].screen_size, entries[i].silhouette = level.screen_size, level.silhouette
         if level.group then shown[i].caption = level.group .. ": " .. shown[i].caption end
@@ -177,7 +186,7 @@ manifest.guides = { file = "hair.guides", guides = #set, strands = #hair, points
 local shown
 manifest.levels, shown = save_levels(hair:levels{ style = style, of = params.of, slots = params.slots,
     strands = strand_levels(), cards = card_levels(), shell = { triangles = params.shell },
-    width = styling.width_for(0.00026, #hair) }, color)
+    width = styling.width_for(0.00026, #hair) }, color, has_skin(head) and head or nil)
 
 print("level                        triangles  screen size  silhouette, worst")
 for _, level in ipairs(manifest.levels) do

@@ -48,15 +48,30 @@ void write_data_file(const Strands& strands, const StrandSaveOptions&, const Rib
                      std::string& bytes, const Context&) {
     write_hair_salon(strands, bytes);
 }
-void write_usda_file(const Strands& strands, const StrandSaveOptions& options, const RibScene&,
-                     std::string& bytes, const Context& context) {
-    write_usda(strands, options.unit, options.up, bytes, context);
-}
 // Metres of the strands to those of the file.
 Affine frame_of_file(const StrandSaveOptions& options) {
     Mat3 turn = Mat3::Identity();
     if (options.up == UpAxis::z) turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
     return {turn / options.unit, Vec3::Zero()};
+}
+// The joints at the roots, in the frame of the file. `unit` is that of the head in metres.
+StrandSkin skin_in_file(const Strands& strands, const StrandSaveOptions& options, double unit,
+                        const Context& context) {
+    const Affine frame = frame_of_file(options);
+    StrandSkin skin = skin_at_roots(strands, *options.head, unit / options.unit, context);
+    const Mat3 turn = frame.linear * options.unit;
+    for (auto* transforms : {&skin.skeleton.bind, &skin.skeleton.rest}) {
+        for (Affine& map : *transforms) {
+            map = {turn * map.linear * turn.transpose(), turn * map.translation};
+        }
+    }
+    return skin;
+}
+void write_usda_file(const Strands& strands, const StrandSaveOptions& options,
+                     const RibScene& scene, std::string& bytes, const Context& context) {
+    std::optional<StrandSkin> skin;
+    if (options.head) skin = skin_in_file(strands, options, scene.unit.value_or(1.0), context);
+    write_usda(strands, options.unit, options.up, skin ? &*skin : nullptr, bytes, context);
 }
 
 // `strands` are in the frame of the file.
@@ -216,6 +231,11 @@ EncodedStrands encode_as(const Strands& strands, const StrandFormat& format,
                          const StrandSaveOptions& options, const RibScene& scene,
                          const Context& context) {
     require_unit(options.unit);
+    if (options.head && format.extension != "usda") {
+        throw Error(ErrorCode::invalid_argument,
+                    "a head whose joints move the hair is for .usda files, not for ." +
+                        std::string(format.extension));
+    }
     Progress progress(context, "save strands");
     progress.step(0.3);
     // Upper bound for the text of numbers, in a list that grows by doubling.
@@ -230,7 +250,8 @@ EncodedStrands encode_as(const Strands& strands, const StrandFormat& format,
     }
     EncodedStrands result;
     RibScene known = scene;
-    if (scene.head && !scene.unit) known.unit = unit_of_roots(strands, *scene.head);
+    const Mesh* const head = options.head ? options.head : scene.head;
+    if (head && !scene.unit) known.unit = unit_of_roots(strands, *head);
     format.write(checked.changed ? *checked.changed : strands, options, known, result.bytes,
                  context);
     result.report = std::move(checked.report);

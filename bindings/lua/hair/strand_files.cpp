@@ -32,8 +32,8 @@ void push_findings(const Call& call, const StrandReport& report) {
     }
 }
 
-bool has_rib_scene(const Call& call) {
-    return call.has("head") || call.has("camera") || call.boolean("archive");
+bool has_rib_scene(const Call& call, bool has_skeleton) {
+    return (call.has("head") && !has_skeleton) || call.has("camera") || call.boolean("archive");
 }
 
 // Inside Call::attempt only.
@@ -61,7 +61,9 @@ int save_hair(Call& call) {
         options.up = up_axis(call);
         options.unit = call.number("unit");
         options.mend = call.boolean("mend");
-        report = has_rib_scene(call)
+        const bool is_usda = call.has("head") && std::string_view(path).ends_with(".usda");
+        if (is_usda) options.head = &call.object<MeshObject>("head")->mesh;
+        report = has_rib_scene(call, is_usda)
                      ? save_rib(strands->strands, call.file(path, FileUse::write), rib_scene(call),
                                 options, call.context())
                      : save_strands(strands->strands, call.file(path, FileUse::write), options,
@@ -99,7 +101,10 @@ Function strands_save_method() {
                     boolean("mend",
                             "false makes a change or an omission an error that names the strands.")
                         .defaults(true),
-                    object("head", "lissom.Mesh", "For .rib: the head that the picture shows.")
+                    object("head", "lissom.Mesh",
+                           "For .rib: the head that the picture shows. For .usda: the head that "
+                           "the hair grew on, with a skin of its file; the strands are bound to "
+                           "its joints (UsdSkel).")
                         .optional("none"),
                     options("camera",
                             {vector("eye", "Its position, in units of the head."),
@@ -121,7 +126,7 @@ Function strands_save_method() {
                     {"lissom.StrandFinding[]", "report", "Findings, changes and omissions."}},
         .errors = {ErrorCode::unknown_format, ErrorCode::file_write_failed,
                    ErrorCode::file_is_directory, ErrorCode::file_too_large, ErrorCode::not_finite,
-                   ErrorCode::memory_limit, ErrorCode::cancelled},
+                   ErrorCode::skin_mismatch, ErrorCode::memory_limit, ErrorCode::cancelled},
         .example = kTwoStrands + R"(local path = os.tmpname() .. ".hair"
 assert(hair:save(path))
 assert(#assert(lissom.load_strands(path)) == 2)

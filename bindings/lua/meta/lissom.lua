@@ -2566,7 +2566,7 @@ function Strands:stats(options) end
 ---@field up? "y"|"z" The up axis that the file shall have. Default: y.
 ---@field unit? number Length of the file's unit in metres: points and widths are divided by it. In metres. Default: 1.
 ---@field mend? boolean false makes a change or an omission an error that names the strands. Default: true.
----@field head? lissom.Mesh For .rib: the head that the picture shows. Default: none.
+---@field head? lissom.Mesh For .rib: the head that the picture shows. For .usda: the head that the hair grew on, with a skin of its file; the strands are bound to its joints (UsdSkel). Default: none.
 ---@field camera? lissom.Strands.SaveOptions.Camera For .rib: the camera of the picture. Default: hair and head whole, from the front, a little aside.
 ---@field archive? boolean For .rib: the curves alone, for other RIB files to read; else a scene with camera, lights and shaders, of which a RenderMan renderer makes the picture. Default: false.
 

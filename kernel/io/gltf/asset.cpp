@@ -220,29 +220,6 @@ std::size_t GltfAsset::memory_bytes() const {
     return bytes;
 }
 
-std::vector<std::string> GltfAsset::joints_of(std::string_view object) const {
-    const auto found = node_of_object.find(std::string(object));
-    const Json* nodes = member(json, "nodes");
-    const Json* skins = member(json, "skins");
-    if (found == node_of_object.end() || !nodes || !skins) return {};
-    const Json& node = (*nodes)[found->second];
-    if (!node.contains("skin")) return {};
-    const auto skin = node["skin"].get<std::uint64_t>();
-    const Json* joints =
-        skin < skins->size() ? member((*skins)[static_cast<std::size_t>(skin)], "joints") : nullptr;
-    if (!joints || !joints->is_array()) return {};
-    std::vector<std::string> names;
-    for (const Json& joint : *joints) {
-        const std::uint64_t number = joint.is_number_unsigned() ? joint.get<std::uint64_t>() : 0;
-        const Json* target =
-            number < nodes->size() ? &(*nodes)[static_cast<std::size_t>(number)] : nullptr;
-        const bool named = target && target->contains("name");
-        names.push_back(named ? (*target)["name"].get<std::string>()
-                              : "node " + std::to_string(number));
-    }
-    return names;
-}
-
 std::shared_ptr<const GltfAsset> keep_asset(GltfDocument& document, const AccessorReader& accessors,
                                             const std::vector<GltfInstance>& instances,
                                             const std::vector<std::string>& materials,

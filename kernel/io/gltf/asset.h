@@ -47,6 +47,7 @@ class GltfAsset : public Asset, public SkinnedAsset, public MorphAsset {
     std::size_t memory_bytes() const override;
     bool is_of_libraries() const override { return from_libraries; }
     std::vector<std::string> joints_of(std::string_view object) const override;
+    Skeleton skeleton_of(std::string_view object) const override;
     std::vector<MorphTarget> morphs_of(std::string_view object) const override;
     std::shared_ptr<const Asset> with_morphs(const std::vector<MorphTarget>& all) const override;
 };

@@ -10,6 +10,8 @@
 
 namespace lissom {
 
+class Mesh;
+
 /// The axis that points up in a file. In the kernel it is y.
 enum class UpAxis {
     none,  ///< as it is: nothing is turned
@@ -98,6 +100,11 @@ struct StrandSaveOptions {
     bool mend = true;
     /// Signed distance in metres to the head; empty: it is not checked that roots come first.
     std::function<double(const Vec3&)> distance = {};
+    /// For .usda: the head that the hair grew on, with a skin from its file. The strands are bound
+    /// to its joints (UsdSkel). Not owned; null for none. Errors: invalid_argument for a head
+    /// without a skin, strands without roots on it, and other formats; skin_mismatch for roots on
+    /// objects of unlike skins.
+    const Mesh* head = nullptr;
 };
 
 }  // namespace lissom

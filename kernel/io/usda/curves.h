@@ -6,7 +6,9 @@
 /// which USD has no names of its own. Other data of strands - the profile of the widths, the
 /// comment - are in attributes of the namespace "lissom", so that they come back unchanged. Ids,
 /// guides, groups and root uvs are there once more as groom_id, groom_guide, groom_group_id,
-/// groom_group_name and groom_root_uv of the schema GroomAPI, which Unreal Engine reads.
+/// groom_group_name and groom_root_uv of the schema GroomAPI, which Unreal Engine reads. Hair that
+/// joints of its head move stands in a SkelRoot beside a Skeleton (UsdSkel); each point of a strand
+/// has the joints of its root.
 #pragma once
 
 #include <string>
@@ -16,6 +18,7 @@
 #include "kernel/hair/strands/strands.h"
 #include "kernel/io/record/file_hair.h"
 #include "kernel/io/record/options.h"
+#include "kernel/io/usda/strand_skin.h"
 
 namespace lissom {
 
@@ -27,9 +30,10 @@ namespace lissom {
 /// that change over time, and transforms that flatten; cancelled, memory_limit.
 FileHair read_usda(std::string_view bytes, const Context& context);
 
-/// Writes one BasisCurves "Hair", linear, with a width for each point if they differ. Strands read
-/// back have the same hash in the same unit.
-void write_usda(const Strands& strands, double meters_per_unit, UpAxis up, std::string& bytes,
-                const Context& context);
+/// Writes one BasisCurves "Hair", linear, with a width for each point if they differ. With `skin`,
+/// whose coordinates are those of the file, it is bound to a Skeleton. Strands read back have the
+/// same hash in the same unit.
+void write_usda(const Strands& strands, double meters_per_unit, UpAxis up, const StrandSkin* skin,
+                std::string& bytes, const Context& context);
 
 }  // namespace lissom

@@ -13,17 +13,29 @@ constexpr std::size_t kLineLength = 120;
 
 class LayerWriter {
   public:
-    LayerWriter(const Strands& strands, std::string& text, const Context& context)
-        : strands_(strands), text_(text), context_(context) {}
+    LayerWriter(const Strands& strands, const StrandSkin* skin, std::string& text,
+                const Context& context)
+        : strands_(strands), skin_(skin), text_(text), context_(context) {}
 
     void write(double meters_per_unit, UpAxis up) {
         Progress progress(context_, "write strands");
-        text_ += "#usda 1.0\n(\n    defaultPrim = \"Hair\"\n    metersPerUnit = ";
+        text_ += std::string("#usda 1.0\n(\n    defaultPrim = \"") + (skin_ ? "Groom" : "Hair") +
+                 "\"\n    metersPerUnit = ";
         append_number(text_, meters_per_unit);
-        text_ +=
-            std::string("\n    upAxis = \"") + (up == UpAxis::z ? "Z" : "Y") +
-            "\"\n)\n\ndef BasisCurves \"Hair\" (\n    prepend apiSchemas = [\"GroomAPI\"]\n)\n{\n"
-            "    uniform token type = \"linear\"\n";
+        text_ += std::string("\n    upAxis = \"") + (up == UpAxis::z ? "Z" : "Y") + "\"\n)\n\n";
+        if (skin_) open_skeleton();
+        write_curves(progress);
+        if (skin_) text_ += "}\n";
+    }
+
+  private:
+    void write_curves(Progress& progress) {
+        line("def BasisCurves \"Hair\" (");
+        line(std::string("    prepend apiSchemas = [") + (skin_ ? "\"SkelBindingAPI\", " : "") +
+             "\"GroomAPI\"]");
+        line(")");
+        line("{");
+        line("    uniform token type = \"linear\"");
         progress.update(0.05);
         list("int[] curveVertexCounts", strands_.size(),
              [&](Index s) { append_number(text_, strands_.point_count(s)); });
@@ -38,18 +50,25 @@ class LayerWriter {
         write_groups();
         write_groom();
         write_comment();
-        text_ += "}\n";
+        if (skin_) write_binding();
+        line("}");
     }
 
-  private:
+    void line(std::string_view text) {
+        text_ += indent_;
+        text_ += text;
+        text_ += '\n';
+    }
+
     // name = [item, item, ...], without the end of the line.
     template <typename Item>
     void open_list(const std::string& name, Index count, const Item& item) {
-        text_ += "    " + name + " = [";
-        std::size_t line = text_.size();
+        text_ += indent_ + "    " + name + " = [";
+        std::size_t begin = text_.size();
         for (Index i = 0; i < count; ++i) {
-            if (i > 0) text_ += text_.size() - line > kLineLength ? ",\n        " : ", ";
-            if (text_.ends_with("\n        ")) line = text_.size();
+            const bool is_full = text_.size() - begin > kLineLength;
+            if (i > 0) text_ += is_full ? ",\n        " : ", ";
+            if (is_full) begin = text_.size();
             item(i);
         }
         text_ += ']';
@@ -59,7 +78,8 @@ class LayerWriter {
               const char* interpolation = nullptr) {
         open_list(name, count, item);
         if (interpolation) {
-            text_ += std::string(" (\n        interpolation = \"") + interpolation + "\"\n    )";
+            text_ += " (\n" + indent_ + "        interpolation = \"" + interpolation + "\"\n" +
+                     indent_ + "    )";
         }
         text_ += '\n';
     }
@@ -202,8 +222,8 @@ class LayerWriter {
 
     // The same once more by the names that Unreal Engine's import of grooms reads.
     void write_groom() {
-        text_ +=
-            "    int primvars:groom_version_major = 1\n    int primvars:groom_version_minor = 5\n";
+        line("    int primvars:groom_version_major = 1");
+        line("    int primvars:groom_version_minor = 5");
         list(
             "int[] primvars:groom_id", strands_.size(), [&](Index s) { append_number(text_, s); },
             "uniform");
@@ -242,9 +262,75 @@ class LayerWriter {
 
     void write_comment() {
         if (strands_.comment().empty()) return;
-        text_ += "    custom string lissom:comment = ";
+        text_ += indent_ + "    custom string lissom:comment = ";
         append_text(strands_.comment());
         text_ += '\n';
+    }
+
+    // Begins the SkelRoot, which holds the skeleton and the hair.
+    void open_skeleton() {
+        line("def SkelRoot \"Groom\"");
+        line("{");
+        indent_ = "    ";
+        line("def Skeleton \"Skeleton\"");
+        line("{");
+        const std::vector<std::string> paths = joint_paths(skin_->skeleton);
+        list("uniform token[] joints", count_of(paths),
+             [&](Index j) { append_text(paths[at(j)]); });
+        write_transforms("uniform matrix4d[] bindTransforms", skin_->skeleton.bind);
+        write_transforms("uniform matrix4d[] restTransforms", skin_->skeleton.rest);
+        line("}");
+        text_ += '\n';
+    }
+
+    // USD multiplies rows by matrices: the translation is the last row.
+    void write_transforms(const std::string& name, const std::vector<Affine>& transforms) {
+        list(name, count_of(transforms), [&](Index j) {
+            const Affine& map = transforms[at(j)];
+            text_ += '(';
+            for (Index column = 0; column < 3; ++column) {
+                write_row(map.linear.col(column), 0);
+                text_ += ", ";
+            }
+            write_row(map.translation, 1);
+            text_ += ')';
+        });
+    }
+    void write_row(const Vec3& values, int last) {
+        text_ += '(';
+        for (const double value : values) {
+            append_number(text_, value);
+            text_ += ", ";
+        }
+        append_number(text_, last);
+        text_ += ')';
+    }
+
+    // All points of a strand have the joints of its root.
+    void write_binding() {
+        line("    rel skel:skeleton = </Groom/Skeleton>");
+        line(
+            "    matrix4d primvars:skel:geomBindTransform = "
+            "((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))");
+        write_influences("int[] primvars:skel:jointIndices",
+                         [&](const StrandSkin::Joint& one) { append_number(text_, one.joint); });
+        write_influences("float[] primvars:skel:jointWeights",
+                         [&](const StrandSkin::Joint& one) { append_number(text_, one.weight); });
+    }
+    template <typename Write>
+    void write_influences(const std::string& name, const Write& write) {
+        Index strand = 0;
+        open_list(name, strands_.point_count(), [&](Index p) {
+            while (p >= strands_.offsets()[at(strand) + 1]) ++strand;
+            const auto& joints = skin_->of_strand[at(strand)];
+            for (std::size_t i = 0; i < joints.size(); ++i) {
+                if (i > 0) text_ += ", ";
+                write(joints[i]);
+            }
+        });
+        text_ += " (\n" + indent_ +
+                 "        elementSize = " + std::to_string(StrandSkin::kInfluences) + "\n" +
+                 indent_ + "        interpolation = \"vertex\"\n" + indent_ + "    )\n";
     }
 
     void append_text(const std::string& name) {
@@ -267,16 +353,18 @@ class LayerWriter {
     }
 
     const Strands& strands_;
+    const StrandSkin* skin_;
     std::string& text_;
+    std::string indent_;
     const Context& context_;
 };
 
 }  // namespace
 
-void write_usda(const Strands& strands, double meters_per_unit, UpAxis up, std::string& bytes,
-                const Context& context) {
-    bytes.reserve(40 * at(strands.point_count()) + 1000);
-    LayerWriter(strands, bytes, context).write(meters_per_unit, up);
+void write_usda(const Strands& strands, double meters_per_unit, UpAxis up, const StrandSkin* skin,
+                std::string& bytes, const Context& context) {
+    bytes.reserve((skin ? 120 : 40) * at(strands.point_count()) + 1000);
+    LayerWriter(strands, skin, bytes, context).write(meters_per_unit, up);
 }
 
 }  // namespace lissom
