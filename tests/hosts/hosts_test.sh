@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the five scripts of examples/hosts in every host there is; each must return the same to the bit. Usage:
-# hosts_test.sh ROOT LIBRARY [PROGRAM=... LUA54=... LUAJIT=... PYTHON=... BLENDER=... LOVE=...] : files and commands of hosts
+# hosts_test.sh ROOT LIBRARY [PROGRAM=... WINDOW=... C=... LUA54=... LUAJIT=... PYTHON=... BLENDER=... LOVE=...] : files and commands of hosts
 set -euo pipefail
 
 root=$1 library=$2
@@ -8,7 +8,22 @@ shift 2
 export LISSOM_HOSTS=$root/examples/hosts LISSOM_LIBRARY=$library
 here=$root/tests/hosts
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+screen=
+trap '[ -z "$screen" ] || kill "$screen" || true; rm -rf "$work"' EXIT
+
+# A screen of its own, without a window manager.
+start_screen() {
+    [ -z "$screen" ] || return 0
+    command -v Xvfb >/dev/null || return 1
+    Xvfb -displayfd 3 -screen 0 800x600x24 -noreset -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
+    screen=$!
+    for _ in $(seq 200); do
+        if [ -s "$work/display" ]; then break; fi
+        sleep 0.1
+    done
+    DISPLAY=:$(cat "$work/display")
+    export DISPLAY
+}
 
 declare -A host=()
 for word in "$@"; do host[${word%%=*}]=${word#*=}; done
@@ -16,6 +31,7 @@ for word in "$@"; do host[${word%%=*}]=${word#*=}; done
 # Whether a host is there; makes what it needs.
 prepare() { # HOST
     case $1 in
+    window) start_screen ;;
     lua54) command -v lua5.4 >/dev/null ;;
     luajit) command -v luajit >/dev/null ;;
     python)
@@ -27,16 +43,31 @@ prepare() { # HOST
             python3 -B "$root/bindings/blender/make.py" --unpacked "$work/blender"
         ;;
     love)
-        command -v "${host[LOVE]}" >/dev/null && command -v xvfb-run >/dev/null && mkdir "$work/love" &&
+        command -v "${host[LOVE]}" >/dev/null && start_screen && mkdir "$work/love" &&
             cp "$here"/love/*.lua "$here/hosts.lua" "${host[LUAJIT]}/lissom.so" "$work/love"
         ;;
     esac
+}
+
+# A window stays open: it is closed once the script has told its hash.
+in_window() {
+    XDG_STATE_HOME=$work/state "${host[WINDOW]}" view --tell "$here/hosts.lua" >"$work/told" 2>&1 &
+    local window=$!
+    for _ in $(seq 600); do
+        if grep -q '^line HASH ' "$work/told" || ! kill -0 $window 2>/dev/null; then break; fi
+        sleep 0.1
+    done
+    kill $window 2>/dev/null || true
+    wait $window || true
+    sed 's/^line HASH /HASH /' "$work/told"
 }
 
 # Runs the script LISSOM_SCRIPT.
 run_in() { # HOST
     case $1 in
     program) "${host[PROGRAM]}" run "$here/hosts.lua" ;;
+    window) in_window ;;
+    c) "${host[C]}" "$LISSOM_HOSTS" "$LISSOM_SCRIPT" ;;
     lua54) LUA_CPATH="${host[LUA54]}/?.so" lua5.4 "$here/hosts.lua" ;;
     luajit) LUA_CPATH="${host[LUAJIT]}/?.so" luajit "$here/hosts.lua" ;;
     python) PYTHONPATH=$work "${host[PYTHON]}" -B "$here/hosts.py" "$LISSOM_HOSTS" "$LISSOM_SCRIPT" ;;
@@ -45,14 +76,13 @@ run_in() { # HOST
             -- "$LISSOM_HOSTS" "$LISSOM_SCRIPT" "$work/blender"
         ;;
     love)
-        XDG_DATA_HOME=$work XDG_CONFIG_HOME=$work \
-            xvfb-run -a -s '-screen 0 640x480x24' "${host[LOVE]}" "$work/love"
+        XDG_DATA_HOME=$work XDG_CONFIG_HOME=$work "${host[LOVE]}" "$work/love"
         ;;
     esac
 }
 
 status=0
-for name in program lua54 luajit python blender love; do
+for name in program window c lua54 luajit python blender love; do
     key=${name^^}
     if [ -z "${host[$key]:-}" ] || ! prepare "$name"; then
         echo "skipped: $name is not installed or not built"
