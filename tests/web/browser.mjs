@@ -1,4 +1,5 @@
-// A folder as a static host, and Chromium without a window. A test without Chromium or puppeteer-core is left out.
+// A folder as a static host, and Chromium or Firefox without a window. A test without the browser or puppeteer-core is left
+// out.
 import fs from 'node:fs';
 import http from 'node:http';
 import { createRequire } from 'node:module';
@@ -11,13 +12,27 @@ export function skip(why) {
     process.exit(77);
 }
 
+function loadPuppeteer() {
+    const npm = process.env.LISSOM_WEB_NPM || path.join(os.homedir(), '.cache', 'lissom', 'web');
+    try { return createRequire(path.join(npm, 'package.json'))('puppeteer-core'); } catch { return skip('no puppeteer-core in ' + npm); }
+}
+
+async function openFirefox() {
+    const firefox = ['/usr/bin/firefox-esr', '/usr/bin/firefox'].find(file => fs.existsSync(file));
+    if (!firefox) skip('no Firefox');
+    if (!process.env.DISPLAY) skip('Firefox has no WebGL without a display: xvfb-run');
+    return loadPuppeteer().launch({ browser: 'firefox', executablePath: firefox, headless: true, protocolTimeout: 600000,
+        extraPrefsFirefox: { 'webgl.force-enabled': true } });
+}
+
+// Chromium, or Firefox if LISSOM_BROWSER asks for it.
+export const isFirefox = process.env.LISSOM_BROWSER === 'firefox';
+
 export async function openBrowser() {
+    if (isFirefox) return openFirefox();
     const chromium = process.env.LISSOM_CHROMIUM || ['/usr/bin/chromium', '/usr/bin/google-chrome'].find(file => fs.existsSync(file));
     if (!chromium) skip('no Chromium');
-    const npm = process.env.LISSOM_WEB_NPM || path.join(os.homedir(), '.cache', 'lissom', 'web');
-    let puppeteer;
-    try { puppeteer = createRequire(path.join(npm, 'package.json'))('puppeteer-core'); } catch { skip('no puppeteer-core in ' + npm); }
-    return puppeteer.launch({ executablePath: chromium, headless: true, protocolTimeout: 600000,
+    return loadPuppeteer().launch({ executablePath: chromium, headless: true, protocolTimeout: 600000,
         args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--disable-dev-shm-usage'] });
 }
 

@@ -1,12 +1,16 @@
 // The library as WebAssembly, in node:
-//     node library_test.mjs FOLDER_OF_LISSOM_WASM
+//     node library_test.mjs FOLDER_OF_LISSOM_WASM [PROGRAM]
+// With the program lissom, the scripts of all hosts are compared with it.
 // Ends with 77, as a test that is left out, if it was not built.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
+import os from 'node:os';
 import path from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { openLibrary } from './library.mjs';
 
-const folder = process.argv[2];
+const [folder, program] = process.argv.slice(2);
 if (!fs.existsSync(path.join(folder, 'lissom.wasm'))) {
     console.log('skipped: the preset wasm was not built');
     process.exit(77);
@@ -125,6 +129,53 @@ local mesh, problem = lissom.try(lissom.load, "absent.obj")
 local c = coroutine.wrap(function() for i = 1, 3 do coroutine.yield(i) end error("end") end)
 return a, message, mesh == nil, problem.code, c() + c() + c(), (pcall(c))`);
     assert.deepEqual(results, [false, 'x', true, 'file_not_found', 6, false]);
+});
+
+// A script that returns the counts of what another returns - meshes and hair - and the sum of its coordinates, each with a
+// weight of its own.
+const summed = script => `local function made(...) ${script}
+end
+local sums = {}
+for _, value in ipairs{ made() } do
+    local is_mesh, positions = pcall(function() return value:positions() end)
+    local is_hair, points = pcall(function() return value:points() end)
+    local numbers = is_mesh and positions or points
+    if is_mesh or is_hair then
+        local sum, place = 0, 0
+        for i = 1, numbers:count() do
+            for _, x in ipairs{ numbers:get(i) } do
+                place = place + 1
+                sum = sum + x * math.sin(place)
+            end
+        end
+        sums[#sums + 1] = numbers:count()
+        sums[#sums + 1] = sum
+    end
+end
+return table.unpack(sums)`;
+
+// The same from the program.
+function sumsOfProgram(name, script) {
+    const file = path.join(fs.mkdtempSync(path.join(os.tmpdir(), 'lissom-web-')), `${name}.lua`);
+    fs.writeFileSync(file, `${script.replace('return table.unpack(sums)', 'for _, x in ipairs(sums) do print(("%.17g"):format(x)) end')}`);
+    return execFileSync(program, ['run', file], { encoding: 'utf8' }).trim().split('\n').map(Number);
+}
+
+// Vertices and strands are as many as elsewhere; places agree to what machines differ by that fuse products or do not.
+test('the scripts of all hosts return the same as from the program', () => {
+    if (!program) return console.log('        skipped: no program to compare with');
+    const hosts = path.join(path.dirname(fileURLToPath(import.meta.url)), '../../examples/hosts');
+    for (const file of fs.readdirSync(hosts).filter(file => file.endsWith('.lua'))) {
+        const script = summed(fs.readFileSync(path.join(hosts, file), 'utf8'));
+        const ours = run(script).results, theirs = sumsOfProgram(path.basename(file, '.lua'), script);
+        assert.ok(ours.length > 0 && ours.length === theirs.length, `${file}: ${ours} and ${theirs}`);
+        ours.forEach((sum, i) => {
+            const off = Math.abs(sum - theirs[i]) / Math.max(1, Math.abs(theirs[i]));
+            console.log(`        ${file.padEnd(14)} ${sum} ${off === 0 ? 'equal' : off.toExponential(1)}`);
+            assert.ok(i % 2 ? off < 1e-6 : off === 0, `${file}: ${sum}, not ${theirs[i]}`);
+        });
+    }
+    return undefined;
 });
 
 test('print goes to the log', () => {

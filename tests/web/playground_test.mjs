@@ -1,7 +1,7 @@
-// The playground in Chromium, by a hand:
-//     node playground_test.mjs FOLDER_OF_PLAYGROUND [--all] [--pictures FOLDER]
+// The playground in Chromium, by a hand; in Firefox with LISSOM_BROWSER=firefox and a display:
+//     node playground_test.mjs FOLDER_OF_PLAYGROUND [--all] [--only NAME] [--pictures FOLDER]
 // Any error of the page's console fails. With --all every example runs. Ends with 77, as a test that is left out, if the
-// page was not built, or there is no Chromium or no puppeteer-core.
+// page was not built, or there is no such browser or no puppeteer-core.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -158,6 +158,37 @@ test('a script without an end is stopped, one that floods the console is cut, an
     await runs(page, before + 1);
     assert.equal((await last(page)).ok, true);
     assert.match(await page.$eval('#console', node => node.textContent), /left out/);
+    await page.close();
+});
+
+test('two hundred runs take no more memory than twenty', async () => {
+    const page = await opened(), memory = {};
+    // Meshes, a deformation, hair and an error: each run leaves what it made to the next one's collector.
+    await page.evaluate(() => { window.lissomEditor.text = `local lissom = require "lissom"
+local p = lissom.params{ angle = { type = "number", default = 30, min = -90, max = 90 } }
+local bar = lissom.shapes.bar{ across = 6, along = 24 }
+local deformer = lissom.deformer(bar)
+deformer:pin(bar:region("bottom"))
+deformer:add_handle(bar:region("top")):rotate{ axis = "z", angle = p.angle }
+deformer:solve()
+if p.angle > 80 then error("too far") end
+return bar`; });
+    let before = await count(page);
+    await page.click('#run');
+    await runs(page, before + 1);
+    for (let i = 1; i <= 200; ++i) {
+        before = await count(page);
+        await page.evaluate(i => {
+            const range = document.querySelector('#parameters input[type=range]');
+            range.value = i % 10 ? i % 80 : 85;
+            range.dispatchEvent(new Event('input'));
+        }, i);
+        await runs(page, before + 1);
+        assert.equal((await last(page)).ok, i % 10 > 0);
+        memory[i] = (await last(page)).memory;
+    }
+    console.log(`        ${[20, 100, 200].map(i => `${(memory[i] / 1e6).toFixed(1)} MB after ${i}`).join(', ')}`);
+    assert.equal(memory[200], memory[20]);
     await page.close();
 });
 
