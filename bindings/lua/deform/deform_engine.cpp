@@ -143,7 +143,7 @@ struct BakeRequest {
     int count;
     bool is_preview;
     bool done;
-    std::span<const KeySpec> keys = {};
+    std::span<const PoseKeySpec> keys = {};
     Easing easing = Easing::linear;
 
     // Reads `pose` or `keys` as well.

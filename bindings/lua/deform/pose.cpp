@@ -76,11 +76,11 @@ Parameter easing_option() {
         .defaults("linear");
 }
 
-std::span<const KeySpec> read_pose_keys(Call& call) {
+std::span<const PoseKeySpec> read_pose_keys(Call& call) {
     if (!call.has("keys")) return {};
     const auto count = raw_length(call.lua(), call.stack_index("keys"));
     if (count == 0) call.reject("keys", "list of { time =, pose = } expected");
-    auto* keys = call.scratch<KeySpec>(count);
+    auto* keys = call.scratch<PoseKeySpec>(count);
     for (std::size_t i = 0; i < count; ++i) {
         call.select_item("keys", index_of(i) + 1);
         keys[i] = {call.number("keys.time"), call.object<PoseObject>("keys.pose").get()};
@@ -88,9 +88,9 @@ std::span<const KeySpec> read_pose_keys(Call& call) {
     return {keys, count};
 }
 
-std::vector<PoseKey> pose_keys(std::span<const KeySpec> specs) {
+std::vector<PoseKey> pose_keys(std::span<const PoseKeySpec> specs) {
     std::vector<PoseKey> keys;
-    for (const KeySpec& spec : specs) keys.push_back({spec.time, spec.pose->pose});
+    for (const PoseKeySpec& spec : specs) keys.push_back({spec.time, spec.pose->pose});
     return keys;
 }
 

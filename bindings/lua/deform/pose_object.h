@@ -29,7 +29,7 @@ struct PoseObject {
 };
 
 /// A key of a script, as plain data.
-struct KeySpec {
+struct PoseKeySpec {
     double time;
     const PoseObject* pose;
 };
@@ -38,9 +38,9 @@ struct KeySpec {
 Parameter keys_option();
 Parameter easing_option();
 /// Reads the option `keys`, none if it was left out. Raises a Lua error for an empty list.
-std::span<const KeySpec> read_pose_keys(Call& call);
+std::span<const PoseKeySpec> read_pose_keys(Call& call);
 /// Returns copies of the keys' poses.
-std::vector<PoseKey> pose_keys(std::span<const KeySpec> specs);
+std::vector<PoseKey> pose_keys(std::span<const PoseKeySpec> specs);
 
 /// Returns the methods pose and set_pose of a deformer.
 std::vector<Function> pose_methods();
