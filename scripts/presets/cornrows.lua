@@ -31,7 +31,7 @@ end
 return styling.preset(..., {
     name = "cornrows",
     schema = {
-        rows = { type = "integer", default = 11, min = 5, max = 15, help = "number of braids" },
+        rows = { type = "integer", default = 13, min = 5, max = 17, help = "number of braids" },
         tails = { type = "number", default = 0.108, min = 0.02, max = 0.25, unit = "metres",
             help = "length of the braids below the nape" },
         gap = { type = "number", default = 0.14, min = 0, max = 0.5,
@@ -45,7 +45,7 @@ return styling.preset(..., {
         styling.radial(style, 60)
         local hair = style:grow{ count = math.floor(1.3 * o.count), seed = v.seed, length = 0.004, layer = 0,
             clearance = 0.001, segment = 0.2, lift = 0.5 }
-        local pitch, unit, braids = 126.5 / v.rows, scalp:unit(), nil
+        local pitch, unit, braids = 149.5 / v.rows, scalp:unit(), nil
         local size = v.thickness * pitch / 11.5
         local function across(x, y, z)
             local p = scalp:to_metres(x / unit, y / unit, z / unit)
@@ -66,7 +66,7 @@ return styling.preset(..., {
             braids = braids and braids:append(one) or one
         end
         braids:push_out{ head = style, clearance = 0.0012, ramp = 0.004 }
-        braids:frizz{ amplitude = 0.0003, wavelength = 0.008, flyaway = 4 }
+        braids:frizz{ amplitude = 0.00022, wavelength = 0.008, flyaway = 2 }
         styling.set_width(braids, 0.00022):taper{ tip = 0.4, start = 0.6 }
         return style, braids, { color = "#1f1511", primary = 0.12, scalp_tint = 0.35, clump_tone = 0.1,
             unit = unit }
