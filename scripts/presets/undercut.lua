@@ -5,11 +5,11 @@ local lissom = require "lissom"
 local styling = require "styling"
 
 local routes = {
-    { { 0, 37, 3 }, { 0, 46, 20 }, { 0, 62, 22 }, { 0, 82, 18 }, { 180, 68, 14 }, { 180, 48, 12 },
+    { { 0, 37, 3 }, { 0, 46, 20 }, { 0, 62, 22 }, { 0, 82, 18 }, { 180, 68, 12 }, { 180, 40, 3 },
         stop = 0.02 },
-    { { 24, 38, 3 }, { 26, 46, 18 }, { 32, 58, 20 }, { 60, 72, 17 }, { 140, 70, 13 }, { 158, 48, 12 },
+    { { 24, 38, 3 }, { 26, 46, 18 }, { 32, 58, 20 }, { 60, 72, 17 }, { 140, 70, 11 }, { 158, 40, 3 },
         stop = 0.02 },
-    { { 42, 38, 3 }, { 50, 44, 13 }, { 66, 50, 13 }, { 100, 54, 12 }, { 132, 52, 11 }, { 142, 44, 10 },
+    { { 42, 38, 3 }, { 50, 44, 13 }, { 66, 50, 13 }, { 100, 54, 12 }, { 132, 52, 9 }, { 142, 36, 3 },
         stop = 0.02 },
 }
 
@@ -36,14 +36,19 @@ return styling.preset(..., {
         local function faded(_, elevation)
             return v.sides * (1 - v.fade * (1 - styling.smooth(-30, v.line, elevation)))
         end
+        -- Hair from behind the crown is shorter, so that it ends on the head and in no ledge over the line.
+        local function top_length(azimuth, elevation)
+            local behind = styling.smooth(75, 135, math.abs(azimuth))
+            return v.top * (1 - 0.85 * behind * (1 - styling.smooth(66, 92, elevation)))
+        end
         local _, hair = styling.stubble(head, o, { part = 1, seed = v.seed,
             length = styling.by_angles(scalp, faded), density = styling.by_angles(scalp, shaved) })
         hair:taper{ tip = 0.4, start = 0.6 }:set_colors{ color = { 0.06, 0.036, 0.02 } }
         local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
         styling.streams(style, routes)
-        local top = style:grow{ count = math.floor(0.6 * o.count), seed = v.seed, length = v.top,
-            density = styling.by_angles(scalp, on_top), layer = 0.008, clearance = 0.002, lift = 0.5,
-            variation = 0.2 }
+        local top = style:grow{ count = math.floor(0.6 * o.count), seed = v.seed,
+            length = styling.by_angles(scalp, top_length), density = styling.by_angles(scalp, on_top),
+            layer = 0.008, clearance = 0.002, lift = 0.5, variation = 0.2 }
         top:resample{ count = 24 }:smooth{ iterations = 3 }
         top:clump{ clumps = 350, strength = 0.5 }
         styling.finish(top, 0.00028, 0.004, o.count):push_out{ head = style, clearance = 0.0015 }
