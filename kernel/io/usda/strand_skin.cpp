@@ -16,6 +16,11 @@ namespace {
     throw Error(ErrorCode::invalid_argument, message, std::move(strands));
 }
 
+// Refuses the strands, if there are any, by their numbers and this text.
+void refuse_those(const Elements& strands, const char* text) {
+    if (strands.count > 0) refuse_strands(describe(strands) + text, strands);
+}
+
 // Names and parents alone say which joint is meant.
 using JointKey = std::pair<std::vector<std::string>, std::vector<Index>>;
 
@@ -163,16 +168,12 @@ StrandSkin skin_at_roots(const Strands& strands, const Mesh& head, double unit,
         }
         if (!take_strongest(sums, skin.of_strand[at(s)])) bare.add(s);
     }
-    if (rootless.count > 0)
-        refuse_strands(describe(rootless) +
-                           " not rooted on this head; give the head that the hair grew on, or "
-                           "move it there with strands:transfer",
-                       std::move(rootless));
-    if (bare.count > 0)
-        refuse_strands(describe(bare) +
-                           " rooted on vertices without weights; give these vertices "
-                           "weights, or leave out 'head'",
-                       std::move(bare));
+    refuse_those(rootless,
+                 ": no root on this head; give the head that the hair grew on, or move it there "
+                 "with strands:transfer");
+    refuse_those(bare,
+                 ": roots on vertices without weights; give these vertices weights, or leave out "
+                 "'head'");
     for (auto* transforms : {&skin.skeleton.bind, &skin.skeleton.rest}) {
         for (Affine& transform : *transforms) transform.translation *= unit;
     }

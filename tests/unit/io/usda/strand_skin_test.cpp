@@ -215,4 +215,5 @@ TEST_CASE("hair is not bound to a head that it has no joints of") {
     const Error error = error_of([&] { encode_strands(hair, "usda", {.head = &weightless}); });
     CHECK(error.code() == ErrorCode::invalid_argument);
     CHECK(error.elements().count == 2);
+    CHECK(error.message().starts_with("strands "));
 }
