@@ -9,7 +9,8 @@ export LISSOM_HOSTS=$root/examples/hosts LISSOM_LIBRARY=$library
 here=$root/tests/hosts
 work=$(mktemp -d)
 screen=
-trap '[ -z "$screen" ] || kill "$screen" || true; rm -rf "$work"' EXIT
+# A part of this shell that ends on its own leaves both to the rest.
+trap '[ "$BASHPID" != $$ ] || { [ -z "$screen" ] || kill "$screen" || true; rm -rf "$work"; }' EXIT
 
 # A screen of its own, without a window manager.
 start_screen() {
