@@ -23,7 +23,7 @@ struct StrandSkin {
 
     /// Parents come before their children; coordinates are those of the strands.
     Skeleton skeleton;
-    /// Of each strand: its strongest joints, with weights that sum to 1.
+    /// The strongest joints of each strand, with weights that sum to 1.
     std::vector<std::array<Joint, kInfluences>> of_strand;
 };
 
