@@ -214,22 +214,27 @@ function styling.straight_schema(length)
     }
 end
 
--- How short hair lies: forwards on top and at the sides, down at the back.
+-- How short hair lies: from one whorl behind the crown to the hairline, forwards on top and at the sides,
+-- down at the back. Streams that end on the way would stop the hair beyond them, in a ledge.
 styling.crown_to_hairline = {
-    { 0, 75, 0, 52, 11 }, { 25, 62, 20, 40, 10 }, { 0, 50, 0, 34, 11 }, { 25, 46, 22, 33, 9 },
-    { 45, 50, 46, 30, 6 }, { 100, 66, 92, 42, 5 }, { 180, 72, 0, 84, 3 }, { 80, 36, 84, 12, 4 },
-    { 60, 40, 63, 18, 4 }, { 82, 12, 86, -8, 3 }, { 66, 22, 70, 4, 3 }, { 180, 48, 180, 18, 5 },
-    { 140, 45, 140, 12, 5 }, { 180, 4, 180, -28, 3 }, { 130, 0, 132, -28, 3 },
+    { { 180, 65, 2 }, { 0, 86, 6 }, { 0, 70, 7 }, { 0, 54, 7 }, { 0, 40, 6 }, { 0, 26, 4 } },
+    { { 173, 65, 2 }, { 72, 72, 6 }, { 34, 60, 7 }, { 26, 47, 7 }, { 22, 36, 6 }, { 20, 22, 4 } },
+    { { 169, 63, 2 }, { 92, 60, 6 }, { 64, 48, 6 }, { 50, 37, 6 }, { 44, 27, 5 }, { 40, 12, 4 } },
+    { { 168, 61, 2 }, { 104, 46, 5 }, { 84, 29, 5 }, { 73, 12, 4 }, { 68, -6, 3 } },
+    { { 169, 59, 2 }, { 122, 36, 5 }, { 106, 16, 5 }, { 96, -4, 4 }, { 92, -24, 3 } },
+    { { 172, 57, 2 }, { 138, 26, 5 }, { 129, 4, 5 }, { 126, -20, 4 }, { 126, -40, 3 } },
+    { { 176, 56, 2 }, { 158, 20, 5 }, { 154, -8, 5 }, { 152, -40, 3 } },
+    { { 180, 56, 2 }, { 180, 22, 5 }, { 180, -8, 5 }, { 180, -42, 3 } },
 }
 
 --- Hair of a few millimetres, and its style: shaved sides, or all of a short cut. `options` has its `length`
 -- and `density` as style:grow takes them, the `part` of all strands that it holds, and the `seed`.
 function styling.stubble(head, o, options)
     local style = lissom.hairstyle(head, { scalp = o.scalp, gravity = 0, resolution = o.resolution })
-    styling.comb(style, styling.crown_to_hairline)
+    styling.streams(style, styling.crown_to_hairline)
     local hair = style:grow{ count = math.floor((options.part or 1) * o.count), seed = options.seed,
         length = options.length, density = options.density, layer = 0.001, clearance = 0.0012, lift = 1,
-        variation = 0.15, segment = 0.1 }
+        variation = 0.15, segment = 0.1, min_speed = 0.01 }
     return style, styling.set_width(hair:resample{ count = 5 }, 0.00024, o.count)
 end
 

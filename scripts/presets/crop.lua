@@ -18,17 +18,18 @@ return styling.preset(..., {
     make = function(head, v, o)
         local scalp = o.scalp
         local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
-        styling.comb(style, styling.crown_to_hairline)
+        styling.streams(style, styling.crown_to_hairline)
         local lengths = styling.by_angles(scalp, function(azimuth, elevation)
-            local front = math.abs(azimuth) < 40
-            local on_top = styling.smooth(front and 28 or 34, front and 40 or 66, elevation)
+            -- The top comes lower in front than at the sides and behind, in no step.
+            local beside = styling.smooth(25, 75, math.abs(azimuth))
+            local on_top = styling.smooth(26 + 6 * beside, 40 + 26 * beside, elevation)
             local side = v.sides + 0.25 * (v.top - v.sides) * styling.smooth(-30, 25, elevation)
             return side + (v.top - side) * on_top
         end)
-        local hair = style:grow{ count = o.count, seed = v.seed, length = lengths, layer = 0.003,
-            clearance = 0.0012, lift = 0.5, variation = 0.25, segment = 0.25 }
+        local hair = style:grow{ count = o.count, seed = v.seed, length = lengths, layer = 0.006,
+            clearance = 0.0012, lift = 0.5, ramp = 0.02, variation = 0.3, segment = 0.25, min_speed = 0.01 }
         hair:resample{ count = 10 }
-        hair:clump{ clumps = 700, strength = v.texture, seed = v.seed }
+        hair:clump{ clumps = 700, strength = v.texture, tip_spread = 0.0015, offset = 0.0015, seed = v.seed }
         styling.finish(hair, 0.00028, 0.004):push_out{ head = style, clearance = 0.0008 }
         return style, hair, { color = "#4a3020", scalp_tint = 0.8, unit = scalp:unit() }
     end,
