@@ -1,14 +1,20 @@
---- Short messy hair: combed all ways, in locks that lean.
+--- Short messy hair: off one whorl, in locks that lean.
 --
 --     lissom run scripts/presets/messy.lua --length 0.09 --disorder 0.03
 local lissom = require "lissom"
 local styling = require "styling"
 
-local combed = {
-    { 0, 72, 8, 46, 26 }, { 25, 62, 26, 38, 26 }, { -5, 50, -8, 32, 26, one = true }, { 28, 46, 30, 28, 24 },
-    { 45, 52, 52, 26, 20 }, { 100, 66, 90, 38, 18 }, { 180, 70, 0, 86, 20 }, { 80, 36, 86, 6, 16 },
-    { 60, 44, 66, 14, 16 }, { 82, 12, 90, -14, 12 }, { 180, 48, 180, 14, 18 }, { 140, 45, 140, 8, 18 },
-    { 180, 4, 180, -36, 10 }, { 130, 0, 132, -36, 10 },
+-- From one whorl outwards, so that no lock ends against another; in front towards the head's left.
+local routes = {
+    { { 180, 65, 2 }, { 0, 86, 16 }, { 4, 70, 22 }, { 10, 54, 28 }, { 16, 40, 30 }, { 18, 30, 28 },
+        one = true },
+    { { 173, 65, 2 }, { 72, 72, 16 }, { 40, 60, 22 }, { 36, 47, 28 }, { 38, 36, 28 }, one = true },
+    { { -173, 65, 2 }, { -72, 72, 16 }, { -30, 60, 22 }, { -18, 47, 28 }, { -10, 36, 28 }, one = true },
+    { { 169, 63, 2 }, { 92, 60, 15 }, { 64, 48, 21 }, { 54, 37, 26 }, { 52, 25, 24 } },
+    { { 168, 61, 2 }, { 104, 46, 14 }, { 88, 29, 18 }, { 80, 12, 22 }, { 78, -8, 20 } },
+    { { 169, 59, 2 }, { 122, 36, 14 }, { 108, 16, 18 }, { 100, -4, 20 }, { 98, -24, 16 } },
+    { { 172, 57, 2 }, { 138, 26, 14 }, { 130, 4, 18 }, { 128, -20, 18 }, { 128, -40, 10 } },
+    { { 180, 56, 2 }, { 180, 26, 14 }, { 180, -2, 18 }, { 180, -22, 16 }, { 180, -42, 8 } },
 }
 
 return styling.preset(..., {
@@ -25,12 +31,12 @@ return styling.preset(..., {
     make = function(head, v, o)
         local scalp = o.scalp
         local style = lissom.hairstyle(head, { scalp = scalp, gravity = 0, resolution = o.resolution })
-        styling.comb(style, combed)
+        styling.streams(style, routes)
         local lengths = styling.by_angles(scalp, function(_, elevation)
             return v.length * (0.5 + 0.5 * styling.smooth(-20, 50, elevation))
         end)
         local hair = style:grow{ count = o.count, seed = v.seed, length = lengths, layer = 0.014,
-            clearance = 0.002, lift = 0.6, variation = 0.35 }
+            clearance = 0.002, lift = 0.6, variation = 0.35, min_speed = 0.01 }
         hair:resample{ count = 18 }:smooth{ iterations = 2 }
         hair:noise{ amplitude = v.disorder, across = 0.02, along = 0.06, seed = 4 + v.seed, shape = 1.2 }
         hair:clump{ clumps = v.locks, strength = v.gathered, tip_spread = 0.0025, offset = 0.006 }
