@@ -4,17 +4,18 @@
 local lissom = require "lissom"
 local styling = require "styling"
 
+-- All go on down the nape, ever closer to it: one that ended there would part the hair below its end.
 local routes = {
-    { { 0, 37, 3 }, { 0, 52, 9 }, { 0, 75, 8 }, { 180, 70, 7 }, { 180, 35, 8 }, { 180, 0, 8 },
-        { 180, -30, 8 }, stop = false },
-    { { 22, 38, 3 }, { 26, 52, 9 }, { 50, 66, 8 }, { 120, 60, 7 }, { 155, 30, 8 }, { 160, 0, 8 }, { 163, -32,
-        8 }, stop = false },
-    { { 44, 36, 3 }, { 56, 44, 8 }, { 85, 46, 8 }, { 120, 36, 7 }, { 140, 10, 8 }, { 148, -20, 8 },
-        stop = false },
-    { { 60, 22, 3 }, { 74, 30, 5 }, { 95, 31, 6 }, { 116, 22, 7 }, { 134, 0, 7 }, { 144, -30, 7 },
-        stop = false },
-    { { 70, 4, 3 }, { 76, 16, 4 }, { 88, 22, 5 }, { 104, 22, 6 }, { 122, 8, 6 }, stop = false },
-    { { 180, 20, 7 }, { 180, -10, 8 }, { 180, -38, 8 } },
+    { { 0, 37, 3 }, { 0, 52, 9 }, { 0, 75, 8 }, { 180, 70, 7 }, { 180, 35, 8 }, { 180, 4, 7 },
+        { 180, -18, 5 }, { 180, -34, 3 }, { 180, -50, 2 }, stop = false },
+    { { 22, 38, 3 }, { 26, 52, 9 }, { 50, 66, 8 }, { 120, 60, 7 }, { 155, 30, 8 }, { 160, 2, 7 },
+        { 163, -18, 5 }, { 166, -34, 3 }, { 168, -50, 2 }, stop = false },
+    { { 44, 36, 3 }, { 56, 44, 8 }, { 85, 46, 8 }, { 120, 36, 7 }, { 140, 10, 7 }, { 148, -18, 5 },
+        { 154, -36, 3 }, { 157, -50, 2 }, stop = false },
+    { { 60, 22, 3 }, { 74, 30, 5 }, { 95, 31, 6 }, { 116, 22, 7 }, { 134, 0, 6 }, { 143, -26, 4 },
+        { 148, -48, 2 }, stop = false },
+    { { 70, 4, 3 }, { 76, 16, 4 }, { 88, 22, 5 }, { 104, 22, 6 }, { 122, 8, 5 }, { 134, -14, 4 },
+        { 141, -40, 2 }, stop = false },
 }
 
 return styling.preset(..., {
@@ -42,9 +43,10 @@ return styling.preset(..., {
             local low = v.length * (0.9 + 0.14 * styling.smooth(124, 176, azimuth))
             hem[#hem + 1] = { azimuth, 0.012 - (low + 0.012) * styling.smooth(112, 124, azimuth) }
         end
+        hair:guides{ count = v.locks }
         hair:cut{ hem = hem, scalp = scalp, jitter = v.ragged / 2, guide_jitter = v.ragged / 2,
             seed = v.seed }
-        hair:smooth{ iterations = 3 }:clump{ clumps = v.locks, strength = 0.4 }
+        hair:smooth{ iterations = 3 }:clump{ strength = 0.4 }
         styling.finish(hair, 0.00026, 0.001):push_out{ head = style, clearance = 0.001 }
         return style, hair, { color = "#2b1a10", primary = 0.28, unit = scalp:unit() }
     end,
