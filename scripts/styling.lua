@@ -93,6 +93,15 @@ function styling.by_angles(scalp, f)
     end
 end
 
+--- The place in metres `lift` millimetres off the head, straight from its middle: normals of a bumpy head
+-- would scatter hair that stands far off it.
+function styling.off(scalp, azimuth, elevation, lift)
+    local p, size = scalp:to_metres(scalp:at{ azimuth = azimuth, elevation = elevation }), 0
+    for k = 1, 3 do size = size + p[k] ^ 2 end
+    for k = 1, 3 do p[k] = p[k] * (1 + 0.001 * lift / math.sqrt(size)) end
+    return p
+end
+
 --- The points of a route, or with `side` -1 those of its mirror image.
 function styling.route(scalp, places, side)
     local points, last = {}, nil
@@ -114,7 +123,7 @@ end
 local function in_the_middle(route)
     for _, place in ipairs(route) do
         local across = type(place[1]) == "string" and place[2] or place[1] % 180
-        if across ~= 0 then return false end
+        if math.abs(across) > 1e-6 then return false end
     end
     return true
 end
@@ -142,6 +151,10 @@ end
 --- Adds streams that stand off the head all around, `length` millimetres long; their ends are `rise` degrees
 -- higher than their roots.
 function styling.radial(style, length, rise)
+    local function at(azimuth, elevation, lift)
+        local p = styling.off(style:scalp(), azimuth, elevation, lift)
+        return { "at", 1000 * p[1], 1000 * p[2], 1000 * p[3] }
+    end
     local places = { { 0, 88 }, { 0, 60 }, { 60, 60 }, { 120, 60 }, { 180, 60 } }
     for azimuth = 0, 180, 30 do places[#places + 1] = { azimuth, 35 } end
     for azimuth = 60, 180, 30 do places[#places + 1] = { azimuth, 8 } end
@@ -149,7 +162,7 @@ function styling.radial(style, length, rise)
     local routes = {}
     for i, p in ipairs(places) do
         local up = rise or 0
-        routes[i] = { { p[1], p[2], 2 }, { p[1], p[2] + up / 2, length / 2 }, { p[1], p[2] + up, length } }
+        routes[i] = { at(p[1], p[2], 2), at(p[1], p[2] + up / 2, length / 2), at(p[1], p[2] + up, length) }
     end
     styling.streams(style, routes)
 end
