@@ -55,19 +55,20 @@ function styling.ombre(hair, ...)
     return hair:set_colors{ profile = profile }
 end
 
+--- A random number from 0 to 1 of a number, such as that of a strand or a lock.
+function styling.chance(number, seed)
+    local x = math.sin(12.9898 * number + 78.233 * seed) * 43758.5453
+    return x - math.floor(x)
+end
+
 --- Streaks: a part of the locks, 0 to 1, has another colour.
 function styling.highlights(hair, base, streaks, part, seed)
-    local colors, chance = {}, {}
+    local colors = {}
     local a = styling.linear(styling.colors[base] or base)
     local b = styling.linear(styling.colors[streaks] or streaks)
     for s = 1, #hair do
         local root = hair:root(s)
-        local lock = root.guide or root.id
-        if chance[lock] == nil then
-            local x = math.sin(12.9898 * lock + 78.233 * (seed or 1)) * 43758.5453
-            chance[lock] = x - math.floor(x) < part
-        end
-        colors[s] = chance[lock] and b or a
+        colors[s] = styling.chance(root.guide or root.id, seed or 1) < part and b or a
     end
     return hair:set_colors{ colors = colors }
 end
@@ -167,18 +168,18 @@ function styling.radial(style, length, rise)
     styling.streams(style, routes)
 end
 
--- Long hair behind the shoulders, and before them.
+-- Long hair behind the shoulders, and before them. Behind them it narrows, deepest in the middle.
 styling.behind = {
     { { 12, 50, 9 }, { 30, 40, 16 }, { 50, 24, 18 }, { 66, 6, 18 }, { "at", 86, -60, 22 }, { "at", 82, -115,
-        -20 }, { "at", 76, -170, -80 }, { "at", 72, -220, -106 }, { "at", 70, -360, -110 } },
+        -20 }, { "at", 76, -170, -78 }, { "at", 72, -220, -100 }, { "at", 56, -380, -102 } },
     { { 30, 72, 10 }, { 66, 50, 18 }, { 84, 20, 18 }, { 92, 2, 20 }, { "at", 92, -60, -18 }, { "at", 76, -120,
-        -58 }, { "at", 66, -190, -104 }, { "at", 62, -360, -112 } },
+        -58 }, { "at", 64, -190, -104 }, { "at", 46, -380, -110 } },
     { { 120, 70, 10 }, { 118, 40, 17 }, { 122, -5, 18 }, { "at", 70, -80, -66 }, { "at", 54, -130, -84 },
-        { "at", 46, -190, -108 }, { "at", 44, -360, -114 } },
-    { { 150, 66, 8 }, { 152, 30, 16 }, { 154, -28, 18 }, { "at", 34, -130, -88 }, { "at", 30, -200, -108 },
-        { "at", 28, -360, -114 } },
-    { { 180, 70, 8 }, { 180, 30, 16 }, { 180, -30, 18 }, { "at", 0, -130, -92 }, { "at", 0, -200, -110 },
-        { "at", 0, -360, -116 } },
+        { "at", 45, -190, -110 }, { "at", 32, -380, -120 } },
+    { { 150, 66, 8 }, { 152, 30, 16 }, { 154, -28, 18 }, { "at", 34, -130, -90 }, { "at", 28, -200, -114 },
+        { "at", 20, -380, -128 } },
+    { { 180, 70, 8 }, { 180, 30, 16 }, { 180, -30, 18 }, { "at", 0, -130, -94 }, { "at", 0, -200, -116 },
+        { "at", 0, -380, -132 } },
 }
 styling.over_shoulders = {
     { { 10, 50, 10 }, { 30, 40, 18 }, { 52, 25, 20 }, { 68, 5, 20 }, { "at", 80, -60, 20 },
@@ -205,14 +206,33 @@ function styling.long(head, o, routes, parting)
     return style
 end
 
---- Straight long hair of a style: grown, cut `length` metres below the middle of the head, in locks.
-function styling.straight(style, o, v)
-    local hair = style:grow{ count = o.count, seed = v.seed, length = 0.225 + v.length, layer = v.volume,
+--- Cuts hair along a hem, as hair:cut takes it, in locks that end within `ragged` metres of it; more than
+-- half of the hairs are layers that end higher, so that the hair thins out.
+function styling.ragged_hem(hair, scalp, hem, ragged, seed)
+    local higher = {}
+    for i, place in ipairs(hem) do higher[i] = { place[1], place[2] + 2.5 * ragged } end
+    hair:cut{ hem = hem, scalp = scalp, jitter = 0.4 * ragged, guide_jitter = 0.7 * ragged, seed = seed }
+    return hair:cut{ hem = higher, scalp = scalp, jitter = 2.5 * ragged, seed = seed + 1,
+        mask = function(strand) return styling.chance(strand, seed) < 0.6 and 1 or 0 end }
+end
+
+--- Straight long hair of a style: grown, in locks, cut `length` metres below the middle of the head, lowest
+-- in the middle of the back. `options` are further ones of style:grow.
+function styling.straight(style, o, v, options)
+    local growth = { count = o.count, seed = v.seed, length = 0.245 + v.length, layer = v.volume,
         clearance = 0.003 }
-    hair:resample{ step = 0.006 }:smooth{ iterations = 4 }
-    hair:cut{ hem = { { 0, -v.length } }, scalp = o.scalp, jitter = v.ragged, seed = v.seed }
+    for key, value in pairs(options or {}) do growth[key] = value end
+    local hair = style:grow(growth)
+    hair:resample{ step = 0.006 }:smooth{ iterations = 4 }:guides{ count = 240 }
+    hair:gather{ factor = 0.3, ramp = 0.25, spread = 0.005, seed = v.seed }
+    local hem = {}
+    for azimuth = 0, 180, 6 do
+        hem[#hem + 1] = { azimuth, -v.length + 0.04 * (1 - styling.smooth(135, 178, azimuth)) }
+    end
+    styling.ragged_hem(hair, o.scalp, hem, v.ragged, v.seed)
+    hair:clump{ strength = 0.6, shape = 3, tip_spread = 0.002, seed = v.seed }
     hair:clump{ clumps = 1200, strength = 0.4, seed = v.seed }
-    return styling.finish(hair, 0.00028, 0.002):push_out{ head = style, clearance = 0.002 }
+    return styling.finish(hair, 0.00028, 0.004):push_out{ head = style, clearance = 0.002 }
 end
 
 --- Parameters of straight long hair; `length` is the usual one.
@@ -222,7 +242,7 @@ function styling.straight_schema(length)
             help = "of the ends below the middle of the head" },
         volume = { type = "number", default = 0.01, min = 0.002, max = 0.02, unit = "metres",
             help = "thickness of the hair" },
-        ragged = { type = "number", default = 0.012, min = 0, max = 0.04, unit = "metres",
+        ragged = { type = "number", default = 0.018, min = 0, max = 0.04, unit = "metres",
             help = "of the ends" },
     }
 end

@@ -4,24 +4,15 @@
 --     lissom run scripts/presets/long_straight.lua --length 0.33 --inward 0.5
 local styling = require "styling"
 
--- Those of long hair behind the shoulders, but the first, which go before them.
-local routes = {
-    { { 8, 50, 10 }, { 26, 41, 17 }, { 48, 26, 20 }, { 64, 6, 20 }, { "at", 78, -60, 32 },
-        { "at", 68, -115, 50 }, { "at", 58, -180, 76 }, { "at", 52, -320, 92 } },
+local before = {
+    { { 8, 50, 10 }, { 26, 41, 17 }, { 48, 26, 20 }, { 64, 6, 20 }, { "at", 80, -60, 26 },
+        { "at", 73, -115, 44 }, { "at", 66, -180, 70 }, { "at", 60, -340, 80 } },
+    { { 24, 72, 10 }, { 62, 50, 18 }, { 78, 24, 20 }, { 84, 4, 20 }, { "at", 90, -60, 4 },
+        { "at", 86, -115, 30 }, { "at", 81, -180, 62 }, { "at", 74, -340, 74 } },
 }
-for i = 2, #styling.behind do routes[i] = styling.behind[i] end
-
--- A mask of strands that would lie on the tops of the shoulders, between both.
-local function on_shoulders(scalp, hair)
-    local mask, points, unit, at = {}, hair:points(), scalp:unit(), 0
-    for s, count in ipairs(hair:point_counts()) do
-        local x, y, z = points:get(at + count)
-        local tip = scalp:to_metres(x / unit, y / unit, z / unit)
-        mask[s] = tip[2] < -0.14 and math.abs(tip[3] + 0.01) < 0.055 and 1 or 0
-        at = at + count
-    end
-    return mask
-end
+-- Those of long hair behind the shoulders, but the first.
+local behind = {}
+for i = 2, #styling.behind do behind[i - 1] = styling.behind[i] end
 
 local schema = styling.straight_schema(0.31)
 schema.inward = { type = "number", default = 0.2, min = 0, max = 1, help = "how far the ends turn in" }
@@ -31,14 +22,26 @@ return styling.preset(..., {
     edge = "loose",
     schema = schema,
     make = function(head, v, o)
-        local style = styling.long(head, o, routes, { { -6, 38 }, { -7, 46 }, { -9, 54 } })
-        local hair = styling.straight(style, o, v)
-        hair:cull{ mask = styling.over_face(o.scalp, hair) }
-        hair:cull{ mask = on_shoulders(o.scalp, hair) }
-        if v.inward > 0 then
-            hair:roll{ radius = 0.03, start = 0.9, factor = v.inward }
-            hair:push_out{ head = style, clearance = 0.002 }
+        local parting = { { -6, 38 }, { -7, 46 }, { -9, 54 } }
+        -- Two fields: in one, hair between those before and behind would lie on the tops of the shoulders.
+        local function part(routes, share, forwards)
+            local style = styling.long(head, o, routes, parting)
+            local rooted = styling.by_angles(o.scalp, function(_, _, p)
+                local front = styling.smooth(0.014, 0.026, p[3])
+                return forwards and front or 1 - front
+            end)
+            return style, styling.straight(style, o, v, { density = rooted,
+                count = math.floor(share * o.count) })
         end
-        return style, hair, { color = "#7a5232", primary = 0.3, unit = o.scalp:unit() }
+        local style, hair = part(behind, 0.65, false)
+        local front_style, front = part(before, 0.35, true)
+        front:cull{ mask = styling.over_face(o.scalp, front) }
+        if v.inward > 0 then
+            for lock_style, locks in pairs{ [style] = hair, [front_style] = front } do
+                locks:roll{ radius = 0.03, start = 0.9, factor = v.inward }
+                locks:push_out{ head = lock_style, clearance = 0.002 }
+            end
+        end
+        return style, hair:append(front), { color = "#7a5232", primary = 0.3, unit = o.scalp:unit() }
     end,
 })
