@@ -175,6 +175,23 @@ EMSCRIPTEN_KEEPALIVE bool page_call(const char* name, const char* arguments) {
     return true;
 }
 
+/// Forgets the number of an object of a result, by the type that stands beside it there. The object
+/// goes on if scripts have it.
+EMSCRIPTEN_KEEPALIVE bool page_release(double id, const char* type) {
+    const std::string_view kind(type);
+    if (kind == "lissom.Mesh") return is_done(lissom_mesh_release(page.context, mesh_of(id)));
+    if (kind == "lissom.Strands") {
+        return is_done(lissom_strands_release(page.context, strands_of(id)));
+    }
+    const auto number = static_cast<std::uint64_t>(id);
+    if (kind == "lissom.Region") return is_done(lissom_region_release(page.context, {number}));
+    if (kind == "lissom.Hairstyle") {
+        return is_done(lissom_hairstyle_release(page.context, {number}));
+    }
+    if (kind == "lissom.Deformer") return is_done(lissom_deformer_release(page.context, {number}));
+    return is_done(lissom_object_release(page.context, {number}));
+}
+
 /// Reads a mesh into the lists positions, normals, vertices, edges and colors.
 EMSCRIPTEN_KEEPALIVE bool page_read_mesh(double id, double crease) {
     lissom::wasm::DrawnMesh drawn;

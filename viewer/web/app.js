@@ -4,6 +4,9 @@ import { View } from './picture.js';
 import { css, scaleGradient } from './colors.js';
 import { fromLink, toLink } from './link.js';
 import { showParameters } from './parameters.js';
+import { Hand, keyName, letterOf } from './hand.js';
+import { drawMarks } from './marks.js';
+import { fillToolbar, showKeys, showSteps, showTaken } from './toolbar.js';
 
 const $ = id => document.getElementById(id);
 const made = (tag, set = {}, ...children) => {
@@ -18,7 +21,7 @@ const embedded = new URLSearchParams(location.search).has('embed');
 // ---- The open script
 
 const state = { name: 'script.lua', values: {}, inputs: [], parameters: [], reply: null, example: null, frame: true, changed: false };
-let worker = null, view = null, editor = null, examples = [];
+let worker = null, view = null, hand = null, editor = null, examples = [];
 let runs = 0, running = 0, again = false, started = 0, waiting = new Map();
 
 function note(text, long = false) {
@@ -34,7 +37,14 @@ function print(text, className = '', line = 0) {
     const row = made('div', { className });
     if (line) row.append(made('button', { textContent: text, title: `Go to line ${line}`, onclick: () => { showPane('script'); editor.jump(line); } }));
     else row.textContent = text;
-    const box = $('console');
+    const box = $('console'), last = box.lastElementChild;
+    // Lines that a drag repeats are counted.
+    if (last?.line === text && last.className === className && !line) {
+        last.count = (last.count || 1) + 1;
+        last.textContent = `${text}  (${last.count} times)`;
+        return;
+    }
+    row.line = text;
     box.append(row);
     while (box.childElementCount > 2100) box.firstChild.remove();
     box.scrollTop = box.scrollHeight;
@@ -93,7 +103,8 @@ const receive = {
         $('bar').style.width = `${Math.round(100 * fraction)}%`;
     },
     ran(data) { finished(data); },
-    picture(data) { state.reply.at = data.at; showPicture(data.picture, true); },
+    picture(data) { state.reply.at = data.at; dropHand(); showPicture(data.picture, true); hand?.takeAgain(); },
+    hand(data) { handAnswered(data); },
     saved(data) {
         const { resolve, refuse } = waiting.get(data.id) || {};
         waiting.delete(data.id);
@@ -109,6 +120,8 @@ function run({ quiet = false } = {}) {
     started = performance.now();
     editor.clear();
     $('console').replaceChildren();
+    if (state.steps?.count) print('The script begins anew: changes by hand are gone.', 'muted');
+    dropHand();
     worker.postMessage({ kind: 'run', id: running, script: editor.text, name: state.name, values: state.values, inputs: state.inputs,
         picture: state.wanted || state.reply?.pictures?.[state.reply.at]?.name });
     clearTimeout(run.timer);
@@ -122,6 +135,13 @@ function busy(is) {
 }
 
 function stop() {
+    if (!running && hand?.isWaiting) {
+        busy(false);
+        startWorker();
+        run();
+        print('Stopped: the script begins anew.', 'muted');
+        return;
+    }
     if (!running) return;
     running = 0;
     again = false;
@@ -134,10 +154,12 @@ function finished(data) {
     if (data.id !== running) return;
     running = 0;
     busy(false);
+    state.isLive = data.ok;
     showValues(data);
     if (data.ok) {
         state.reply = data;
         showReply(data);
+        hand?.takeAgain();
     } else {
         showError(data.error);
         if (data.broken) startWorker();
@@ -167,12 +189,16 @@ function showPicture(picture, frame) {
     state.picture = picture;
     if (!view) return;
     view.show(picture, frame);
+    showCounts(picture);
+    showLegend(picture);
+}
+
+function showCounts(picture) {
     const vertices = picture.meshes.reduce((sum, mesh) => sum + mesh.vertexCount, 0), hairs = picture.strands.reduce((sum, one) => sum + one.count, 0);
     const parts = [];
     if (vertices) parts.push(`${vertices.toLocaleString('en')} vertices`);
     if (hairs) parts.push(`${hairs.toLocaleString('en')} strands`);
     $('counts').textContent = parts.join(' · ');
-    showLegend(picture);
 }
 
 function showLegend(picture) {
@@ -190,7 +216,127 @@ function showCaptions(cells) {
     $('captions').replaceChildren(...rows);
 }
 
+// ---- Tools
+
+// The document of the hand is gone: another one follows, or none.
+function dropHand() {
+    hand?.reset();
+    Object.assign(state, { steps: null, marks: null, toolForm: '' });
+    $('hand').hidden = true;
+    showSteps($('toolbar'), state.steps);
+    view?.ask();
+}
+
+function postToHand(message) {
+    hand.id = ++runs;
+    worker.postMessage({ kind: 'hand', id: hand.id, ...message });
+    clearTimeout(run.timer);
+    run.timer = setTimeout(() => { $('step').textContent = 'Working'; busy(true); }, 400);
+}
+
+function handAnswered(data) {
+    if (data.id !== hand.id || running) return;
+    busy(false);
+    // After a failure of the library itself the script begins anew.
+    if (data.broken) { showFailures(data.failures); startWorker(); run(); return; }
+    if (data.picture) showHand(data);
+    showFailures(data.failures);
+    hand.last = data;
+    hand.answered();
+}
+
+function showFailures(failures) {
+    for (const one of Array.isArray(failures) ? failures : []) {
+        print(one.message, 'error', lineOf(one.message));
+        note(one.message.replace(/^[^\s:]+:\d+:\s*/, ''), true);
+    }
+}
+
+function showHand(data) {
+    Object.assign(state, { marks: data.marks, steps: data.steps });
+    state.picture = view.update(data.picture);
+    if (data.camera) view.seeBy(data.camera);
+    showCounts(state.picture);
+    $('legend').hidden = true;
+    showSteps($('toolbar'), state.steps);
+    showTool(data);
+}
+
+// Values of the tool in place of those of the script, unless they are as the form has them.
+function showTool(data) {
+    $('hand').hidden = !data.tool;
+    $('prompt').textContent = data.prompt || '';
+    $('prompt').title = data.prompt || '';
+    const list = Array.isArray(data.parameters) ? data.parameters : [], form = JSON.stringify([data.tool, list]);
+    if (form === state.toolForm) return;
+    state.toolForm = form;
+    if (!data.tool) return showScriptForm();
+    $('parameters').hidden = !showParameters($('parameters'), list, {}, (name, value) => {
+        const one = list.find(each => each.name === name);
+        one.value = value;
+        state.toolForm = JSON.stringify([data.tool, list]);
+        hand.set(name, value);
+    });
+}
+
+function takeTool(name) {
+    showTaken($('toolbar'), name);
+    showKeys($('keys'), hand, name);
+    $('canvas').dataset.tool = name;
+    hand.take(name);
+}
+
+const isTyped = target => target.closest?.('input, select, textarea, .cm-editor, [contenteditable]');
+
+// Keys that no field has are the hand's.
+function takeKey(event) {
+    if (!hand || event.defaultPrevented || isTyped(event.target)) return;
+    const letter = letterOf(event);
+    if ((event.ctrlKey || event.metaKey) && !event.altKey) {
+        const kind = letter === 'y' || (letter === 'z' && event.shiftKey) ? 'redo' : letter === 'z' ? 'undo' : '';
+        if (!kind || !state.steps) return;
+        event.preventDefault();
+        hand.travel(kind);
+        return;
+    }
+    if (!hand.isActive || !document.activeElement?.closest('#picture, body') || event.target.closest?.('button') && event.key !== 'Escape') return;
+    if (event.key === 'Alt' && hand.pointer !== null) event.preventDefault();
+    const key = keyName(event);
+    if (!key || (key === 'tab' && event.shiftKey)) return;
+    event.preventDefault();
+    hand.key(key, { shift: event.shiftKey, alt: event.altKey });
+}
+
+function listenForHand() {
+    hand = new Hand(view, postToHand);
+    hand.isBlocked = () => running !== 0 || !state.isLive || !state.reply?.picture;
+    Object.defineProperty(hand, 'at', { get: () => state.reply.at });
+    fillToolbar($('toolbar'), { take: takeTool, travel: kind => hand.travel(kind) });
+    $('canvas').addEventListener('pointerleave', () => { hand.isAway = true; view.ask(); });
+    $('canvas').addEventListener('pointerdown', () => $('canvas').focus({ preventScroll: true }));
+    document.addEventListener('keydown', takeKey);
+}
+
+// After each frame of the picture.
+function drawn(cells) {
+    showCaptions(cells);
+    if (!hand) return;
+    drawMarks($('marks'), state.marks, { project: (x, y, z) => view.project(x, y, z), isAway: hand.isAway, right: covered().right });
+    hand.drawn();
+}
+
 // ---- Values
+
+function showScriptForm() {
+    $('parameters').hidden = !showParameters($('parameters'), state.parameters, state.values, setValue);
+}
+
+function setValue(name, value) {
+    state.values[name] = value;
+    state.changed = true;
+    keep();
+    run({ quiet: true });
+}
 
 function showValues(data) {
     if (!data.parameters.length && !data.ok) return;
@@ -200,12 +346,7 @@ function showValues(data) {
     state.parameters = data.parameters;
     const names = new Set(data.parameters.map(one => one.name));
     for (const name of Object.keys(state.values)) if (!names.has(name)) delete state.values[name];
-    $('parameters').hidden = !showParameters($('parameters'), data.parameters, state.values, (name, value) => {
-        state.values[name] = value;
-        state.changed = true;
-        keep();
-        run({ quiet: true });
-    });
+    if (!hand?.tool) showScriptForm();
 }
 
 // ---- Scripts
@@ -306,7 +447,7 @@ async function saveObject(type, object, extension) {
 
 function downloads() {
     const rows = [], row = (text, detail, action) => rows.push(made('button', { role: 'menuitem', onclick: () => { toggleMenu(false); action(); } }, text, made('small', { textContent: detail })));
-    const { picture, reply } = state, mesh = picture?.meshes[picture.meshes.length - 1];
+    const { picture, reply } = state, mesh = picture?.meshes.filter(one => !one.raised).pop();
     if (mesh) {
         rows.push(made('p', { textContent: 'The mesh' }));
         for (const [extension, what] of [['obj', 'Wavefront'], ['glb', 'glTF'], ['ply', 'Stanford'], ['stl', 'for printing']]) row(`.${extension}`, what, () => saveObject('Mesh', mesh.object, extension));
@@ -416,7 +557,7 @@ function listen() {
     $('pictures').onchange = () => worker.postMessage({ kind: 'select', at: +$('pictures').value });
     $('download').onclick = event => { event.stopPropagation(); toggleMenu($('downloads').hidden); };
     document.addEventListener('click', event => { if (!$('downloads').contains(event.target)) toggleMenu(false); });
-    document.addEventListener('keydown', event => { if (event.key === 'Escape') { if ($('downloads').hidden) stop(); toggleMenu(false); } });
+    document.addEventListener('keydown', event => { if (event.key === 'Escape') { if ($('downloads').hidden && (running || !$('busy').hidden)) { event.preventDefault(); stop(); } toggleMenu(false); } });
     $('theme').onclick = () => setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark');
     $('parameters').onsubmit = event => event.preventDefault();
     for (const button of document.querySelectorAll('nav button')) button.onclick = () => showPane(button.dataset.show);
@@ -424,6 +565,7 @@ function listen() {
     listenForDivider();
     listenForFiles();
     if (!view) return;
+    if (!embedded) listenForHand();
     toggle($('wire'), 'wire');
     toggle($('flat'), 'flat');
     $('reset').onclick = () => { view.frame(); view.ask(); };
@@ -432,6 +574,13 @@ function listen() {
 function beEmbedded() {
     document.body.dataset.embed = '';
     $('picture').append(made('a', { id: 'whole', href: `./${location.hash}`, target: '_parent', textContent: 'Open in the playground' }));
+}
+
+// Beside the values, where they lie on the picture and leave it the better half, and the tools.
+function covered() {
+    const panel = $('parameters').offsetWidth + 24, left = $('toolbar').offsetWidth ? $('toolbar').offsetLeft + $('toolbar').offsetWidth : 0;
+    const isBeside = !matchMedia('(max-width: 760px)').matches && !$('parameters').hidden && 2 * panel <= $('canvas').clientWidth;
+    return { left, right: isBeside ? panel : 0 };
 }
 
 async function begin() {
@@ -444,22 +593,24 @@ async function begin() {
             state.changed = true;
             keep();
             clearTimeout(edits);
-            edits = setTimeout(() => run({ quiet: true }), 900);
+            // What was done by hand is not lost by a letter that is typed.
+            if (state.steps?.count) $('state').textContent = 'Edited: Run begins anew';
+            else edits = setTimeout(() => run({ quiet: true }), 900);
         },
         run: () => { clearTimeout(edits); run(); },
     });
     try {
-        view = new View($('canvas'), showCaptions);
+        view = new View($('canvas'), drawn);
     } catch (error) {
         print(`There is no picture: ${error.message}. Scripts run all the same, and their files can be downloaded.`, 'error');
     }
-    // Beside the values, where they lie on the picture and leave it the better half.
-    if (view) view.covered = () => { const panel = $('parameters').offsetWidth + 24; return matchMedia('(max-width: 760px)').matches || $('parameters').hidden || 2 * panel > $('canvas').clientWidth ? 0 : panel; };
+    if (view) view.covered = covered;
     window.lissomView = view;
     window.lissomEditor = editor;
     examples = await (await fetch('examples.json')).json();
     fillExamples();
     listen();
+    window.lissomHand = hand;
     await openFirst();
     useReference(await (await fetch('reference.json')).json());
     // Offline after the first visit; at a file's address or without TLS there is none.

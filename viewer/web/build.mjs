@@ -28,7 +28,7 @@ const read = name => fs.readFileSync(path.join(root, name), 'utf8');
 function luaFiles(folder) {
     return fs.readdirSync(path.join(root, folder), { withFileTypes: true }).flatMap(entry => {
         const name = `${folder}/${entry.name}`;
-        if (entry.isDirectory()) return entry.name === 'tools' ? [] : luaFiles(name);
+        if (entry.isDirectory()) return luaFiles(name);
         return entry.name.endsWith('.lua') ? [name] : [];
     });
 }
@@ -78,7 +78,7 @@ function putServiceWorker() {
 fs.rmSync(out, { recursive: true, force: true });
 fs.mkdirSync(out, { recursive: true });
 for (const name of ['lissom.mjs', 'lissom.wasm']) put(name, fs.readFileSync(path.join(library, name)));
-for (const name of ['index.html', 'icon.svg', 'manifest.webmanifest', 'prelude.lua']) put(name, fs.readFileSync(path.join(here, name)));
+for (const name of ['index.html', 'icon.svg', 'manifest.webmanifest', 'prelude.lua', 'hand.lua']) put(name, fs.readFileSync(path.join(here, name)));
 putScripts();
 put('reference.json', shortReference());
 await bundle();

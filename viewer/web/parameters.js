@@ -52,11 +52,12 @@ export function showParameters(form, parameters, values, changed) {
     const rows = parameters.map(one => {
         const value = values[one.name] ?? one.value ?? one.default;
         const title = one.name.replaceAll('_', ' ') + (one.unit && one.unit !== 'none' ? `, ${one.unit}` : '');
-        return { aside: aside.has(one.type), row: element('label', { className: 'one', title: one.help || '' },
+        return { aside: aside.has(one.type), group: one.group || '', row: element('label', { className: 'one', title: one.help || '' },
             element('span', { textContent: title }), ...field(one, value, set => changed(one.name, set))) };
     });
     const first = rows.filter(one => !one.aside), others = rows.filter(one => one.aside);
-    form.replaceChildren(...first.map(one => one.row));
+    const title = (one, i) => (one.group && one.group !== first[i - 1]?.group ? [element('h3', { textContent: one.group })] : []);
+    form.replaceChildren(...first.flatMap((one, i) => [...title(one, i), one.row]));
     if (others.length) form.append(element('details', {}, element('summary', { textContent: 'Files' }), ...others.map(one => one.row)));
     return parameters.length > 0;
 }

@@ -59,6 +59,11 @@ function ribbons(points, starts) {
     return { indices: indices.subarray(0, at), ends };
 }
 
+function joinedBoxes(a, b) {
+    if (!a || !b) return a || b;
+    return { low: a.low.map((x, k) => Math.min(x, b.low[k])), high: a.high.map((x, k) => Math.max(x, b.high[k])) };
+}
+
 export class View {
     // Calls `changed` after a frame. Throws if the browser has no WebGL 2.
     constructor(canvas, changed = () => {}) {
@@ -67,8 +72,11 @@ export class View {
         this.gl = canvas.getContext('webgl2', { antialias: true, alpha: true, powerPreference: 'high-performance' });
         if (!this.gl) throw new Error('this browser has no WebGL 2');
         this.settings = { wire: false, flat: false, colors: true };
-        // Pixels on the right under other things; a fitted view leaves them free.
-        this.covered = () => 0;
+        // Pixels at the sides under other things; a fitted view leaves them free.
+        this.covered = () => ({ left: 0, right: 0 });
+        // Pointers that turn the view; a hand (hand.js) may take some of them for its tool.
+        this.fingers = new Map();
+        this.hand = null;
         this.drawn = { meshes: [], strands: [], lines: null };
         this.resetCamera({});
         this.open();
@@ -98,6 +106,28 @@ export class View {
         this.ask();
     }
 
+    // The picture after a tool: parts that are the `same` stay as they are drawn, and the camera as it is.
+    update(picture) {
+        const old = this.picture || { meshes: [], strands: [] }, known = this.drawn;
+        const kept = (list, drawn, upload) => {
+            const before = new Map((old[list] || []).map((one, i) => [one.object, { one, drawn: known[list][i] }]));
+            const now = picture[list].map(one => (one.same && before.get(one.object)) || { one, drawn: upload(one) });
+            const stay = new Set(now.map(one => one.drawn));
+            this.free(known[list].filter(one => !stay.has(one)));
+            return now;
+        };
+        const meshes = kept('meshes', known, mesh => this.uploadMesh(mesh)), strands = kept('strands', known, one => this.uploadStrands(one));
+        if (known.lines) this.free([known.lines]);
+        this.drawn = { meshes: meshes.map(one => one.drawn), strands: strands.map(one => one.drawn), lines: this.uploadLines(picture) };
+        picture.meshes = meshes.map(({ one }, i) => ({ ...one, raised: picture.meshes[i].raised }));
+        picture.strands = strands.map(({ one }) => one);
+        picture.box = [...picture.meshes, ...picture.strands].map(one => one.box).reduce(joinedBoxes, null);
+        this.picture = { ...picture, up: old.up, view: old.view, camera: old.camera };
+        if (old.columns) this.frame();
+        this.ask();
+        return this.picture;
+    }
+
     upload(picture) {
         this.free();
         this.drawn.meshes = picture.meshes.map(mesh => this.uploadMesh(mesh));
@@ -105,14 +135,14 @@ export class View {
         this.drawn.lines = this.uploadLines(picture);
     }
 
-    free() {
+    free(list = null) {
         const gl = this.gl, { meshes, strands, lines } = this.drawn;
-        for (const one of [...meshes, ...strands, ...(lines ? [lines] : [])]) {
+        for (const one of list || [...meshes, ...strands, ...(lines ? [lines] : [])]) {
             gl.deleteVertexArray(one.array);
             one.buffers.forEach(buffer => gl.deleteBuffer(buffer));
             if (one.light) [one.light.texture, one.light.onHead].forEach(texture => gl.deleteTexture(texture));
         }
-        this.drawn = { meshes: [], strands: [], lines: null };
+        if (!list) this.drawn = { meshes: [], strands: [], lines: null };
     }
 
     buffer(values) {
@@ -140,7 +170,7 @@ export class View {
         this.attribute(slots.a_color, buffers[2], 4, gl.UNSIGNED_BYTE, true, 0, 0);
         this.attribute(slots.a_flags, buffers[3], 1, gl.UNSIGNED_BYTE, false, 0, 0);
         gl.bindVertexArray(null);
-        return { array, buffers, count: mesh.positions.length / 3, place: mesh.place || identity };
+        return { array, buffers, count: mesh.positions.length / 3, place: mesh.place || identity, raised: mesh.raised };
     }
 
     // Two vertices a point, which know the points before and after theirs.
@@ -233,8 +263,8 @@ export class View {
     fit(box) {
         const cells = this.cells(), cell = cells[0];
         const boxes = cells.length > 1 ? this.picture.meshes.map(mesh => mesh.box) : [box];
-        const covered = cells.length > 1 ? 0 : this.covered();
-        const aspect = (this.canvas.clientWidth * cell.w - covered) / Math.max(this.canvas.clientHeight * cell.h, 1);
+        const { left, right: beside } = cells.length > 1 ? { left: 0, right: 0 } : this.covered();
+        const aspect = (this.canvas.clientWidth * cell.w - left - beside) / Math.max(this.canvas.clientHeight * cell.h, 1);
         const forward = this.toward, right = unit(cross(this.up, forward)), over = cross(forward, right);
         const half = Math.tan(this.fov / 2);
         this.target = box.low.map((x, k) => 0.5 * (x + box.high[k]));
@@ -275,19 +305,21 @@ export class View {
     }
 
     listen() {
-        const { canvas } = this, fingers = new Map();
+        const { canvas, fingers } = this;
         canvas.addEventListener('contextmenu', event => event.preventDefault());
-        canvas.addEventListener('dblclick', () => { if (this.picture?.box) { this.fit(this.picture.box); this.ask(); } });
-        canvas.addEventListener('wheel', event => { event.preventDefault(); this.zoom(Math.exp(0.0012 * event.deltaY)); }, { passive: false });
+        canvas.addEventListener('dblclick', () => { if (this.picture?.box && !this.hand?.isActive) { this.fit(this.picture.box); this.ask(); } });
+        canvas.addEventListener('wheel', event => { event.preventDefault(); if (!this.hand?.wheel(event)) this.zoom(Math.exp(0.0012 * event.deltaY)); }, { passive: false });
         canvas.addEventListener('pointerdown', event => {
-            canvas.setPointerCapture(event.pointerId);
+            try { canvas.setPointerCapture(event.pointerId); } catch { /* A pointer that has gone already. */ }
+            if (this.hand?.down(event)) return;
             fingers.set(event.pointerId, event);
             this.moving = this.touched = true;
         });
-        const lift = event => { fingers.delete(event.pointerId); if (fingers.size === 0) { this.moving = false; this.ask(); } };
+        const lift = event => { if (this.hand?.up(event)) return; fingers.delete(event.pointerId); if (fingers.size === 0) { this.moving = false; this.ask(); } };
         canvas.addEventListener('pointerup', lift);
         canvas.addEventListener('pointercancel', lift);
         canvas.addEventListener('pointermove', event => {
+            if (this.hand?.move(event)) return;
             const before = fingers.get(event.pointerId);
             if (!before) return;
             const dx = event.clientX - before.clientX, dy = event.clientY - before.clientY;
@@ -296,8 +328,9 @@ export class View {
             if (other) {
                 const spread = one => Math.hypot(one.clientX - other.clientX, one.clientY - other.clientY) || 1;
                 this.zoom(spread(before) / spread(event));
-                this.pan(dx / 2, dy / 2);
-            } else if (event.buttons & 6 || event.shiftKey) {
+                // With a tool, whose the first finger is, two turn the view and three move it.
+                if (this.hand?.isActive && fingers.size === 2) this.orbit(0.004 * dx, 0.004 * dy); else this.pan(dx / fingers.size, dy / fingers.size);
+            } else if (event.buttons & 4 || event.shiftKey || (event.buttons & 2 && !this.hand?.isActive)) {
                 this.pan(dx, dy);
             } else {
                 this.orbit(0.008 * dx, 0.008 * dy);
@@ -308,6 +341,37 @@ export class View {
             if (step) { event.preventDefault(); this.orbit(...step); }
             if (event.key === '+' || event.key === '-') this.zoom(event.key === '+' ? 0.85 : 1 / 0.85);
         });
+    }
+
+    // How much farther right than left of the free part the picture goes.
+    shift() {
+        const { left, right } = this.covered();
+        return right - left;
+    }
+
+    // The camera as tools take it: its picture begins at the same corner, and the free part is in its middle.
+    look() {
+        const { target, toward, distance, up, fov, canvas } = this;
+        return { eye: plus(target, toward, distance), target: [...target], up: [...up], fov: fov * 180 / Math.PI,
+            size: [Math.max(Math.round(canvas.clientWidth - this.shift()), 1), Math.max(Math.round(canvas.clientHeight), 1)] };
+    }
+
+    // A tool's camera.
+    seeBy(camera) {
+        const { up, picture } = this;
+        this.resetCamera({ up: picture?.up, camera });
+        this.up = up;
+        this.touched = true;
+        this.ask();
+    }
+
+    // The pixel of a point of the world; null behind the camera.
+    project(x, y, z) {
+        if (!this.whole) return null;
+        const m = this.whole, w = m[3] * x + m[7] * y + m[11] * z + m[15];
+        if (!(w > 0)) return null;
+        const across = (m[0] * x + m[4] * y + m[8] * z + m[12]) / w, over = (m[1] * x + m[5] * y + m[9] * z + m[13]) / w;
+        return [(0.5 + 0.5 * across) * this.canvas.clientWidth, (0.5 - 0.5 * over) * this.canvas.clientHeight];
     }
 
     // ---- A frame
@@ -346,9 +410,10 @@ export class View {
         const near = Math.max(this.distance - reach, 0.002 * this.distance);
         const projection = perspective(this.fov, w / h, near, this.distance + reach);
         // The middle of the picture is that of its free part.
-        if (!centred) projection[8] += this.covered() / Math.max(this.canvas.clientWidth, 1);
+        if (!centred) projection[8] += this.shift() / Math.max(this.canvas.clientWidth, 1);
         const light = cell.hair ? this.drawn.strands.find(one => one.light)?.light : null;
         const shared = { view, projection, light, h };
+        this.whole = centred ? null : times(projection, view);
         this.drawMeshes(cell.meshes, shared, scale);
         if (cell.hair) this.drawStrands(shared);
         if (cell.hair && this.drawn.lines) this.drawLines(shared, w, h, scale);
@@ -377,8 +442,10 @@ export class View {
         for (const mesh of meshes) {
             gl.uniformMatrix4fv(places.u_place, false, mesh.place);
             gl.bindVertexArray(mesh.array);
+            if (mesh.raised) { gl.enable(gl.POLYGON_OFFSET_FILL); gl.polygonOffset(-4, -4); } else gl.disable(gl.POLYGON_OFFSET_FILL);
             gl.drawArrays(gl.TRIANGLES, 0, mesh.count);
         }
+        gl.disable(gl.POLYGON_OFFSET_FILL);
     }
 
     // While the view moves fewer and wider strands are drawn, as far as frames are slow.

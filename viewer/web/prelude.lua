@@ -102,6 +102,7 @@ local function picture_of(options)
         boundaries = options.boundaries, columns = options.columns, fit = options.fit, view = options.view,
         up = options.up, camera = camera_table(options.camera), range = options.range,
         vertex_colors = options.vertex_colors, lines = lines_of(options), points = options.points,
+        styles = listed(options.style),
     }
 end
 
@@ -124,8 +125,17 @@ local adders = {
         table.insert(picture.meshes, { mesh = mesh, color = color, parts = {}, transform = transform })
     end,
     ["lissom.Strands"] = function(picture, strands) picture.strands[#picture.strands + 1] = strands end,
-    ["lissom.Scene"] = add_scene,
-    ["lissom.Hairstyle"] = function(picture, style) add_value(picture, style:head()) end,
+    ["lissom.Scene"] = function(picture, scene)
+        picture.scene = picture.scene or scene
+        add_scene(picture, scene)
+    end,
+    ["lissom.Deformer"] = function(picture, deformer, style, transform)
+        add_value(picture, deformer:mesh(), style, transform)
+    end,
+    ["lissom.Hairstyle"] = function(picture, style, _, transform)
+        table.insert(picture.styles, style)
+        add_value(picture, style:head(), nil, transform)
+    end,
     ["lissom.Path"] = function(picture, path) picture.lines[#picture.lines + 1] = path:points() end,
 }
 
@@ -140,8 +150,19 @@ function add_value(picture, value, style, transform, depth)
     add(picture, value, style or {}, transform)
 end
 
+local function new_picture()
+    return { name = "result", meshes = {}, strands = {}, lines = {}, hair = {}, styles = {}, seen = {} }
+end
+
+--- What is to be seen of a scene.
+function playground.scene_picture(scene)
+    local picture = new_picture()
+    add_scene(picture, scene)
+    return picture
+end
+
 local function returned_picture(...)
-    local picture = { name = "result", meshes = {}, strands = {}, lines = {}, hair = {}, seen = {} }
+    local picture = new_picture()
     for i = 1, select("#", ...) do add_value(picture, (select(i, ...))) end
     picture.seen = nil
     if #picture.meshes == 0 and #picture.strands == 0 then return nil end
@@ -153,6 +174,7 @@ function playground.shown(...)
     playground.pictures = {}
     local returned = returned_picture(...)
     if returned then table.insert(pictures, 1, returned) end
+    playground.drawn = pictures
     return pictures
 end
 
@@ -170,7 +192,7 @@ function lissom.render(options)
     if options.scene then
         local picture = picture_of{ file = options.file, view = options.view, camera = options.camera,
             up = options.up }
-        picture.seen = {}
+        picture.seen, picture.scene = {}, options.scene
         add_scene(picture, options.scene)
         picture.seen = nil
         table.insert(playground.pictures, picture)

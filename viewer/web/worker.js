@@ -2,6 +2,7 @@
 //
 //     { kind: 'run', id, script, name, values, files, inputs }  ->  log*, progress*, { kind: 'ran', id, ... }
 //     { kind: 'save', id, object, type, extension }  ->  { kind: 'saved', id, bytes | error }
+//     { kind: 'hand', id, at, inputs }  ->  log*, progress*, { kind: 'hand', id, picture, marks, tool, ... }: hand.lua
 import createLissom from './lissom.mjs';
 import { hairLight } from './hair_light.js';
 import { rgb, scaled, toByte } from './colors.js';
@@ -9,7 +10,7 @@ import { rgb, scaled, toByte } from './colors.js';
 const lists = ['positions', 'normals', 'vertices', 'edges', 'colors', 'points', 'offsets', 'widths'];
 const kFloat = Float32Array, kInt = Uint32Array, kByte = Uint8Array;
 const most = { lines: 2000, memory: 3.2e9 };
-let lissom, prelude, shown = null;
+let lissom, prelude, handScript, shown = null;
 
 // ---- Messages of a script, at once if it is slow and in bunches if they are many
 
@@ -208,8 +209,84 @@ function drawnPicture(picture) {
 }
 
 function buffersOf(picture) {
-    return [...picture.meshes.flatMap(m => [m.positions, m.normals, m.colors, m.flags]),
-        ...picture.strands.flatMap(s => [s.points, s.colors, ...(s.light ? new Set([s.light.texels, s.light.onHead]) : [])])].map(list => list.buffer);
+    const given = list => list.filter(one => !one.same);
+    return [...given(picture.meshes).flatMap(m => [m.positions, m.normals, m.colors, m.flags]),
+        ...given(picture.strands).flatMap(s => [s.points, s.colors, ...(s.light ? new Set([s.light.texels, s.light.onHead]) : [])])].map(list => list.buffer);
+}
+
+// ---- Tools: the picture after what a hand did, of which the page has the parts with the same key already
+
+const held = { isLoaded: false, keys: new Map(), objects: new Map() };
+
+function forgetHand() {
+    Object.assign(held, { isLoaded: false, keys: new Map(), objects: new Map() });
+}
+
+// Numbers of objects in a result, and their types.
+function objectsIn(value, found = new Map()) {
+    if (value === null || typeof value !== 'object') return found;
+    if (typeof value.object === 'number' && typeof value.type === 'string') found.set(value.object, value.type);
+    else for (const one of Object.values(value)) objectsIn(one, found);
+    return found;
+}
+
+// Numbers that neither the last answer nor the script's pictures have.
+function releaseAllBut(objects) {
+    const pictures = objectsIn(shown);
+    for (const [id, type] of held.objects) {
+        if (objects.has(id) || pictures.has(id)) continue;
+        ask('page_release', ['number', 'string'], [id, type]);
+        held.keys.delete(id);
+    }
+    held.objects = objects;
+}
+
+// Reads what has changed since the page got it.
+function unlessKnown(object, key, read) {
+    if (held.keys.get(object) === key) return { object, same: true };
+    held.keys.set(object, key);
+    return read();
+}
+
+// Lists that Lua leaves empty may come as tables of names.
+const rowOf = value => (Array.isArray(value) ? value : []);
+
+function handPicture(picture) {
+    const all = rowOf(picture.meshes), hair = rowOf(picture.strands);
+    const isSmooth = hair.length > 0 && picture.crease === undefined;
+    const meshes = all.map(one => ({ ...unlessKnown(one.mesh.object, one.key, () => meshOf(one, picture, isSmooth)), raised: one.raised }));
+    // The light in hair needs the head below, known or not.
+    const head = hair.some(one => held.keys.get(one.strands.object) !== one.key) && all[0]
+        ? meshes[0].same ? meshOf(all[0], picture, isSmooth) : meshes[0] : null;
+    const strands = hair.map(one => unlessKnown(one.strands.object, one.key, () => strandsOf(one.strands, picture, head)));
+    const lines = rowOf(picture.lines).map(points => ({ color: 'orange', points: points.flat() }));
+    return { meshes, strands, lines, wire: picture.wire, flat: picture.flat };
+}
+
+function hand(message) {
+    const start = performance.now(), reply = { kind: 'hand', id: message.id };
+    let buffers = [];
+    log.count = 0;
+    try {
+        if (!held.isLoaded) {
+            load(handScript, 'hand.lua');
+            runLoaded();
+            load('return playground.hand(...)', 'hand');
+            held.isLoaded = true;
+        }
+        if (message.fresh) held.keys.clear();
+        const [{ picture, ...seen }] = runLoaded(JSON.stringify([message.at + 1, message.inputs]));
+        Object.assign(reply, seen, { picture: handPicture(picture), keys: [...rowOf(picture.meshes), ...rowOf(picture.strands)].map(one => one.key.split('|')[0]) });
+        releaseAllBut(objectsIn(picture));
+        buffers = [...buffersOf(reply.picture)];
+    } catch (error) {
+        reply.failures = [error.refusal || { code: 'internal', message: String(error.message || error) }];
+        if (!error.refusal) reply.broken = true;
+    }
+    reply.ms = performance.now() - start;
+    reply.memory = lissom.HEAPU8.length;
+    flush();
+    postMessage(reply, buffers);
 }
 
 // ---- Files
@@ -244,6 +321,7 @@ function putFile(path, content) {
 
 function begin(message) {
     ask('page_open', ['number'], [most.memory]);
+    forgetHand();
     emptied(folder);
     for (const { name, bytes } of message.inputs || []) putFile(`${folder}/${name}`, bytes);
     putFile(`${folder}/${message.name}`, message.script);
@@ -326,13 +404,15 @@ function read(message) {
 
 const ready = (async () => {
     const start = performance.now();
-    const [module, text, scripts] = await Promise.all([
+    const [module, text, tools, scripts] = await Promise.all([
         createLissom({ lissomLog: tell, lissomProgress: progress, print: text => tell(1, text), printErr: text => tell(2, text) }),
         fetch('prelude.lua').then(response => response.text()),
+        fetch('hand.lua').then(response => response.text()),
         fetch('scripts.json').then(response => response.json()),
     ]);
     lissom = module;
     prelude = text;
+    handScript = tools;
     lissom.FS.mkdir(folder);
     for (const [name, content] of Object.entries(scripts)) putFile(`/lissom/${name}`, content);
     postMessage({ kind: 'ready', version: lissom.ccall('page_version', 'string', [], []), ms: performance.now() - start });
@@ -341,5 +421,5 @@ ready.catch(error => postMessage({ kind: 'failed', message: String(error.message
 
 onmessage = async ({ data }) => {
     await ready;
-    ({ run, save, select, read })[data.kind](data);
+    ({ run, save, select, read, hand })[data.kind](data);
 };

@@ -1,0 +1,20 @@
+// The tools of scripts/tools that the page has buttons for, and buttons for their keys: fingers have no keyboard.
+const icon = path => `<svg viewBox="0 0 20 20" aria-hidden="true"><g fill="none" stroke="currentColor" stroke-width="1.6" stroke-linecap="round" stroke-linejoin="round">${path}</g></svg>`;
+const head = '<path d="M6.2 17v-2.6C4.4 13.2 3.6 11.4 3.6 9.4a6.4 6.4 0 0 1 12.8 0c0 2-.8 3.8-2.6 5V17"/>';
+
+const remove = ['delete', 'Delete', 'The chosen one'], next = ['tab', 'Next', 'Choose the next one'];
+
+export const tools = [
+    { name: '', title: 'Turn', help: 'No tool: drag turns the view', icon: icon('<circle cx="10" cy="10" r="3.2"/><path d="M17.2 10c0 2.2-3.2 4-7.2 4s-7.2-1.8-7.2-4 3.2-4 7.2-4c2 0 3.8.5 5.1 1.2M15.6 4.4l-.3 2.9-2.9-.2"/>') },
+    { name: 'select', title: 'Select', icon: icon('<path d="M4 3.5l11.5 5.2-4.9 1.7-2 5z"/>'), shift: 'Add', ctrl: 'Remove',
+        keys: [['a', 'All', 'Select all'], ['d', 'None', 'Select nothing'], ['i', 'Invert', 'Select the others'], ['+', 'Grow', 'By a ring'], ['-', 'Shrink', 'By a ring']] },
+    { name: 'deform', title: 'Deform', icon: icon('<path d="M3 15.5c4.5 0 4-9 8-9"/><circle cx="3.4" cy="15.5" r="1.3"/><circle cx="12.7" cy="6.5" r="1.7"/><path d="M15.2 6.5h2.5M16.5 5.2l1.3 1.3-1.3 1.3"/>'), shift: 'Add',
+        keys: [['enter', 'Handle', 'Make a handle of the selection'], ['p', 'Pin', 'The selection holds its place'], ['w', 'Move', ''], ['e', 'Turn', ''], ['r', 'Scale', ''], next, remove, ['f', 'Finish', 'The shape stays; handles go']] },
+    { name: 'paste', title: 'Paste', icon: icon('<path d="M3 16.5c1.5-3.5 4-5 7-5s5.5 1.5 7 5"/><path d="M10 2.5v5M7.8 5.5L10 7.7l2.2-2.2" /><path d="M7.4 9.8h5.2"/>'), keys: [] },
+    { name: 'stream', title: 'Stream', icon: icon(`${head}<path d="M8.5 5.5c3.5-.5 5 1.5 4.6 5.5"/>`), hair: true,
+        keys: [next, remove, ['m', 'Mirror', 'Its mirror image'], ['v', 'View', 'Streams are drawn in this view from now on']] },
+    { name: 'parting', title: 'Parting', icon: icon(`${head}<path d="M10 3.2v6.3" stroke-dasharray="1.5 2"/>`), hair: true,
+        keys: [next, remove, ['backspace', 'Tilt off', 'Takes the strokes beside it away']] },
+    { name: 'ponytail', title: 'Ponytail', icon: icon('<circle cx="8" cy="9" r="5.2"/><path d="M12.4 6c2.4-.8 4 .4 4.3 3 .3 2.6-.4 5.4-2 7.5"/><path d="M11.8 4.8l1.5 2.4"/>'), hair: true,
+        keys: [['g', 'Gather', 'Draws hair into the tie from all around'], next, remove, ['backspace', 'Reset', 'Takes the strokes round and along it away'], ['v', 'View', 'Tails are drawn in this view from now on']] },
+];
