@@ -24,6 +24,11 @@ async function opened(hash = '', size = { width: 1400, height: 900 }) {
     page.on('requestfailed', request => troubles.push(`${request.url()}: ${request.failure()?.errorText}`));
     await page.goto(address + hash);
     await runs(page, 1);
+    // Failures of all that the hand did, until they are looked at.
+    await page.evaluate(() => {
+        const hand = window.lissomHand, answered = hand?.answered;
+        if (hand) hand.answered = () => { (hand.failures ??= []).push(...[].concat(hand.last.failures)); answered.call(hand); };
+    });
     return page;
 }
 const runs = (page, count) => page.waitForFunction(count => (window.lissomRuns || 0) >= count, { timeout: patience }, count);
@@ -49,6 +54,85 @@ const seen = page => page.evaluate(() => {
     if (window.before?.length === bytes.length) for (let i = 0; i < bytes.length; ++i) changed += Math.abs(bytes[i] - window.before[i]);
     return { covered: 4 * covered / bytes.length, changed: changed / bytes.length };
 });
+
+// ---- A hand with a tool
+
+const handIn = async (page, script, frame = {}) => {
+    const before = await count(page);
+    await page.evaluate(script => { window.lissomEditor.text = script; }, script);
+    await page.click('#run');
+    await runs(page, before + 1);
+    assert.equal((await last(page)).ok, true);
+    await page.evaluate(({ toward }) => {
+        const view = window.lissomView;
+        view.frame();
+        if (toward) view.toward = toward;
+        view.fit(view.picture.box);
+    }, frame);
+};
+// What the worker has answered when it has done all.
+const answered = async page => {
+    await new Promise(resolve => setTimeout(resolve, 120));
+    for (let again = 0; again < 2; ++again) {
+        await page.waitForFunction(() => !window.lissomHand.isWaiting && !window.lissomHand.queue.length && !window.lissomHand.finger, { timeout: patience });
+        await page.evaluate(() => new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    }
+    return page.evaluate(() => {
+        const hand = window.lissomHand, failures = hand.failures || [];
+        hand.failures = [];
+        const { steps, tool, keys, marks, memory } = hand.last;
+        return { steps, failures, tool, keys, marks, memory };
+    });
+};
+const take = async (page, tool) => {
+    await page.click(`[data-tool="${tool}"]`);
+    return answered(page);
+};
+// The pixel of a point of the world in the page.
+const pixel = (page, point) => page.evaluate(point => {
+    const box = window.lissomView.canvas.getBoundingClientRect(), [x, y] = window.lissomView.project(...point);
+    return [box.left + x, box.top + y];
+}, point);
+// The corner of the first mesh that lies farthest along a direction, of those in a box.
+const farthest = (page, along, low = [-9, -9, -9], high = [9, 9, 9], mesh = 0) => page.evaluate((along, low, high, mesh) => {
+    const places = window.lissomView.picture.meshes[mesh].positions;
+    let best = -Infinity, found = null;
+    for (let i = 0; i < places.length; i += 3) {
+        const point = [places[i], places[i + 1], places[i + 2]];
+        if (point.some((x, k) => x < low[k] || x > high[k])) continue;
+        const reach = point.reduce((sum, x, k) => sum + x * along[k], 0);
+        if (reach > best) { best = reach; found = point; }
+    }
+    return found;
+}, along, low, high, mesh);
+const between = (a, b, n) => Array.from({ length: n }, (_, i) => a.map((x, k) => x + (b[k] - x) * (i + 1) / n));
+const stroke = async (page, pixels, steps = 6) => {
+    await page.mouse.move(...pixels[0]);
+    await page.mouse.down();
+    for (let i = 1; i < pixels.length; ++i) for (const at of between(pixels[i - 1], pixels[i], steps)) await page.mouse.move(...at);
+    await page.mouse.up();
+    return answered(page);
+};
+const press = async (page, key, held = []) => {
+    for (const one of held) await page.keyboard.down(one);
+    await page.keyboard.press(key);
+    for (const one of held) await page.keyboard.up(one);
+    return answered(page);
+};
+// The end of the gizmo's arrow along x.
+const arrowEnd = (page, marks) => {
+    const { points } = marks.lines.find(({ points }) => points.length === 6 && points[3] > points[0] && points[4] === points[1]);
+    return pixel(page, points.slice(3));
+};
+const bar = 'return require("lissom").shapes.bar{ length = 4, width = 1, across = 8, along = 32 }';
+
+// A bar pinned at its lower end, with a handle at the other: `paint` draws a stroke over the surface.
+const preparedBar = async (page, paint) => {
+    await paint([-0.3, -1.8, 0.5], [0.3, -1.8, 0.5]);
+    await press(page, 'p');
+    await paint([-0.3, 1.8, 0.5], [0.3, 1.8, 0.5]);
+    return press(page, 'Enter');
+};
 
 const cases = [];
 const test = (name, check) => cases.push({ name, check });
@@ -236,6 +320,232 @@ test('on a phone the picture, the values and the script have panes', async () =>
     await page.tap('nav [data-show=script]');
     await shot(page, 'phone_script');
     assert.equal(await page.$eval('#editor', node => node.getBoundingClientRect().height > 200), true);
+    await page.close();
+});
+
+test('with the tool deform a hand bends a bar; undo brings it back to the bit, redo bends it again', async () => {
+    const page = await opened();
+    await handIn(page, bar, { toward: [0, 0, 1] });
+    const first = await take(page, 'deform');
+    assert.equal(first.tool, 'deform');
+    const paint = async (a, b) => stroke(page, [await pixel(page, a), await pixel(page, b)]);
+    const before = await preparedBar(page, paint);
+    assert.deepEqual(before.failures, []);
+    const tip = await arrowEnd(page, before.marks), side = () => page.evaluate(() => window.lissomView.picture.meshes[0].box.high[0]), shape = await side();
+    const after = await stroke(page, [tip, [tip[0] - 40, tip[1]], [tip[0] + 90, tip[1]]]);
+    assert.notEqual(after.keys[0], before.keys[0]);
+    assert.ok(await side() > shape + 0.2);
+    await shot(page, 'hand_deform');
+    assert.equal((await press(page, 'z', ['Control'])).keys[0], before.keys[0]);
+    assert.equal((await press(page, 'y', ['Control'])).keys[0], after.keys[0]);
+    await page.click('#undo');
+    assert.equal((await answered(page)).keys[0], before.keys[0]);
+    for (let i = 0; i < before.steps.count; ++i) await page.click('#undo');
+    assert.equal((await answered(page)).keys[0], first.keys[0]);
+    assert.equal(await page.$eval('#undo', button => button.disabled), true);
+    // What was done by hand is the mesh that is downloaded.
+    await press(page, 'y', ['Control']);
+    await page.click('#download');
+    await page.evaluate(() => [...document.querySelectorAll('#downloads button')].find(one => one.textContent.startsWith('.obj')).click());
+    await page.waitForFunction(() => window.lissomGiven?.endsWith('.obj'));
+    await page.close();
+});
+
+test('undo and redo go by the letter of the layout', async () => {
+    const page = await opened();
+    await handIn(page, bar, { toward: [0, 0, 1] });
+    const before = await take(page, 'select'), after = await stroke(page, [await pixel(page, [0, 0, 0.5]), await pixel(page, [0.2, 0, 0.5])]);
+    assert.notEqual(after.keys[0], before.keys[0]);
+    const typed = async (key, code, shiftKey = false) => {
+        await page.evaluate((key, code, shiftKey) => document.getElementById('canvas').dispatchEvent(new KeyboardEvent('keydown', { key, code, shiftKey, ctrlKey: true, bubbles: true, cancelable: true })), key, code, shiftKey);
+        return (await answered(page)).keys[0];
+    };
+    // A German Z lies where others have Y; on a Russian board the key of Z counts.
+    assert.equal(await typed('z', 'KeyY'), before.keys[0]);
+    assert.equal(await typed('y', 'KeyZ'), after.keys[0]);
+    assert.equal(await typed('я', 'KeyZ'), before.keys[0]);
+    assert.equal(await typed('Z', 'KeyZ', true), after.keys[0]);
+    // The editor keeps its own.
+    await page.click('#editor .cm-content');
+    await press(page, 'z', ['Control']);
+    assert.equal((await answered(page)).keys[0], after.keys[0]);
+    await page.close();
+});
+
+test('a tool sees every motion of the hand, also those that a slow one has to wait for', async () => {
+    const page = await opened();
+    await handIn(page, bar, { toward: [0, 0, 1] });
+    await take(page, 'select');
+    const at = await pixel(page, [0, -1, 0.5]);
+    const seen = await page.evaluate(async ([x, y]) => {
+        const canvas = document.getElementById('canvas'), { post } = window.lissomHand, moves = [];
+        window.lissomHand.post = message => { moves.push(...message.inputs.filter(one => one.kind === 'move')); post(message); };
+        const event = (type, i, more = {}) => new PointerEvent(type, { pointerId: 1, pointerType: 'pen', pressure: 0.5, clientX: x + 0.2 * i, clientY: y - i, button: 0, buttons: 1, bubbles: true, ...more });
+        canvas.dispatchEvent(event('pointerdown', 0));
+        for (let i = 1; i <= 60; ++i) {
+            const move = event('pointermove', 2 * i);
+            move.getCoalescedEvents = () => [event('pointermove', 2 * i - 1), event('pointermove', 2 * i)];
+            canvas.dispatchEvent(move);
+        }
+        canvas.dispatchEvent(event('pointerup', 120, { buttons: 0 }));
+        while (window.lissomHand.isWaiting || window.lissomHand.queue.length) await new Promise(resolve => setTimeout(resolve, 20));
+        return moves.map(one => one.event.y - moves[0].event.y);
+    }, at);
+    assert.deepEqual(seen.map(Math.round), Array.from({ length: 120 }, (_, i) => 0 - i));
+    await page.close();
+});
+
+test('streams, a parting and a tail are drawn on a head, and its hair follows', async () => {
+    const page = await opened();
+    await handIn(page, 'return require("lissom").shapes.head{ vertices = 6000 }', { toward: [0.35, 0.35, 0.87] });
+    const head = await take(page, 'stream');
+    assert.equal(head.keys.length, 1);
+    // Strokes from the top of the head down, to both sides.
+    const top = await farthest(page, [0, 1, 0]), crown = await pixel(page, top);
+    const side = sign => [[crown[0] + 30 * sign, crown[1] + 25], [crown[0] + 110 * sign, crown[1] + 90], [crown[0] + 130 * sign, crown[1] + 220]];
+    const one = await stroke(page, side(-1)), two = await stroke(page, side(1));
+    assert.deepEqual([one.failures, two.failures], [[], []]);
+    assert.equal(one.keys.length, 2);
+    assert.notEqual(one.keys[1], two.keys[1]);
+    assert.equal(one.keys[0], head.keys[0]);
+    assert.match(await page.$eval('#counts', node => node.textContent), /5,000 strands/);
+    await shot(page, 'hand_stream');
+    await take(page, 'parting');
+    const parted = await stroke(page, [[crown[0] + 8, crown[1] + 34], [crown[0] + 5, crown[1] + 8]]);
+    assert.deepEqual(parted.failures, []);
+    assert.notEqual(parted.keys[1], two.keys[1]);
+    await shot(page, 'hand_parting');
+    // From behind, on the right.
+    await page.evaluate(() => { const view = window.lissomView; view.toward = [-0.94, 0.1, -0.33]; view.ask(); });
+    await take(page, 'ponytail');
+    const back = await pixel(page, await farthest(page, [0, 0.4, -1], [-9, 0, -9], [9, 9, 9])), away = Math.sign((await pixel(page, [0, 0, -1]))[0] - back[0]);
+    const tail = await stroke(page, [[back[0] - 12 * away, back[1]], [back[0] + 60 * away, back[1] + 10], [back[0] + 100 * away, back[1] + 80], [back[0] + 105 * away, back[1] + 190]]);
+    assert.deepEqual(tail.failures, []);
+    assert.notEqual(tail.keys[1], parted.keys[1]);
+    await shot(page, 'hand_ponytail');
+    assert.equal((await press(page, 'z', ['Control'])).keys[1], parted.keys[1]);
+    // A slider of the tool.
+    const before = (await take(page, 'stream')).keys[1];
+    await page.evaluate(() => {
+        const range = document.querySelector('#parameters input[type=range][aria-label=length]');
+        range.value = 0.1;
+        range.dispatchEvent(new Event('input'));
+    });
+    const short = await answered(page);
+    assert.notEqual(short.keys[1], before);
+    console.log(`        ${Math.round(short.memory / 1e6)} MB`);
+    await page.close();
+});
+
+test('a part is pasted onto another mesh, and what fails leaves all as before', async () => {
+    const page = await opened();
+    await handIn(page, `local lissom = require "lissom"
+local ball = lissom.shapes.sphere{ segments = 24, kind = "triangles" }
+local head = lissom.shapes.head{ vertices = 6000 }
+head:transform{ scale = 6, translate = { 3, 0, 0 } }
+return ball, head`, { toward: [0, 0, 1] });
+    const empty = await take(page, 'paste');
+    const over = await pixel(page, [0.1, 0.1, 0.98]);
+    const refused = await stroke(page, [over, [over[0] + 5, over[1]]]);
+    assert.match(refused.failures[0].message, /nothing is selected/);
+    assert.match(await page.$eval('#console', node => node.textContent), /nothing is selected/);
+    assert.deepEqual(refused.keys, empty.keys);
+    await take(page, 'select');
+    const nose = await pixel(page, await farthest(page, [0, 0, 1], [2.7, -1, -9], [3.3, 9, 9], 1));
+    await stroke(page, [nose, [nose[0] + 4, nose[1] - 12], [nose[0], nose[1] - 16]]);
+    await take(page, 'paste');
+    await page.mouse.move(...over);
+    await page.mouse.down();
+    await page.mouse.move(over[0] + 6, over[1] - 4);
+    await answered(page);
+    await page.mouse.wheel({ deltaY: -200 });
+    assert.equal((await answered(page)).keys.length, 3);
+    await shot(page, 'hand_paste');
+    await page.mouse.up();
+    const pasted = await answered(page);
+    assert.deepEqual(pasted.failures, []);
+    assert.deepEqual([pasted.keys.length, pasted.steps.undo], [2, 'paste']);
+    assert.ok(!pasted.keys.includes(empty.keys[0]));
+    assert.ok((await press(page, 'z', ['Control'])).keys.includes(empty.keys[0]));
+    await page.close();
+});
+
+test('a script that runs again begins anew, with the tool in hand and its values', async () => {
+    const page = await opened();
+    await handIn(page, bar, { toward: [0, 0, 1] });
+    const first = await take(page, 'select');
+    await page.evaluate(() => {
+        const range = document.querySelector('#parameters input[type=range][aria-label=radius]');
+        range.value = 60;
+        range.dispatchEvent(new Event('input'));
+    });
+    const wide = await stroke(page, [await pixel(page, [0, 0, 0.5]), await pixel(page, [0.1, 0, 0.5])]);
+    assert.notEqual(wide.keys[0], first.keys[0]);
+    // A typed letter does not run the script while there is work of a hand.
+    const before = await count(page);
+    await page.click('#editor .cm-content');
+    await page.keyboard.type(' ');
+    await new Promise(resolve => setTimeout(resolve, 1300));
+    assert.equal(await count(page), before);
+    await page.click('#run');
+    await runs(page, before + 1);
+    const again = await answered(page);
+    assert.deepEqual([again.keys, again.steps.count, again.tool], [first.keys, 0, 'select']);
+    assert.equal(await page.$eval('#parameters input[type=range][aria-label=radius]', range => range.value), '60');
+    assert.equal((await stroke(page, [await pixel(page, [0, 0, 0.5]), await pixel(page, [0.1, 0, 0.5])])).keys[0], wide.keys[0]);
+    // Without a tool a drag turns the view, and the work stays.
+    await take(page, '');
+    const toward = await page.evaluate(() => window.lissomView.toward);
+    await stroke(page, [await pixel(page, [0, 0, 0.5]), await pixel(page, [1, 0, 0.5])]);
+    assert.notDeepEqual(await page.evaluate(() => window.lissomView.toward), toward);
+    assert.equal((await answered(page)).keys[0], wide.keys[0]);
+    await page.close();
+});
+
+test('one finger is the hand of a tool, two turn the view', async () => {
+    const page = await opened('', { width: 390, height: 844, deviceScaleFactor: 2, hasTouch: true, isMobile: true });
+    await page.evaluate(text => { window.lissomEditor.text = text; }, bar);
+    const run = await count(page);
+    await page.tap('#run');
+    await runs(page, run + 1);
+    await page.evaluate(() => { const view = window.lissomView; view.frame(); view.toward = [0, 0, 1]; view.fit(view.picture.box); });
+    await page.tap('[data-tool=deform]');
+    await answered(page);
+    const drag = async pixels => {
+        await page.touchscreen.touchStart(...pixels[0]);
+        for (let i = 1; i < pixels.length; ++i) for (const at of between(pixels[i - 1], pixels[i], 6)) await page.touchscreen.touchMove(...at);
+        await page.touchscreen.touchEnd();
+        return answered(page);
+    };
+    const paint = async (a, b) => drag([await pixel(page, a), await pixel(page, b)]);
+    const tap = async text => {
+        await page.evaluate(text => [...document.querySelectorAll('#keys button')].find(one => one.textContent === text).click(), text);
+        return answered(page);
+    };
+    await paint([-0.3, -1.8, 0.5], [0.3, -1.8, 0.5]);
+    await tap('Pin');
+    await paint([-0.3, 1.8, 0.5], [0.3, 1.8, 0.5]);
+    const before = await tap('Handle');
+    assert.deepEqual(before.failures, []);
+    await shot(page, 'hand_phone_before');
+    const tip = await arrowEnd(page, before.marks), after = await drag([tip, [tip[0] - 50, tip[1]]]);
+    assert.notEqual(after.keys[0], before.keys[0]);
+    await shot(page, 'hand_phone');
+    // A second finger takes the first one from the tool, and what that has begun back.
+    const view = () => page.evaluate(() => [...window.lissomView.toward, window.lissomView.distance]);
+    const [middle, seen] = [await pixel(page, [0, 0, 0.5]), await view()];
+    const one = await page.touchscreen.touchStart(middle[0] - 30, middle[1]), two = await page.touchscreen.touchStart(middle[0] + 30, middle[1]);
+    for (let i = 1; i <= 6; ++i) {
+        await one.move(middle[0] - 30 + 3 * i, middle[1] + 4 * i);
+        await two.move(middle[0] + 30 + 9 * i, middle[1] + 4 * i);
+    }
+    await one.end();
+    await two.end();
+    const turned = await answered(page), now = await view();
+    assert.deepEqual([turned.keys[0], turned.steps.count], [after.keys[0], after.steps.count]);
+    assert.ok(now.every((x, k) => Math.abs(x - seen[k]) > 1e-3), `${seen} ${now}`);
+    await page.tap('#undo');
+    assert.equal((await answered(page)).keys[0], before.keys[0]);
     await page.close();
 });
 

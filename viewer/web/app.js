@@ -194,7 +194,7 @@ function showPicture(picture, frame) {
 }
 
 function showCounts(picture) {
-    const vertices = picture.meshes.reduce((sum, mesh) => sum + mesh.vertexCount, 0), hairs = picture.strands.reduce((sum, one) => sum + one.count, 0);
+    const vertices = picture.meshes.filter(mesh => !mesh.raised).reduce((sum, mesh) => sum + mesh.vertexCount, 0), hairs = picture.strands.reduce((sum, one) => sum + one.count, 0);
     const parts = [];
     if (vertices) parts.push(`${vertices.toLocaleString('en')} vertices`);
     if (hairs) parts.push(`${hairs.toLocaleString('en')} strands`);
@@ -265,11 +265,13 @@ function showHand(data) {
 // Values of the tool in place of those of the script, unless they are as the form has them.
 function showTool(data) {
     $('hand').hidden = !data.tool;
+    if ($('prompt').textContent !== (data.prompt || '')) delete $('hand').dataset.read;
     $('prompt').textContent = data.prompt || '';
-    $('prompt').title = data.prompt || '';
     const list = Array.isArray(data.parameters) ? data.parameters : [], form = JSON.stringify([data.tool, list]);
     if (form === state.toolForm) return;
     state.toolForm = form;
+    if (data.tool !== state.shownTool) setTimeout(() => view.fitAgain());
+    state.shownTool = data.tool;
     if (!data.tool) return showScriptForm();
     $('parameters').hidden = !showParameters($('parameters'), list, {}, (name, value) => {
         const one = list.find(each => each.name === name);
@@ -313,7 +315,7 @@ function listenForHand() {
     Object.defineProperty(hand, 'at', { get: () => state.reply.at });
     fillToolbar($('toolbar'), { take: takeTool, travel: kind => hand.travel(kind) });
     $('canvas').addEventListener('pointerleave', () => { hand.isAway = true; view.ask(); });
-    $('canvas').addEventListener('pointerdown', () => $('canvas').focus({ preventScroll: true }));
+    $('canvas').addEventListener('pointerdown', () => { $('canvas').focus({ preventScroll: true }); $('hand').dataset.read = ''; });
     document.addEventListener('keydown', takeKey);
 }
 
@@ -321,7 +323,7 @@ function listenForHand() {
 function drawn(cells) {
     showCaptions(cells);
     if (!hand) return;
-    drawMarks($('marks'), state.marks, { project: (x, y, z) => view.project(x, y, z), isAway: hand.isAway, right: covered().right });
+    drawMarks($('marks'), state.marks, { project: (x, y, z) => view.project(x, y, z), isAway: hand.isAway, ...covered() });
     hand.drawn();
 }
 
@@ -576,11 +578,12 @@ function beEmbedded() {
     $('picture').append(made('a', { id: 'whole', href: `./${location.hash}`, target: '_parent', textContent: 'Open in the playground' }));
 }
 
-// Beside the values, where they lie on the picture and leave it the better half, and the tools.
+// Parts of the picture under the tools and their keys, and under the values where they leave it the better half.
 function covered() {
     const panel = $('parameters').offsetWidth + 24, left = $('toolbar').offsetWidth ? $('toolbar').offsetLeft + $('toolbar').offsetWidth : 0;
     const isBeside = !matchMedia('(max-width: 760px)').matches && !$('parameters').hidden && 2 * panel <= $('canvas').clientWidth;
-    return { left, right: isBeside ? panel : 0 };
+    const keys = $('keys').offsetHeight;
+    return { left, right: isBeside ? panel : 0, bottom: keys ? keys + 58 : 0 };
 }
 
 async function begin() {
@@ -593,7 +596,7 @@ async function begin() {
             state.changed = true;
             keep();
             clearTimeout(edits);
-            // What was done by hand is not lost by a letter that is typed.
+            // A typed letter does not undo the work of the hand.
             if (state.steps?.count) $('state').textContent = 'Edited: Run begins anew';
             else edits = setTimeout(() => run({ quiet: true }), 900);
         },

@@ -1,5 +1,5 @@
-// The hand of a page: mouse, pen and finger for the tool that it has taken, and keys. What it does waits here until the
-// worker has done all before: no motion is left out, as a stroke is its whole course.
+// The hand of a page: mouse, pen and finger for the tool that it has taken, and keys. Inputs wait here until the worker
+// has done all before: no motion is left out, as a stroke is its whole course.
 const clickReach = 6, fingerWait = 90;     // pixels, ms
 
 // The name of a key as tools know it; a letter that is not Latin has that of the Latin letter on its key.
@@ -18,7 +18,7 @@ export function letterOf(event) {
 const modifiersOf = event => ({ shift: event.shiftKey, ctrl: event.ctrlKey || event.metaKey, alt: event.altKey });
 
 export class Hand {
-    // `post` sends a message to the worker; `answered` takes what is to be seen then.
+    // `post` sends a message to the worker; its answer is followed by `answered`.
     constructor(view, post) {
         Object.assign(this, { view, post, tool: '', kept: {}, sticky: { shift: false, ctrl: false }, at: 0 });
         this.isBlocked = () => false;
@@ -29,14 +29,14 @@ export class Hand {
         window.addEventListener('blur', () => { this.isCtrlDown = false; });
     }
 
-    // A new document: what waits is for the one before.
+    // A new document: inputs that wait are for the one before.
     reset() {
         Object.assign(this, { queue: [], isWaiting: false, isFresh: true, pointer: null, finger: null, look: '', inHand: '' });
     }
 
     get isActive() { return this.tool !== '' && !this.isBlocked(); }
 
-    // ---- What waits
+    // ---- Inputs that wait
 
     put(input) {
         if (this.isBlocked()) return;

@@ -1,9 +1,10 @@
 -- Tools of a hand in a page, by the host that all hosts use (lissom.tool_host). They work on a scene of the
 -- picture that is shown: the scene that the script returned, else one of its meshes, hair and styles.
--- `playground.hand(place, inputs)` does what the hand did and returns what is to be seen then.
+-- `playground.hand(place, inputs)` does the inputs of a hand and returns the picture after them, with marks,
+-- values and steps.
 local lissom = require "lissom"
 
-local playground = playground
+local playground = _G.playground
 local hosts = {}                    -- by the place of the picture
 
 -- ---- The scene
@@ -31,29 +32,44 @@ local function matrix_of(offset, transform)
     return { { 1, 0, 0, offset[1] }, { 0, 1, 0, offset[2] }, { 0, 0, 1, offset[3] }, { 0, 0, 0, 1 } }
 end
 
--- Whether a style has a mesh as its head: the scene shows a style by that.
-local function is_head(picture, mesh)
-    for _, style in ipairs(picture.styles or {}) do
+-- The styles of a picture; else those that the script returned, whose head the picture shows.
+local function styles_of(picture)
+    if picture.styles and #picture.styles > 0 then return picture.styles end
+    local list, hashes = {}, {}
+    for _, one in ipairs(picture.meshes) do hashes[one.mesh:hash()] = true end
+    for _, style in ipairs(playground.styles) do
+        if hashes[style:head():hash()] then list[#list + 1] = style end
+    end
+    return list
+end
+
+-- A scene shows the head of a style by that.
+local function is_head(styles, mesh)
+    for _, style in ipairs(styles) do
         if style:head():hash() == mesh:hash() then return true end
     end
     return false
 end
 
+-- Tools take the hair of this name for grown from the style, and take its place.
+local function hair_name(scene)
+    local first = scene:names()[1]
+    if not first then return "hair" end
+    return scene:info(first).kind == "hairstyle" and first .. " hair" or first .. " style hair"
+end
+
 local function scene_of(picture)
     if picture.scene then return picture.scene end
-    local scene, x = lissom.scene{}, 0
+    local scene, x, styles = lissom.scene{}, 0, styles_of(picture)
+    for _, style in ipairs(styles) do scene:add(free_name(scene, "style"), style) end
     for i, one in ipairs(picture.meshes) do
         local offset
         offset, x = offset_in_row(picture, i, x)
-        if not is_head(picture, one.mesh) then
+        if not is_head(styles, one.mesh) then
             scene:add(free_name(scene, "mesh"), one.mesh, { transform = matrix_of(offset, one.transform) })
         end
     end
-    for _, style in ipairs(picture.styles or {}) do scene:add(free_name(scene, "style"), style) end
-    -- Tools take the hair of the name of a style for grown from it.
-    for _, strands in ipairs(picture.strands) do
-        scene:add(free_name(scene, picture.styles and picture.styles[1] and "style hair" or "hair"), strands)
-    end
+    for _, strands in ipairs(picture.strands) do scene:add(free_name(scene, hair_name(scene)), strands) end
     return scene
 end
 
@@ -143,7 +159,7 @@ local function parts_of(mesh, marks)
     return parts
 end
 
--- A text that changes with what is seen of a mesh; its own regions are in its hash.
+-- A text that changes with the look of a mesh; its own regions are in its hash.
 local function key_of(mesh, parts, color)
     local words = { mesh:hash(), tostring(color) }
     for _, part in ipairs(parts) do
@@ -177,14 +193,16 @@ local function picture_of(state, marks)
     return seen
 end
 
--- ---- What is to be seen
+-- ---- The answer
+
+local shown_fields = { "name", "type", "default", "value", "min", "max", "step", "choices", "unit", "help",
+    "group" }
 
 local function parameters_of(tool)
     local list = {}
     for _, one in ipairs(tool and tool.params:schema() or {}) do
         local copy = {}
-        for _, key in ipairs{ "name", "type", "default", "value", "min", "max", "step", "choices", "unit", "help",
-            "group" } do
+        for _, key in ipairs(shown_fields) do
             local value = one[key]
             if type(value) ~= "number" or is_finite(value) then copy[key] = value end
         end

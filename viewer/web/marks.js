@@ -107,8 +107,8 @@ function wrapped(context, text, most) {
 function drawLabel(context, { at, text, color }, project, size) {
     const place = at && text && project(...at);
     if (!place) return;
-    const lines = wrapped(context, text, Math.min(320, size.width - 40)), wide = Math.max(...lines.map(line => context.measureText(line).width)) + 16, high = 17 * lines.length + 8;
-    const x = Math.max(4, Math.min(place[0] + 10, size.width - wide - 4)), y = Math.max(4, Math.min(place[1] - 10 - high, size.height - high - 4));
+    const lines = wrapped(context, text, Math.min(320, size.width - size.left - 24)), wide = Math.max(...lines.map(line => context.measureText(line).width)) + 16, high = 17 * lines.length + 8;
+    const x = Math.max(size.left + 4, Math.min(place[0] + 10, size.width - wide - 4)), y = Math.max(4, Math.min(place[1] - 10 - high, size.height - high - 4));
     context.beginPath();
     context.roundRect(x, y, wide, high, 6);
     context.fillStyle = dark;
@@ -118,8 +118,8 @@ function drawLabel(context, { at, text, color }, project, size) {
 }
 
 // `project` gives the pixel of a point of the world, or null behind the camera; `isAway`: no cursor is over the picture;
-// `right`: pixels on the right that something covers.
-export function drawMarks(canvas, marks, { project, isAway, right }) {
+// `left` and `right`: pixels at the sides that something covers.
+export function drawMarks(canvas, marks, { project, isAway, left, right }) {
     const scale = Math.min(window.devicePixelRatio || 1, 2), size = { width: canvas.clientWidth, height: canvas.clientHeight };
     const width = Math.max(Math.round(size.width * scale), 1), height = Math.max(Math.round(size.height * scale), 1);
     if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
@@ -133,5 +133,5 @@ export function drawMarks(canvas, marks, { project, isAway, right }) {
     listed(marks.points).forEach(mark => drawPoints(context, mark, project));
     listed(marks.outlines).forEach(mark => drawOutline(context, mark));
     if (!isAway) listed(marks.circles).forEach(mark => drawCircle(context, mark));
-    listed(marks.labels).forEach(mark => drawLabel(context, mark, project, { width: size.width - right, height: size.height }));
+    listed(marks.labels).forEach(mark => drawLabel(context, mark, project, { left, width: size.width - right, height: size.height }));
 }

@@ -73,7 +73,7 @@ export class View {
         if (!this.gl) throw new Error('this browser has no WebGL 2');
         this.settings = { wire: false, flat: false, colors: true };
         // Pixels at the sides under other things; a fitted view leaves them free.
-        this.covered = () => ({ left: 0, right: 0 });
+        this.covered = () => ({ left: 0, right: 0, bottom: 0 });
         // Pointers that turn the view; a hand (hand.js) may take some of them for its tool.
         this.fingers = new Map();
         this.hand = null;
@@ -83,7 +83,7 @@ export class View {
         this.listen();
         canvas.addEventListener('webglcontextlost', event => event.preventDefault());
         canvas.addEventListener('webglcontextrestored', () => { this.open(); if (this.picture) this.upload(this.picture); this.ask(); });
-        new ResizeObserver(() => { if (!this.touched && this.picture?.box && !this.picture.camera) this.fit(this.picture.box); this.ask(); }).observe(canvas);
+        new ResizeObserver(() => this.fitAgain()).observe(canvas);
     }
 
     open() {
@@ -260,13 +260,19 @@ export class View {
         if (!picture.camera) this.fit(picture.box);
     }
 
+    // After a change of the free part: unless a hand or a script has chosen the view.
+    fitAgain() {
+        if (!this.touched && this.picture?.box && !this.picture.camera) this.fit(this.picture.box);
+        this.ask();
+    }
+
     fit(box) {
         const cells = this.cells(), cell = cells[0];
         const boxes = cells.length > 1 ? this.picture.meshes.map(mesh => mesh.box) : [box];
-        const { left, right: beside } = cells.length > 1 ? { left: 0, right: 0 } : this.covered();
-        const aspect = (this.canvas.clientWidth * cell.w - left - beside) / Math.max(this.canvas.clientHeight * cell.h, 1);
+        const { left, right: beside, bottom } = cells.length > 1 ? { left: 0, right: 0, bottom: 0 } : this.covered();
+        const high = Math.max(this.canvas.clientHeight * cell.h - bottom, 1), aspect = (this.canvas.clientWidth * cell.w - left - beside) / high;
         const forward = this.toward, right = unit(cross(this.up, forward)), over = cross(forward, right);
-        const half = Math.tan(this.fov / 2);
+        const half = Math.tan(this.fov / 2) * high / Math.max(this.canvas.clientHeight * cell.h, 1);
         this.target = box.low.map((x, k) => 0.5 * (x + box.high[k]));
         this.distance = 1e-6;
         for (const one of boxes) {
@@ -343,25 +349,25 @@ export class View {
         });
     }
 
-    // How much farther right than left of the free part the picture goes.
+    // How much farther right than left of the free part, and below it, the picture goes.
     shift() {
-        const { left, right } = this.covered();
-        return right - left;
+        const { left, right, bottom } = this.covered();
+        return { right: right - left, down: bottom };
     }
 
     // The camera as tools take it: its picture begins at the same corner, and the free part is in its middle.
     look() {
-        const { target, toward, distance, up, fov, canvas } = this;
-        return { eye: plus(target, toward, distance), target: [...target], up: [...up], fov: fov * 180 / Math.PI,
-            size: [Math.max(Math.round(canvas.clientWidth - this.shift()), 1), Math.max(Math.round(canvas.clientHeight), 1)] };
+        const { target, toward, distance, up, canvas } = this, { right, down } = this.shift();
+        const size = [Math.max(Math.round(canvas.clientWidth - right), 1), Math.max(Math.round(canvas.clientHeight - down), 1)];
+        const half = Math.tan(this.fov / 2) * size[1] / Math.max(canvas.clientHeight, 1);
+        return { eye: plus(target, toward, distance), target: [...target], up: [...up], fov: 2 * Math.atan(half) * 180 / Math.PI, size };
     }
 
     // A tool's camera.
     seeBy(camera) {
-        const { up, picture } = this;
+        const { up, picture, fov } = this;
         this.resetCamera({ up: picture?.up, camera });
-        this.up = up;
-        this.touched = true;
+        Object.assign(this, { up, fov, touched: true });
         this.ask();
     }
 
@@ -410,7 +416,11 @@ export class View {
         const near = Math.max(this.distance - reach, 0.002 * this.distance);
         const projection = perspective(this.fov, w / h, near, this.distance + reach);
         // The middle of the picture is that of its free part.
-        if (!centred) projection[8] += this.shift() / Math.max(this.canvas.clientWidth, 1);
+        if (!centred) {
+            const { right, down } = this.shift();
+            projection[8] += right / Math.max(this.canvas.clientWidth, 1);
+            projection[9] -= down / Math.max(this.canvas.clientHeight, 1);
+        }
         const light = cell.hair ? this.drawn.strands.find(one => one.light)?.light : null;
         const shared = { view, projection, light, h };
         this.whole = centred ? null : times(projection, view);

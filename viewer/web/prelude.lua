@@ -154,7 +154,7 @@ local function new_picture()
     return { name = "result", meshes = {}, strands = {}, lines = {}, hair = {}, styles = {}, seen = {} }
 end
 
---- What is to be seen of a scene.
+--- The picture of a scene.
 function playground.scene_picture(scene)
     local picture = new_picture()
     add_scene(picture, scene)
@@ -169,11 +169,20 @@ local function returned_picture(...)
     return picture
 end
 
+-- Whether the script has returned styles alone, for tools: pictures of their hair are drawn already.
+local function is_only_styles(picture)
+    return #picture.styles > 0 and #picture.strands == 0 and not picture.scene
+        and #picture.meshes == #picture.styles
+end
+
 function playground.shown(...)
     local pictures = playground.pictures
     playground.pictures = {}
     local returned = returned_picture(...)
-    if returned then table.insert(pictures, 1, returned) end
+    playground.styles = returned and returned.styles or {}
+    if returned and not (#pictures > 0 and is_only_styles(returned)) then
+        table.insert(pictures, 1, returned)
+    end
     playground.drawn = pictures
     return pictures
 end

@@ -214,7 +214,7 @@ function buffersOf(picture) {
         ...given(picture.strands).flatMap(s => [s.points, s.colors, ...(s.light ? new Set([s.light.texels, s.light.onHead]) : [])])].map(list => list.buffer);
 }
 
-// ---- Tools: the picture after what a hand did, of which the page has the parts with the same key already
+// ---- Tools: the picture after inputs of a hand; the page has its parts of the same key already
 
 const held = { isLoaded: false, keys: new Map(), objects: new Map() };
 
@@ -230,18 +230,18 @@ function objectsIn(value, found = new Map()) {
     return found;
 }
 
-// Numbers that neither the last answer nor the script's pictures have.
+// Forgets objects that the last answer lacks; those of the script's pictures keep their numbers.
 function releaseAllBut(objects) {
     const pictures = objectsIn(shown);
     for (const [id, type] of held.objects) {
-        if (objects.has(id) || pictures.has(id)) continue;
-        ask('page_release', ['number', 'string'], [id, type]);
+        if (objects.has(id)) continue;
         held.keys.delete(id);
+        if (!pictures.has(id)) ask('page_release', ['number', 'string'], [id, type]);
     }
     held.objects = objects;
 }
 
-// Reads what has changed since the page got it.
+// Reads an object unless the page has it as it is.
 function unlessKnown(object, key, read) {
     if (held.keys.get(object) === key) return { object, same: true };
     held.keys.set(object, key);

@@ -37,3 +37,4 @@ if p.curls > 0 then hair:wave{ radius = p.curls, wavelength = 0.05 } end
 hair:taper{}
 
 lissom.render{ mesh = head, strands = hair, hair = { color = colors[p.color] }, file = "groom.png" }
+return style          -- for the tools beside the picture
