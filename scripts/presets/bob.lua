@@ -24,7 +24,7 @@ return styling.preset(..., {
             help = "of the hem below the middle of the head" },
         fringe = { type = "number", default = 0.024, min = -0.02, max = 0.06, unit = "metres",
             help = "of the fringe's ends above the middle of the head" },
-        ragged = { type = "number", default = 0.003, min = 0, max = 0.02, unit = "metres",
+        ragged = { type = "number", default = 0.007, min = 0, max = 0.02, unit = "metres",
             help = "of the hem" },
         curl = { type = "number", default = 0, min = 0, max = 1, help = "how far the ends roll in" },
     },
@@ -37,12 +37,13 @@ return styling.preset(..., {
         end)
         local hair = style:grow{ count = o.count, seed = v.seed, length = 0.27, layer = 0.01, ramp = 0.05,
             density = full }
-        hair:resample{ step = 0.006 }:smooth{ iterations = 3 }
+        hair:resample{ step = 0.006 }:smooth{ iterations = 3 }:guides{ count = 300 }
         local hem = {}
         for azimuth = 32, 52, 2 do
             hem[#hem + 1] = { azimuth, v.fringe - (v.fringe + v.length) * styling.smooth(34, 50, azimuth) }
         end
-        hair:cut{ hem = hem, scalp = scalp, jitter = v.ragged, seed = v.seed }
+        styling.ragged_hem(hair, scalp, hem, v.ragged, v.seed)
+        hair:clump{ strength = 0.5, shape = 2.5, tip_spread = 0.002, seed = v.seed }
         if v.curl > 0 then hair:roll{ radius = 0.03, start = 0.8, factor = v.curl } end
         hair:push_out{ head = style, clearance = 0.001 }
         return style, styling.finish(hair, 0.0003, 0.001), { unit = scalp:unit() }
