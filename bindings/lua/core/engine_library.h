@@ -19,4 +19,7 @@ std::vector<Record> strand_level_records();
 
 Type strand_follower_type();
 
+Type hair_dynamics_type();
+std::vector<Record> hair_dynamics_records();
+
 }  // namespace lissom::lua

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kernel/core/error.h"
+#include "kernel/core/rotation.h"
 #include "kernel/hair/guides/strand_clusters.h"
 #include "kernel/hair/strands/strand_measures.h"
 #include "kernel/hair/strands/strand_resample.h"
@@ -122,6 +123,7 @@ class GuideFitter {
         const ClusterOptions clusters = clusters_of(strands_, options_);
         set_.points = options_.points;
         set_.strands = cluster_strands(strands_, clusters, context_).medoids;
+        name_groups();
         measure();
         fit();
         add_details();
@@ -129,6 +131,12 @@ class GuideFitter {
     }
 
   private:
+    void name_groups() {
+        if (strands_.groups().empty()) return;
+        set_.group_names = strands_.group_names();
+        for (const Index s : set_.strands) set_.groups.push_back(strands_.group(s));
+    }
+
     void measure() {
         const Strands even = resample(strands_, {.count = options_.points}, context_);
         offsets_.resize(at(strands_.size()));
@@ -269,6 +277,32 @@ class GuideFitter {
     GuideSet set_;
 };
 
+Eigen::Vector3f detail_of(const GuideSet& set, std::size_t point) {
+    Eigen::Vector3f detail;
+    for (Index c = 0; c < 3; ++c) detail[c] = set.detail_step * set.details[3 * point + at(c)];
+    return detail;
+}
+
+// The direction of a guide at a point, from the one before to the one after; may be zero.
+Vec3 tangent_at(std::span<const Eigen::Vector3f> curves, std::size_t point, std::size_t points) {
+    const std::size_t k = point % points;
+    const std::size_t from = k > 0 ? point - 1 : point, to = k + 1 < points ? point + 1 : point;
+    return (curves[to] - curves[from]).cast<double>();
+}
+
+// The least rotation of each point of the guides from rest.
+std::vector<Eigen::Matrix3f> turns_of(const GuideSet& set,
+                                      std::span<const Eigen::Vector3f> curves) {
+    std::vector<Eigen::Matrix3f> turns(curves.size(), Eigen::Matrix3f::Identity());
+    for (std::size_t p = 0; p < curves.size(); ++p) {
+        const Vec3 rest = tangent_at(set.curves, p, at(set.points));
+        const Vec3 moved = tangent_at(curves, p, at(set.points));
+        if (rest.squaredNorm() == 0.0 || moved.squaredNorm() == 0.0) continue;
+        turns[p] = min_rotation(rest, moved).toRotationMatrix().cast<float>();
+    }
+    return turns;
+}
+
 }  // namespace
 
 GuideSet make_guide_set(const Strands& strands, const GuideSetOptions& options,
@@ -286,6 +320,8 @@ std::vector<Eigen::Vector3f> rebuild_strands(const GuideSet& set, const RebuildO
     const std::span<const Eigen::Vector3f> curves = options.curves.empty() ? rest : options.curves;
     require(curves.size() == rest.size(), "guides have another number of points");
     const std::size_t points = at(set.points);
+    std::vector<Eigen::Matrix3f> turns;
+    if (options.details && !options.curves.empty()) turns = turns_of(set, curves);
     std::vector<Eigen::Vector3f> made(set.guided.size() * points);
     context.parallel_for(0, count_of(set.guided), kSetGrain, [&](Index begin, Index end) {
         for (std::size_t s = at(begin); s < at(end); ++s) {
@@ -301,8 +337,9 @@ std::vector<Eigen::Vector3f> rebuild_strands(const GuideSet& set, const RebuildO
                     const std::size_t first = strand.guides[i] * points;
                     p += strand.length * strand.weights[i] * (curves[first + k] - curves[first]);
                 }
-                for (Index c = 0; options.details && c < 3; ++c) {
-                    p[c] += set.detail_step * set.details[3 * (s * points + k) + at(c)];
+                if (options.details) {
+                    const Eigen::Vector3f detail = detail_of(set, s * points + k);
+                    p += turns.empty() ? detail : turns[strand.guides[0] * points + k] * detail;
                 }
                 made[s * points + k] = p;
             }

@@ -65,6 +65,9 @@ struct GuideSet {
     std::vector<std::int16_t> details;
     float detail_step = 0.0f;
     GuideError error;
+    /// Group of each guide, as a place in `group_names`, or kNoIndex; empty if there are none.
+    std::vector<Index> groups;
+    std::vector<std::string> group_names;
 
     Index guide_count() const { return count_of(strands); }
 };
@@ -79,7 +82,7 @@ GuideSet make_guide_set(const Strands& strands, const GuideSetOptions& options =
 struct RebuildOptions {
     /// Points of the moved guides, as GuideSet::curves; empty for those at rest.
     std::span<const Eigen::Vector3f> curves = {};
-    /// Adds the details, which do not turn with the guides.
+    /// Adds the details, turned with the first guide of the strand as lissom_hair.h does.
     bool details = true;
 };
 

@@ -43,16 +43,6 @@ int guide_set_text(Call& call) {
     return call.push(std::string_view(text, at(length)));
 }
 
-// Strands of points, as many each.
-Strands even_strands(const std::vector<Eigen::Vector3f>& points, Index each,
-                     const Context& context) {
-    std::vector<float> numbers;
-    std::vector<Index> offsets = {0};
-    for (const Eigen::Vector3f& p : points) numbers.insert(numbers.end(), p.begin(), p.end());
-    for (Index i = each; i <= count_of(points); i += each) offsets.push_back(i);
-    return {std::move(numbers), std::move(offsets), context.memory()};
-}
-
 int guide_curves(Call& call) {
     return new_strands(call, [&] {
         const GuideSet& set = set_of(call);
@@ -76,24 +66,9 @@ std::vector<Eigen::Vector3f> points_of(const Strands& strands) {
 int rebuild_all(Call& call) {
     const bool moves = call.has("guides");
     return new_strands(call, [&] {
-        const GuideSet& set = set_of(call);
         std::vector<Eigen::Vector3f> moved;
-        RebuildOptions options;
-        options.details = call.boolean("details");
         if (moves) moved = points_of(call.object<StrandsObject>("guides")->strands);
-        options.curves = moved;
-        Strands made =
-            even_strands(rebuild_strands(set, options, call.context()), set.points, call.context());
-        std::vector<std::uint32_t> ids;
-        StrandWidths widths;
-        widths.domain = StrandDomain::strand;
-        for (const GuidedStrand& strand : set.guided) {
-            ids.push_back(strand.id);
-            widths.values.push_back(strand.width);
-        }
-        made.set_ids(std::move(ids));
-        made.set_widths(std::move(widths));
-        return made;
+        return rebuilt_strands(set_of(call), {moved, call.boolean("details")}, call.context());
     });
 }
 
@@ -161,8 +136,7 @@ std::vector<Function> set_methods() {
          .example = kSet + "assert(set:error().max < 0.05)"},
         {.name = "rebuild",
          .body = rebuild_all,
-         .summary = "All strands from the guides, as lissom_hair.h does it in an engine; details "
-                    "do not turn here.",
+         .summary = "All strands from the guides, as lissom_hair.h does it in an engine.",
          .options = {object("guides", "lissom.Strands",
                             "Moved guides, with as many points as those of `guides`.")
                          .optional("those at rest"),
@@ -184,6 +158,30 @@ std::vector<Function> set_methods() {
 }
 
 }  // namespace
+
+Strands even_strands(const std::vector<Eigen::Vector3f>& points, Index each,
+                     const Context& context) {
+    std::vector<float> numbers;
+    std::vector<Index> offsets = {0};
+    for (const Eigen::Vector3f& p : points) numbers.insert(numbers.end(), p.begin(), p.end());
+    for (Index i = each; i <= count_of(points); i += each) offsets.push_back(i);
+    return {std::move(numbers), std::move(offsets), context.memory()};
+}
+
+Strands rebuilt_strands(const GuideSet& set, const RebuildOptions& options,
+                        const Context& context) {
+    Strands made = even_strands(rebuild_strands(set, options, context), set.points, context);
+    std::vector<std::uint32_t> ids;
+    StrandWidths widths;
+    widths.domain = StrandDomain::strand;
+    for (const GuidedStrand& strand : set.guided) {
+        ids.push_back(strand.id);
+        widths.values.push_back(strand.width);
+    }
+    made.set_ids(std::move(ids));
+    made.set_widths(std::move(widths));
+    return made;
+}
 
 Function guide_set_method() {
     const GuideSetOptions d;
@@ -215,9 +213,11 @@ Function guide_set_method() {
 }
 
 Type guide_set_type() {
+    std::vector<Function> methods = set_methods();
+    methods.push_back(dynamics_method());
     return {.name = "lissom.GuideSet",
             .summary = "A few strands that move, and all others as sums of three of them.",
-            .methods = set_methods(),
+            .methods = std::move(methods),
             .operators = {{"__len", guide_set_size, "#set", "number of guides"},
                           {"__tostring", guide_set_text, "tostring(set)", "counts"}}};
 }

@@ -29,5 +29,13 @@ struct GuideSetObject {
 
 /// guide_set.cpp.
 Function guide_set_method();
+/// dynamics.cpp: dynamics, a method of guide sets.
+Function dynamics_method();
+
+/// Returns strands of points, `each` of them a strand.
+Strands even_strands(const std::vector<Eigen::Vector3f>& points, Index each,
+                     const Context& context);
+/// Returns the strands of a set with its guides as `options` has them, with their ids and widths.
+Strands rebuilt_strands(const GuideSet& set, const RebuildOptions& options, const Context& context);
 
 }  // namespace lissom::lua
