@@ -14,6 +14,22 @@ function matrices.translation(v)
     return { { 1, 0, 0, v[1] }, { 0, 1, 0, v[2] }, { 0, 0, 1, v[3] }, { 0, 0, 0, 1 } }
 end
 
+--- The matrix that turns by degrees about an axis through a point.
+function matrices.rotation(axis, degrees, about)
+    local n, angle = vectors.unit(axis), math.rad(degrees)
+    local c, s = math.cos(angle), math.sin(angle)
+    local m = matrices.identity()
+    for i = 1, 3 do
+        local e = { 0, 0, 0 }
+        e[i] = 1
+        local across = vectors.cross(n, e)
+        for j = 1, 3 do m[j][i] = c * e[j] + s * across[j] + (1 - c) * n[i] * n[j] end
+    end
+    local moved = matrices.direction(m, about)
+    for j = 1, 3 do m[j][4] = about[j] - moved[j] end
+    return m
+end
+
 --- Does b first, then a; of more, the last first.
 function matrices.product(a, b, ...)
     local m = {}

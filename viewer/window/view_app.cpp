@@ -31,6 +31,8 @@ namespace lissom::window {
 namespace {
 
 // Seconds without a change after which a finished picture is drawn.
+// Seconds between two ticks of a tool.
+constexpr double kTick = 1.0 / 30.0;
 constexpr double kRest = 0.15;
 // Work of the session that is over sooner is not shown.
 constexpr double kBusyAfter = 0.15;
@@ -74,6 +76,7 @@ class ViewApp {
     void add_buttons(const std::vector<std::string>& words);
     double wait_time() const;
     void turn(Clock::time_point heard);
+    void tick();
     int end();
 
     // ---- Inputs
@@ -119,6 +122,8 @@ class ViewApp {
     ScriptReload reload_;
     // Since when the session works.
     std::optional<Clock::time_point> busy_since_;
+    // The last tick of the tool's drag.
+    std::optional<Clock::time_point> ticked_;
     bool closes_ = false;
 };
 
@@ -206,6 +211,7 @@ void ViewApp::turn(Clock::time_point heard) {
     // Without input, too.
     if (frames_.has_to_show()) state_.changes.owe_frames();
     take_inputs(heard);
+    tick();
     take_results();
     replay_.play();
     reload_.look();
@@ -237,9 +243,24 @@ double ViewApp::wait_time() const {
     if (state_.changes.owes_frame() || panel_.owes_frame()) return 0.0;
     if (state_.screen->filling() || upload_.has_pieces()) return 0.0;
     if (session_.busy()) return 0.1;
+    if (ticked_) return kTick;
     if (const auto wait = replay_.wait()) return std::min(*wait, 0.1);
     if (state_.shown && (still_render_.is_owed() || !hair_.is_filled())) return 0.03;
     return reload_.waits() ? 0.02 : 0.25;
+}
+
+// Time goes by for a tool while it has a drag.
+void ViewApp::tick() {
+    const auto now = Clock::now();
+    if (!ticked_ || !pointer_.tool_drags()) {
+        ticked_.reset();
+        if (pointer_.tool_drags() && pointer_.tick(0.0)) ticked_ = now;
+        return;
+    }
+    const double seconds = std::chrono::duration<double>(now - *ticked_).count();
+    if (seconds < kTick || session_.busy()) return;
+    pointer_.tick(seconds);
+    ticked_ = now;
 }
 
 // ---- Inputs

@@ -41,7 +41,7 @@ local function name_members(class, what, fields, own)
 end
 
 name_members(Event, "lissom.ToolEvent", set_of{ "kind", "camera", "scene", "size", "up", "x", "y",
-    "start", "button", "shift", "ctrl", "alt", "late", "key", "lines", "parameter" })
+    "start", "button", "shift", "ctrl", "alt", "late", "key", "lines", "seconds", "parameter" })
 name_members(Host, "lissom.ToolHost", set_of{ "scene", "camera", "size", "tool" }, set_of{ "asked", "base",
     "begun", "brings_up", "depth", "drawn", "draws", "exported", "guarded", "held", "hover", "is_made",
     "journal", "kept", "known_hash", "log", "looked", "numbers", "opened", "prompted", "request", "thread",
@@ -51,7 +51,7 @@ local function misuse(text, ...) error(string.format(text, ...), 3) end
 
 -- ---- Tools
 
-local callbacks = { "activate", "press", "drag", "release", "move", "wheel", "key", "changed", "draw",
+local callbacks = { "activate", "press", "drag", "release", "move", "wheel", "tick", "key", "changed", "draw",
     "cancel", "deactivate", "run" }
 local is_callback = set_of(callbacks)
 
@@ -187,7 +187,7 @@ end
 function Host:start_work(name)
     self.working = true
     if not self.journal then return end
-    self.journal:begin_group(name == "drag" or name == "wheel")
+    self.journal:begin_group(name == "drag" or name == "wheel" or name == "tick")
     hear(self.journal)
 end
 
@@ -535,6 +535,16 @@ function Host:wheel(fields)
     self:note{ "wheel", fields.x, fields.y, fields.lines, shift = fields.shift or nil,
         ctrl = fields.ctrl or nil, alt = fields.alt or nil }
     self:step("wheel", self:event("wheel", fields))
+    return self
+end
+
+-- Time that passes while a button is down: part of the gesture.
+function Host:tick(fields)
+    self:ready()
+    check_event("clock", fields)
+    if not (self.held and self.tool and self.tool.tick) or self.held.answers then return self end
+    self:note{ "tick", fields.seconds }
+    self:call("tick", self:event("tick", fields))
     return self
 end
 

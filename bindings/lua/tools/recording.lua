@@ -299,6 +299,7 @@ local player = {
         host:wheel{ x = event[2], y = event[3], lines = event[4], shift = event.shift, ctrl = event.ctrl,
             alt = event.alt }
     end,
+    tick = function(host, event) host:tick{ seconds = event[2] } end,
     cancel = function(host) host:cancel() end,
     outside = function()
         fail("a script or a console changed the scene here, which is not in the recording")

@@ -45,6 +45,7 @@ std::span<const ToolCallRow> tool_calls() {
         {move, "move", true, {"host", "event"}, {}},
         {release, "release", true, {"host", "event"}, {}},
         {wheel, "wheel", true, {"host", "event"}, {}},
+        {tick, "tick", true, {"host", "event"}, {}},
         {key, "key", true, {"host", "event"}, {}},
         {cancel, "cancel", true, {"host"}, {}},
         {undo, "undo", true, {"host"}, {}},

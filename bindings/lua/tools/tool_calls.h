@@ -40,6 +40,7 @@ enum class ToolCall {
     move,
     release,
     wheel,
+    tick,
     key,
     cancel,
     undo,

@@ -130,11 +130,12 @@ void push_event_field(lua_State* L, const Parameter& field) {
     lua_setfield(L, -2, "choices");
 }
 
-// { mouse =, wheel =, key = }: fields by their names, and their names in order.
+// { mouse =, wheel =, clock =, key = }: fields by their names, and their names in order.
 void push_event_fields(lua_State* L) {
-    constexpr std::array kNames{"mouse", "wheel", "key"};
-    lua_createtable(L, 0, 3);
-    for (const EventKind kind : {EventKind::mouse, EventKind::wheel, EventKind::key}) {
+    constexpr std::array kNames{"mouse", "wheel", "clock", "key"};
+    lua_createtable(L, 0, 4);
+    for (const EventKind kind :
+         {EventKind::mouse, EventKind::wheel, EventKind::clock, EventKind::key}) {
         const std::vector<Parameter>& fields = event_fields(kind);
         lua_createtable(L, count_of(fields), count_of(fields));
         for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -420,6 +421,12 @@ std::vector<Parameter> wheel_fields() {
     return with_modifiers(std::move(fields));
 }
 
+std::vector<Parameter> clock_fields() {
+    return {number("seconds", "Time since the last tick, or since the press.")
+                .in("seconds")
+                .between(0, 10)};
+}
+
 // Fields of a table for editors.
 std::vector<Result> described(const std::vector<Parameter>& fields) {
     std::vector<Result> results;
@@ -452,6 +459,8 @@ std::vector<Result> host_fields() {
          "Press and release."},
         {"fun(self: any, event: lissom.WheelEvent): lissom.ToolHost", "wheel",
          "The wheel turned: part of the gesture while a button is down, else a step of its own."},
+        {"fun(self: any, event: lissom.ClockEvent): lissom.ToolHost", "tick",
+         "Time passed while a button is down: part of the gesture."},
         {"fun(self: any, event: lissom.KeyEvent): lissom.ToolHost", "key", "A key was pressed."},
         {"fun(self: any, text: string): lissom.ToolHost", "type", "A key for each character."},
         {"fun(self: any, values: table): lissom.ToolHost", "set", "Sets parameters of the tool."},
@@ -481,7 +490,7 @@ std::vector<Result> host_fields() {
 
 const std::vector<Parameter>& event_fields(EventKind kind) {
     static const std::array kFields{
-        mouse_fields(), wheel_fields(),
+        mouse_fields(), wheel_fields(), clock_fields(),
         with_modifiers({string("key", "\"enter\", \"escape\", \"a\", ...")})};
     return kFields[static_cast<std::size_t>(kind)];
 }
@@ -501,8 +510,9 @@ std::vector<Function> tool_functions() {
          .summary =
              "Makes a tool: functions that are called with a hand's input. press, drag and "
              "release, or run, a coroutine that asks by lissom.pick, of which clicks are the "
-             "answers unless press returns true; move, wheel, key, changed (of a parameter), "
-             "draw, activate, deactivate, cancel. All take the tool itself and a "
+             "answers unless press returns true; tick, called about 30 times a second while a "
+             "button is down; move, wheel, key, changed (of a parameter), draw, activate, "
+             "deactivate, cancel. All take the tool itself and a "
              "lissom.ToolEvent, draw a lissom.ToolView. From press to release is one step of "
              "the scene, any other call is one of its own; after an error the scene is as "
              "before. drag is called with every place that the hand came to. The table's other "
@@ -572,6 +582,8 @@ std::vector<Record> tool_records() {
         {"lissom.WheelEvent",
          "Motion of the wheel: part of the gesture while a button is down, else a step of its own.",
          described(event_fields(EventKind::wheel))},
+        {"lissom.ClockEvent", "Time that passed while a button is down.",
+         described(event_fields(EventKind::clock))},
         {"lissom.KeyEvent", "A key that was pressed.", described(event_fields(EventKind::key))},
         {"lissom.ToolEvent",
          "Argument of a tool's functions.",
@@ -581,6 +593,7 @@ std::vector<Record> tool_records() {
           {"string?", "button", "left, right or middle."},
           {"string?", "key", "The key, of key."},
           {"number?", "lines", "Turn of the wheel, of wheel: upwards is above 0."},
+          {"number?", "seconds", "Time since the last tick, of tick."},
           {"string?", "parameter", "The parameter that was set, of changed."},
           {"boolean", "shift", "Whether this key is down."},
           {"boolean", "ctrl", "Likewise."},

@@ -15,7 +15,7 @@ namespace lissom::lua {
 void push_tool_functions(lua_State* L);
 
 /// Events of a hand that a host takes.
-enum class EventKind { mouse, wheel, key };
+enum class EventKind { mouse, wheel, clock, key };
 
 /// Returns the fields of an event, which hosts check and windows write.
 const std::vector<Parameter>& event_fields(EventKind kind);

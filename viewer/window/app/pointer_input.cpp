@@ -10,6 +10,8 @@ namespace {
 
 // Zoom of a line of the wheel.
 constexpr double kZoomStep = 1.15;
+// Longest tick: a window that stood still does not make tools jump.
+constexpr double kMostTick = 0.1;
 
 }  // namespace
 
@@ -91,6 +93,16 @@ bool PointerInput::give_to_tool(const Input& input) {
         default:
             return tool_drags_;
     }
+    state_.session.post(event);
+    return true;
+}
+
+bool PointerInput::tick(double seconds) {
+    if (!tool_drags_ || !state_.content.tool.ticks) return false;
+    ToolInput event;
+    event.kind = ToolInput::Kind::tick;
+    // A session that is busy hears of the time later, all at once.
+    event.seconds = std::min(seconds, kMostTick);
     state_.session.post(event);
     return true;
 }

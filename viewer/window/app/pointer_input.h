@@ -16,6 +16,9 @@ class PointerInput {
     void take(const Input& input);
     /// Takes a key that is the tool's.
     void press_tool_key(const Input& input);
+    /// Tells the tool in hand how much time went by since the last call, while it has a drag, if it
+    /// wants to know. Returns whether it does.
+    bool tick(double seconds);
     /// Forgets the drag that goes on.
     void let_go();
     /// Returns whether a button is down that was pressed over the picture.

@@ -31,8 +31,9 @@ constexpr RegistryValue kHost{&kHostOfBench};
 using lua::ToolCall;
 
 // Calls by the kind of an input.
-constexpr std::array kInputs{ToolCall::press, ToolCall::move,   ToolCall::release, ToolCall::wheel,
-                             ToolCall::key,   ToolCall::cancel, ToolCall::undo,    ToolCall::redo};
+constexpr std::array kInputs{ToolCall::press,  ToolCall::move, ToolCall::release,
+                             ToolCall::wheel,  ToolCall::tick, ToolCall::key,
+                             ToolCall::cancel, ToolCall::undo, ToolCall::redo};
 
 template <typename Object>
 std::shared_ptr<Object> object_at(lua_State* L, int index) {
@@ -125,9 +126,9 @@ bool is_declared_alike(const lua::ScriptParameter& a, const lua::ScriptParameter
 bool ToolState::operator==(const ToolState& other) const {
     return std::equal(parameters.begin(), parameters.end(), other.parameters.begin(),
                       other.parameters.end(), is_declared_alike) &&
-           tool == other.tool && word == other.word && prompt == other.prompt &&
-           steps == other.steps && place == other.place && objects == other.objects &&
-           overlay == other.overlay && marks == other.marks;
+           tool == other.tool && word == other.word && ticks == other.ticks &&
+           prompt == other.prompt && steps == other.steps && place == other.place &&
+           objects == other.objects && overlay == other.overlay && marks == other.marks;
 }
 
 // ---- Scenes
@@ -453,6 +454,9 @@ ToolState ToolBench::state() {
     if (lua_istable(L, -1)) {
         read_field(L, host + 1, "name", state.tool);
         read_field(L, host, "word", state.word);
+        push_raw(L, host + 1, "tick");
+        state.ticks = lua_isfunction(L, -1);
+        lua_pop(L, 1);
         push_raw(L, host + 1, "params");
         if (const auto set = object_at<lua::ParameterSet>(L, -1)) state.parameters = set->list;
     }

@@ -13,12 +13,14 @@ gl::Extent ToolPixels::size(const PictureSize& pixels) const {
 }
 
 void push_input(std::vector<ToolInput>& inputs, ToolInput input) {
+    using Kind = ToolInput::Kind;
     const bool piles_up =
-        input.kind == ToolInput::Kind::look || input.kind == ToolInput::Kind::wheel;
+        input.kind == Kind::look || input.kind == Kind::wheel || input.kind == Kind::tick;
     const bool replaces = piles_up && !inputs.empty() && inputs.back().kind == input.kind &&
                           inputs.back().modifiers == input.modifiers;
     if (replaces) {
-        if (input.kind == ToolInput::Kind::wheel) input.lines += inputs.back().lines;
+        if (input.kind == Kind::wheel) input.lines += inputs.back().lines;
+        if (input.kind == Kind::tick) input.seconds += inputs.back().seconds;
         inputs.back() = std::move(input);
     } else {
         inputs.push_back(std::move(input));

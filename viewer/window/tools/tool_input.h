@@ -13,7 +13,20 @@ namespace lissom::window {
 
 /// `play` is an event of the open recording, `stop` releases the objects that it holds.
 struct ToolInput {
-    enum class Kind { press, move, release, wheel, key, cancel, undo, redo, look, play, stop };
+    enum class Kind {
+        press,
+        move,
+        release,
+        wheel,
+        tick,
+        key,
+        cancel,
+        undo,
+        redo,
+        look,
+        play,
+        stop
+    };
 
     Kind kind = Kind::move;
     /// From the top left corner of the picture, in a tool's pixels.
@@ -22,6 +35,8 @@ struct ToolInput {
     Modifiers modifiers = {};
     /// For wheel: lines upwards.
     double lines = 0.0;
+    /// For tick: time since the last one.
+    double seconds = 0.0;
     /// "enter", "a", ...
     std::string key = {};
     /// For look: the present camera of the picture, and its size.
@@ -45,7 +60,7 @@ struct ToolPixels {
 };
 
 /// Adds `input` behind others. A look that follows a look takes its place, and turns of the wheel
-/// are summed. Moves are all kept: a stroke is its whole course.
+/// and ticks are summed. Moves are all kept: a stroke is its whole course.
 void push_input(std::vector<ToolInput>& inputs, ToolInput input);
 
 /// Returns whether the input at `place` is a move that another move follows, with the same

@@ -84,6 +84,8 @@ struct ToolState {
     std::vector<ToolObject> objects;
     /// Name of the tool in hand, and the word that it was taken by; empty for none.
     std::string tool, word;
+    /// The tool wants to know how time goes by in a gesture.
+    bool ticks = false;
     /// Question of the tool, or its help.
     std::string prompt;
     std::vector<lua::ScriptParameter> parameters;

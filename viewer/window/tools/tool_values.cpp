@@ -55,6 +55,7 @@ EventValue event_value(const HandEvent& event, const std::string& field) {
     if (field == "x") return input.at.x();
     if (field == "y") return input.at.y();
     if (field == "lines") return input.lines;
+    if (field == "seconds") return input.seconds;
     if (field == "key") return input.key;
     if (field == "shift") return flag(input.modifiers.shift);
     if (field == "ctrl") return flag(input.modifiers.ctrl);
@@ -67,6 +68,7 @@ EventValue event_value(const HandEvent& event, const std::string& field) {
 lua::EventKind kind_of(const ToolInput& input) {
     if (input.kind == ToolInput::Kind::key) return lua::EventKind::key;
     if (input.kind == ToolInput::Kind::wheel) return lua::EventKind::wheel;
+    if (input.kind == ToolInput::Kind::tick) return lua::EventKind::clock;
     return lua::EventKind::mouse;
 }
 

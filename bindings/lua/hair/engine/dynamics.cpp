@@ -1,4 +1,5 @@
 // lissom.HairDynamics: guides in motion, and their rig for engines.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -12,12 +13,15 @@
 #include "bindings/lua/hair/strands_methods.h"
 #include "bindings/lua/mesh/transform_options.h"
 #include "kernel/hair/dynamics/hair_dynamics.h"
+#include "kernel/hair/strands/strand_resample.h"
 #include "kernel/io/hair/rig_file.h"
 
 namespace lissom::lua {
 namespace {
 
 constexpr double kEarthGravity = 9.81;
+// Radius of a ball that holds the hair in a ponytail's tie, in those of the tie.
+constexpr double kTieRoom = 1.5;
 
 struct HairDynamicsObject {
     static constexpr const char* kTypeName = "lissom.HairDynamics";
@@ -80,6 +84,25 @@ HairRigOptions read_rig(const Call& call, std::span<const TieSpec> ties) {
     return options;
 }
 
+// Ties of the style's ponytails that hold a point of a guide.
+std::vector<RigTie> ties_of(const Hairstyle& style, const GuideSet& set) {
+    std::vector<RigTie> ties;
+    const Scalp& scalp = style.scalp();
+    for (const CurveId id : style.curves()) {
+        const StyleCurve& curve = style.curve(id);
+        if (!curve.enabled || !std::holds_alternative<Ponytail>(curve.shape)) continue;
+        const HairTie& tie = style.tie(id);
+        const RigTie made{curve.name, scalp.unit() * scalp.from_metres(tie.center),
+                          kTieRoom * tie.radius * scalp.scale() * scalp.unit()};
+        const bool holds =
+            std::any_of(set.curves.begin(), set.curves.end(), [&](const Eigen::Vector3f& p) {
+                return (p.cast<double>() - made.center).norm() <= made.radius;
+            });
+        if (holds) ties.push_back(made);
+    }
+    return ties;
+}
+
 int make_dynamics(Call& call) {
     const std::span<const TieSpec> ties = read_ties(call);
     const auto result = call.create<HairDynamicsObject>();
@@ -89,6 +112,7 @@ int make_dynamics(Call& call) {
         if (call.has("head")) {
             const Hairstyle& style = call.object<HairstyleObject>("head")->style();
             rigged.body = distance_to_head(style);
+            if (!call.has("ties")) rigged.ties = ties_of(style, call.self<GuideSetObject>()->set);
             options.gravity = -kEarthGravity * style.scalp().frame().axes.col(1);
         }
         read_motion(call, options);
@@ -104,6 +128,7 @@ int make_dynamics(Call& call) {
 
 // The place that the options of a step have for the head.
 Affine head_of(const Call& call, const Affine& now) {
+    if (call.has("head")) return call.affine("head");
     if (!call.has("translate") && !call.has("rotate")) return now;
     const Vec3 by = call.has("translate") ? call.vector("translate") : Vec3(Vec3::Zero());
     Affine turned;
@@ -149,12 +174,45 @@ int dynamics_guides(Call& call) {
     });
 }
 
+// Gives strands of the set new places, and leaves all else that they hold.
+void move_strands(Strands& strands, const HairDynamicsObject& moving, bool details,
+                  const Context& context) {
+    const GuideSet& set = moving.set->set;
+    require(strands.size() == count_of(set.guided),
+            "'into' has another number of strands than the set");
+    const std::vector<Eigen::Vector3f> curves = moving.content.curves();
+    const auto points = rebuild_strands(set, {curves, details}, context);
+    const auto is_even = [&](Index s) {
+        return strands.point_count(s) == set.points || strands.point_count(s) == 1;
+    };
+    bool all_even = true;
+    for (Index s = 0; s < strands.size() && all_even; ++s) all_even = is_even(s);
+    if (!all_even) strands = resample(strands, {.count = set.points}, context);
+    // A strand of one point stays one.
+    for (Index s = 0; s < strands.size(); ++s) {
+        StrandEdit strand = strands.edit_strand(s);
+        for (Index k = 0; k < index_of(strand.cols()); ++k) {
+            strand.col(k) = points[at(s * set.points + k)];
+        }
+    }
+}
+
 int dynamics_strands(Call& call) {
-    return new_strands(call, [&] {
-        const auto self = call.self<HairDynamicsObject>();
-        const std::vector<Eigen::Vector3f> curves = self->content.curves();
-        return rebuilt_strands(self->set->set, {curves, call.boolean("details")}, call.context());
-    });
+    const auto self = call.self<HairDynamicsObject>();
+    const bool details = call.boolean("details");
+    if (!call.has("into")) {
+        return new_strands(call, [&] {
+            const std::vector<Eigen::Vector3f> curves = self->content.curves();
+            return rebuilt_strands(self->set->set, {curves, details}, call.context());
+        });
+    }
+    const auto into = call.object<StrandsObject>("into");
+    const bool done =
+        call.attempt([&] { move_strands(into->strands, *self, details, call.context()); });
+    if (!done) return call.fail();
+    call.charge(into);
+    lua_pushvalue(call.lua(), call.stack_index("into"));
+    return 1;
 }
 
 int dynamics_motion(Call& call) {
@@ -283,7 +341,7 @@ std::vector<Parameter> rig_fields() {
                      vector("center", "Its center, in metres of the strands."),
                      meters("radius", "Its radius.").defaults(RigTie().radius).above(0)},
                     "Balls that hold the hair in them to the head, as elastics and pins do.")
-            .optional("none"),
+            .optional("those of the ponytails of `head`"),
         strings("bound",
                 "Groups of strands whose guides are bound to one another wherever they touch, "
                 "as in a braid.")
@@ -309,7 +367,10 @@ std::vector<Function> dynamics_methods() {
          .summary = "Moves the hair on, while the head goes evenly from its present place to the "
                     "one given. The same for any number of threads.",
          .arguments = {number("seconds", "Time of the step.").above(0).between(0, 10)},
-         .options = {vector("translate",
+         .options = {affine("head",
+                            "Place of the head in the world, metres; instead of the others.")
+                         .optional("that of the others"),
+                     vector("translate",
                             "Translation of the head in the world, from its place at "
                             "the beginning; added last.")
                          .in("metres")
@@ -347,10 +408,13 @@ std::vector<Function> dynamics_methods() {
          .summary = "All strands as they are now, in the space of the head, as `rebuild` of the "
                     "set makes them.",
          .options = {boolean("details", "Adds the differences of the strands from their sums.")
-                         .defaults(true)},
+                         .defaults(true),
+                     object("into", "lissom.Strands",
+                            "Strands of the set, which take the new places and keep all else.")
+                         .optional("new strands")},
          .results = {{"lissom.Strands", "strands", "In the order of the strands."}},
-         .errors = {ErrorCode::memory_limit, ErrorCode::cancelled},
-         .example = kDynamics + "assert(#dynamics:step(0.1):strands() == 60)"},
+         .errors = {ErrorCode::invalid_argument, ErrorCode::memory_limit, ErrorCode::cancelled},
+         .example = kDynamics + "assert(#dynamics:step(0.1):strands{ into = hair } == 60)"},
         {.name = "motion",
          .body = dynamics_motion,
          .summary = "How far the hair is from the style at rest, and how fast it moves.",
