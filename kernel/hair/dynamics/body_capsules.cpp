@@ -15,6 +15,8 @@ constexpr int kBodySteps = 32;
 constexpr std::size_t kMaxEnds = 100;
 // Parts of a capsule's axis at which its room is measured.
 constexpr int kAxisParts = 8;
+// Moves towards deeper places, each as long as the last or half of it.
+constexpr int kDeepenRounds = 8;
 constexpr Index kMaxCapsules = 64;
 
 struct BodySample {
@@ -52,6 +54,21 @@ std::vector<BodySample> samples_of(const BodyDistance& distance, const Box& box,
     return samples;
 }
 
+// Goes up to a place that is deepest among those around it, to a small part of `step`.
+BodySample deepened(BodySample sample, const BodyDistance& distance, double step) {
+    for (int round = 0; round < kDeepenRounds; ++round) {
+        BodySample best = sample;
+        for (Index c = 0; c < 6; ++c) {
+            const Vec3 place = sample.place + (c < 3 ? step : -step) * Vec3::Unit(c % 3);
+            const double depth = -distance(place);
+            if (depth > best.depth) best = {place, depth};
+        }
+        if (best.depth == sample.depth) step *= 0.5;
+        sample = best;
+    }
+    return sample;
+}
+
 // Deep places far from one another: each the deepest that no ball of a former one covers to half.
 std::vector<BodySample> ends_of(std::vector<BodySample> samples) {
     std::stable_sort(samples.begin(), samples.end(),
@@ -87,7 +104,8 @@ class CapsuleChooser {
           covered_(samples_.size(), false),
           options_(options),
           context_(context) {
-        const std::vector<BodySample> ends = ends_of(samples_);
+        std::vector<BodySample> ends = ends_of(samples_);
+        for (BodySample& end : ends) end = deepened(end, distance, 0.25 * end.depth);
         for (std::size_t i = 0; i < ends.size(); ++i) {
             context.checkpoint();
             for (std::size_t j = i; j < ends.size(); ++j) {

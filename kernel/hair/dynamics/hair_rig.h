@@ -16,15 +16,15 @@ namespace lissom {
 
 /// A ball that holds the hair in it to the head, as an elastic or a pin does; metres.
 struct RigTie {
-    std::string name;
+    std::string name = {};
     Vec3 center = Vec3::Zero();
     double radius = 0.02;
 };
 
 struct HairRigOptions {
-    std::vector<RigTie> ties;
+    std::vector<RigTie> ties = {};
     /// Groups of strands whose guides are bound to one another wherever they touch, as in a braid.
-    std::vector<std::string> bound;
+    std::vector<std::string> bound = {};
     /// Metres between points of two guides up to which they are linked; 0 or more.
     double reach = 0.015;
     /// Links of a point at most to others; 0 to 8.
@@ -32,7 +32,7 @@ struct HairRigOptions {
     /// The body that hair does not enter, with capsules for it in the box of all guides; none if
     /// absent.
     BodyDistance body = {};
-    CapsuleOptions capsules;
+    CapsuleOptions capsules = {};
 };
 
 /// Two points of different guides, numbered over all guides, that were `length` metres apart at

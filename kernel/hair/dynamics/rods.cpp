@@ -5,12 +5,15 @@
 #include <cmath>
 
 #include "kernel/core/rotation.h"
+#include "kernel/hair/dynamics/band_system.h"
 
 namespace lissom {
 namespace {
 
 // Segments are not shorter than this, in metres, for those that have no length at rest.
 constexpr double kLeastSegment = 1e-6;
+// Of points that do not move.
+constexpr double kHeldMass = 1.0;
 // Earth's gravity, by which the length that tells a stiffness has its meaning.
 constexpr double kEarth = 9.81;
 // Seconds over which hair's own damping takes away a change of its bend.
@@ -84,41 +87,56 @@ void Rods::hold(std::span<Vec3> places, const Affine& head, Index rod) const {
     }
 }
 
+// An implicit step: the moves d of the points for which M d + h^2 (forces of bends behind d) = 0,
+// by one step of Newton's method from the places that points would have without bends. A system of
+// all points at once, as a rod is far stiffer from end to end than from point to point.
 void Rods::bend(std::span<Vec3> places, const RodStep& step, Index rod) const {
     const std::size_t first = at(rod * points_);
+    BandSystem system(at(points_));
+    for (std::size_t k = 0; k < at(points_); ++k) {
+        const double mobility = inverse_masses_[first + k];
+        system.add(k, k, (mobility > 0.0 ? 1.0 / mobility : kHeldMass) * Mat3::Identity());
+    }
     Eigen::Quaterniond frame = Eigen::Quaterniond(step.head.linear) * root_frames_[at(rod)];
     for (std::size_t k = first; k + 2 < first + at(points_); ++k) {
         const Vec3 target = frame * bends_[k].next;
-        bend_at(places, target, step, index_of(k));
         const Vec3 next = direction_between(places[k + 1], places[k + 2], target);
+        add_bend(places, {target, next}, step, {k, first}, system);
         frame = (min_rotation(target, next) * frame * bends_[k].turn).normalized();
+    }
+    system.solve();
+    for (std::size_t k = 0; k < at(points_); ++k) {
+        if (inverse_masses_[first + k] > 0.0) places[first + k] += system.result(k);
     }
 }
 
 // The constraint is the difference of the direction behind the next point from the target, which
-// turns with the segment before that point; its energy is that of an elastic rod.
-void Rods::bend_at(std::span<Vec3> places, const Vec3& target, const RodStep& step,
-                   Index point) const {
-    const std::size_t k = at(point);
-    if (inverse_masses_[k + 1] + inverse_masses_[k + 2] == 0.0) return;
-    const Vec3 along = direction_between(places[k], places[k + 1], target);
-    const Vec3 next = direction_between(places[k + 1], places[k + 2], target);
-    const Mat3 before = carried(along, target) / lengths_[k];
-    const Mat3 behind = (Mat3::Identity() - next * next.transpose()) / lengths_[k + 1];
+// turns with the segment before that point; its energy is that of an elastic rod, and its change is
+// damped.
+void Rods::add_bend(std::span<const Vec3> places, const Directions& now, const RodStep& step,
+                    const Place& here, BandSystem& system) const {
+    const std::size_t k = here.point;
+    const Vec3 along = direction_between(places[k], places[k + 1], now.target);
+    const Mat3 before = carried(along, now.target) / lengths_[k];
+    const Mat3 behind = (Mat3::Identity() - now.next * now.next.transpose()) / lengths_[k + 1];
     const std::array<Mat3, 3> slopes{before, -(before + behind), behind};
     const double rigidity = kEarth * std::pow(step.stiffness, 3);
-    const double compliance = 0.5 * (lengths_[k] + lengths_[k + 1]) / rigidity;
+    const double stiff =
+        rigidity / (0.5 * (lengths_[k] + lengths_[k + 1])) * step.seconds * step.seconds;
     const double damped = kBendDamping / step.seconds;
-    Mat3 system = compliance / (step.seconds * step.seconds) * Mat3::Identity();
-    Vec3 off = target - next;
+    Vec3 off = now.target - now.next;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Mat3 answer = inverse_masses_[k + i] * slopes[i] * slopes[i].transpose();
-        system += (1.0 + damped) * answer;
-        off -= damped * slopes[i] * (places[k + i] - step.before[k + i]);
+        off -= damped * (slopes[i] * (places[k + i] - step.before[k + i]));
     }
-    const Vec3 push = system.ldlt().solve(off);
+    const std::size_t row = k - here.first;
     for (std::size_t i = 0; i < 3; ++i) {
-        places[k + i] += inverse_masses_[k + i] * slopes[i].transpose() * push;
+        if (inverse_masses_[k + i] == 0.0) continue;
+        system.push(row + i, stiff * (slopes[i].transpose() * off));
+        for (std::size_t j = 0; j <= i; ++j) {
+            if (inverse_masses_[k + j] == 0.0) continue;
+            system.add(row + i, row + j,
+                       stiff * (1.0 + damped) * (slopes[i].transpose() * slopes[j]));
+        }
     }
 }
 

@@ -12,6 +12,8 @@
 
 namespace lissom {
 
+class BandSystem;
+
 /// A step of rods in time.
 struct RodStep {
     double seconds = 0.0;
@@ -37,7 +39,8 @@ class Rods {
 
     /// Puts held points of a rod where `head` takes them.
     void hold(std::span<Vec3> places, const Affine& head, Index rod) const;
-    /// Bends a rod towards its shape at rest, one pass from root to tip.
+    /// Bends a rod from the places that its points would have without that towards its shape at
+    /// rest.
     void bend(std::span<Vec3> places, const RodStep& step, Index rod) const;
     /// Gives the segments of a rod their lengths, by Newton's method.
     void keep_lengths(std::span<Vec3> places, Index rod) const;
@@ -50,10 +53,19 @@ class Rods {
         Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
     };
 
+    // Of the segment behind a point: where its rod would have it, and where it is.
+    struct Directions {
+        Vec3 target, next;
+    };
+    // A point, and the first of its rod.
+    struct Place {
+        std::size_t point = 0, first = 0;
+    };
+
     void prepare_bends(Index rod);
     void prepare_masses(Index rod);
-    void bend_at(std::span<Vec3> places, const Vec3& target, const RodStep& step,
-                 Index point) const;
+    void add_bend(std::span<const Vec3> places, const Directions& now, const RodStep& step,
+                  const Place& here, BandSystem& system) const;
     double correct_lengths(std::span<Vec3> places, Index rod) const;
 
     Index count_ = 0, points_ = 0;

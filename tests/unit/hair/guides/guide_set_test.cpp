@@ -101,6 +101,25 @@ TEST_CASE("guide set: moved guides take strands along") {
     for (std::size_t i = 0; i < rest.size(); ++i) CHECK((made[i] - rest[i] - by).norm() < 1e-6f);
 }
 
+TEST_CASE("guide set: guides that turn take the details along, as lissom_hair.h does") {
+    const GuideSet set = make_guide_set(parted(100), {.count = 6});
+    const Affine turn = rotation(Vec3(1.0, 0.5, -0.3), 0.9, Vec3::Zero());
+    std::vector<Eigen::Vector3f> moved;
+    for (const Eigen::Vector3f& p : set.curves) {
+        moved.push_back(turn(p.cast<double>()).cast<float>());
+    }
+    const auto rest = rebuild_strands(set), made = rebuild_strands(set, {.curves = moved});
+    float off = 0.0f, still = 0.0f;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        const std::size_t root = i - i % 16;
+        const Eigen::Vector3f way = turn.linear.cast<float>() * (rest[i] - rest[root]);
+        off = std::max(off, (made[i] - made[root] - way).norm());
+        still = std::max(still, (rest[i] - rest[root] - way).norm());
+    }
+    // A turn about the guide itself is not known from its places.
+    CHECK(off < 0.1f * still);
+}
+
 TEST_CASE("guide set: of groups and of locks there is one each") {
     Strands hair = parted(90);
     std::vector<Index> groups;
